@@ -1,0 +1,10 @@
+# Flags for the project's own targets; an installed package carries none of them but the standard.
+add_library(hypotrack_options INTERFACE)
+target_compile_options(hypotrack_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
+  $<$<BOOL:${HYPOTRACK_WERROR}>:-Werror>)
+if(HYPOTRACK_SANITIZE)
+  target_compile_options(hypotrack_options INTERFACE
+    -fsanitize=${HYPOTRACK_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(hypotrack_options INTERFACE -fsanitize=${HYPOTRACK_SANITIZE})
+endif()

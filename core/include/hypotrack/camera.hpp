@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+
+namespace hypotrack {
+
+/// Lens distortion with the meaning and the coefficient order of OpenCV.
+enum class DistortionModel {
+  none,     ///< pinhole
+  brown,    ///< k1 k2 p1 p2 [k3 [k4 k5 k6]]: 4, 5 or 8 coefficients
+  fisheye,  ///< k1 k2 k3 k4: cv::fisheye
+};
+
+/// A calibrated camera. Pixel centres are at integers (the top-left pixel covers
+/// [-0.5, 0.5] x [-0.5, 0.5]); axes are OpenCV's: x right, y down, z forward; lengths are metres.
+struct Camera {
+  int width = 0;
+  int height = 0;
+  double fx = 0;
+  double fy = 0;
+  double cx = 0;
+  double cy = 0;
+  DistortionModel distortion_model = DistortionModel::none;
+  std::vector<double> distortion;
+  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
+};
+
+/// Pixel of a point in world coordinates, lens distortion included; NaN at or behind the camera.
+HYPOTRACK_API Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world);
+
+/// Throws DataError, naming `where`, unless sizes and focal lengths are positive, everything is
+/// finite, the number of coefficients fits the model and the rotation is orthonormal with
+/// determinant +1 within 1e-4.
+HYPOTRACK_API void validate(const Camera& camera, std::string_view where);
+
+}  // namespace hypotrack

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <span>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/observation.hpp"
+
+namespace hypotrack {
+
+/// Depth of one hypothesis as one view sees it.
+struct DepthTile {
+  int width = 0;
+  int height = 0;
+  int stride = 0;  ///< floats per row, >= width; rows may be read to `stride`
+  const float* inverse_depth = nullptr;  ///< 1/z in 1/m of the nearest surface; 0: not covered
+  /// Bounds of what may be covered: x0 <= x < x1, y0 <= y < y1. Outside it everything is 0.
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// One hypothesis, posed and drawn.
+struct RenderedHypothesis {
+  std::span<const double> state;     ///< normalised, Scene::dimension() numbers
+  std::span<const DepthTile> views;  ///< one per view; empty if no objective needs rendering
+};
+
+/// Says how badly a hypothesis explains a frame. A scene adds several up with weights.
+class HYPOTRACK_API Objective {
+ public:
+  Objective() = default;
+  virtual ~Objective();
+  Objective(const Objective&) = delete;
+  Objective& operator=(const Objective&) = delete;
+
+  /// False for a term that looks at the state only (joint limits, priors); it costs no rendering.
+  virtual bool needs_rendering() const { return true; }
+
+  /// Takes the frame in: features and whatever makes scoring cheap. The observation outlives every
+  /// `cost` until the next `prepare`. Throws DataError if it cannot work with what it is given (one
+  /// view for a stereo objective).
+  virtual void prepare(const Observation& observation) = 0;
+
+  /// Cost of a hypothesis: lower is better, +infinity is infeasible, NaN is a bug. Called from
+  /// several threads at once; equal inputs give equal results.
+  virtual double cost(const RenderedHypothesis& hypothesis) const = 0;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// The pinhole camera of a tile, after undistortion, rectification, cropping and scaling. Pixel
+/// centres are at integers.
+struct TileCamera {
+  int width = 0;
+  int height = 0;
+  double fx = 0;
+  double fy = 0;
+  double cx = 0;
+  double cy = 0;
+  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
+};
+
+/// A square piece of one view around the last solution.
+struct TileView {
+  TileCamera camera;
+  cv::Mat color;  ///< 8-bit BGR
+  cv::Mat valid;  ///< 8-bit: non-zero where the pixel comes from inside the image
+  cv::Mat mask;   ///< 8-bit foreground, empty if the frame has none
+};
+
+/// What an objective gets once per frame. Views are in the order of the source's cameras.
+struct Observation {
+  int frame = 0;
+  double time = 0;
+  const Scene* scene = nullptr;  ///< outlives the observation
+  std::vector<TileView> views;
+  /// Two views whose cameras share rotation, fx, fy and cy: a point has the same y in both, and
+  /// x_left - x_right is a constant plus fx * baseline / z.
+  bool rectified = false;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "hypotrack/export.hpp"
+
+namespace hypotrack {
+
+/// What an optimizer minimises. One search point is a column of D numbers; what they mean (and how
+/// rotations are parametrised) is the region's business, not the optimizer's.
+class HYPOTRACK_API CostFunction {
+ public:
+  virtual ~CostFunction();
+  /// Length D of a search point.
+  virtual int dimension() const = 0;
+  /// Costs (N) of N points (DxN). +infinity is infeasible; never NaN. Batches are evaluated in
+  /// parallel: hand over as many points at once as the method allows.
+  virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                        Eigen::Ref<Eigen::VectorXd> costs) = 0;
+};
+
+/// Where to look. All vectors have length D.
+struct SearchRegion {
+  Eigen::VectorXd start;   ///< the prior's mean, within the bounds
+  Eigen::VectorXd lower;   ///< hard bounds (anatomy); may be infinite
+  Eigen::VectorXd upper;
+  Eigen::VectorXd spread;  ///< how far the answer may plausibly be from `start`, each side; > 0
+};
+
+/// What a search may cost. Evaluations count single points, not batches.
+struct Budget {
+  std::int64_t evaluations = 0;
+  double seconds = std::numeric_limits<double>::infinity();
+};
+
+struct OptimizerResult {
+  Eigen::VectorXd point;  ///< the best point evaluated
+  double cost = std::numeric_limits<double>::infinity();
+  std::int64_t evaluations = 0;
+};
+
+/// Looks for the point of lowest cost. Equal input, seed and machine give the equal answer (unless
+/// the budget is in seconds).
+class HYPOTRACK_API Optimizer {
+ public:
+  Optimizer() = default;
+  virtual ~Optimizer();
+  Optimizer(const Optimizer&) = delete;
+  Optimizer& operator=(const Optimizer&) = delete;
+
+  /// The budget its own parameters imply, for scenes that name none.
+  virtual std::int64_t default_evaluations() const = 0;
+
+  /// Never evaluates more than the budget, evaluates `start` first, stays within the bounds and
+  /// returns the best point it evaluated. Exceptions of `cost` pass through unchanged.
+  virtual OptimizerResult minimize(CostFunction& cost, const SearchRegion& region,
+                                   const Budget& budget, std::uint64_t seed) = 0;
+};
+
+}  // namespace hypotrack

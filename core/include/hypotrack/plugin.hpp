@@ -1,0 +1,178 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/build_tag.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/model.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+#include "hypotrack/source.hpp"
+
+namespace hypotrack {
+
+class PluginContext;
+
+/// The name of a plugin kind in YAML keys, file names and messages.
+template <class T>
+inline constexpr std::string_view kPluginKind = {};
+template <>
+inline constexpr std::string_view kPluginKind<Model> = "model";
+template <>
+inline constexpr std::string_view kPluginKind<Objective> = "objective";
+template <>
+inline constexpr std::string_view kPluginKind<Optimizer> = "optimizer";
+template <>
+inline constexpr std::string_view kPluginKind<Source> = "source";
+
+template <class T>
+concept PluginInterface = !kPluginKind<T>.empty();
+
+/// Opens plugin libraries and makes objects from YAML: `type: pso` in an optimizer's place is
+/// `libhypotrack_optimizer_pso.so` on the search path. A library is opened when first named and never
+/// closed.
+class HYPOTRACK_API PluginLoader {
+ public:
+  /// Search order: `extra`, then HYPOTRACK_PLUGIN_PATH, then the folders this build or installation
+  /// put its own plugins in. Never the working directory.
+  explicit PluginLoader(std::vector<std::filesystem::path> extra = {});
+  ~PluginLoader();
+  PluginLoader(const PluginLoader&) = delete;
+  PluginLoader& operator=(const PluginLoader&) = delete;
+
+  const std::vector<std::filesystem::path>& search_path() const;
+
+  /// Makes the object that `config` (a map with a `type`) describes. `also_allowed` are keys of the
+  /// map that the caller reads itself. If `resolved` is given, it gets the YAML text of all
+  /// parameters with their values, `type` first. Throws ConfigError or PluginError.
+  template <PluginInterface T>
+  std::unique_ptr<T> make(const ConfigNode& config, const Scene* scene = nullptr,
+                          std::vector<std::string> also_allowed = {},
+                          std::string* resolved = nullptr) {
+    return std::unique_ptr<T>(static_cast<T*>(
+        make_object(kPluginKind<T>, config, scene, std::move(also_allowed), resolved)));
+  }
+
+ private:
+  void* make_object(std::string_view kind, const ConfigNode& config, const Scene* scene,
+                    std::vector<std::string> also_allowed, std::string* resolved);
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// What a plugin's constructor may ask for besides its parameters.
+class HYPOTRACK_API PluginContext {
+ public:
+  PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
+                std::vector<std::string> also_allowed);
+
+  /// Reads the parameters strictly and records them for the run's protocol.
+  template <ParamStruct P>
+  P read() {
+    P params = ParamReader(config_, also_allowed_).template read<P>();
+    resolved_ = dump_params(params);
+    return params;
+  }
+
+  /// The models being tracked. Throws PluginError in a model plugin, which has no scene yet.
+  const Scene& scene() const;
+  /// Makes another plugin from a nested map (a mirrored model, a wrapped source).
+  template <PluginInterface T>
+  std::unique_ptr<T> make(const ConfigNode& config) {
+    return plugins_->make<T>(config, scene_);
+  }
+  /// The node that the parameters were read from, for error messages: config().where().
+  const ConfigNode& config() const { return config_; }
+  const std::string& resolved() const { return resolved_; }
+
+ private:
+  ConfigNode config_;
+  const Scene* scene_;
+  PluginLoader* plugins_;
+  std::vector<std::string> also_allowed_;
+  std::string resolved_;
+};
+
+/// Folder of the files that come with hypotrack (the default hand, rigs): HYPOTRACK_DATA_PATH, the
+/// installation or the build tree.
+HYPOTRACK_API std::filesystem::path data_file(const std::filesystem::path& relative);
+
+inline constexpr std::uint32_t kAbiVersion = 1;
+
+/// The C face of a plugin library. Nothing else is looked at before magic, sizes, version and tag
+/// have been compared, so all of it must stay plain C and only ever grow at the end.
+struct HypotrackPlugin {
+  char magic[16];  ///< kPluginMagic
+  std::uint32_t struct_size;
+  std::uint32_t abi_version;
+  const char* build_tag;  ///< kBuildTag of the headers it was compiled with
+  const char* kind;
+  const char* name;
+  const char* version;
+  const char* summary;
+  const char* licence;
+  const char* capabilities;  ///< space-separated, may be empty
+  void* (*create)(PluginContext&);
+  std::string (*describe)();  ///< help text of the parameters
+};
+
+inline constexpr std::string_view kPluginMagic = "hypotrack plugin";  // 16 characters, no NUL
+inline constexpr const char* kPluginEntry = "hypotrack_plugin";
+
+namespace detail {
+template <class Kind, class T>
+void* create_plugin(PluginContext& context) {
+  static_assert(std::derived_from<T, Kind>, "the class does not implement its plugin kind");
+  auto params = context.template read<typename T::Params>();
+  std::unique_ptr<Kind> object;
+  if constexpr (std::constructible_from<T, const typename T::Params&, PluginContext&>) {
+    object = std::make_unique<T>(params, context);
+  } else {
+    object = std::make_unique<T>(params);
+  }
+  return object.release();
+}
+
+using model = Model;
+using objective = Objective;
+using optimizer = Optimizer;
+using source = Source;
+}  // namespace detail
+
+}  // namespace hypotrack
+
+#define HYPOTRACK_STRINGIZE_(x) #x
+#define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
+
+/// Makes a class a plugin. Kind, name, version and licence come from hypotrack_add_plugin() in CMake.
+/// The class derives from Model, Objective, Optimizer or Source, has a nested ParamStruct `Params`,
+/// and is constructible from (const Params&) or (const Params&, PluginContext&). Once per library.
+#define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                            \
+  extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*           \
+  hypotrack_plugin() {                                                                            \
+    static const ::hypotrack::HypotrackPlugin plugin = {                                          \
+        {'h', 'y', 'p', 'o', 't', 'r', 'a', 'c', 'k', ' ', 'p', 'l', 'u', 'g', 'i', 'n'},         \
+        sizeof(::hypotrack::HypotrackPlugin),                                                     \
+        ::hypotrack::kAbiVersion,                                                                 \
+        ::hypotrack::kBuildTag,                                                                   \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_KIND),                                               \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_NAME),                                               \
+        HYPOTRACK_PLUGIN_VERSION,                                                                 \
+        Summary,                                                                                  \
+        HYPOTRACK_PLUGIN_LICENCE,                                                                 \
+        Capabilities,                                                                             \
+        &::hypotrack::detail::create_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>,   \
+        +[]() { return ::hypotrack::describe_params<Class::Params>(); }};                         \
+    return &plugin;                                                                               \
+  }

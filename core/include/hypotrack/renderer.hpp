@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// How a picture is lit and composed.
+struct RenderStyle {
+  double ambient = 1.0;      ///< share of the surface colour that needs no light
+  double diffuse = 0.0;      ///< Lambert term of one distant light
+  double specular = 0.0;     ///< Blinn-Phong term
+  double shininess = 30.0;
+  Eigen::Vector3d light_direction{0.3, -0.5, 1.0};  ///< in which the light travels, world frame
+  bool textured = true;      ///< false: a flat colour per model (overlays)
+  int samples = 4;           ///< antialiasing of the colour image, samples per pixel
+};
+
+/// A rendered view. Pixel (0, 0) is top left.
+struct RenderedView {
+  cv::Mat color;  ///< 8-bit BGR, antialiased against `background` (or black)
+  cv::Mat depth;  ///< 32-bit float z in metres, 0: nothing there; one sample at the pixel centre
+  cv::Mat label;  ///< 8-bit: 0 nothing, otherwise 1 + index of the model in the scene
+};
+
+/// Draws a scene with OpenGL on a surfaceless EGL context: NVIDIA's driver where there is one, Mesa's
+/// software rasteriser otherwise. To be used from one thread at a time.
+class HYPOTRACK_API Renderer {
+ public:
+  /// The scene must outlive the renderer. Throws DeviceError if no context can be made.
+  explicit Renderer(const Scene& scene);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// Draws the scene in one state as a camera sees it, lens distortion included. `background` is
+  /// empty or of the camera's size.
+  RenderedView render(const Eigen::VectorXd& state, const Camera& camera, const RenderStyle& style,
+                      const cv::Mat& background = {});
+
+  /// What OpenGL says of itself: vendor, renderer, version.
+  std::string device() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

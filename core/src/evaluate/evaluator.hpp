@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+enum class Backend { automatic, cpu, egl };
+HYPOTRACK_API std::span<const std::string_view> enum_names(Backend);
+
+/// `evaluate:` of a scene.
+struct EvaluateSettings {
+  Backend backend = Backend::automatic;
+  int threads = 0;
+  void visit(ParamVisitor& v) {
+    v("backend", backend,
+      {.help = "what draws hypotheses: cpu, egl (OpenGL, the paper's way; slow, a cross-check), or "
+               "automatic: the fastest this build and machine have"});
+    v("threads", threads, {.help = "CPU threads; 0: one per core", .min = 0, .max = 1024});
+  }
+};
+
+/// One term of the cost.
+struct ObjectiveTerm {
+  double weight = 1;
+  std::shared_ptr<Objective> objective;
+};
+
+/// Turns hypotheses into costs: normalise, pose, skin, draw both views' depth tiles, score. Whole
+/// batches at a time, over threads; the result does not depend on the number of threads.
+class HYPOTRACK_API Evaluator {
+ public:
+  /// The scene must outlive the evaluator. Throws DeviceError if the backend is not to be had.
+  Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings);
+  ~Evaluator();
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
+
+  /// Takes a frame in; the observation must outlive the evaluations.
+  void prepare(const Observation& observation);
+
+  /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the term,
+  /// if one returns NaN.
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
+
+  /// What draws: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.
+  std::string backend() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/observation.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// `tile:` of a scene.
+struct TileSettings {
+  int size = 128;
+  double padding = 0.2;
+  void visit(ParamVisitor& v) {
+    v("size", size, {.help = "pixels along one side of a view's tile", .min = 16, .max = 1024});
+    v("padding", padding,
+      {.help = "margin around the last solution, each side, as a share of its size", .min = 0, .max = 2});
+  }
+};
+
+/// Cuts the piece around a hypothesis out of every view of a frame: undistorted, scaled to a square
+/// tile and, where two cameras are nearly parallel, rectified, all in one resampling.
+class HYPOTRACK_API TileMaker {
+ public:
+  /// The scene must outlive the tile maker.
+  TileMaker(const Scene& scene, std::vector<Camera> cameras, const TileSettings& settings);
+  ~TileMaker();
+  TileMaker(const TileMaker&) = delete;
+  TileMaker& operator=(const TileMaker&) = delete;
+
+  /// Whether the pair is near enough to parallel to be rectified.
+  bool rectifies() const;
+
+  /// Tiles around the scene posed in `state`. Throws DataError if the frame's views do not match the
+  /// cameras in number or size, or if the posed scene lies at or behind a camera.
+  Observation make(const Frame& frame, const Eigen::VectorXd& state) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,23 @@
+// Out-of-line destructors anchor vtables and type information in libhypotrack.so, so that exceptions
+// and dynamic casts work across plugin libraries.
+#include "hypotrack/error.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/source.hpp"
+
+namespace hypotrack {
+
+Error::Error(const std::string& message) : std::runtime_error(message) {}
+Error::~Error() = default;
+ConfigError::~ConfigError() = default;
+DataError::~DataError() = default;
+PluginError::~PluginError() = default;
+DeviceError::~DeviceError() = default;
+OutputError::~OutputError() = default;
+
+Objective::~Objective() = default;
+CostFunction::~CostFunction() = default;
+Optimizer::~Optimizer() = default;
+Source::~Source() = default;
+
+}  // namespace hypotrack
