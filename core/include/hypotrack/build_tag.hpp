@@ -1,8 +1,7 @@
 #pragma once
 
-#include <opencv2/core/version.hpp>
-
 #include <Eigen/Core>
+#include <opencv2/core/version.hpp>
 
 // Everything that must agree between core and a plugin before C++ objects may cross: compiler ABI,
 // standard, string ABI, Eigen and its alignment, OpenCV, sanitizers.

@@ -22,8 +22,8 @@ class HYPOTRACK_API ConfigNode {
 
   /// Reads a YAML file. Overrides are `key.path=value` (list items by index: `models.0.type=hand`);
   /// the value is YAML and relative paths in it are relative to the working directory.
-  /// Throws ConfigError on unreadable files, broken YAML, duplicate keys, aliases, files over 8 MiB,
-  /// nesting over 64 levels and overrides that do not parse.
+  /// Throws ConfigError on unreadable files, broken YAML, duplicate keys, aliases, files over 8
+  /// MiB, nesting over 64 levels and overrides that do not parse.
   static ConfigNode load(const std::filesystem::path& file,
                          std::span<const std::string> overrides = {});
 

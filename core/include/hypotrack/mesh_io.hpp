@@ -24,14 +24,14 @@ struct ImportedMesh {
 };
 
 struct MeshImportOptions {
-  double scale = 1.0;  ///< metres per unit of the file
+  double scale = 1.0;             ///< metres per unit of the file
   std::filesystem::path texture;  ///< image to use instead of the one that the file names
 };
 
 /// Reads OBJ, STL, glTF or GLB. The import runs in a child process with a time limit, so that a
-/// damaged file cannot take the program down. Throws DataError on other formats, files over 256 MiB,
-/// unreadable or damaged files, no faces, NaN vertices or weights, indices out of range, vertices of
-/// a skinned mesh that no bone holds.
+/// damaged file cannot take the program down. Throws DataError on other formats, files over 256
+/// MiB, unreadable or damaged files, no faces, NaN vertices or weights, indices out of range,
+/// vertices of a skinned mesh that no bone holds.
 HYPOTRACK_API ImportedMesh import_mesh(const std::filesystem::path& file,
                                        const MeshImportOptions& options = {});
 

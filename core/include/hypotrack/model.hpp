@@ -32,14 +32,15 @@ struct Bone {
 
 enum class ParameterKind { position, quaternion, angle };
 
-/// One number of a model's state. Every model begins with its pose, world_from_model: position x y z
-/// (metres), then a unit quaternion w x y z. Angles (radians) follow.
+/// One number of a model's state. Every model begins with its pose, world_from_model: position x y
+/// z (metres), then a unit quaternion w x y z. Angles (radians) follow.
 struct Parameter {
   std::string name;
   ParameterKind kind = ParameterKind::angle;
-  double lower = 0;  ///< anatomical or mechanical bounds; infinite for positions, -1 .. 1 for quaternions
+  double lower =
+      0;  ///< anatomical or mechanical bounds; infinite for positions, -1 .. 1 for quaternions
   double upper = 0;
-  double rest = 0;   ///< within the bounds; quaternion 1 0 0 0
+  double rest = 0;  ///< within the bounds; quaternion 1 0 0 0
 };
 
 /// A parameter turning a bone: parent_from_bone(bind) * AngleAxis(scale * (value - zero), axis).
@@ -49,7 +50,7 @@ struct BoneRotation {
   int bone = 0;
   int parameter = 0;  ///< index into ModelData::parameters, of kind angle
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector in the bone's frame
-  double zero = 0;    ///< value at which the bone stands as in the bind pose
+  double zero = 0;  ///< value at which the bone stands as in the bind pose
   double scale = 1;
 };
 
@@ -69,9 +70,9 @@ struct ModelData {
   std::vector<Landmark> landmarks;
 };
 
-/// Throws DataError, naming `where`, on data that breaks the contracts above: no faces, NaN, indices
-/// out of range, weights that do not sum to 1, parents after children, a first seven parameters that
-/// are no pose, bounds the wrong way round.
+/// Throws DataError, naming `where`, on data that breaks the contracts above: no faces, NaN,
+/// indices out of range, weights that do not sum to 1, parents after children, a first seven
+/// parameters that are no pose, bounds the wrong way round.
 HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 
 /// A model is data. Core moves it: one kinematics and skinning for every model on the CPU, one on
@@ -88,8 +89,8 @@ class HYPOTRACK_API Model {
   /// Number of parameters.
   int dimension() const { return static_cast<int>(data_.parameters.size()); }
 
-  /// True for a model that a skeleton cannot express. Then `pose` is called instead of the skinning,
-  /// hypotheses are posed on the CPU, one by one, and from several threads at once.
+  /// True for a model that a skeleton cannot express. Then `pose` is called instead of the
+  /// skinning, hypotheses are posed on the CPU, one by one, and from several threads at once.
   virtual bool poses_itself() const { return false; }
   /// Vertices (3xV) and landmarks (3xL) in the world, metres, for one parameter vector.
   virtual void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,

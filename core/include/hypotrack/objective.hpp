@@ -11,7 +11,7 @@ namespace hypotrack {
 struct DepthTile {
   int width = 0;
   int height = 0;
-  int stride = 0;  ///< floats per row, >= width; rows may be read to `stride`
+  int stride = 0;                        ///< floats per row, >= width; rows may be read to `stride`
   const float* inverse_depth = nullptr;  ///< 1/z in 1/m of the nearest surface; 0: not covered
   /// Bounds of what may be covered: x0 <= x < x1, y0 <= y < y1. Outside it everything is 0.
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;

@@ -24,8 +24,8 @@ class HYPOTRACK_API CostFunction {
 
 /// Where to look. All vectors have length D.
 struct SearchRegion {
-  Eigen::VectorXd start;   ///< the prior's mean, within the bounds
-  Eigen::VectorXd lower;   ///< hard bounds (anatomy); may be infinite
+  Eigen::VectorXd start;  ///< the prior's mean, within the bounds
+  Eigen::VectorXd lower;  ///< hard bounds (anatomy); may be infinite
   Eigen::VectorXd upper;
   Eigen::VectorXd spread;  ///< how far the answer may plausibly be from `start`, each side; > 0
 };

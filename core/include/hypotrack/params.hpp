@@ -22,8 +22,8 @@ namespace hypotrack {
 inline constexpr double kMillimetre = 1e-3;
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// What a parameter means. `min` and `max` are in the unit of the YAML file and inclusive; the value
-/// in the struct is the YAML value times `to_si` (so `range_deg` is stored in radians).
+/// What a parameter means. `min` and `max` are in the unit of the YAML file and inclusive; the
+/// value in the struct is the YAML value times `to_si` (so `range_deg` is stored in radians).
 struct ParamInfo {
   std::string_view help;
   double min = -std::numeric_limits<double>::infinity();
@@ -45,7 +45,9 @@ class ParamVisitor;
 ///     }
 ///   };
 template <class T>
-concept ParamStruct = requires(T& t, ParamVisitor& v) { t.visit(v); };
+concept ParamStruct = requires(T& t, ParamVisitor& v) {
+  t.visit(v);
+};
 
 /// An enumeration that a parameter may hold: `enum_names(T)`, found by argument-dependent lookup,
 /// returns the YAML word of every enumerator 0, 1, 2, ...
@@ -56,8 +58,8 @@ concept ParamEnum = std::is_enum_v<T> && requires(T t) {
 
 /// Visits the parameters of a struct: a reader, a help writer or a dump. Allowed types: bool,
 /// integers, double, std::string, std::filesystem::path (relative paths are resolved against the
-/// file they are written in), ParamEnum, fixed-size Eigen vectors of double, std::vector of double or
-/// std::string, nested ParamStruct, std::vector of ParamStruct, std::optional of any scalar type
+/// file they are written in), ParamEnum, fixed-size Eigen vectors of double, std::vector of double
+/// or std::string, nested ParamStruct, std::vector of ParamStruct, std::optional of any scalar type
 /// above (absent key: empty), and ConfigNode (taken as it is: a nested plugin).
 class HYPOTRACK_API ParamVisitor {
  public:
@@ -90,14 +92,15 @@ class HYPOTRACK_API ParamVisitor {
   virtual void enter_item(std::size_t index) = 0;
   virtual void leave_item() = 0;
   virtual void leave_list() = 0;
-  // Optional scalars: whether the value is to be visited (a reader: the key is there; a dump: it has
-  // a value; help: always).
+  // Optional scalars: whether the value is to be visited (a reader: the key is there; a dump: it
+  // has a value; help: always).
   virtual bool enter_optional(std::string_view key, bool has_value, const ParamInfo& info) = 0;
 };
 
-/// Reads a struct strictly: unknown, duplicate and missing keys, wrong types and values out of range
-/// throw ConfigError with `file:line:column`, what was found, what is allowed and the nearest name.
-/// Keys in `also_allowed` belong to somebody else (`type`, `name`, `weight`) and are passed over.
+/// Reads a struct strictly: unknown, duplicate and missing keys, wrong types and values out of
+/// range throw ConfigError with `file:line:column`, what was found, what is allowed and the nearest
+/// name. Keys in `also_allowed` belong to somebody else (`type`, `name`, `weight`) and are passed
+/// over.
 class HYPOTRACK_API ParamReader {
  public:
   explicit ParamReader(ConfigNode node, std::vector<std::string> also_allowed = {});
@@ -106,8 +109,7 @@ class HYPOTRACK_API ParamReader {
   ParamReader& operator=(const ParamReader&) = delete;
 
   template <ParamStruct P>
-  P read() {
-    P params{};
+  P read(P params = P{}) {  // keys that are absent keep the values of `params`
     params.visit(visitor());
     finish();
     return params;

@@ -40,8 +40,8 @@ template <class T>
 concept PluginInterface = !kPluginKind<T>.empty();
 
 /// Opens plugin libraries and makes objects from YAML: `type: pso` in an optimizer's place is
-/// `libhypotrack_optimizer_pso.so` on the search path. A library is opened when first named and never
-/// closed.
+/// `libhypotrack_optimizer_pso.so` on the search path. A library is opened when first named and
+/// never closed.
 class HYPOTRACK_API PluginLoader {
  public:
   /// Search order: `extra`, then HYPOTRACK_PLUGIN_PATH, then the folders this build or installation
@@ -155,24 +155,25 @@ using source = Source;
 #define HYPOTRACK_STRINGIZE_(x) #x
 #define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
 
-/// Makes a class a plugin. Kind, name, version and licence come from hypotrack_add_plugin() in CMake.
-/// The class derives from Model, Objective, Optimizer or Source, has a nested ParamStruct `Params`,
-/// and is constructible from (const Params&) or (const Params&, PluginContext&). Once per library.
-#define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                            \
-  extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*           \
-  hypotrack_plugin() {                                                                            \
-    static const ::hypotrack::HypotrackPlugin plugin = {                                          \
-        {'h', 'y', 'p', 'o', 't', 'r', 'a', 'c', 'k', ' ', 'p', 'l', 'u', 'g', 'i', 'n'},         \
-        sizeof(::hypotrack::HypotrackPlugin),                                                     \
-        ::hypotrack::kAbiVersion,                                                                 \
-        ::hypotrack::kBuildTag,                                                                   \
-        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_KIND),                                               \
-        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_NAME),                                               \
-        HYPOTRACK_PLUGIN_VERSION,                                                                 \
-        Summary,                                                                                  \
-        HYPOTRACK_PLUGIN_LICENCE,                                                                 \
-        Capabilities,                                                                             \
-        &::hypotrack::detail::create_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>,   \
-        +[]() { return ::hypotrack::describe_params<Class::Params>(); }};                         \
-    return &plugin;                                                                               \
+/// Makes a class a plugin. Kind, name, version and licence come from hypotrack_add_plugin() in
+/// CMake. The class derives from Model, Objective, Optimizer or Source, has a nested ParamStruct
+/// `Params`, and is constructible from (const Params&) or (const Params&, PluginContext&). Once per
+/// library.
+#define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                          \
+  extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*         \
+  hypotrack_plugin() {                                                                          \
+    static const ::hypotrack::HypotrackPlugin plugin = {                                        \
+        {'h', 'y', 'p', 'o', 't', 'r', 'a', 'c', 'k', ' ', 'p', 'l', 'u', 'g', 'i', 'n'},       \
+        sizeof(::hypotrack::HypotrackPlugin),                                                   \
+        ::hypotrack::kAbiVersion,                                                               \
+        ::hypotrack::kBuildTag,                                                                 \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_KIND),                                             \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_NAME),                                             \
+        HYPOTRACK_PLUGIN_VERSION,                                                               \
+        Summary,                                                                                \
+        HYPOTRACK_PLUGIN_LICENCE,                                                               \
+        Capabilities,                                                                           \
+        &::hypotrack::detail::create_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>, \
+        +[]() { return ::hypotrack::describe_params<Class::Params>(); }};                       \
+    return &plugin;                                                                             \
   }

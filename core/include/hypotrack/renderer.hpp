@@ -13,13 +13,13 @@ namespace hypotrack {
 
 /// How a picture is lit and composed.
 struct RenderStyle {
-  double ambient = 1.0;      ///< share of the surface colour that needs no light
-  double diffuse = 0.0;      ///< Lambert term of one distant light
-  double specular = 0.0;     ///< Blinn-Phong term
+  double ambient = 1.0;   ///< share of the surface colour that needs no light
+  double diffuse = 0.0;   ///< Lambert term of one distant light
+  double specular = 0.0;  ///< Blinn-Phong term
   double shininess = 30.0;
   Eigen::Vector3d light_direction{0.3, -0.5, 1.0};  ///< in which the light travels, world frame
-  bool textured = true;      ///< false: a flat colour per model (overlays)
-  int samples = 4;           ///< antialiasing of the colour image, samples per pixel
+  bool textured = true;                             ///< false: a flat colour per model (overlays)
+  int samples = 4;  ///< antialiasing of the colour image, samples per pixel
 };
 
 /// A rendered view. Pixel (0, 0) is top left.
@@ -29,8 +29,8 @@ struct RenderedView {
   cv::Mat label;  ///< 8-bit: 0 nothing, otherwise 1 + index of the model in the scene
 };
 
-/// Draws a scene with OpenGL on a surfaceless EGL context: NVIDIA's driver where there is one, Mesa's
-/// software rasteriser otherwise. To be used from one thread at a time.
+/// Draws a scene with OpenGL on a surfaceless EGL context: NVIDIA's driver where there is one,
+/// Mesa's software rasteriser otherwise. To be used from one thread at a time.
 class HYPOTRACK_API Renderer {
  public:
   /// The scene must outlive the renderer. Throws DeviceError if no context can be made.

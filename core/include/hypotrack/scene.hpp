@@ -18,7 +18,7 @@ class HYPOTRACK_API Scene {
   struct Item {
     std::string name;  ///< unique within the scene
     std::shared_ptr<const Model> model;
-    int offset = 0;    ///< of the model's first parameter in the state
+    int offset = 0;  ///< of the model's first parameter in the state
   };
 
   /// Throws ConfigError on duplicate names or no model at all.

@@ -47,8 +47,8 @@ class HYPOTRACK_API Evaluator {
   /// Takes a frame in; the observation must outlive the evaluations.
   void prepare(const Observation& observation);
 
-  /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the term,
-  /// if one returns NaN.
+  /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the
+  /// term, if one returns NaN.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
 
   /// What draws: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.

@@ -22,7 +22,9 @@ struct TileSettings {
   void visit(ParamVisitor& v) {
     v("size", size, {.help = "pixels along one side of a view's tile", .min = 16, .max = 1024});
     v("padding", padding,
-      {.help = "margin around the last solution, each side, as a share of its size", .min = 0, .max = 2});
+      {.help = "margin around the last solution, each side, as a share of its size",
+       .min = 0,
+       .max = 2});
   }
 };
 
@@ -39,8 +41,8 @@ class HYPOTRACK_API TileMaker {
   /// Whether the pair is near enough to parallel to be rectified.
   bool rectifies() const;
 
-  /// Tiles around the scene posed in `state`. Throws DataError if the frame's views do not match the
-  /// cameras in number or size, or if the posed scene lies at or behind a camera.
+  /// Tiles around the scene posed in `state`. Throws DataError if the frame's views do not match
+  /// the cameras in number or size, or if the posed scene lies at or behind a camera.
   Observation make(const Frame& frame, const Eigen::VectorXd& state) const;
 
  private:

@@ -1,0 +1,115 @@
+#include "hypotrack/pose.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+namespace {
+
+struct PoseParams {
+  std::vector<double> position, rotation, quaternion;
+  ConfigNode angles;
+  void visit(ParamVisitor& v) {
+    v("position_mm", position, {.help = "x y z in the world", .unit = "mm", .to_si = kMillimetre});
+    v("rotation_deg", rotation,
+      {.help = "rotation vector: axis times angle", .unit = "deg", .to_si = kDegree});
+    v("quaternion", quaternion, {.help = "w x y z, instead of rotation_deg"});
+    v("angles_deg", angles, {.help = "joint angles by name", .unit = "deg"});
+  }
+};
+
+/// The angles of one model, whose names and bounds are the model's.
+struct Angles {
+  struct Angle {
+    double value = 0;
+    std::string name;
+    double lower = 0, upper = 0;  // degrees
+  };
+  std::vector<Angle> all;
+  void visit(ParamVisitor& v) {
+    for (Angle& a : all)
+      v(a.name, a.value,
+        {.help = "joint angle", .min = a.lower, .max = a.upper, .unit = "deg", .to_si = kDegree});
+  }
+};
+
+void expect_length(const ConfigNode& node, const char* key, const std::vector<double>& values,
+                   std::size_t length) {
+  if (values.empty() || values.size() == length) return;
+  throw ConfigError(fmt::format("{}: {} has {} numbers, expected {}", node.get(key).where(), key,
+                                values.size(), length));
+}
+
+void apply_rotation(const ConfigNode& node, const PoseParams& pose,
+                    Eigen::Ref<Eigen::VectorXd> part) {
+  if (!pose.rotation.empty() && !pose.quaternion.empty())
+    throw ConfigError(
+        fmt::format("{}: both rotation_deg and quaternion are given; leave one out", node.where()));
+  Eigen::Quaterniond q(part[3], part[4], part[5], part[6]);
+  if (!pose.quaternion.empty()) {
+    q = {pose.quaternion[0], pose.quaternion[1], pose.quaternion[2], pose.quaternion[3]};
+    if (q.norm() < 1e-6)
+      throw ConfigError(
+          fmt::format("{}: a quaternion of zeros is no rotation; 1 0 0 0 is the "
+                      "identity",
+                      node.get("quaternion").where()));
+  } else if (!pose.rotation.empty()) {
+    const Eigen::Vector3d v(pose.rotation[0], pose.rotation[1], pose.rotation[2]);
+    q = v.norm() > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(v.norm(), v.normalized()))
+                     : Eigen::Quaterniond::Identity();
+  }
+  q.normalize();
+  part.segment<4>(3) << q.w(), q.x(), q.y(), q.z();
+}
+
+const Scene::Item& find_item(const Scene& scene, const std::string& name, const ConfigNode& where) {
+  std::string known;
+  for (const auto& item : scene.items()) {
+    if (item.name == name) return item;
+    known += (known.empty() ? "" : ", ") + item.name;
+  }
+  throw ConfigError(fmt::format("{}: '{}' is no model of this scene; its models are: {}",
+                                where.where(), name, known));
+}
+
+}  // namespace
+
+void read_angles(const ConfigNode& node, const Scene::Item& item,
+                 Eigen::Ref<Eigen::VectorXd> state) {
+  Angles angles;
+  const auto& parameters = item.model->data().parameters;
+  for (std::size_t i = 7; i < parameters.size(); ++i)
+    angles.all.push_back({state[item.offset + static_cast<int>(i)], parameters[i].name,
+                          parameters[i].lower / kDegree, parameters[i].upper / kDegree});
+  angles = ParamReader(node).read(std::move(angles));
+  for (std::size_t i = 7; i < parameters.size(); ++i)
+    state[item.offset + static_cast<int>(i)] = angles.all[i - 7].value;
+}
+
+Eigen::VectorXd read_pose(const ConfigNode& node, const Scene& scene, Eigen::VectorXd base) {
+  if (!node.is_map())
+    throw ConfigError(fmt::format("{}: expected a map of model names to poses", node.where()));
+  for (const std::string& name : node.keys()) {
+    const ConfigNode value = node.get(name);
+    const Scene::Item& item = find_item(scene, name, value);
+    const auto pose = ParamReader(value).read<PoseParams>();
+    expect_length(value, "position_mm", pose.position, 3);
+    expect_length(value, "rotation_deg", pose.rotation, 3);
+    expect_length(value, "quaternion", pose.quaternion, 4);
+    auto part = base.segment(item.offset, item.model->dimension());
+    if (!pose.position.empty())
+      part.head<3>() << pose.position[0], pose.position[1], pose.position[2];
+    apply_rotation(value, pose, part);
+    if (pose.angles.defined()) read_angles(pose.angles, item, base);
+  }
+  return base;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,84 @@
+#include "track/search_space.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hypotrack {
+namespace {
+
+Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& v) {
+  const double angle = v.norm();
+  if (angle < 1e-12) return Eigen::Quaterniond(1, v.x() / 2, v.y() / 2, v.z() / 2);
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
+}
+
+}  // namespace
+
+std::span<const std::string_view> enum_names(RotationSearch) {
+  static constexpr std::array<std::string_view, 2> names{"quaternion", "tangent"};
+  return names;
+}
+
+SearchSpace::SearchSpace(const Scene& scene, const SearchSettings& settings)
+    : scene_(&scene), settings_(settings), dimension_(scene.dimension()) {
+  if (settings_.rotation_as == RotationSearch::tangent)
+    dimension_ -= static_cast<int>(scene.items().size());
+}
+
+SearchRegion SearchSpace::region(const Eigen::VectorXd& prior) const {
+  SearchRegion region;
+  for (auto* v : {&region.start, &region.lower, &region.upper, &region.spread})
+    v->resize(dimension_);
+  // A component of a unit quaternion changes by up to sin(angle / 2) under a rotation by the angle.
+  const double component = std::sin(settings_.rotation / 2);
+  const auto& parameters = scene_->parameters();
+  int out = 0;
+  const auto add = [&](double start, double lower, double upper, double spread) {
+    region.start[out] = std::clamp(start, lower, upper);
+    region.lower[out] = lower;
+    region.upper[out] = upper;
+    region.spread[out++] = spread;
+  };
+  for (int i = 0; i < scene_->dimension(); ++i) {
+    const Parameter& p = parameters[static_cast<std::size_t>(i)];
+    if (p.kind == ParameterKind::quaternion && settings_.rotation_as == RotationSearch::tangent) {
+      for (int k = 0; k < 3; ++k) add(0, -std::numbers::pi, std::numbers::pi, settings_.rotation);
+      i += 3;
+      continue;
+    }
+    const double spread = p.kind == ParameterKind::position     ? settings_.position
+                          : p.kind == ParameterKind::quaternion ? component
+                                                                : settings_.angle;
+    add(prior[i], p.lower, p.upper, spread);
+  }
+  return region;
+}
+
+Eigen::MatrixXd SearchSpace::states(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                    const Eigen::VectorXd& prior) const {
+  Eigen::MatrixXd states(scene_->dimension(), points.cols());
+  if (settings_.rotation_as == RotationSearch::quaternion) {
+    states = points;
+  } else {
+    int in = 0;
+    for (int i = 0; i < scene_->dimension(); ++i) {
+      if (scene_->parameters()[static_cast<std::size_t>(i)].kind != ParameterKind::quaternion) {
+        states.row(i) = points.row(in++);
+        continue;
+      }
+      const Eigen::Quaterniond q0(prior[i], prior[i + 1], prior[i + 2], prior[i + 3]);
+      for (Eigen::Index n = 0; n < points.cols(); ++n) {
+        const Eigen::Quaterniond q = q0 * rotation_exp(points.block<3, 1>(in, n));
+        states.block<4, 1>(i, n) << q.w(), q.x(), q.y(), q.z();
+      }
+      in += 3;
+      i += 3;
+    }
+  }
+  for (Eigen::Index n = 0; n < states.cols(); ++n) scene_->normalize(states.col(n));
+  return states;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// How an optimizer sees a rotation.
+enum class RotationSearch {
+  quaternion,  ///< its four components, normalised when a point becomes a state (as in the paper)
+  tangent,     ///< a rotation vector (3 numbers, radians) applied to the prior's rotation
+};
+HYPOTRACK_API std::span<const std::string_view> enum_names(RotationSearch);
+
+/// `search:` of a scene: how far from the last solution the next one may plausibly be.
+struct SearchSettings {
+  double position = 0.040;
+  double rotation = 10 * kDegree;
+  double angle = 10 * kDegree;
+  RotationSearch rotation_as = RotationSearch::quaternion;
+  void visit(ParamVisitor& v) {
+    v("position_mm", position,
+      {.help = "spread of a model's position, each side",
+       .min = 1e-3,
+       .max = 1e4,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("rotation_deg", rotation,
+      {.help = "spread of a model's rotation, each side",
+       .min = 1e-3,
+       .max = 180,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("angle_deg", angle,
+      {.help = "spread of a joint angle, each side",
+       .min = 1e-3,
+       .max = 180,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("rotation_as", rotation_as,
+      {.help = "what optimizers see of a rotation: quaternion components or a tangent vector"});
+  }
+};
+
+/// Maps between states and the points that optimizers search. The one place that knows how
+/// rotations are parametrised.
+class HYPOTRACK_API SearchSpace {
+ public:
+  /// The scene must outlive the search space.
+  SearchSpace(const Scene& scene, const SearchSettings& settings);
+
+  /// Length of a search point.
+  int dimension() const { return dimension_; }
+
+  /// The region around a prior state. Angles of the prior outside the models' bounds are moved onto
+  /// them.
+  SearchRegion region(const Eigen::VectorXd& prior) const;
+
+  /// States (DxN, normalised) of search points (dimension() x N) found around a prior.
+  Eigen::MatrixXd states(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                         const Eigen::VectorXd& prior) const;
+
+ private:
+  const Scene* scene_;
+  SearchSettings settings_;
+  int dimension_ = 0;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,51 @@
+#include "track/status.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace hypotrack {
+namespace {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::string_view to_string(Status status) {
+  static constexpr std::array<std::string_view, 4> names{"tracked", "uncertain", "lost", "missing"};
+  return names[static_cast<std::size_t>(status)];
+}
+
+bool StatusMonitor::is_outlier(double cost) const {
+  constexpr std::size_t kEnough = 5;  // below that there is nothing to compare with
+  if (costs_.size() < kEnough) return false;
+  const std::vector<double> costs(costs_.begin(), costs_.end());
+  const double expected = median(costs);
+  std::vector<double> deviations;
+  for (double c : costs) deviations.push_back(std::abs(c - expected));
+  // 1.4826 MAD estimates a normal distribution's standard deviation; the floor keeps a nearly
+  // constant cost from making every frame an outlier.
+  const double deviation = std::max(1.4826 * median(deviations), 0.02 * std::abs(expected));
+  return cost > expected + settings_.outlier * deviation;
+}
+
+Status StatusMonitor::judge(double cost, double visible) {
+  if (!std::isfinite(cost) || visible < settings_.min_visible) {
+    uncertain_in_a_row_ = settings_.patience;
+    return Status::lost;
+  }
+  if (is_outlier(cost) || visible < 2 * settings_.min_visible) {
+    return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
+  }
+  uncertain_in_a_row_ = 0;
+  costs_.push_back(cost);
+  if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
+  return Status::tracked;
+}
+
+}  // namespace hypotrack

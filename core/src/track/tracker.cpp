@@ -1,0 +1,106 @@
+#include "track/tracker.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Costs of search points: points become states, states are evaluated.
+class StateCost final : public CostFunction {
+ public:
+  StateCost(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
+      : space_(space), prior_(prior), evaluator_(evaluator) {}
+
+  int dimension() const override { return space_.dimension(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                Eigen::Ref<Eigen::VectorXd> costs) override {
+    evaluator_.evaluate(space_.states(points, prior_), costs);
+  }
+
+ private:
+  const SearchSpace& space_;
+  const Eigen::VectorXd& prior_;
+  Evaluator& evaluator_;
+};
+
+/// A seed of its own for every frame (splitmix64 of both numbers), so that a frame's search does
+/// not depend on how many random numbers the frames before it used.
+std::uint64_t frame_seed(std::uint64_t seed, int frame) {
+  std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+}  // namespace
+
+Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
+    : scene_(&scene),
+      parts_(std::move(parts)),
+      tiles_(scene, parts_.cameras, parts_.tile),
+      space_(scene, parts_.search),
+      evaluator_(scene, parts_.objective, parts_.evaluate),
+      monitor_(parts_.status),
+      state_(std::move(start)),
+      seed_(seed) {
+  scene.normalize(state_);
+  if (parts_.budget.evaluations == 0)
+    parts_.budget.evaluations = parts_.optimizer->default_evaluations();
+}
+
+Tracker::~Tracker() = default;
+
+Solution Tracker::track(const Frame& frame) {
+  Solution solution;
+  solution.frame = frame.index;
+  solution.time = frame.time;
+  solution.cost = std::numeric_limits<double>::quiet_NaN();
+  if (!frame.views.empty()) {
+    const auto begin = std::chrono::steady_clock::now();
+    const OptimizerResult result = search(frame);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    solution.seconds = elapsed.count();
+    solution.cost = result.cost;
+    solution.evaluations = result.evaluations;
+    solution.status = monitor_.judge(result.cost, visible_share(state_));
+  }
+  solution.state = state_;
+  return solution;
+}
+
+OptimizerResult Tracker::search(const Frame& frame) {
+  const Observation observation = tiles_.make(frame, state_);
+  evaluator_.prepare(observation);
+  const Eigen::VectorXd prior = state_;
+  StateCost cost(space_, prior, evaluator_);
+  OptimizerResult result = parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
+                                                      frame_seed(seed_, frame.index));
+  // Where nothing was feasible the last state is the better guess.
+  if (std::isfinite(result.cost)) state_ = space_.states(result.point, prior);
+  return result;
+}
+
+double Tracker::visible_share(const Eigen::VectorXd& state) const {
+  Eigen::Index visible = 0, all = 0;
+  for (const auto& item : scene_->items()) {
+    const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, scene_->part(item, state));
+    for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
+      bool in_all = true;
+      for (const Camera& camera : parts_.cameras) {
+        const Eigen::Vector2d p = project(camera, vertices.col(i).cast<double>());
+        in_all = in_all && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < camera.width - 0.5 &&
+                 p.y() < camera.height - 0.5;
+      }
+      visible += in_all;
+    }
+    all += vertices.cols();
+  }
+  return all == 0 ? 0 : static_cast<double>(visible) / static_cast<double>(all);
+}
+
+}  // namespace hypotrack
