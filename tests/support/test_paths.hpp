@@ -12,9 +12,11 @@ namespace hypotrack::test {
 inline std::filesystem::path source_dir() { return HYPOTRACK_SOURCE_DIR; }
 inline std::filesystem::path build_dir() { return HYPOTRACK_BUILD_DIR; }
 
-/// The real recordings and meshes that some tests use; they lie beside a checkout and are no part of
-/// the project.
-inline std::filesystem::path shared_data() { return source_dir().parent_path() / "shared" / "data"; }
+/// The real recordings and meshes that some tests use; they lie beside a checkout and are no part
+/// of the project.
+inline std::filesystem::path shared_data() {
+  return source_dir().parent_path() / "shared" / "data";
+}
 
 /// A folder that goes away with the object.
 class TemporaryDirectory {
@@ -36,7 +38,7 @@ class TemporaryDirectory {
 }  // namespace hypotrack::test
 
 /// Skips the test, saying so, where the shared data does not lie beside the checkout.
-#define HYPOTRACK_NEEDS_SHARED_DATA()                                                       \
-  if (!std::filesystem::exists(::hypotrack::test::shared_data()))                           \
+#define HYPOTRACK_NEEDS_SHARED_DATA()                                                      \
+  if (!std::filesystem::exists(::hypotrack::test::shared_data()))                          \
   GTEST_SKIP() << "needs the shared data in " << ::hypotrack::test::shared_data().string() \
                << ", which is not part of the project"

@@ -1,0 +1,34 @@
+#include <Eigen/Geometry>
+
+#include "hypotrack/model.hpp"
+
+namespace hypotrack {
+namespace {
+
+const Eigen::DiagonalMatrix<double, 3> kMirror(-1, 1, 1);
+
+Eigen::Isometry3d mirrored_transform(const Eigen::Isometry3d& transform) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.linear() = kMirror * transform.linear() * kMirror;
+  result.translation() = kMirror * transform.translation();
+  return result;
+}
+
+}  // namespace
+
+ModelData mirrored(const ModelData& data) {
+  ModelData result = data;
+  result.mesh.vertices.row(0) *= -1;
+  // A mirror turns the inside out; the other winding turns it back.
+  result.mesh.triangles.row(1).swap(result.mesh.triangles.row(2));
+  if (result.mesh.uv_triangles.cols() > 0) {
+    result.mesh.uv_triangles.row(1).swap(result.mesh.uv_triangles.row(2));
+  }
+  for (Bone& bone : result.bones) bone.parent_from_bone = mirrored_transform(bone.parent_from_bone);
+  // A rotation axis is a pseudovector: M R(a, t) M = R(-M a, t), so angles keep their sign.
+  for (BoneRotation& rotation : result.rotations) rotation.axis = -(kMirror * rotation.axis);
+  for (Landmark& landmark : result.landmarks) landmark.position.x() *= -1;
+  return result;
+}
+
+}  // namespace hypotrack

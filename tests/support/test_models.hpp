@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <random>
+
+#include "hypotrack/model.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack::test {
+
+/// A right hand of six closed, overlapping capsules: 21 bones, 27 parameters (pose, then abduction
+/// and three flexions per finger from thumb to little), 21 landmarks, 1,500 vertices, 2,976
+/// triangles. Frame: origin at the wrist, +X to the thumb, +Y to the fingertips, +Z out of the
+/// palm. No texture.
+ModelData make_test_hand();
+
+/// A box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
+ModelData make_test_box(const Eigen::Vector3d& size = {0.06, 0.04, 0.12});
+
+/// A state of the scene with angles uniform within their bounds, rotations uniform, and positions
+/// uniform within `radius` of `center` along each axis.
+Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
+                             const Eigen::Vector3d& center = {0, 0, 0.5}, double radius = 0.05);
+
+}  // namespace hypotrack::test
