@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+namespace hypotrack {
+
+// Random numbers that are a function of (seed, index) and of nothing else: no state, so that
+// threads and GPU blocks draw the same numbers in any order. Plain arithmetic, no other hypotrack
+// header: a CUDA kernel can include this file (constexpr functions).
+
+/// Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3"
+/// (SC 2011): a block of four 32-bit words for a counter and a key.
+constexpr std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
+                                                  std::array<std::uint32_t, 2> key) {
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t a = std::uint64_t{0xD2511F53u} * counter[0];
+    const std::uint64_t b = std::uint64_t{0xCD9E8D57u} * counter[2];
+    counter = {
+        static_cast<std::uint32_t>(b >> 32) ^ counter[1] ^ key[0], static_cast<std::uint32_t>(b),
+        static_cast<std::uint32_t>(a >> 32) ^ counter[3] ^ key[1], static_cast<std::uint32_t>(a)};
+    key = {key[0] + 0x9E3779B9u, key[1] + 0xBB67AE85u};
+  }
+  return counter;
+}
+
+/// Which number of a population search: the Philox counter, in this order.
+struct RandomIndex {
+  std::uint32_t dimension = 0;
+  std::uint32_t particle = 0;
+  std::uint32_t generation = 0;
+  std::uint32_t stream = 0;  ///< what it is for, where one index needs several blocks
+};
+
+/// Four independent uniform numbers in the open interval (0, 1), exact in double precision:
+/// (word + 1/2) / 2^32. The key is the seed, low word first.
+constexpr std::array<double, 4> uniform4(std::uint64_t seed, const RandomIndex& index) {
+  const std::array<std::uint32_t, 4> words =
+      philox4x32({index.dimension, index.particle, index.generation, index.stream},
+                 {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  std::array<double, 4> numbers{};
+  for (int i = 0; i < 4; ++i) numbers[i] = (words[i] + 0.5) * 0x1p-32;
+  return numbers;
+}
+
+/// A standard normal number by Box and Muller from the block's first two uniform numbers; at most
+/// 6.8 in magnitude. Another libm (a GPU's) agrees up to the rounding of log and cos.
+inline double normal(std::uint64_t seed, const RandomIndex& index) {
+  const std::array<double, 4> u = uniform4(seed, index);
+  return std::sqrt(-2.0 * std::log(u[0])) * std::cos(2.0 * std::numbers::pi * u[1]);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "algorithms.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+
+class ScaledProblem;
+
+struct NloptParams {
+  std::string algorithm = "SBPLX";
+  int evaluations = 1024;
+  std::string local = "SBPLX";
+  double step = 0.5;
+  double box = 1.0;
+  int population = 0;
+  double tolerance = 1e-4;
+  void visit(ParamVisitor& v) {
+    v("algorithm", algorithm,
+      {.help = "SBPLX, NELDERMEAD, COBYLA, BOBYQA, PRAXIS (local), CRS2_LM, ESCH, ISRES, DIRECT, "
+               "DIRECT_L, DIRECT_L_RAND, ORIG_DIRECT_L or MLSL_LDS (global)"});
+    v("evaluations", evaluations,
+      {.help = "evaluations where the scene names no budget", .min = 1, .max = 1 << 30});
+    v("local", local, {.help = "local searches of MLSL_LDS: SBPLX, NELDERMEAD, COBYLA or BOBYQA"});
+    v("step", step,
+      {.help = "first step of local algorithms, as a share of the search region's spread",
+       .min = 1e-6,
+       .max = 10});
+    v("box", box,
+      {.help = "how far from the start global algorithms look, in spreads, within the bounds",
+       .min = 1e-3,
+       .max = 1000});
+    v("population", population,
+      {.help =
+           "population of CRS2_LM (above the number of dimensions), ISRES and ESCH, samples per "
+           "iteration of MLSL_LDS; 0: from the budget",
+       .min = 0,
+       .max = 1 << 20});
+    v("tolerance", tolerance,
+      {.help = "a local search ends where its step falls below this share of the spread; 0: never",
+       .min = 0,
+       .max = 1});
+  }
+};
+
+/// The derivative-free algorithms of NLopt (Steven G. Johnson, https://nlopt.readthedocs.io), one
+/// point at a time.
+///
+/// They search in offsets from the start in units of the region's spread, so that one step fits all
+/// dimensions. The start is evaluated first, also where the algorithm would begin elsewhere
+/// (DIRECT). Global algorithms search the box start +- box * spread within the bounds. PRAXIS knows
+/// no bounds: its points are clamped to them before they are evaluated, so the cost goes on
+/// unchanged beyond a bound. An infeasible (+inf) cost becomes a finite penalty worse than all that
+/// was seen.
+///
+/// The budget is kept here, not by NLopt, and the best point is the best of all evaluated ones. A
+/// search that ends before its budget (converged, flat objective) is a success.
+class Nlopt : public Optimizer {
+ public:
+  /// `where` is the place of the parameters in messages. Throws ConfigError on algorithms that are
+  /// unknown or refused.
+  explicit Nlopt(const NloptParams& params, const std::string& where = "nlopt");
+
+  std::int64_t default_evaluations() const override { return params_.evaluations; }
+  /// Throws ConfigError where a DIRECT algorithm would need more than about 1 GiB, and where the
+  /// population of CRS2_LM does not exceed the number of dimensions.
+  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t seed) override;
+
+ private:
+  void check(const ScaledProblem& problem) const;
+  void run(ScaledProblem& problem) const;
+
+  NloptParams params_;
+  std::string where_;
+  const NloptAlgorithm* algorithm_;
+  const NloptAlgorithm* local_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+
+struct RandomSearchParams {
+  int evaluations = 1024;
+  int batch = 256;
+  double sigma = 0.5;
+  void visit(ParamVisitor& v) {
+    v("evaluations", evaluations,
+      {.help = "samples, the start included, where the scene names no budget",
+       .min = 1,
+       .max = 1 << 30});
+    v("batch", batch, {.help = "samples evaluated together", .min = 1, .max = 1 << 20});
+    v("sigma", sigma,
+      {.help = "standard deviation of the samples, as a share of the search region's spread",
+       .min = 0,
+       .max = 10});
+  }
+};
+
+/// The baseline that every optimizer must beat: the start, then normal samples about it with
+/// standard deviation sigma * spread, truncated at the bounds; the best is kept. Sample k draws
+/// RandomIndex{dimension, k, 0, 1}, the numbers of a swarm's initial particle k.
+class RandomSearch : public Optimizer {
+ public:
+  explicit RandomSearch(const RandomSearchParams& params) : params_(params) {}
+
+  std::int64_t default_evaluations() const override { return params_.evaluations; }
+  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t seed) override;
+
+ private:
+  RandomSearchParams params_;
+};
+
+}  // namespace hypotrack

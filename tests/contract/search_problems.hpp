@@ -1,0 +1,118 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/random.hpp"
+
+namespace hypotrack::test {
+
+/// A cost function that writes down everything it is asked.
+class RecordingCost final : public CostFunction {
+ public:
+  using Function = std::function<double(const Eigen::VectorXd&)>;
+  RecordingCost(int dimension, Function function)
+      : dimension_(dimension), function_(std::move(function)) {}
+
+  int dimension() const override { return dimension_; }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& batch,
+                Eigen::Ref<Eigen::VectorXd> batch_costs) override {
+    batches.push_back(static_cast<int>(batch.cols()));
+    for (Eigen::Index i = 0; i < batch.cols(); ++i) {
+      points.push_back(batch.col(i));
+      batch_costs[i] = function_(points.back());
+      costs.push_back(batch_costs[i]);
+    }
+  }
+
+  std::vector<Eigen::VectorXd> points;
+  std::vector<double> costs;
+  std::vector<int> batches;
+
+ private:
+  int dimension_;
+  Function function_;
+};
+
+/// A search region like a tracker's: three positions without bounds, four quaternion components
+/// within -1 .. 1, the rest angles with the start anywhere within anatomical bounds.
+inline SearchRegion tracking_region(int dimension) {
+  SearchRegion region{Eigen::VectorXd(dimension), Eigen::VectorXd(dimension),
+                      Eigen::VectorXd(dimension), Eigen::VectorXd(dimension)};
+  for (int d = 0; d < dimension; ++d) {
+    const double u = uniform4(7, {static_cast<std::uint32_t>(d), 0, 0, 9})[0];
+    if (d < 3) {
+      region.lower[d] = -std::numeric_limits<double>::infinity();
+      region.upper[d] = -region.lower[d];
+      region.start[d] = d == 2 ? 0.5 : 0.1 * (u - 0.5);
+      region.spread[d] = 0.04;
+    } else if (d < 7) {
+      region.lower[d] = -1;
+      region.upper[d] = 1;
+      region.start[d] = d == 3 ? 1 : 0;
+      region.spread[d] = 0.087;
+    } else {
+      region.lower[d] = -0.3;
+      region.upper[d] = 1.6;
+      region.start[d] = -0.3 + 1.9 * u;
+      region.spread[d] = 0.175;
+    }
+  }
+  return region;
+}
+
+/// Where the answer lies: about half a spread from the start in every dimension, within the bounds.
+inline Eigen::VectorXd hidden_target(const SearchRegion& region, std::uint64_t seed) {
+  Eigen::VectorXd target = region.start;
+  for (Eigen::Index d = 0; d < target.size(); ++d) {
+    target[d] += 0.5 * region.spread[d] * normal(seed, {static_cast<std::uint32_t>(d), 0, 0, 8});
+  }
+  return target.cwiseMax(region.lower).cwiseMin(region.upper);
+}
+
+/// Offsets from the target in spreads.
+inline Eigen::VectorXd offsets(const SearchRegion& region, const Eigen::VectorXd& target,
+                               const Eigen::VectorXd& point) {
+  return (point - target).cwiseQuotient(region.spread);
+}
+
+/// Mean of squared offsets: 0 at the target, about 0.25 at the start.
+inline RecordingCost::Function sphere(SearchRegion region, Eigen::VectorXd target) {
+  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
+    return offsets(region, target, point).squaredNorm() / static_cast<double>(point.size());
+  };
+}
+
+/// The sphere with axes stretched from 1 to 100 in the square.
+inline RecordingCost::Function ellipsoid(SearchRegion region, Eigen::VectorXd target) {
+  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
+    const Eigen::VectorXd u = offsets(region, target, point);
+    double sum = 0;
+    for (Eigen::Index d = 0; d < u.size(); ++d) {
+      const double share = u.size() > 1 ? static_cast<double>(d) / (u.size() - 1) : 0;
+      sum += std::pow(100.0, share) * u[d] * u[d];
+    }
+    return sum / static_cast<double>(u.size());
+  };
+}
+
+/// Rosenbrock's valley, its minimum 0 at the target.
+inline RecordingCost::Function rosenbrock(SearchRegion region, Eigen::VectorXd target) {
+  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
+    const Eigen::VectorXd u = offsets(region, target, point).array() + 1.0;
+    double sum = 0;
+    for (Eigen::Index d = 0; d + 1 < u.size(); ++d) {
+      const double valley = u[d + 1] - u[d] * u[d];
+      sum += 100 * valley * valley + (1 - u[d]) * (1 - u[d]);
+    }
+    return sum / static_cast<double>(u.size());
+  };
+}
+
+}  // namespace hypotrack::test
