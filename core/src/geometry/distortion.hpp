@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
 
 namespace hypotrack {
 
@@ -16,7 +17,7 @@ DistortionCoefficients distortion_coefficients(const Camera& camera);
 /// The largest distance from the optical axis, as r = tan(angle), up to which the lens maps
 /// outwards points to outwards pixels. Beyond it a polynomial fitted to the image folds back, and
 /// directions that the camera never saw land inside the picture. Infinite where it never folds.
-double monotonic_radius(const Camera& camera);
+HYPOTRACK_API double monotonic_radius(const Camera& camera);
 
 /// OpenCV's radial (rational) and tangential model on normalised image coordinates; see "Camera
 /// Calibration and 3D Reconstruction" in OpenCV's documentation. T is a scalar or an Eigen array.

@@ -5,6 +5,7 @@
 
 #include "geometry/distortion.hpp"
 #include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 
@@ -25,10 +26,10 @@ struct ReductionPlan {
 
 /// Plain bilinear lookup up to a reduction of 1.15; from there on the lookups of a pixel lie at
 /// most 1.15 image pixels (or blocks) apart, so that every image pixel counts.
-ReductionPlan plan_reduction(double scale);
+HYPOTRACK_API ReductionPlan plan_reduction(double scale);
 
 /// Takes tiles out of one camera's images: lens, rotation, crop and scale in one lookup.
-class Resampler {
+class HYPOTRACK_API Resampler {
  public:
   Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
 
