@@ -1,0 +1,247 @@
+#include "hypotrack/tables.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "hypotrack/error.hpp"
+#include "output/csv.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Which of `names` a column means: the name itself, or the name without its model where that fits
+/// only one.
+std::optional<std::size_t> resolve(std::string_view column, std::span<const std::string> names) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == column) return i;
+    const std::size_t dot = names[i].find('.');
+    if (dot != std::string::npos && std::string_view(names[i]).substr(dot + 1) == column) {
+      if (found) return std::nullopt;
+      found = i;
+    }
+  }
+  return found;
+}
+
+/// For every name its column, -1 where the table has none.
+std::vector<int> columns_of(const CsvTable& table, std::span<const std::string> names) {
+  std::vector<int> columns(names.size(), -1);
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    const auto index = resolve(table.columns()[c], names);
+    // A full name beats one that leaves out the model.
+    if (index && (columns[*index] < 0 || names[*index] == table.columns()[c])) {
+      columns[*index] = static_cast<int>(c);
+    }
+  }
+  return columns;
+}
+
+/// Frame numbers and times of a table, and the order that sorts it by frame.
+struct Timeline {
+  std::vector<int> frames;
+  std::vector<double> times;
+  std::vector<std::size_t> order;
+};
+
+Timeline read_timeline(const CsvTable& table) {
+  const int frame_column = table.find("frame");
+  const int time_column = table.find("time");
+  Timeline timeline;
+  std::map<int, std::size_t> first;
+  for (std::size_t i = 0; i < table.rows().size(); ++i) {
+    const CsvTable::Row& row = table.rows()[i];
+    const int frame = frame_column < 0 ? static_cast<int>(i) : table.frame(row, frame_column);
+    if (const auto [it, is_new] = first.emplace(frame, i); !is_new) {
+      throw DataError(fmt::format("{}: frame {} is there a second time; the first is on line {}",
+                                  table.where(row), frame, table.rows()[it->second].line));
+    }
+    timeline.frames.push_back(frame);
+    const double time = time_column < 0 ? 0.0 : table.number(row, time_column, false);
+    if (!std::isfinite(time)) {
+      throw DataError(
+          fmt::format("{}: the time is {}; expected finite seconds", table.where(row), time));
+    }
+    timeline.times.push_back(time);
+  }
+  for (const auto& [frame, index] : first) timeline.order.push_back(index);
+  return timeline;
+}
+
+struct Triple {
+  int landmark = 0;
+  std::array<int, 3> columns{};
+};
+
+using Renames = std::map<std::string, std::string, std::less<>>;
+
+Renames read_renames(std::span<const std::string> entries, const std::string& file) {
+  Renames renames;
+  for (const std::string& entry : entries) {
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw DataError(fmt::format(
+          "{}: the renaming '{}' is not understood; expected 'name in the table=landmark', or "
+          "'name=' to drop it",
+          file, entry));
+    }
+    renames.emplace(entry.substr(0, equals), entry.substr(equals + 1));
+  }
+  return renames;
+}
+
+std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
+                                 std::span<const std::string> names,
+                                 const LandmarkTableOptions& options) {
+  const Renames renames = read_renames(options.rename, file);
+  const std::vector<std::string> offered(names.begin(), names.end());
+  std::vector<Triple> triples;
+  std::vector<bool> taken(names.size());
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    const std::string column(table.columns()[c]);
+    if (column == "frame" || column == "time") continue;
+    const std::string base = column.substr(0, column.size() < 2 ? 0 : column.size() - 2);
+    const std::array<int, 3> xyz = {table.find(base + "_x"), table.find(base + "_y"),
+                                    table.find(base + "_z")};
+    if (base.empty() || *std::min_element(xyz.begin(), xyz.end()) < 0) {
+      throw DataError(
+          fmt::format("{}: the column '{}' belongs to no landmark; expected frame, time "
+                      "and columns <landmark>_x, _y and _z",
+                      file, column));
+    }
+    if (xyz[0] != static_cast<int>(c)) continue;  // once per triple
+    const auto renamed = renames.find(base);
+    const std::string name = renamed == renames.end() ? base : renamed->second;
+    if (name.empty()) continue;
+    const auto index = resolve(name, names);
+    if (!index) {
+      throw DataError(
+          fmt::format("{}: '{}' is no landmark of the scene{} Rename it ('{}=<landmark>') "
+                      "or drop it ('{}=')",
+                      file, name, did_you_mean(name, offered), base, base));
+    }
+    if (taken[*index]) {
+      throw DataError(fmt::format("{}: the landmark '{}' is there twice", file, names[*index]));
+    }
+    taken[*index] = true;
+    triples.push_back({static_cast<int>(*index), xyz});
+  }
+  return triples;
+}
+
+/// Writes beside the file and moves into place, so that nobody sees half a table.
+void write_whole(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
+  std::ofstream out(partial, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) {
+    std::filesystem::rename(partial, file, error);
+    if (!error) return;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);
+  throw OutputError(fmt::format(
+      "{}: cannot be written{}; check that the folder exists, is writable and has space",
+      file.string(), error ? " (" + error.message() + ")" : std::string()));
+}
+
+}  // namespace
+
+std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene& scene) {
+  const CsvTable table(file);
+  std::vector<std::string> names;
+  for (const Parameter& p : scene.parameters()) names.push_back(p.name);
+  const std::vector<int> columns = columns_of(table, names);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (columns[i] >= 0) continue;
+    const std::vector<std::string> offered(table.columns().begin(), table.columns().end());
+    throw DataError(fmt::format(
+        "{}: has no column '{}'{} A table of states has one column for each of the scene's {} "
+        "parameters",
+        file.string(), names[i], did_you_mean(names[i], offered), names.size()));
+  }
+  const Timeline timeline = read_timeline(table);
+  std::vector<StateRow> rows;
+  for (const std::size_t i : timeline.order) {
+    StateRow row{timeline.frames[i], timeline.times[i], Eigen::VectorXd(scene.dimension())};
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const double value = table.number(table.rows()[i], columns[k], false);
+      if (!std::isfinite(value)) {
+        throw DataError(fmt::format("{}: '{}' is {}; expected a finite number",
+                                    table.where(table.rows()[i]), names[k], value));
+      }
+      row.state[static_cast<Eigen::Index>(k)] = value;
+    }
+    scene.normalize(row.state);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
+                                        std::span<const std::string> landmark_names,
+                                        const LandmarkTableOptions& options) {
+  const CsvTable table(file);
+  const std::vector<Triple> triples = find_triples(table, file.string(), landmark_names, options);
+  const Timeline timeline = read_timeline(table);
+  std::vector<LandmarkRow> rows;
+  for (const std::size_t i : timeline.order) {
+    LandmarkRow row{timeline.frames[i], timeline.times[i], {}};
+    row.landmarks.setConstant(3, static_cast<Eigen::Index>(landmark_names.size()),
+                              std::numeric_limits<double>::quiet_NaN());
+    for (const Triple& triple : triples) {
+      Eigen::Vector3d p;
+      for (int k = 0; k < 3; ++k) {
+        p[k] = table.number(table.rows()[i], triple.columns[static_cast<std::size_t>(k)], true);
+      }
+      if (p.array().isInf().any()) {
+        throw DataError(fmt::format("{}: '{}' is infinite; expected numbers, or nan where unknown",
+                                    table.where(table.rows()[i]),
+                                    landmark_names[static_cast<std::size_t>(triple.landmark)]));
+      }
+      if (p.allFinite()) row.landmarks.col(triple.landmark) = options.metres_per_unit * p;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+void write_states(const std::filesystem::path& file, const Scene& scene,
+                  std::span<const StateRow> rows) {
+  std::string text = "frame,time";
+  for (const Parameter& p : scene.parameters()) text += "," + p.name;
+  text += '\n';
+  for (const StateRow& row : rows) {
+    text += fmt::format("{},{}", row.frame, row.time);
+    for (const double value : row.state) text += fmt::format(",{}", value);
+    text += '\n';
+  }
+  write_whole(file, text);
+}
+
+void write_landmarks(const std::filesystem::path& file, std::span<const std::string> landmark_names,
+                     std::span<const LandmarkRow> rows) {
+  std::string text = "frame,time";
+  for (const std::string& name : landmark_names) text += fmt::format(",{0}_x,{0}_y,{0}_z", name);
+  text += '\n';
+  for (const LandmarkRow& row : rows) {
+    text += fmt::format("{},{}", row.frame, row.time);
+    for (Eigen::Index i = 0; i < row.landmarks.size(); ++i) {
+      text += fmt::format(",{}", row.landmarks.data()[i]);
+    }
+    text += '\n';
+  }
+  write_whole(file, text);
+}
+
+}  // namespace hypotrack
