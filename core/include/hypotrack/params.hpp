@@ -89,7 +89,9 @@ class HYPOTRACK_API ParamVisitor {
   virtual bool enter_section(std::string_view key, const ParamInfo& info) = 0;
   virtual void leave_section() = 0;
   virtual std::size_t enter_list(std::string_view key, std::size_t size, const ParamInfo& info) = 0;
-  virtual void enter_item(std::size_t index) = 0;
+  /// Whether the item starts from its struct's defaults (a reader does not mix list items with
+  /// those of a default list).
+  virtual bool enter_item(std::size_t index) = 0;
   virtual void leave_item() = 0;
   virtual void leave_list() = 0;
   // Optional scalars: whether the value is to be visited (a reader: the key is there; a dump: it
@@ -152,6 +154,11 @@ template <class T>
 inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
+/// Eigen's types have a `visit`, too, and are no structs of parameters.
+template <class T>
+inline constexpr bool is_eigen = requires {
+  T::SizeAtCompileTime;
+};
 }  // namespace detail
 
 template <class T>
@@ -189,21 +196,22 @@ void ParamVisitor::operator()(std::string_view key, T& value, const ParamInfo& i
   } else if constexpr (detail::is_vector<T>) {
     value.resize(enter_list(key, value.size(), info));
     for (std::size_t i = 0; i < value.size(); ++i) {
-      enter_item(i);
+      if (enter_item(i)) value[i] = typename T::value_type{};
       value[i].visit(*this);
       leave_item();
     }
     leave_list();
-  } else if constexpr (ParamStruct<T>) {
-    if (enter_section(key, info)) {
-      value.visit(*this);
-      leave_section();
-    }
-  } else {
+  } else if constexpr (detail::is_eigen<T>) {
     static_assert(T::SizeAtCompileTime > 0, "fixed-size Eigen vectors of double only");
     std::vector<double> items(value.data(), value.data() + value.size());
     on_doubles(key, items, static_cast<std::size_t>(T::SizeAtCompileTime), info);
     value = Eigen::Map<const T>(items.data());
+  } else {
+    static_assert(ParamStruct<T>, "no type that a parameter can have");
+    if (enter_section(key, info)) {
+      value.visit(*this);
+      leave_section();
+    }
   }
 }
 

@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "config/overrides.hpp"
+#include "config/yaml_node.hpp"
+#include "config/yaml_reader.hpp"
+#include "config/yaml_text.hpp"
+#include "config/yaml_writer.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+
+using detail::YamlNode;
+using detail::YamlOrigin;
+
+namespace {
+
+std::string read_file(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file)) {
+    throw ConfigError(file.string() + ": is a folder; expected a YAML file");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
+                                  std::generic_category().message(errno)));
+  }
+  // One byte more than allowed is enough to know that there is too much.
+  std::string text(detail::kMaxYamlBytes + 4, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (in.bad()) throw ConfigError(file.string() + ": cannot be read");
+  return text;
+}
+
+/// Reads a document and makes a map of an empty one, so that readers name the keys it lacks.
+std::unique_ptr<YamlNode> read_document(std::string_view text, std::string name,
+                                        const std::filesystem::path& directory) {
+  auto origin = std::make_shared<YamlOrigin>();
+  origin->name = std::move(name);
+  origin->directory =
+      std::filesystem::absolute(directory.empty() ? std::filesystem::current_path() : directory);
+  auto root = detail::read_yaml(text, origin);
+  if (root->kind == YamlNode::Kind::kNull) root->kind = YamlNode::Kind::kMap;
+  return root;
+}
+
+std::string step_of(const YamlNode& node) {
+  const auto& siblings = node.parent->entries;
+  const auto self = std::find_if(siblings.begin(), siblings.end(),
+                                 [&](const auto& entry) { return entry.value.get() == &node; });
+  if (node.parent->kind == YamlNode::Kind::kMap) return self->key;
+  return std::to_string(self - siblings.begin());
+}
+
+std::string join_path(const std::string& head, const std::string& tail) {
+  return head.empty() || tail.empty() ? head + tail : head + "." + tail;
+}
+
+}  // namespace
+
+ConfigNode::ConfigNode() = default;
+ConfigNode::ConfigNode(std::shared_ptr<const YamlNode> node) : node_(std::move(node)) {}
+
+ConfigNode ConfigNode::load(const std::filesystem::path& file,
+                            std::span<const std::string> overrides) {
+  auto root =
+      read_document(read_file(file), file.string(), std::filesystem::absolute(file).parent_path());
+  for (const std::string& assignment : overrides) detail::apply_override(*root, assignment);
+  return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
+}
+
+ConfigNode ConfigNode::parse(std::string_view text, std::string name,
+                             std::filesystem::path directory) {
+  return ConfigNode(
+      std::shared_ptr<const YamlNode>(read_document(text, std::move(name), directory)));
+}
+
+bool ConfigNode::defined() const { return node_ && !missing_; }
+bool ConfigNode::is_map() const { return defined() && node_->kind == YamlNode::Kind::kMap; }
+bool ConfigNode::is_list() const { return defined() && node_->kind == YamlNode::Kind::kList; }
+bool ConfigNode::is_scalar() const { return defined() && !is_map() && !is_list(); }
+bool ConfigNode::is_null() const { return defined() && node_->kind == YamlNode::Kind::kNull; }
+bool ConfigNode::is_plain() const { return is_scalar() && node_->plain; }
+
+std::size_t ConfigNode::size() const { return defined() ? node_->entries.size() : 0; }
+
+std::vector<std::string> ConfigNode::keys() const {
+  std::vector<std::string> keys;
+  if (!is_map()) return keys;
+  for (const auto& entry : node_->entries) keys.push_back(entry.key);
+  return keys;
+}
+
+ConfigNode ConfigNode::missing(std::string_view step) const {
+  ConfigNode absent = *this;
+  absent.missing_ = missing_ ? join_path(*missing_, std::string(step)) : std::string(step);
+  return absent;
+}
+
+ConfigNode ConfigNode::get(std::string_view key) const {
+  const auto* entry = is_map() ? node_->find(key) : nullptr;
+  if (!entry) return missing(key);
+  return ConfigNode(std::shared_ptr<const YamlNode>(node_, entry->value.get()));
+}
+
+ConfigNode ConfigNode::at(std::size_t index) const {
+  if (!is_list() || index >= node_->entries.size()) return missing(std::to_string(index));
+  return ConfigNode(std::shared_ptr<const YamlNode>(node_, node_->entries[index].value.get()));
+}
+
+const std::string& ConfigNode::scalar() const {
+  static const std::string empty;
+  return is_scalar() ? node_->text : empty;
+}
+
+std::string ConfigNode::where() const {
+  if (!node_) return "(nowhere)";
+  return detail::describe_position(*node_->origin, node_->line, node_->column);
+}
+
+std::string ConfigNode::where_key(std::string_view key) const {
+  const auto* entry = is_map() ? node_->find(key) : nullptr;
+  if (!entry) return where();
+  return detail::describe_position(*entry->value->origin, entry->line, entry->column);
+}
+
+std::string ConfigNode::path() const {
+  std::string path = missing_.value_or("");
+  for (const YamlNode* node = node_.get(); node && node->parent; node = node->parent) {
+    path = join_path(step_of(*node), path);
+  }
+  return path;
+}
+
+const std::filesystem::path& ConfigNode::directory() const {
+  static const std::filesystem::path none;
+  return node_ ? node_->origin->directory : none;
+}
+
+std::string ConfigNode::to_yaml() const { return defined() ? detail::write_yaml(*node_) : ""; }
+
+}  // namespace hypotrack

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace hypotrack::detail {
+
+/// The file or `--set` that nodes come from.
+struct YamlOrigin {
+  std::string name;
+  std::filesystem::path directory;  ///< absolute; what relative paths refer to
+  bool is_override = false;         ///< has no lines: the name says it all
+};
+
+/// One value of a document. Parents own their children; a document is owned by its root.
+struct YamlNode {
+  enum class Kind { kNull, kScalar, kList, kMap };
+
+  struct Entry {
+    std::string key;  ///< empty in lists
+    int line = 1;     ///< of the key
+    int column = 1;
+    std::unique_ptr<YamlNode> value;
+  };
+
+  Kind kind = Kind::kNull;
+  bool plain = true;  ///< written without quotes
+  int line = 1;       ///< from 1
+  int column = 1;     ///< from 1, in characters
+  const YamlNode* parent = nullptr;
+  std::shared_ptr<const YamlOrigin> origin;
+  std::string text = "null";  ///< of scalars
+  std::vector<Entry> entries;
+
+  const Entry* find(std::string_view key) const {
+    for (const Entry& entry : entries) {
+      if (kind == Kind::kMap && entry.key == key) return &entry;
+    }
+    return nullptr;
+  }
+
+  /// Appends a child and returns it.
+  YamlNode& add(std::string key, std::unique_ptr<YamlNode> value) {
+    value->parent = this;
+    entries.push_back({std::move(key), value->line, value->column, std::move(value)});
+    return *entries.back().value;
+  }
+};
+
+inline constexpr std::size_t kMaxYamlBytes = std::size_t{8} << 20;
+inline constexpr std::size_t kMaxYamlNodes = 1'000'000;
+inline constexpr std::size_t kMaxYamlDepth = 64;
+
+}  // namespace hypotrack::detail

@@ -1,0 +1,84 @@
+#include "config/yaml_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::detail {
+namespace {
+
+/// Length of the UTF-8 sequence at the start of `rest`, 0 if it is none.
+std::size_t utf8_length(std::string_view rest) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
+  if (byte(0) < 0x80) return 1;
+  const std::size_t length = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : 2;
+  if (byte(0) < 0xC2 || byte(0) > 0xF4 || rest.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return 0;
+  }
+  const bool overlong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xF0 && byte(1) < 0x90);
+  const bool outside = (byte(0) == 0xED && byte(1) > 0x9F) || (byte(0) == 0xF4 && byte(1) > 0x8F);
+  return overlong || outside ? 0 : length;
+}
+
+bool is_control(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
+}
+
+}  // namespace
+
+std::string describe_position(const YamlOrigin& origin, int line, int column) {
+  if (origin.is_override) return origin.name;
+  return fmt::format("{}:{}:{}", origin.name, line, column);
+}
+
+YamlText::YamlText(std::string_view text, const YamlOrigin& origin) : text_(text) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  if (text_.size() > kMaxYamlBytes) {
+    throw ConfigError(fmt::format("{}: is larger than {} MiB, which no scene needs", origin.name,
+                                  kMaxYamlBytes >> 20));
+  }
+  line_starts_.push_back(0);
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    if (text_[i] == '\n') line_starts_.push_back(i + 1);
+  }
+  check(origin);
+}
+
+YamlText::Position YamlText::position(int line, int byte) const {
+  const auto index = std::min(static_cast<std::size_t>(std::max(line, 0)), line_starts_.size() - 1);
+  const std::size_t begin = line_starts_[index];
+  const std::string_view before = text_.substr(begin, static_cast<std::size_t>(std::max(byte, 0)));
+  const auto characters = std::count_if(before.begin(), before.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  });
+  return {static_cast<int>(index) + 1, static_cast<int>(characters) + 1};
+}
+
+std::string_view YamlText::from(int line, int byte) const {
+  const auto index = std::min(static_cast<std::size_t>(std::max(line, 0)), line_starts_.size() - 1);
+  const auto begin = line_starts_[index] + static_cast<std::size_t>(std::max(byte, 0));
+  return text_.substr(std::min(begin, text_.size()));
+}
+
+void YamlText::check(const YamlOrigin& origin) const {
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < text_.size();) {
+    if (line + 1 < line_starts_.size() && i >= line_starts_[line + 1]) ++line;
+    const std::size_t length = utf8_length(text_.substr(i));
+    if (length == 0 || is_control(text_[i])) {
+      const Position at =
+          position(static_cast<int>(line), static_cast<int>(i - line_starts_[line]));
+      throw ConfigError(fmt::format(
+          "{}: {} 0x{:02X}; a scene is UTF-8 text", describe_position(origin, at.line, at.column),
+          length == 0 ? "no UTF-8: found byte" : "found the control character",
+          static_cast<unsigned char>(text_[i])));
+    }
+    i += length;
+  }
+}
+
+}  // namespace hypotrack::detail

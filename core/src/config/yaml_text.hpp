@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "config/yaml_node.hpp"
+
+namespace hypotrack::detail {
+
+/// `scene.yaml:12:5`, or just the name of an override.
+std::string describe_position(const YamlOrigin& origin, int line, int column);
+
+/// A text and where its lines begin, to turn the parser's byte columns into what editors show.
+class YamlText {
+ public:
+  /// Skips a byte order mark. Throws ConfigError on texts over 8 MiB, invalid UTF-8 and control
+  /// characters (yaml-cpp takes U+0004 for the end of the text).
+  YamlText(std::string_view text, const YamlOrigin& origin);
+
+  std::string_view text() const { return text_; }
+
+  struct Position {
+    int line;
+    int column;
+  };
+  /// 1-based position in characters of a 0-based line and byte.
+  Position position(int line, int byte) const;
+  /// The text from a 0-based line and byte on.
+  std::string_view from(int line, int byte) const;
+
+ private:
+  void check(const YamlOrigin& origin) const;
+
+  std::string_view text_;
+  std::vector<std::size_t> line_starts_;
+};
+
+}  // namespace hypotrack::detail

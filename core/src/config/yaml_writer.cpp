@@ -1,0 +1,109 @@
+#include "config/yaml_writer.hpp"
+
+#include <yaml-cpp/emitter.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace hypotrack::detail {
+namespace {
+
+bool is_word_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) ||
+         std::string_view("_./+-").find(c) != std::string_view::npos;
+}
+
+/// Words that YAML 1.1 or 1.2 readers take for a bool, null or number.
+bool is_reserved(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  static constexpr std::array kWords = {"true", "false", "yes",  "no",  "on", "off",
+                                        "y",    "n",     "null", "nan", "inf"};
+  return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
+}
+
+/// Whether a text may stand without quotes and still be read as the same text.
+bool needs_no_quotes(const YamlNode& node) {
+  const std::string& text = node.text;
+  if (text.empty() || !std::all_of(text.begin(), text.end(), is_word_character)) return false;
+  if (text.starts_with("---") || text.starts_with("...") || text == "-") return false;
+  if (node.plain) return true;
+  const char first = text.front();
+  return (std::isalpha(static_cast<unsigned char>(first)) || first == '_' || first == '/') &&
+         !is_reserved(text);
+}
+
+void emit_text(YAML::Emitter& out, const YamlNode& node) {
+  if (!needs_no_quotes(node)) out << YAML::DoubleQuoted;
+  out << node.text;
+}
+
+void emit(YAML::Emitter& out, const YamlNode& node) {
+  switch (node.kind) {
+    case YamlNode::Kind::kNull:
+      out << YAML::Null;
+      break;
+    case YamlNode::Kind::kScalar:
+      emit_text(out, node);
+      break;
+    case YamlNode::Kind::kList: {
+      const bool flat = std::all_of(node.entries.begin(), node.entries.end(), [](const auto& e) {
+        return e.value->kind == YamlNode::Kind::kScalar || e.value->kind == YamlNode::Kind::kNull;
+      });
+      out << (flat ? YAML::Flow : YAML::Block) << YAML::BeginSeq;
+      for (const auto& entry : node.entries) emit(out, *entry.value);
+      out << YAML::EndSeq;
+      break;
+    }
+    case YamlNode::Kind::kMap:
+      out << YAML::Block << YAML::BeginMap;
+      for (const auto& entry : node.entries) {
+        YamlNode key;
+        key.text = entry.key;
+        key.plain = false;
+        out << YAML::Key;
+        emit_text(out, key);
+        out << YAML::Value;
+        emit(out, *entry.value);
+      }
+      out << YAML::EndMap;
+      break;
+  }
+}
+
+}  // namespace
+
+std::string write_yaml(const YamlNode& node) {
+  YAML::Emitter out;
+  out.SetNullFormat(YAML::LowerNull);
+  emit(out, node);
+  return std::string(out.c_str(), out.size()) + "\n";
+}
+
+std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain) {
+  auto node = std::make_unique<YamlNode>();
+  node->kind = YamlNode::Kind::kScalar;
+  node->text = std::move(text);
+  node->plain = plain;
+  return node;
+}
+
+std::unique_ptr<YamlNode> clone(const YamlNode& node) {
+  auto copy = std::make_unique<YamlNode>();
+  copy->kind = node.kind;
+  copy->plain = node.plain;
+  copy->line = node.line;
+  copy->column = node.column;
+  copy->origin = node.origin;
+  copy->text = node.text;
+  for (const auto& entry : node.entries) {
+    copy->add(entry.key, clone(*entry.value));
+    copy->entries.back().line = entry.line;
+    copy->entries.back().column = entry.column;
+  }
+  return copy;
+}
+
+}  // namespace hypotrack::detail

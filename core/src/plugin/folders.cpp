@@ -1,0 +1,91 @@
+#include "plugin/folders.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace detail {
+namespace {
+
+constexpr const char* kPluginPathVariable = "HYPOTRACK_PLUGIN_PATH";
+constexpr const char* kDataPathVariable = "HYPOTRACK_DATA_PATH";
+
+void add_once(std::vector<std::filesystem::path>& folders, std::filesystem::path folder) {
+  folder = folder.lexically_normal();
+  if (!folder.has_filename()) folder = folder.parent_path();  // a trailing slash
+  if (std::find(folders.begin(), folders.end(), folder) == folders.end()) {
+    folders.push_back(std::move(folder));
+  }
+}
+
+void add_from_environment(std::vector<std::filesystem::path>& folders) {
+  const char* value = std::getenv(kPluginPathVariable);
+  std::string_view rest = value ? value : "";
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const std::filesystem::path folder(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (folder.empty()) continue;
+    if (folder.is_relative()) {
+      throw PluginError(fmt::format(
+          "{}: '{}' is a relative path, so that what is loaded would depend on the working "
+          "directory; expected absolute folders with ':' between them",
+          kPluginPathVariable, folder.string()));
+    }
+    add_once(folders, folder);
+  }
+}
+
+}  // namespace
+
+std::filesystem::path prefix_folder() {
+  static const std::filesystem::path prefix = [] {
+    Dl_info info{};
+    if (!dladdr(reinterpret_cast<const void*>(&prefix_folder), &info) || !info.dli_fname) {
+      throw PluginError("cannot find out where libhypotrack.so lies; set HYPOTRACK_PLUGIN_PATH");
+    }
+    std::filesystem::path folder = std::filesystem::canonical(info.dli_fname).parent_path();
+    for ([[maybe_unused]] const auto& part : std::filesystem::path(HYPOTRACK_LIBDIR)) {
+      folder = folder.parent_path();
+    }
+    return folder;
+  }();
+  return prefix;
+}
+
+std::vector<std::filesystem::path> plugin_search_path(
+    const std::vector<std::filesystem::path>& extra) {
+  std::vector<std::filesystem::path> folders;
+  for (const auto& folder : extra) {
+    if (!folder.empty()) add_once(folders, std::filesystem::absolute(folder));
+  }
+  add_from_environment(folders);
+  add_once(folders, prefix_folder() / HYPOTRACK_PLUGIN_DIR);
+  return folders;
+}
+
+}  // namespace detail
+
+std::filesystem::path data_file(const std::filesystem::path& relative) {
+  const char* variable = std::getenv(detail::kDataPathVariable);
+  const bool chosen = variable && *variable;
+  const std::filesystem::path folder =
+      chosen ? std::filesystem::absolute(variable) : detail::prefix_folder() / HYPOTRACK_DATA_DIR;
+  const std::filesystem::path file = (folder / relative).lexically_normal();
+  if (std::filesystem::exists(file)) return file;
+  throw DataError(fmt::format(
+      "{}: there is no such file; it comes with hypotrack. {}", file.string(),
+      chosen ? fmt::format("{} says to look there", detail::kDataPathVariable)
+             : fmt::format("Build or install hypotrack completely, or set {} to the folder that "
+                           "holds '{}'",
+                           detail::kDataPathVariable, relative.string())));
+}
+
+}  // namespace hypotrack

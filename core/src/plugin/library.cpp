@@ -1,0 +1,153 @@
+#include "plugin/library.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::detail {
+namespace {
+
+constexpr std::string_view kFilePrefix = "libhypotrack_";
+constexpr std::string_view kFileSuffix = ".so";
+
+std::string_view text_of(const char* text) { return text ? text : "(null)"; }
+
+/// A magic number as text, whatever is in it.
+std::string printable(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes) {
+    if (c >= 0x20 && c < 0x7F) {
+      text += c;
+    } else {
+      text += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+  }
+  return text;
+}
+
+std::vector<std::string_view> split_tag(std::string_view tag) {
+  std::vector<std::string_view> parts;
+  while (!tag.empty()) {
+    const std::size_t end = std::min(tag.find(", "), tag.size());
+    parts.push_back(tag.substr(0, end));
+    tag.remove_prefix(std::min(end + 2, tag.size()));
+  }
+  return parts;
+}
+
+/// The parts of the plugin's tag that hypotrack's does not have, or the other way round.
+std::string tag_difference(std::string_view theirs, std::string_view ours) {
+  const auto missing_from = [](std::string_view these, std::string_view others) {
+    const auto known = split_tag(others);
+    auto parts = split_tag(these);
+    std::erase_if(parts, [&](auto part) {
+      return std::find(known.begin(), known.end(), part) != known.end();
+    });
+    return fmt::format("{}", fmt::join(parts, ", "));
+  };
+  return fmt::format("the plugin has '{}' where this hypotrack has '{}'",
+                     missing_from(theirs, ours), missing_from(ours, theirs));
+}
+
+}  // namespace
+
+std::string library_file_name(std::string_view kind, std::string_view name) {
+  return fmt::format("{}{}_{}{}", kFilePrefix, kind, name, kFileSuffix);
+}
+
+bool is_plugin_name(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
+std::optional<PluginId> id_from_file_name(const std::filesystem::path& file) {
+  const std::string full = file.filename().string();
+  std::string_view text = full;
+  if (!text.starts_with(kFilePrefix) || !text.ends_with(kFileSuffix)) return std::nullopt;
+  if (text.size() < kFilePrefix.size() + kFileSuffix.size()) return std::nullopt;
+  text.remove_prefix(kFilePrefix.size());
+  text.remove_suffix(kFileSuffix.size());
+  for (const std::string_view kind : kPluginKinds) {
+    if (!text.starts_with(kind) || text.substr(kind.size()).substr(0, 1) != "_") continue;
+    const std::string_view name = text.substr(kind.size() + 1);
+    if (is_plugin_name(name)) return PluginId{std::string(kind), std::string(name)};
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> plugin_names(std::string_view kind,
+                                      std::span<const std::filesystem::path> search_path) {
+  std::set<std::string> names;
+  for (const auto& folder : search_path) {
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+      const auto id = id_from_file_name(entry.path());
+      if (id && id->kind == kind) names.insert(id->name);
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+const HypotrackPlugin* open_library(const std::filesystem::path& file) {
+  // An absolute path, so that the dynamic linker searches nowhere. NODELETE and no dlclose: types
+  // and exceptions of a plugin may live as long as the process does.
+  const std::string path = std::filesystem::absolute(file).string();
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (!library) {
+    throw PluginError(fmt::format("{}: cannot be loaded: {}", path, text_of(dlerror())));
+  }
+  void* symbol = dlsym(library, kPluginEntry);
+  if (!symbol) {
+    throw PluginError(
+        fmt::format("{}: is no hypotrack plugin: it has no function {}(). Expected a library with "
+                    "one HYPOTRACK_PLUGIN(...)",
+                    path, kPluginEntry));
+  }
+  const auto* plugin = reinterpret_cast<const HypotrackPlugin* (*)()>(symbol)();
+  if (!plugin) throw PluginError(fmt::format("{}: {}() returned null", path, kPluginEntry));
+  return plugin;
+}
+
+std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expected) {
+  const std::string_view magic(plugin.magic, sizeof(plugin.magic));
+  if (magic != kPluginMagic) {
+    return fmt::format("is no hypotrack plugin: its descriptor begins with '{}', expected '{}'",
+                       printable(magic), kPluginMagic);
+  }
+  if (plugin.abi_version != kAbiVersion) {
+    return fmt::format(
+        "was built for plugin ABI version {}, this hypotrack has {}; build it again with this "
+        "hypotrack's headers",
+        plugin.abi_version, kAbiVersion);
+  }
+  if (plugin.struct_size < sizeof(HypotrackPlugin)) {
+    return fmt::format(
+        "its descriptor has {} bytes, this hypotrack needs {}; build it again with this "
+        "hypotrack's headers",
+        plugin.struct_size, sizeof(HypotrackPlugin));
+  }
+  if (text_of(plugin.build_tag) != kBuildTag) {
+    return fmt::format(
+        "was built differently: {}; build both with the same compiler, options and libraries. "
+        "Plugin: '{}'. This hypotrack: '{}'",
+        tag_difference(text_of(plugin.build_tag), kBuildTag), text_of(plugin.build_tag), kBuildTag);
+  }
+  if (text_of(plugin.kind) != expected.kind || text_of(plugin.name) != expected.name) {
+    return fmt::format("says it is the {} '{}', its file name says the {} '{}'",
+                       text_of(plugin.kind), text_of(plugin.name), expected.kind, expected.name);
+  }
+  if (!plugin.create || !plugin.describe || !plugin.version || !plugin.summary || !plugin.licence ||
+      !plugin.capabilities) {
+    return "its descriptor has empty members; fill it in with HYPOTRACK_PLUGIN(...)";
+  }
+  return "";
+}
+
+}  // namespace hypotrack::detail

@@ -1,0 +1,155 @@
+#include <cxxabi.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cstdlib>
+#include <map>
+#include <mutex>
+#include <typeinfo>
+
+#include "config/suggest.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+#include "plugin/folders.hpp"
+#include "plugin/library.hpp"
+
+namespace hypotrack {
+namespace {
+
+[[noreturn]] void fail(const ConfigNode& node, std::string_view problem) {
+  const std::string path = node.path();
+  throw ConfigError(path.empty() ? fmt::format("{}: {}", node.where(), problem)
+                                 : fmt::format("{}: {}: {}", node.where(), path, problem));
+}
+
+/// The plugin that a node names.
+std::string type_of(std::string_view kind, const ConfigNode& config) {
+  if (!config.is_map()) {
+    fail(config, fmt::format("{}; expected a map with `type: NAME`, the {} to use",
+                             config.defined() ? "is no map" : "is missing", kind));
+  }
+  const ConfigNode type = config.get("type");
+  if (!type.defined()) fail(type, fmt::format("is missing; it names the {} to use", kind));
+  if (!type.is_scalar() || type.is_null()) {
+    fail(type, fmt::format("expected the name of the {} to use", kind));
+  }
+  if (!detail::is_plugin_name(type.scalar())) {
+    fail(type, fmt::format("'{}' cannot be the name of a plugin; expected small letters, digits "
+                           "and '_'",
+                           type.scalar()));
+  }
+  return type.scalar();
+}
+
+std::string join_paths(const std::vector<std::filesystem::path>& paths) {
+  std::vector<std::string> texts;
+  for (const auto& path : paths) texts.push_back(path.string());
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+/// The name of the type of the exception being handled: `int`.
+std::string current_exception_name() {
+  const std::type_info* type = abi::__cxa_current_exception_type();
+  if (!type) return "an unknown type";
+  int status = 0;
+  char* readable = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
+  const std::string name = status == 0 ? readable : type->name();
+  std::free(readable);
+  return name;
+}
+
+/// Runs a plugin's factory; whatever else than an Error it throws becomes a PluginError.
+void* create(const HypotrackPlugin& plugin, PluginContext& context) {
+  const std::string who =
+      fmt::format("{}: {} '{}'", context.config().where(), plugin.kind, plugin.name);
+  void* object = nullptr;
+  try {
+    object = plugin.create(context);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw PluginError(fmt::format("{}: could not be made: its constructor threw {}: {}", who,
+                                  current_exception_name(), e.what()));
+  } catch (...) {
+    throw PluginError(
+        fmt::format("{}: could not be made: its constructor threw {}, which is no std::exception",
+                    who, current_exception_name()));
+  }
+  if (!object)
+    throw PluginError(fmt::format("{}: could not be made: its factory returned null", who));
+  return object;
+}
+
+}  // namespace
+
+struct PluginLoader::Impl {
+  std::vector<std::filesystem::path> search_path;
+  std::mutex mutex;
+  std::map<std::string, const HypotrackPlugin*> open;  ///< by file
+
+  std::filesystem::path find(std::string_view kind, const std::string& name,
+                             const ConfigNode& type) const {
+    for (const auto& folder : search_path) {
+      auto file = folder / detail::library_file_name(kind, name);
+      if (std::filesystem::exists(file)) return file;
+    }
+    const auto names = detail::plugin_names(kind, search_path);
+    throw PluginError(fmt::format(
+        "{}: {}: there is no {} '{}'{} {}. Searched for {} in {}", type.where(), type.path(), kind,
+        name, names.empty() ? "" : detail::did_you_mean(name, names) + " There are:",
+        names.empty() ? fmt::format("and no other {} either", kind)
+                      : fmt::format("{}", fmt::join(names, ", ")),
+        detail::library_file_name(kind, name), join_paths(search_path)));
+  }
+
+  const HypotrackPlugin& get(std::string_view kind, const std::string& name,
+                             const ConfigNode& type) {
+    const std::filesystem::path file = find(kind, name, type);
+    const std::lock_guard lock(mutex);
+    const HypotrackPlugin*& plugin = open[file.string()];
+    if (plugin) return *plugin;
+    const HypotrackPlugin* opened = detail::open_library(file);
+    const std::string mismatch = detail::find_mismatch(*opened, {std::string(kind), name});
+    if (!mismatch.empty()) throw PluginError(fmt::format("{}: {}", file.string(), mismatch));
+    plugin = opened;
+    return *plugin;
+  }
+};
+
+PluginLoader::PluginLoader(std::vector<std::filesystem::path> extra)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->search_path = detail::plugin_search_path(extra);
+}
+PluginLoader::~PluginLoader() = default;
+
+const std::vector<std::filesystem::path>& PluginLoader::search_path() const {
+  return impl_->search_path;
+}
+
+void* PluginLoader::make_object(std::string_view kind, const ConfigNode& config, const Scene* scene,
+                                std::vector<std::string> also_allowed, std::string* resolved) {
+  const std::string name = type_of(kind, config);
+  const HypotrackPlugin& plugin = impl_->get(kind, name, config.get("type"));
+  also_allowed.insert(also_allowed.begin(), "type");
+  PluginContext context(config, scene, *this, std::move(also_allowed));
+  void* object = create(plugin, context);
+  if (resolved) *resolved = fmt::format("type: {}\n{}", name, context.resolved());
+  return object;
+}
+
+PluginContext::PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
+                             std::vector<std::string> also_allowed)
+    : config_(std::move(config)),
+      scene_(scene),
+      plugins_(&plugins),
+      also_allowed_(std::move(also_allowed)) {}
+
+const Scene& PluginContext::scene() const {
+  if (!scene_) {
+    throw PluginError(config_.where() +
+                      ": the plugin asks for the scene, which exists only once all models do");
+  }
+  return *scene_;
+}
+
+}  // namespace hypotrack
