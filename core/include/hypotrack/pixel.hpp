@@ -1,0 +1,122 @@
+#ifndef HYPOTRACK_PIXEL_HPP_  // no #pragma once: the last lines are for every inclusion
+#define HYPOTRACK_PIXEL_HPP_
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+/// The vocabulary of per-pixel functions. Such a function is written once, as a template over the
+/// type of a lane, and compiled for
+///   float   one pixel at a time: plain C++ and, under nvcc, device code;
+///   Lanes   a whole SIMD vector of pixels (hypotrack/simd-inl.hpp), once per instruction set.
+/// The vocabulary is the same for both: + - * /, comparisons (they yield a mask: bool or LaneMask),
+/// && || ! on masks, and min, max, abs, sqrt, floor, round, exp, mul_add and select. There are no
+/// branches on lanes: say `select(mask, a, b)`. Masks do not short-circuit.
+///
+/// A header with per-pixel functions looks like this (my_term-inl.hpp). In sources that use
+/// Highway's foreach_target (simd-inl.hpp) it is compiled for vectors, once per instruction set;
+/// in all others, CUDA's among them, for float.
+///
+///   #if defined(MY_TERM_INL_HPP_) == defined(HWY_TARGET_TOGGLE)  // once per instruction set
+///   #ifdef MY_TERM_INL_HPP_
+///   #undef MY_TERM_INL_HPP_
+///   #else
+///   #define MY_TERM_INL_HPP_
+///   #endif
+///   #include "hypotrack/pixel.hpp"
+///   HYPOTRACK_PIXEL_BEGIN();
+///   namespace my::HYPOTRACK_TARGET {
+///   template <class F>
+///   HYPOTRACK_PIXEL F closeness(F a, F b) {
+///     using hypotrack::pixel::abs;  // the scalar one; that of Lanes is found by its argument
+///     using hypotrack::pixel::exp;
+///     return exp(F(0) - abs(a - b));
+///   }
+///   }  // namespace my::HYPOTRACK_TARGET
+///   HYPOTRACK_PIXEL_END();
+///   #endif
+///
+/// This header knows neither Eigen nor OpenCV nor Highway, so that CUDA code can include it.
+
+/// Before every per-pixel function.
+#if defined(__CUDACC__)
+#define HYPOTRACK_PIXEL __host__ __device__ __forceinline__
+#else
+#define HYPOTRACK_PIXEL inline __attribute__((always_inline))
+#endif
+
+/// Around per-pixel functions, and the namespace they live in. simd-inl.hpp redefines the three, so
+/// that each instruction set gets its own copy of the functions.
+#ifndef HYPOTRACK_TARGET
+#define HYPOTRACK_TARGET scalar
+#define HYPOTRACK_PIXEL_BEGIN() static_assert(true, "")
+#define HYPOTRACK_PIXEL_END() static_assert(true, "")
+#endif
+
+namespace hypotrack {
+
+/// How a pixel of one view, with the inverse depth rendered there, lands in another. With
+/// p = (x, y, 1) and w = 1/z:
+///   q = a2 . p + b2 w,   u = (a0 . p + b0 w) / q,   v = (a1 . p + b1 w) / q,   1/z_other = w / q
+/// where A = K_to R K_from^-1 and b = K_to t for to_from = (R, t). For a rectified pair R = 1 and
+/// t = (t_x, 0, 0), so that q = 1, v = y, u = x + a[0][2] + b0 w: linear in 1/z, same row.
+struct StereoMap {
+  float a[3][3];
+  float b[3];
+  int width;  ///< of the other view's tile, pixels
+  int height;
+  bool rectified;
+};
+
+namespace pixel {
+
+// exp(x) = 2^n exp(r), n = round(x / ln 2), |r| <= ln 2 / 2, exp(r) by its Taylor polynomial of
+// degree 6 with the last coefficient adjusted to the interval: relative error below 3e-7. All lane
+// types share these numbers and the order of operations, so they agree up to rounding.
+inline constexpr float kExpLowest = -87.0f;  // below, exp() is exp(-87) = 1.6e-38
+inline constexpr float kExpHighest = 88.0f;
+inline constexpr float kLog2E = 1.44269504f;
+inline constexpr float kLn2High = 0.693359375f;  // few bits, so that n * kLn2High is exact
+inline constexpr float kLn2Low = -2.12194440e-4f;
+inline constexpr float kExp2 = 0.5f;
+inline constexpr float kExp3 = 0.166666667f;
+inline constexpr float kExp4 = 0.0416666667f;
+inline constexpr float kExp5 = 0.00833333333f;
+inline constexpr float kExp6 = 0.00139f;
+
+HYPOTRACK_PIXEL float min(float a, float b) { return b < a ? b : a; }
+HYPOTRACK_PIXEL float max(float a, float b) { return a < b ? b : a; }
+HYPOTRACK_PIXEL float abs(float a) { return std::fabs(a); }
+HYPOTRACK_PIXEL float sqrt(float a) { return std::sqrt(a); }
+HYPOTRACK_PIXEL float floor(float a) { return std::floor(a); }
+/// a * b + c; one or two roundings.
+HYPOTRACK_PIXEL float mul_add(float a, float b, float c) { return a * b + c; }
+HYPOTRACK_PIXEL float select(bool mask, float yes, float no) { return mask ? yes : no; }
+/// The nearest integer, ties to even.
+HYPOTRACK_PIXEL float round(float a) { return std::nearbyint(a); }
+
+/// e^x within 5e-7 relative for -87 <= x <= 88; outside, the value at the nearer end.
+HYPOTRACK_PIXEL float exp(float x) {
+  x = min(max(x, kExpLowest), kExpHighest);
+  const float n = round(x * kLog2E);
+  const float r = mul_add(n, -kLn2Low, mul_add(n, -kLn2High, x));
+  float p = mul_add(kExp6, r, kExp5);
+  p = mul_add(p, r, kExp4);
+  p = mul_add(p, r, kExp3);
+  p = mul_add(p, r, kExp2);
+  p = mul_add(p * r, r, r) + 1.0f;
+  const std::int32_t bits = (static_cast<std::int32_t>(n) + 127) << 23;
+  float scale;
+  std::memcpy(&scale, &bits, sizeof scale);
+  return p * scale;
+}
+
+}  // namespace pixel
+}  // namespace hypotrack
+
+#endif  // HYPOTRACK_PIXEL_HPP_
+
+// A SIMD source: what follows belongs to its current instruction set.
+#ifdef HWY_TARGET_INCLUDE
+#include "hypotrack/simd-inl.hpp"
+#endif

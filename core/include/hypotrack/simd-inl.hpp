@@ -1,0 +1,184 @@
+// Included once per instruction set: no #pragma once.
+#if defined(HYPOTRACK_SIMD_INL_HPP_) == defined(HWY_TARGET_TOGGLE)
+#ifdef HYPOTRACK_SIMD_INL_HPP_
+#undef HYPOTRACK_SIMD_INL_HPP_
+#else
+#define HYPOTRACK_SIMD_INL_HPP_
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "hypotrack/pixel.hpp"
+
+// Per-pixel functions that follow in this translation unit belong to the current instruction set.
+#undef HYPOTRACK_TARGET
+#undef HYPOTRACK_PIXEL_BEGIN
+#undef HYPOTRACK_PIXEL_END
+#define HYPOTRACK_TARGET HWY_NAMESPACE
+#define HYPOTRACK_PIXEL_BEGIN() HWY_BEFORE_NAMESPACE()
+#define HYPOTRACK_PIXEL_END() HWY_AFTER_NAMESPACE()
+
+#if HWY_HAVE_SCALABLE
+#error \
+    "Lanes holds a vector as a member: put HWY_SVE, HWY_SVE2, HWY_SVE_256, HWY_SVE2_128 and HWY_RVV \
+in HWY_DISABLED_TARGETS before including Highway"
+#endif
+
+/// SIMD vectors with the vocabulary of pixel.hpp. For sources that use Highway's foreach_target:
+///
+///   #undef HWY_TARGET_INCLUDE
+///   #define HWY_TARGET_INCLUDE "my_term.cpp"
+///   #include <hwy/foreach_target.h>
+///   #include "my_term-inl.hpp"
+///
+/// Whoever includes this header links Highway (libhwy); nothing else of hypotrack asks for it.
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = hn::ScalableTag<float>;
+using IntTag = hn::ScalableTag<std::int32_t>;
+using UintTag = hn::ScalableTag<std::uint32_t>;
+
+/// Lanes per vector.
+inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+
+/// A yes or no per lane.
+struct LaneMask {
+  hn::Mask<FloatTag> m;
+};
+HYPOTRACK_PIXEL LaneMask operator&&(LaneMask a, LaneMask b) { return {hn::And(a.m, b.m)}; }
+HYPOTRACK_PIXEL LaneMask operator||(LaneMask a, LaneMask b) { return {hn::Or(a.m, b.m)}; }
+HYPOTRACK_PIXEL LaneMask operator!(LaneMask a) { return {hn::Not(a.m)}; }
+HYPOTRACK_PIXEL bool any(LaneMask a) { return !hn::AllFalse(FloatTag(), a.m); }
+HYPOTRACK_PIXEL bool all(LaneMask a) { return hn::AllTrue(FloatTag(), a.m); }
+/// Number of lanes that are set.
+HYPOTRACK_PIXEL int count(LaneMask a) { return static_cast<int>(hn::CountTrue(FloatTag(), a.m)); }
+/// Index of the first lane that is set, -1 if none is.
+HYPOTRACK_PIXEL int first(LaneMask a) {
+  return static_cast<int>(hn::FindFirstTrue(FloatTag(), a.m));
+}
+/// The first n lanes, n <= kLanes.
+HYPOTRACK_PIXEL LaneMask first_lanes(int n) {
+  return {hn::FirstN(FloatTag(), static_cast<std::size_t>(n))};
+}
+
+/// One float per lane.
+struct Lanes {
+  hn::Vec<FloatTag> v;
+  Lanes() = default;
+  HYPOTRACK_PIXEL Lanes(float x) : v(hn::Set(FloatTag(), x)) {}
+  HYPOTRACK_PIXEL explicit Lanes(hn::Vec<FloatTag> x) : v(x) {}
+};
+HYPOTRACK_PIXEL Lanes operator+(Lanes a, Lanes b) { return Lanes(hn::Add(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes operator-(Lanes a, Lanes b) { return Lanes(hn::Sub(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes operator*(Lanes a, Lanes b) { return Lanes(hn::Mul(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes operator/(Lanes a, Lanes b) { return Lanes(hn::Div(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes operator-(Lanes a) { return Lanes(hn::Neg(a.v)); }
+HYPOTRACK_PIXEL LaneMask operator<(Lanes a, Lanes b) { return {hn::Lt(a.v, b.v)}; }
+HYPOTRACK_PIXEL LaneMask operator>(Lanes a, Lanes b) { return {hn::Gt(a.v, b.v)}; }
+HYPOTRACK_PIXEL LaneMask operator<=(Lanes a, Lanes b) { return {hn::Le(a.v, b.v)}; }
+HYPOTRACK_PIXEL LaneMask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.v, b.v)}; }
+HYPOTRACK_PIXEL LaneMask operator==(Lanes a, Lanes b) { return {hn::Eq(a.v, b.v)}; }
+
+HYPOTRACK_PIXEL Lanes min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
+HYPOTRACK_PIXEL Lanes abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
+HYPOTRACK_PIXEL Lanes sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
+HYPOTRACK_PIXEL Lanes floor(Lanes a) { return Lanes(hn::Floor(a.v)); }
+HYPOTRACK_PIXEL Lanes round(Lanes a) { return Lanes(hn::Round(a.v)); }
+HYPOTRACK_PIXEL Lanes mul_add(Lanes a, Lanes b, Lanes c) {
+  return Lanes(hn::MulAdd(a.v, b.v, c.v));
+}
+HYPOTRACK_PIXEL Lanes select(LaneMask mask, Lanes yes, Lanes no) {
+  return Lanes(hn::IfThenElse(mask.m, yes.v, no.v));
+}
+
+/// e^x per lane; see the scalar one.
+HYPOTRACK_PIXEL Lanes exp(Lanes x) {
+  using namespace pixel;  // the coefficients
+  const IntTag int_tag;
+  x = Lanes(hn::Min(hn::Max(x.v, Lanes(kExpLowest).v), Lanes(kExpHighest).v));
+  const auto n = hn::NearestInt(hn::Mul(x.v, Lanes(kLog2E).v));
+  const Lanes n_float(hn::ConvertTo(FloatTag(), n));
+  const Lanes r = hypotrack::HWY_NAMESPACE::mul_add(
+      n_float, Lanes(-kLn2Low), hypotrack::HWY_NAMESPACE::mul_add(n_float, Lanes(-kLn2High), x));
+  auto p = hn::MulAdd(Lanes(kExp6).v, r.v, Lanes(kExp5).v);
+  p = hn::MulAdd(p, r.v, Lanes(kExp4).v);
+  p = hn::MulAdd(p, r.v, Lanes(kExp3).v);
+  p = hn::MulAdd(p, r.v, Lanes(kExp2).v);
+  p = hn::Add(hn::MulAdd(hn::Mul(p, r.v), r.v, r.v), Lanes(1.0f).v);
+  const auto scale = hn::ShiftLeft<23>(hn::Add(n, hn::Set(int_tag, 127)));
+  return Lanes(hn::Mul(p, hn::BitCast(FloatTag(), scale)));
+}
+
+/// Sum of all lanes.
+HYPOTRACK_PIXEL float sum(Lanes a) { return hn::GetLane(hn::SumOfLanes(FloatTag(), a.v)); }
+/// start, start + 1, start + 2, ...
+HYPOTRACK_PIXEL Lanes count_from(int start) {
+  return Lanes(hn::Iota(FloatTag(), static_cast<float>(start)));
+}
+
+/// One 32-bit integer per lane: columns, rows, indices.
+struct IntLanes {
+  hn::Vec<IntTag> v;
+};
+HYPOTRACK_PIXEL IntLanes operator+(IntLanes a, IntLanes b) { return {hn::Add(a.v, b.v)}; }
+HYPOTRACK_PIXEL IntLanes operator*(IntLanes a, IntLanes b) { return {hn::Mul(a.v, b.v)}; }
+HYPOTRACK_PIXEL IntLanes int_lanes(int x) { return {hn::Set(IntTag(), x)}; }
+/// The nearest integers, ties to even.
+HYPOTRACK_PIXEL IntLanes to_int(Lanes a) { return {hn::NearestInt(a.v)}; }
+HYPOTRACK_PIXEL Lanes to_float(IntLanes a) { return Lanes(hn::ConvertTo(FloatTag(), a.v)); }
+
+/// One 32-bit word per lane: packed features.
+struct WordLanes {
+  hn::Vec<UintTag> v;
+};
+/// The lower and the upper 16 bits as numbers in 0 .. 1.
+HYPOTRACK_PIXEL Lanes unorm16_low(WordLanes a) {
+  const auto half = hn::And(a.v, hn::Set(UintTag(), 0xFFFFu));
+  return Lanes(hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), half))) * Lanes(1.0f / 65535.0f);
+}
+HYPOTRACK_PIXEL Lanes unorm16_high(WordLanes a) {
+  const auto half = hn::ShiftRight<16>(a.v);
+  return Lanes(hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), half))) * Lanes(1.0f / 65535.0f);
+}
+
+/// Consecutive values, one per lane; kLanes of them must be readable.
+HYPOTRACK_PIXEL Lanes load(const float* from) { return Lanes(hn::LoadU(FloatTag(), from)); }
+HYPOTRACK_PIXEL WordLanes load(const std::uint32_t* from) { return {hn::LoadU(UintTag(), from)}; }
+/// base[index] per lane.
+HYPOTRACK_PIXEL Lanes gather(const float* base, IntLanes index) {
+  return Lanes(hn::GatherIndex(FloatTag(), base, index.v));
+}
+HYPOTRACK_PIXEL WordLanes gather(const std::uint32_t* base, IntLanes index) {
+  return {hn::GatherIndex(UintTag(), base, index.v)};
+}
+
+/// A sum over many vectors: float lanes within a row, double over rows. Its value depends on the
+/// vector width by rounding only (about 1e-7 relative).
+class LaneSum {
+ public:
+  // Not `= default`: an implicit constructor would not be compiled for the instruction set.
+  HYPOTRACK_PIXEL LaneSum() : row_(0.0f), total_(0) {}
+  HYPOTRACK_PIXEL void add(LaneMask mask, Lanes a) {
+    row_ = row_ + Lanes(hn::IfThenElseZero(mask.m, a.v));
+  }
+  HYPOTRACK_PIXEL void end_row() {
+    total_ += static_cast<double>(sum(row_));
+    row_ = Lanes(0.0f);
+  }
+  HYPOTRACK_PIXEL double total() const { return total_; }
+
+ private:
+  Lanes row_;
+  double total_;
+};
+
+}  // namespace hypotrack::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

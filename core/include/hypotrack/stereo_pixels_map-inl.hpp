@@ -1,0 +1,61 @@
+// Included once per instruction set: no #pragma once.
+#if defined(HYPOTRACK_STEREO_PIXELS_MAP_INL_HPP_) == defined(HWY_TARGET_TOGGLE)
+#ifdef HYPOTRACK_STEREO_PIXELS_MAP_INL_HPP_
+#undef HYPOTRACK_STEREO_PIXELS_MAP_INL_HPP_
+#else
+#define HYPOTRACK_STEREO_PIXELS_MAP_INL_HPP_
+#endif
+
+#include "hypotrack/pixel.hpp"
+
+/// Where a pixel's surface point lands in the other view, and whether it is the surface seen there.
+/// Per-pixel functions for every lane type (pixel.hpp).
+HYPOTRACK_PIXEL_BEGIN();
+namespace hypotrack::HYPOTRACK_TARGET {
+
+template <class F>
+struct Mapped {
+  F u, v;           ///< pixels
+  F inverse_depth;  ///< of the same point, in the other view; negative or infinite behind it
+};
+
+/// The equations of StereoMap for pixel (x, y) with inverse depth w.
+template <bool kRectified, class F>
+HYPOTRACK_PIXEL Mapped<F> map_pixel(const StereoMap& map, F x, F y, F w) {
+  using pixel::mul_add;
+  if constexpr (kRectified) {
+    return {mul_add(F(map.b[0]), w, x + F(map.a[0][2])), y, w};
+  } else {
+    const F u = F(map.a[0][0]) * x + F(map.a[0][1]) * y + F(map.a[0][2]) + F(map.b[0]) * w;
+    const F v = F(map.a[1][0]) * x + F(map.a[1][1]) * y + F(map.a[1][2]) + F(map.b[1]) * w;
+    const F q = F(map.a[2][0]) * x + F(map.a[2][1]) * y + F(map.a[2][2]) + F(map.b[2]) * w;
+    const F inverse = F(1.0f) / q;
+    return {u * inverse, v * inverse, w * inverse};
+  }
+}
+
+/// Whether the nearest pixel lies within the other view's tile, in front of its camera.
+template <bool kRectified, class F>
+HYPOTRACK_PIXEL auto lands_inside(const StereoMap& map, const Mapped<F>& m) {
+  const F low(-0.5f);
+  const auto column = m.u >= low && m.u < F(static_cast<float>(map.width) - 0.5f);
+  if constexpr (kRectified) {
+    return column;
+  } else {
+    const auto row = m.v >= low && m.v < F(static_cast<float>(map.height) - 0.5f);
+    return column && row && m.inverse_depth > F(0.0f);
+  }
+}
+
+/// Whether two inverse depths are the same surface: |1/a - 1/b| <= r. `a` > 0; b = 0 (nothing) is
+/// never the same.
+template <class F>
+HYPOTRACK_PIXEL auto same_depth(F a, F b, F r) {
+  using pixel::abs;
+  return abs(a - b) <= r * a * b;
+}
+
+}  // namespace hypotrack::HYPOTRACK_TARGET
+HYPOTRACK_PIXEL_END();
+
+#endif

@@ -1,0 +1,50 @@
+// Included once per instruction set: no #pragma once.
+#if defined(STEREO_COLOR_COLOR_CONSISTENCY_INL_HPP_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STEREO_COLOR_COLOR_CONSISTENCY_INL_HPP_
+#undef STEREO_COLOR_COLOR_CONSISTENCY_INL_HPP_
+#else
+#define STEREO_COLOR_COLOR_CONSISTENCY_INL_HPP_
+#endif
+
+#include "hypotrack/pixel.hpp"
+
+/// The per-pixel function of the stereo_color objective, for every lane type (pixel.hpp).
+HYPOTRACK_PIXEL_BEGIN();
+namespace hypotrack::stereo_color::HYPOTRACK_TARGET {
+
+/// One pixel of one view: colour channels and weight C, all in 0..1.
+template <class F>
+struct ColorSample {
+  F channel_0, channel_1, channel_2, weight;
+};
+
+/// s = min(C_l, C_r) exp(-beta ||I_l - I_r||): colour consistency of a surface point seen in both
+/// views.
+template <class F>
+HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSample<F>& right,
+                                    F beta) {
+  using pixel::exp;
+  using pixel::min;
+  using pixel::mul_add;
+  using pixel::sqrt;
+  const F d0 = left.channel_0 - right.channel_0;
+  const F d1 = left.channel_1 - right.channel_1;
+  const F d2 = left.channel_2 - right.channel_2;
+  const F distance = sqrt(mul_add(d0, d0, mul_add(d1, d1, d2 * d2)));
+  return min(left.weight, right.weight) * exp(F(0.0f) - beta * distance);
+}
+
+/// a + (b - a) t in every channel.
+template <class F>
+HYPOTRACK_PIXEL ColorSample<F> blend(const ColorSample<F>& a, const ColorSample<F>& b, F t) {
+  using pixel::mul_add;
+  return {mul_add(b.channel_0 - a.channel_0, t, a.channel_0),
+          mul_add(b.channel_1 - a.channel_1, t, a.channel_1),
+          mul_add(b.channel_2 - a.channel_2, t, a.channel_2),
+          mul_add(b.weight - a.weight, t, a.weight)};
+}
+
+}  // namespace hypotrack::stereo_color::HYPOTRACK_TARGET
+HYPOTRACK_PIXEL_END();
+
+#endif

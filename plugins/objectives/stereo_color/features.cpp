@@ -1,0 +1,86 @@
+#include "features.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "distinctiveness.hpp"
+
+namespace hypotrack::stereo_color {
+namespace {
+
+cv::Vec3f gray_color(const cv::Vec3b& bgr) {
+  return {(0.299f * bgr[2] + 0.587f * bgr[1] + 0.114f * bgr[0]) / 255.0f, 0.0f, 0.0f};
+}
+
+cv::Vec3f on_cone(const cv::Vec3f& hsv) {
+  const float angle = hsv[0] * std::numbers::pi_v<float> / 180.0f;
+  const float radius = 0.5f * hsv[1] * hsv[2];
+  return {0.5f + radius * std::cos(angle), 0.5f + radius * std::sin(angle), hsv[2]};
+}
+
+// The tile in a colour space, 32-bit float, channels in 0..1.
+cv::Mat3f convert(const cv::Mat3b& bgr, ColorSpace space) {
+  cv::Mat3f out(bgr.size());
+  if (space == ColorSpace::rgb) {
+    std::transform(bgr.begin(), bgr.end(), out.begin(),
+                   [](const cv::Vec3b& p) { return cv::Vec3f(p[2], p[1], p[0]) / 255.0f; });
+  } else if (space == ColorSpace::gray) {
+    std::transform(bgr.begin(), bgr.end(), out.begin(), gray_color);
+  } else {
+    cv::Mat3f scaled;
+    bgr.convertTo(scaled, CV_32F, 1.0 / 255.0);
+    const bool lab = space == ColorSpace::lab;
+    cv::cvtColor(scaled, out, lab ? cv::COLOR_BGR2Lab : cv::COLOR_BGR2HSV);
+    std::transform(out.begin(), out.end(), out.begin(), [lab](const cv::Vec3f& p) {
+      if (!lab) return on_cone(p);
+      return cv::Vec3f(p[0] / 100.0f, (p[1] + 128.0f) / 255.0f, (p[2] + 128.0f) / 255.0f);
+    });
+  }
+  return out;
+}
+
+std::vector<std::uint8_t> to_vector(const cv::Mat1b& image) { return {image.begin(), image.end()}; }
+
+std::vector<float> weights(const TileView& view, const Params& params) {
+  const cv::Mat3b bgr = view.color;
+  const std::vector<std::uint8_t> valid = to_vector(view.valid);
+  std::vector<float> c;
+  if (params.distinctiveness == Distinctiveness::none) {
+    c.assign(valid.size(), 1.0f);
+  } else {
+    std::vector<float> grey(valid.size());
+    std::transform(bgr.begin(), bgr.end(), grey.begin(),
+                   [](const cv::Vec3b& p) { return gray_color(p)[0]; });
+    c = distinctiveness(principal_curvatures(grey, valid, bgr.cols, bgr.rows), valid, params.w_t);
+  }
+  const bool masked = params.use_mask && !view.mask.empty();
+  const std::vector<std::uint8_t> kept = masked ? to_vector(view.mask) : valid;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    if (!valid[i] || !kept[i]) c[i] = 0.0f;
+  }
+  return c;
+}
+
+}  // namespace
+
+Features make_features(const TileView& view, const Params& params) {
+  const cv::Mat3f color = convert(view.color, params.color_space);
+  const std::vector<float> c = weights(view, params);
+  Features out;
+  out.channels_01.resize(color.cols, color.rows);
+  out.channel_2_weight.resize(color.cols, color.rows);
+  for (int y = 0; y < color.rows; ++y) {
+    const float* weight = c.data() + static_cast<std::ptrdiff_t>(y) * color.cols;
+    for (int x = 0; x < color.cols; ++x) {
+      const cv::Vec3f& p = color(y, x);
+      out.channels_01.row(y)[x] = pack_unorm16(p[0], p[1]);
+      out.channel_2_weight.row(y)[x] = pack_unorm16(p[2], weight[x]);
+    }
+  }
+  return out;
+}
+
+}  // namespace hypotrack::stereo_color

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::stereo_color {
+
+enum class ColorSpace { rgb, lab, hsv, gray };
+enum class Distinctiveness { principal_curvatures, none };
+enum class Aggregation { sum, mean_seen, mean_rendered, sum_per_sqrt };
+enum class Direction { left_to_right, right_to_left, both };
+enum class Lookup { nearest, bilinear };
+
+std::span<const std::string_view> enum_names(ColorSpace);
+std::span<const std::string_view> enum_names(Distinctiveness);
+std::span<const std::string_view> enum_names(Aggregation);
+std::span<const std::string_view> enum_names(Direction);
+std::span<const std::string_view> enum_names(Lookup);
+
+/// Parameters of `type: stereo_color`; the defaults are the paper's.
+struct Params {
+  double beta = 100;
+  double w_t = 0.1;
+  double r = 3 * kMillimetre;
+  ColorSpace color_space = ColorSpace::rgb;
+  Distinctiveness distinctiveness = Distinctiveness::principal_curvatures;
+  Aggregation aggregation = Aggregation::sum;
+  Direction direction = Direction::left_to_right;
+  Lookup lookup = Lookup::nearest;
+  bool use_mask = true;
+
+  void visit(ParamVisitor& v) {
+    v("beta", beta,
+      {.help = "how fast similarity falls with colour distance (colours in 0..1)",
+       .min = 0,
+       .max = 1e4});
+    v("w_t", w_t, {.help = "distinctiveness below this counts as none", .min = 0, .max = 1});
+    v("r_mm", r,
+      {.help = "a surface point is seen in both views if the depths rendered there agree this well",
+       .min = 1e-3,
+       .max = 1e3,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("color_space", color_space,
+      {.help = "where colours are compared; every channel is scaled to 0..1"});
+    v("distinctiveness", distinctiveness,
+      {.help = "weight of a pixel: the paper's measure, or none: all 1 (slides onto uniform "
+               "surfaces in real images)"});
+    v("aggregation", aggregation,
+      {.help = "how similarities S become one score: S, S / pixels seen in both views, S / pixels "
+               "rendered, S / sqrt(pixels rendered)"});
+    v("direction", direction,
+      {.help = "whose pixels are summed; both: the mean of the two scores"});
+    v("lookup", lookup, {.help = "how the other view's colour is read"});
+    v("use_mask", use_mask,
+      {.help = "pixels outside the frame's foreground mask, where it has one, weigh nothing"});
+  }
+};
+
+}  // namespace hypotrack::stereo_color

@@ -1,0 +1,94 @@
+#include "score.hpp"
+
+#include <hwy/base.h>
+
+// Too little between neighbours to be worth compiling all of them; the scalable ones do not fit
+// simd-inl.hpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "score.cpp"
+#include <hwy/foreach_target.h>
+
+#include "color_consistency-inl.hpp"
+#include "hypotrack/stereo_pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::stereo_color::HWY_NAMESPACE {
+
+using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
+
+HYPOTRACK_PIXEL ColorSample<Lanes> unpack(WordLanes channels_01, WordLanes channel_2_weight) {
+  return {unorm16_low(channels_01), unorm16_high(channels_01), unorm16_low(channel_2_weight),
+          unorm16_high(channel_2_weight)};
+}
+
+template <bool kBilinear>
+struct ColorTerm {
+  static constexpr bool kVisitsUncovered = false;
+
+  const Features& left;
+  const Features& right;
+  Lanes beta;
+  LaneSum sum;
+  std::int64_t seen = 0;
+  std::int64_t rendered = 0;
+
+  HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
+    rendered += count(p.seen || p.occluded);
+    if (!any(p.seen)) return;
+    seen += count(p.seen);
+    const auto here = unpack(p.here(left.channels_01), p.here(left.channel_2_weight));
+    sum.add(p.seen, color_consistency(here, there(p), beta));
+  }
+  HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
+
+ private:
+  HYPOTRACK_PIXEL ColorSample<Lanes> at(const StereoPixels& p, IntLanes x, IntLanes y) const {
+    return unpack(p.at(right.channels_01, x, y), p.at(right.channel_2_weight, x, y));
+  }
+  HYPOTRACK_PIXEL ColorSample<Lanes> there(const StereoPixels& p) const {
+    if constexpr (!kBilinear) return at(p, p.column, p.row);
+    const BilinearLanes b = p.bilinear();
+    const IntLanes x1 = b.x0 + int_lanes(1), y1 = b.y0 + int_lanes(1);
+    if (p.same_row) return blend(at(p, b.x0, p.row), at(p, x1, p.row), b.fx);
+    const auto upper = blend(at(p, b.x0, b.y0), at(p, x1, b.y0), b.fx);
+    return blend(upper, blend(at(p, b.x0, y1), at(p, x1, y1), b.fx), b.fy);
+  }
+};
+
+template <bool kBilinear>
+Similarity run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+               const Params& params) {
+  ColorTerm<kBilinear> term{
+      here.features, there.features, Lanes(static_cast<float>(params.beta)), {}};
+  for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
+                        covered_box(here.tile), term);
+  return {term.sum.total(), term.seen, term.rendered};
+}
+
+Similarity measure_on_target(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                             const Params& params) {
+  return params.lookup == Lookup::bilinear ? run<true>(here, there, map, params)
+                                           : run<false>(here, there, map, params);
+}
+
+}  // namespace hypotrack::stereo_color::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::stereo_color {
+
+HWY_EXPORT(measure_on_target);
+
+Similarity measure(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                   const Params& params) {
+  return HWY_DYNAMIC_DISPATCH(measure_on_target)(here, there, map, params);
+}
+
+std::int64_t compiled_targets() { return HWY_TARGETS; }
+
+}  // namespace hypotrack::stereo_color
+#endif

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+
+#include "features.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/pixel.hpp"
+
+namespace hypotrack::stereo_color {
+
+/// Sums over the pixels of the reference view that a hypothesis covers.
+struct Similarity {
+  double sum = 0;             ///< of s over the pixels seen in both views
+  std::int64_t seen = 0;      ///< their number
+  std::int64_t rendered = 0;  ///< number of covered pixels, seen or occluded
+};
+
+/// One view of a prepared frame and how a hypothesis looks in it.
+struct ScoredView {
+  const Features& features;
+  const DepthTile& tile;
+};
+
+/// Walks over the covered pixels of `here`. SIMD, for the best instruction set that this machine
+/// (or hwy::SetSupportedTargetsForTest) offers. Instruction sets differ by rounding only; where
+/// that moves a point across the border of two pixels (1 in 1e4 or fewer), the neighbour is looked
+/// up.
+Similarity measure(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                   const Params& params);
+
+/// The instruction sets that measure() is compiled for, as Highway's bits.
+std::int64_t compiled_targets();
+
+}  // namespace hypotrack::stereo_color

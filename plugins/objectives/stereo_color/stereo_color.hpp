@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+
+#include "features.hpp"
+#include "hypotrack/objective.hpp"
+#include "params.hpp"
+#include "score.hpp"
+
+namespace hypotrack::stereo_color {
+
+/// Colour consistency of a hypothesis in a stereo pair: Panteleris and Argyros, "Back to RGB: 3D
+/// tracking of hands and hand-object interactions based on short-baseline stereo", ICCV workshops
+/// 2017, section 3.
+///
+/// Distinctiveness, once per frame and view (the paper's measure after Harris and Stephens). With
+/// l1 >= l2 the eigenvalues of the auto-correlation matrix of the grey image's gradients, summed
+/// over 3x3 pixels:
+///   d = log sqrt(l1^2 + l2^2)            how strong the texture is
+///   a = atan2(l2, l1), 0 .. pi/4         how cornered it is: 0 along an edge
+///   d_s = 1 / (1 + exp(m_d - d)), a_s = 1 / (1 + exp(m_a - a)), m the medians over the tile
+///   C = d_s a_s, or 0 where that is below w_t
+/// Score of a hypothesis, over the pixels of the left view that it covers and whose surface point
+/// the right view sees too (within r of the depth rendered there):
+///   s = min(C_l, C_r) exp(-beta ||I_l - I_r||),   S = sum of s,   cost = -S
+///
+/// Readings of ours where the paper leaves room: the natural logarithm, of the norm + 1e-12 (flat
+/// areas); colours in 0..1 with the Euclidean norm; medians over all pixels of the tile that lie
+/// inside the image, background included; gradients by central differences (their scale drops out
+/// with the medians); the right view is read at the nearest pixel. Beyond the paper: the other
+/// values of color_space, aggregation, direction, lookup, distinctiveness.
+///
+/// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
+class StereoColor : public Objective {
+ public:
+  using Params = stereo_color::Params;
+
+  explicit StereoColor(const Params& params);
+
+  /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
+  /// that do not have their tile's size and type.
+  void prepare(const Observation& observation) override;
+  /// Throws DataError if the drawn tiles are not those of the prepared frame.
+  double cost(const RenderedHypothesis& hypothesis) const override;
+
+ private:
+  double score(const RenderedHypothesis& hypothesis, int from, int to) const;
+
+  Params params_;
+  std::array<Features, 2> features_;
+  std::array<StereoMap, 2> maps_;  // from each view into the other
+};
+
+}  // namespace hypotrack::stereo_color
