@@ -30,8 +30,9 @@ struct EvaluateSettings {
 
 /// One term of the cost.
 struct ObjectiveTerm {
-  double weight = 1;
+  double weight = 1;  ///< 0: the term is prepared but not asked
   std::shared_ptr<Objective> objective;
+  std::string name = {};  ///< for messages
 };
 
 /// Turns hypotheses into costs: normalise, pose, skin, draw both views' depth tiles, score. Whole
@@ -44,11 +45,14 @@ class HYPOTRACK_API Evaluator {
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
 
-  /// Takes a frame in; the observation must outlive the evaluations.
+  /// Takes a frame in, for the terms as well; the observation must outlive the evaluations.
   void prepare(const Observation& observation);
 
   /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the
-  /// term, if one returns NaN.
+  /// term, if one returns NaN; what a term throws arrives unchanged. A model with a parameter that
+  /// is not finite or over 1e6 is not drawn, nor are triangles with a corner nearer than 1 cm,
+  /// farther than 1 km or a million pixels off. A model whose mesh is closed and wound outwards is
+  /// drawn without the faces turned away from the camera.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
 
   /// What draws: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.

@@ -1,0 +1,223 @@
+#include "evaluate/hypothesis_drawer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+// Larger parameters make no sense and would overflow single precision later.
+constexpr double kLargestParameter = 1e6;
+
+bool drawable(std::span<const double> parameters) {
+  return std::all_of(parameters.begin(), parameters.end(),
+                     [](double p) { return std::abs(p) <= kLargestParameter; });  // NaN: false
+}
+
+AlignedFloats zeros(std::size_t count) {
+  auto floats = hwy::AllocateAligned<float>(count);
+  std::fill_n(floats.get(), count, 0.0f);
+  return floats;
+}
+
+ViewProjection make_view(const TileCamera& camera, const Eigen::Isometry3d& first_from_world) {
+  const Eigen::Isometry3d camera_from_first = camera.camera_from_world * first_from_world.inverse();
+  ViewProjection view{};
+  Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> matrix(view.camera_from_first);
+  matrix = camera_from_first.matrix().topRows<3>().cast<float>();
+  view.fx = static_cast<float>(camera.fx);
+  view.fy = static_cast<float>(camera.fy);
+  view.cx = static_cast<float>(camera.cx);
+  view.cy = static_cast<float>(camera.cy);
+  view.width = camera.width;
+  view.height = camera.height;
+  view.stride = (camera.width + kBlock - 1) / kBlock * kBlock;
+  return view;
+}
+
+// Whether two views may share y and 1/z: the observation says so, and it is true.
+bool share_rows(const Observation& observation) {
+  if (!observation.rectified || observation.views.size() != 2) return false;
+  const TileCamera& a = observation.views[0].camera;
+  const TileCamera& b = observation.views[1].camera;
+  constexpr double kExact = 1e-7;
+  Eigen::Isometry3d b_from_a = b.camera_from_world * a.camera_from_world.inverse();
+  b_from_a.translation().x() = 0;
+  return b_from_a.matrix().isIdentity(kExact) && a.fx == b.fx && a.fy == b.fy && a.cy == b.cy &&
+         a.height == b.height;
+}
+
+}  // namespace
+
+FrameProjection::FrameProjection(const Observation& observation) : pair(share_rows(observation)) {
+  if (observation.views.empty()) return;
+  first_from_world = observation.views[0].camera.camera_from_world;
+  for (const TileView& view : observation.views) {
+    views.push_back(make_view(view.camera, first_from_world));
+  }
+}
+
+HypothesisDrawer::HypothesisDrawer(const ScenePlan& plan)
+    : plan_(&plan),
+      matrices_(zeros(std::max<std::size_t>(12 * static_cast<std::size_t>(plan.bone_count), 1))),
+      x_(zeros(plan.vertex_count)),
+      y_(zeros(plan.vertex_count)),
+      z_(zeros(plan.vertex_count)) {
+  for (const auto& model : plan.skinned) {
+    bones_.resize(std::max(bones_.size(), static_cast<std::size_t>(model.poser.bones())));
+  }
+}
+
+void HypothesisDrawer::prepare(const FrameProjection& frame) {
+  frame_ = &frame;
+  const std::size_t views = frame.views.size();
+  const std::size_t list = plan_->triangle_count + std::size_t{kBlock};
+  list_storage_.resize(views * 2 * list);
+  visible_.resize(views);
+  records_.resize(frame.pair ? 1 : views);
+  for (AlignedFloats& records : records_) {
+    if (!records) records = zeros(std::size_t{plan_->vertex_count} * kRecord);
+  }
+  tile_storage_.resize(views);
+  tile_size_.resize(views, 0);
+  tiles_.assign(views, DepthTile{});
+  for (std::size_t i = 0; i < views; ++i) {
+    const ViewProjection& view = frame.views[i];
+    const std::size_t size =
+        static_cast<std::size_t>(view.stride) * static_cast<std::size_t>(view.height);
+    if (tile_size_[i] < size) {
+      tile_storage_[i] = hwy::AllocateAligned<float>(size);
+      tile_size_[i] = size;
+    }
+    // The size may have changed, so that the box drawn last does not say what to clear.
+    std::fill_n(tile_storage_[i].get(), size, 0.0f);
+    tiles_[i] = {view.width, view.height, view.stride, tile_storage_[i].get(), 0, 0, 0, 0};
+  }
+}
+
+std::span<const DepthTile> HypothesisDrawer::draw(std::span<const double> state) {
+  clear();
+  pose(state);
+  project();
+  cull();
+  fill();
+  return tiles_;
+}
+
+void HypothesisDrawer::clear() {
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    DepthTile& tile = tiles_[i];
+    clear_pixels(tile_storage_[i].get(), tile.stride, tile.x0, tile.y0, tile.x1, tile.y1);
+    tile.x0 = tile.y0 = tile.x1 = tile.y1 = 0;
+  }
+}
+
+void HypothesisDrawer::pose(std::span<const double> state) {
+  for (const ScenePlan::Skinned& model : plan_->skinned) {
+    const auto parameters = state.subspan(static_cast<std::size_t>(model.offset),
+                                          static_cast<std::size_t>(model.dimension));
+    float* matrices = matrices_.get() + 12 * static_cast<std::size_t>(model.first_bone);
+    if (drawable(parameters)) {
+      model.poser.pose(parameters.data(), frame_->first_from_world, bones_, matrices);
+    } else {  // everything to the camera's centre, where nothing is drawn
+      std::fill_n(matrices, 12 * model.poser.bones(), 0.0f);
+    }
+  }
+  skin_blocks(plan_->blocks, matrices_.get(), x_.get(), y_.get(), z_.get());
+  for (const ScenePlan::Posed& model : plan_->posed) {
+    pose_itself(model, state.subspan(static_cast<std::size_t>(model.offset),
+                                     static_cast<std::size_t>(model.model->dimension())));
+  }
+}
+
+void HypothesisDrawer::pose_itself(const ScenePlan::Posed& posed,
+                                   std::span<const double> parameters) {
+  const Eigen::Index count = posed.model->data().mesh.vertices.cols();
+  if (!drawable(parameters)) {
+    std::fill_n(z_.get() + posed.first_vertex, count, 0.0f);
+    return;
+  }
+  posed.model->pose(parameters, posed_vertices_, posed_landmarks_);
+  if (posed_vertices_.cols() != count) {
+    throw PluginError(
+        fmt::format("a model that poses itself returned {} vertices, expected the {} of its mesh",
+                    posed_vertices_.cols(), count));
+  }
+  const Eigen::Isometry3f transform = frame_->first_from_world.cast<float>();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Vector3f vertex = transform * posed_vertices_.col(i);
+    const std::size_t at = posed.first_vertex + static_cast<std::size_t>(i);
+    x_[at] = vertex.x();
+    y_[at] = vertex.y();
+    z_[at] = vertex.z();
+  }
+}
+
+void HypothesisDrawer::project() {
+  if (frame_->pair) {
+    PixelRange ranges[2];
+    project_pair(x_.get(), y_.get(), z_.get(), plan_->vertex_count, frame_->views.data(),
+                 records_[0].get(), ranges);
+    set_bounds(0, ranges[0]);
+    set_bounds(1, ranges[1]);
+    return;
+  }
+  for (std::size_t i = 0; i < frame_->views.size(); ++i) {
+    PixelRange range;
+    project_view(x_.get(), y_.get(), z_.get(), plan_->vertex_count, frame_->views[i],
+                 records_[i].get(), range);
+    set_bounds(i, range);
+  }
+}
+
+void HypothesisDrawer::set_bounds(std::size_t view, const PixelRange& range) {
+  DepthTile& tile = tiles_[view];
+  const auto first = [](float low, int size) {
+    return static_cast<int>(std::clamp(std::ceil(low), 0.0f, static_cast<float>(size)));
+  };
+  const auto end = [](float high, int size) {
+    return static_cast<int>(std::clamp(std::floor(high) + 1, 0.0f, static_cast<float>(size)));
+  };
+  tile.x0 = first(range.low_x, tile.width);
+  tile.x1 = end(range.high_x, tile.width);
+  tile.y0 = first(range.low_y, tile.height);
+  tile.y1 = end(range.high_y, tile.height);
+  if (tile.x0 >= tile.x1 || tile.y0 >= tile.y1) tile.x0 = tile.x1 = tile.y0 = tile.y1 = 0;
+}
+
+VisibleTriangles HypothesisDrawer::lists(std::size_t view) {
+  const std::size_t size = plan_->triangle_count + std::size_t{kBlock};
+  std::uint32_t* begin = list_storage_.data() + 2 * view * size;
+  return {begin, begin + size, 0, 0};
+}
+
+void HypothesisDrawer::cull_view(std::size_t view) {
+  visible_[view] = lists(view);
+  if (frame_->pair) visible_[view + 1] = lists(view + 1);
+  for (const TriangleRange& range : plan_->ranges) {
+    cull_triangles(plan_->corners.data(), range, records_[view].get(), &frame_->views[view],
+                   frame_->pair, &visible_[view]);
+  }
+}
+
+void HypothesisDrawer::cull() {
+  if (frame_->pair) {
+    cull_view(0);
+  } else {
+    for (std::size_t i = 0; i < frame_->views.size(); ++i) cull_view(i);
+  }
+}
+
+void HypothesisDrawer::fill() {
+  for (std::size_t i = 0; i < frame_->views.size(); ++i) {
+    const bool second = frame_->pair && i == 1;
+    draw_triangles(plan_->corners.data(), plan_->triangle_count - 1, records_[second ? 0 : i].get(),
+                   second, frame_->views[i], visible_[i], tile_storage_[i].get());
+  }
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "evaluate/scene_plan.hpp"
+#include "evaluate/simd_kernels.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/observation.hpp"
+
+namespace hypotrack {
+
+/// The cameras of a frame's tiles as the kernels see them.
+struct HYPOTRACK_API FrameProjection {
+  FrameProjection() = default;
+  explicit FrameProjection(const Observation& observation);
+
+  Eigen::Isometry3d first_from_world = Eigen::Isometry3d::Identity();
+  std::vector<ViewProjection> views;
+  bool pair = false;  ///< the views share y and 1/z
+};
+
+/// Poses and draws one hypothesis at a time into tiles of its own; one per thread. draw() runs the
+/// stages in their order; they are separate so that each can be measured.
+class HYPOTRACK_API HypothesisDrawer {
+ public:
+  /// The plan must outlive the drawer.
+  explicit HypothesisDrawer(const ScenePlan& plan);
+
+  /// Takes a frame's cameras, which must outlive the drawing.
+  void prepare(const FrameProjection& frame);
+
+  /// Depth of a normalised state in every view, valid until the next call.
+  std::span<const DepthTile> draw(std::span<const double> state);
+
+  void clear();                              ///< empties what was drawn before
+  void pose(std::span<const double> state);  ///< kinematics and skinning
+  void project();
+  void cull();
+  void fill();
+
+ private:
+  void pose_itself(const ScenePlan::Posed& posed, std::span<const double> parameters);
+  void set_bounds(std::size_t view, const PixelRange& range);
+  VisibleTriangles lists(std::size_t view);
+  void cull_view(std::size_t view);
+
+  const ScenePlan* plan_;
+  const FrameProjection* frame_ = nullptr;
+  BonePoser::Workspace bones_;
+  AlignedFloats matrices_, x_, y_, z_;
+  Eigen::Matrix3Xf posed_vertices_;
+  Eigen::Matrix3Xd posed_landmarks_;
+  std::vector<AlignedFloats> records_;  // one per view, or one for a rectified pair
+  std::vector<std::uint32_t> list_storage_;
+  std::vector<VisibleTriangles> visible_;
+  std::vector<AlignedFloats> tile_storage_;
+  std::vector<std::size_t> tile_size_;
+  std::vector<DepthTile> tiles_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+
+// The vectorised inner loops of the CPU renderer, behind plain data, compiled once per instruction
+// set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
+namespace hypotrack {
+
+/// Vertices are handled in blocks of this many, whatever the width of the machine's vectors.
+inline constexpr int kBlock = 16;
+
+/// A vertex is drawn if its depth is within these bounds (metres) and it lies within kGuard pixels
+/// of the tile's origin in every view that shares its record. Triangles with another vertex are
+/// dropped. So nothing that follows meets NaN, infinity or overflow.
+inline constexpr float kNear = 0.01f;
+inline constexpr float kFar = 1000.0f;
+inline constexpr float kGuard = 1 << 20;
+
+/// Linear blend skinning prepared for vectors: the vertices, ordered by the bones that hold them,
+/// in blocks; per block a few entries, one per bone that holds any of its vertices.
+struct SkinBlocks {
+  std::vector<std::uint32_t> first_entry;  ///< per block, and one more at the end
+  std::vector<std::uint32_t> bone;         ///< per entry
+  /// Per entry, 4 x kBlock floats: weight * x, weight * y, weight * z (bone frame) and weight.
+  const float* aligned_entries = nullptr;
+};
+
+/// Moves all blocks: x, y, z (each kBlock per block, aligned) in the frame that `bones` lead to.
+/// `bones` holds 3x4 row-major matrices.
+HYPOTRACK_API void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y,
+                               float* z);
+
+/// A camera looking at points given in the frame of the first one.
+struct ViewProjection {
+  float camera_from_first[12];  ///< 3x4 row-major
+  float fx, fy, cx, cy;
+  int width, height, stride;  ///< of the tile; stride is a multiple of kBlock
+};
+
+/// Smallest and largest coordinates of the vertices that can be drawn; low > high: none can.
+struct PixelRange {
+  float low_x, high_x, low_y, high_y;
+};
+
+/// A projected vertex is a record of four floats: x, y (pixels), 1/z (1/m; 0: not to be drawn), and
+/// x in the second view of a rectified pair.
+inline constexpr int kRecord = 4;
+
+/// Projects `count` (a multiple of kBlock) points into one view.
+HYPOTRACK_API void project_view(const float* x, const float* y, const float* z, std::size_t count,
+                                const ViewProjection& view, float* records, PixelRange& range);
+
+/// Projects into both views of a rectified pair: y and 1/z are the same in both. `ranges` has two.
+HYPOTRACK_API void project_pair(const float* x, const float* y, const float* z, std::size_t count,
+                                const ViewProjection* views, float* records, PixelRange* ranges);
+
+/// Corners of triangles as offsets into the records: 4 numbers per triangle, the last unused. The
+/// number of triangles is a multiple of kBlock; the very last one is degenerate.
+struct TriangleRange {
+  std::uint32_t begin = 0, end = 0;  ///< triangles, multiples of kBlock
+  bool two_sided = true;             ///< false: those seen from behind are left out
+};
+
+/// Triangles that cover pixels of one view. Room for all triangles and kBlock more each.
+struct VisibleTriangles {
+  std::uint32_t* small = nullptr;  ///< those within kSmall x kSmall pixels
+  std::uint32_t* large = nullptr;
+  std::size_t small_count = 0;
+  std::size_t large_count = 0;
+};
+inline constexpr int kSmall = 4;
+
+/// Appends the visible triangles of a range for one view (`pair` false) or for both views of a
+/// rectified pair.
+HYPOTRACK_API void cull_triangles(const std::uint32_t* corners, const TriangleRange& range,
+                                  const float* records, const ViewProjection* views, bool pair,
+                                  VisibleTriangles* visible);
+
+/// Draws visible triangles into an inverse-depth tile (`stride` x height floats, aligned): the
+/// larger 1/z wins. `second` draws a rectified pair's second view. `degenerate` is the number of a
+/// triangle without area; it fills up the lists, which therefore change.
+HYPOTRACK_API void draw_triangles(const std::uint32_t* corners, std::uint32_t degenerate,
+                                  const float* records, bool second, const ViewProjection& view,
+                                  VisibleTriangles& visible, float* tile);
+
+/// Sets the pixels of a tile with x0 <= x < x1, y0 <= y < y1 to zero, where all others are zero
+/// already.
+HYPOTRACK_API void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1);
+
+/// Name of the instruction set in use: `AVX3`.
+HYPOTRACK_API const char* simd_target();
+
+}  // namespace hypotrack
