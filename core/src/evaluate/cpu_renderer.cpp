@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -17,7 +19,10 @@ namespace {
 class CpuRenderer : public HypothesisRenderer {
  public:
   CpuRenderer(const Scene& scene, bool draws, int threads)
-      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()), arena_(threads_) {
+      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
+        limit_(tbb::global_control::max_allowed_parallelism,
+               static_cast<std::size_t>(std::max(threads_, tbb::info::default_concurrency()))),
+        arena_(threads_) {
     if (!draws) return;
     plan_ = std::make_unique<ScenePlan>(scene);
     for (int i = 0; i < threads_; ++i) {
@@ -59,6 +64,7 @@ class CpuRenderer : public HypothesisRenderer {
   }
 
   int threads_;
+  tbb::global_control limit_;  // more threads than cores, if somebody asks for them
   tbb::task_arena arena_;
   std::unique_ptr<const ScenePlan> plan_;
   FrameProjection frame_;
