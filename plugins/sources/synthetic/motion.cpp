@@ -1,0 +1,124 @@
+#include "motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hypotrack::synthetic {
+namespace {
+
+/// Slope at a key from the lengths and secant slopes of the segments before and after it: their
+/// weighted harmonic mean, or 0 where they disagree in sign.
+double monotone_slope(double length_0, double secant_0, double length_1, double secant_1) {
+  if (secant_0 * secant_1 <= 0) return 0;
+  const double w0 = 2 * length_1 + length_0, w1 = length_1 + 2 * length_0;
+  return (w0 + w1) / (w0 / secant_0 + w1 / secant_1);
+}
+
+/// Index of the key at or before a time that lies between the first and the last key.
+std::size_t segment_of(const std::vector<double>& times, double time) {
+  const auto after = std::upper_bound(times.begin(), times.end() - 1, time);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times.begin() - 1));
+}
+
+Eigen::Quaterniond exp(const Eigen::Vector3d& v) {
+  const double angle = v.norm();
+  if (angle < 1e-12) return Eigen::Quaterniond::Identity();
+  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
+}
+
+Eigen::Vector3d log(const Eigen::Quaterniond& q) {
+  const Eigen::AngleAxisd rotation(q);
+  return rotation.angle() * rotation.axis();
+}
+
+}  // namespace
+
+void NumberTrack::add(double time, double value) {
+  times_.push_back(time);
+  values_.push_back(value);
+}
+
+double NumberTrack::at(double time) const {
+  if (time <= times_.front()) return values_.front();
+  if (time >= times_.back()) return values_.back();
+  const std::size_t i = segment_of(times_, time);
+  const auto length = [&](std::size_t k) { return times_[k + 1] - times_[k]; };
+  const auto secant = [&](std::size_t k) { return (values_[k + 1] - values_[k]) / length(k); };
+  const auto slope = [&](std::size_t key) {
+    if (key == 0 || key + 1 == times_.size()) return 0.0;
+    return monotone_slope(length(key - 1), secant(key - 1), length(key), secant(key));
+  };
+  const double h = length(i), s = (time - times_[i]) / h, r = 1 - s;
+  return values_[i] * r * r * (1 + 2 * s) + values_[i + 1] * s * s * (1 + 2 * r) +
+         h * s * r * (slope(i) * r - slope(i + 1) * s);
+}
+
+void RotationTrack::add(double time, Eigen::Quaterniond rotation) {
+  if (!rotations_.empty() && rotations_.back().dot(rotation) < 0) rotation.coeffs() *= -1;
+  times_.push_back(time);
+  rotations_.push_back(rotation);
+}
+
+Eigen::Vector3d RotationTrack::velocity_at_key(std::size_t key) const {
+  if (key == 0 || key + 1 == times_.size()) return Eigen::Vector3d::Zero();
+  // The rotation vector from key to key is the same in both keys' body frames.
+  const double before = times_[key] - times_[key - 1], after = times_[key + 1] - times_[key];
+  const Eigen::Vector3d v0 = log(rotations_[key - 1].conjugate() * rotations_[key]) / before;
+  const Eigen::Vector3d v1 = log(rotations_[key].conjugate() * rotations_[key + 1]) / after;
+  Eigen::Vector3d velocity;
+  for (int axis = 0; axis < 3; ++axis) {
+    velocity[axis] = monotone_slope(before, v0[axis], after, v1[axis]);
+  }
+  return velocity;
+}
+
+Eigen::Quaterniond RotationTrack::at(double time) const {
+  if (time <= times_.front()) return rotations_.front();
+  if (time >= times_.back()) return rotations_.back();
+  const std::size_t i = segment_of(times_, time);
+  const double h = times_[i + 1] - times_[i], s = (time - times_[i]) / h;
+  const Eigen::Quaterniond &first = rotations_[i], &second = rotations_[i + 1];
+  const Eigen::Vector3d a = velocity_at_key(i) * h / 3, c = velocity_at_key(i + 1) * h / 3;
+  const Eigen::Vector3d b = log(exp(-a) * first.conjugate() * second * exp(-c));
+  const double r = 1 - s;  // the cumulative cubic Bernstein polynomials follow
+  Eigen::Quaterniond q =
+      first * exp((1 - r * r * r) * a) * exp((3 - 2 * s) * s * s * b) * exp(s * s * s * c);
+  q.normalize();
+  if (q.dot(first) < 0) q.coeffs() *= -1;
+  return q;
+}
+
+Motion::Motion(const Scene& scene)
+    : rest_(scene.rest_state()),
+      numbers_(static_cast<std::size_t>(scene.dimension())),
+      rotations_(scene.items().size()) {
+  for (const Scene::Item& item : scene.items()) offsets_.push_back(item.offset);
+}
+
+void Motion::add_number(int parameter, double time, double value) {
+  numbers_.at(static_cast<std::size_t>(parameter)).add(time, value);
+}
+
+void Motion::add_rotation(std::size_t model, double time, const Eigen::Quaterniond& rotation) {
+  rotations_.at(model).add(time, rotation);
+}
+
+bool Motion::has_number(int parameter) const {
+  return !numbers_.at(static_cast<std::size_t>(parameter)).empty();
+}
+
+Eigen::VectorXd Motion::state(double time) const {
+  Eigen::VectorXd state = rest_;
+  for (Eigen::Index i = 0; i < state.size(); ++i) {
+    const NumberTrack& track = numbers_[static_cast<std::size_t>(i)];
+    if (!track.empty()) state[i] = track.at(time);
+  }
+  for (std::size_t m = 0; m < rotations_.size(); ++m) {
+    if (rotations_[m].empty()) continue;
+    const Eigen::Quaterniond q = rotations_[m].at(time);
+    state.segment<4>(offsets_[m] + 3) << q.w(), q.x(), q.y(), q.z();
+  }
+  return state;
+}
+
+}  // namespace hypotrack::synthetic

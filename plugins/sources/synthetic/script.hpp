@@ -1,0 +1,30 @@
+#pragma once
+
+#include "hypotrack/config.hpp"
+#include "hypotrack/scene.hpp"
+#include "motion.hpp"
+
+namespace hypotrack::synthetic {
+
+struct Script {
+  Motion motion;
+  double duration = 0;  ///< time of the last keyframe, seconds
+};
+
+/// Reads `keyframes:` and the `gestures:` they name.
+///
+///   gestures:
+///     fist: {"*_flexion_2": 95, thumb_abduction: 10}   # angles in degrees, `*` is any text; the
+///                                                      # angles not named are at rest
+///   keyframes:
+///     - {time: 0, gesture: rest, pose: {hand: {position_mm: [0, 60, 450]}}}
+///     - {frame: 40, gesture: {hand: fist}}
+///
+/// `pose` is what read_pose() reads; `gesture` is one for all models with joints, or one per model.
+/// Position, rotation and every angle have their own keys: what a keyframe does not mention moves
+/// on from the keyframe before to the one after it that do. Throws ConfigError with
+/// file:line:column.
+Script read_script(const ConfigNode& keyframes, const ConfigNode& gestures, const Scene& scene,
+                   double frame_rate);
+
+}  // namespace hypotrack::synthetic

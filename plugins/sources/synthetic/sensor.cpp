@@ -1,0 +1,62 @@
+#include "sensor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/random.hpp"
+
+namespace hypotrack::synthetic {
+namespace {
+
+constexpr std::size_t kNoiseSamples = std::size_t{1} << 21;
+
+void check_count(const std::vector<double>& values, const char* key, std::size_t cameras,
+                 const std::string& where) {
+  if (values.empty() || values.size() == cameras) return;
+  throw ConfigError(fmt::format("{}: sensor.{} has {} numbers, expected one per camera: {}", where,
+                                key, values.size(), cameras));
+}
+
+}  // namespace
+
+Sensor::Sensor(const SensorParams& params, std::size_t cameras, const std::string& where)
+    : params_(params) {
+  check_count(params_.gain, "gain", cameras, where);
+  check_count(params_.offset, "offset", cameras, where);
+  params_.gain.resize(cameras, 1.0);
+  params_.offset.resize(cameras, 0.0);
+  if (params_.noise_sigma <= 0) return;
+  cv::RNG random(static_cast<std::uint64_t>(params_.seed) * 104729 + 3);
+  cv::Mat noise(1, static_cast<int>(kNoiseSamples), CV_32FC1), rounded;
+  random.fill(noise, cv::RNG::NORMAL, 0.0, params_.noise_sigma);
+  noise.convertTo(rounded, CV_8SC1);
+  noise_.assign(rounded.ptr<std::int8_t>(), rounded.ptr<std::int8_t>() + kNoiseSamples);
+}
+
+void Sensor::apply(cv::Mat& image, int frame, std::size_t camera) const {
+  if (params_.blur_sigma > 0) cv::GaussianBlur(image, image, {}, params_.blur_sigma);
+  const double gain = params_.gain[camera], offset = params_.offset[camera];
+  if (gain != 1 || offset != 0) image.convertTo(image, CV_8UC3, gain, offset);
+  if (!noise_.empty()) add_noise(image, frame, camera);
+}
+
+void Sensor::add_noise(cv::Mat& image, int frame, std::size_t camera) const {
+  const auto length = static_cast<std::size_t>(image.cols) * 3;
+  for (int y = 0; y < image.rows; ++y) {
+    const RandomIndex index{static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(camera),
+                            static_cast<std::uint32_t>(frame), 0};
+    const double place = uniform4(static_cast<std::uint64_t>(params_.seed), index)[0];
+    const auto room = static_cast<double>(kNoiseSamples - length);
+    const std::int8_t* noise = noise_.data() + static_cast<std::size_t>(place * room);
+    std::uint8_t* row = image.ptr<std::uint8_t>(y);
+    for (std::size_t i = 0; i < length; ++i) {
+      row[i] = static_cast<std::uint8_t>(std::clamp(row[i] + noise[i], 0, 255));
+    }
+  }
+}
+
+}  // namespace hypotrack::synthetic

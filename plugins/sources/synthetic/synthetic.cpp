@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "background.hpp"
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/renderer.hpp"
+#include "motion.hpp"
+#include "params.hpp"
+#include "script.hpp"
+#include "sensor.hpp"
+
+namespace hypotrack::synthetic {
+namespace {
+
+DistortionModel model_of(const CameraParams& params, const std::string& where) {
+  const std::size_t count = params.distortion.size();
+  if (params.fisheye) {
+    if (count == 4) return DistortionModel::fisheye;
+    throw ConfigError(
+        fmt::format("{}: cameras.distortion has {} coefficients, but OpenCV's fisheye "
+                    "model has 4",
+                    where, count));
+  }
+  if (count == 0) return DistortionModel::none;
+  if (count == 4 || count == 5 || count == 8) return DistortionModel::brown;
+  throw ConfigError(
+      fmt::format("{}: cameras.distortion has {} coefficients, expected 4, 5 or 8", where, count));
+}
+
+std::vector<Camera> make_cameras(const CameraParams& params, const std::string& where) {
+  Camera camera;
+  camera.width = params.width;
+  camera.height = params.height;
+  camera.fx = camera.fy = params.focal_px;
+  camera.cx = 0.5 * (params.width - 1);
+  camera.cy = 0.5 * (params.height - 1);
+  camera.distortion_model = model_of(params, where);
+  camera.distortion = params.distortion;
+  std::vector<Camera> cameras(static_cast<std::size_t>(params.count), camera);
+  if (cameras.size() == 2) cameras[1].camera_from_world.translation().x() = -params.baseline;
+  for (const Camera& c : cameras) validate(c, where);
+  return cameras;
+}
+
+RenderStyle style_of(const LightParams& light) {
+  RenderStyle style;
+  style.ambient = light.ambient;
+  style.diffuse = light.diffuse;
+  style.specular = light.specular;
+  style.shininess = light.shininess;
+  style.light_direction = light.direction;
+  style.samples = light.samples;
+  return style;
+}
+
+/// Pictures of the scene's own models on a scripted motion, with the answer.
+class Synthetic final : public Source {
+ public:
+  using Params = SyntheticParams;
+
+  Synthetic(const Params& params, PluginContext& context)
+      : scene_(context.scene()),
+        cameras_(make_cameras(params.cameras, context.config().where())),
+        frame_rate_(params.frame_rate),
+        script_(read_script(params.keyframes, params.gestures, scene_, params.frame_rate)),
+        style_(style_of(params.light)),
+        sensor_(params.sensor, cameras_.size(), context.config().where()),
+        backgrounds_(draw_backgrounds(params.background, cameras_)),
+        renderer_(scene_) {
+    constexpr double kRoundOff = 1e-6;
+    frames_ = params.frames > 0
+                  ? params.frames
+                  : static_cast<int>(std::floor(script_.duration * frame_rate_ + kRoundOff)) + 1;
+  }
+
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+  double frame_rate() const override { return frame_rate_; }
+  std::optional<int> frame_count() const override { return frames_; }
+
+  std::optional<Frame> next() override {
+    if (next_ >= frames_) return std::nullopt;
+    Frame frame;
+    frame.index = next_++;
+    frame.time = frame.index / frame_rate_;
+    frame.truth.emplace();
+    frame.truth->state = script_.motion.state(frame.time);
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
+      RenderedView rendered =
+          renderer_.render(frame.truth->state, cameras_[i], style_, backgrounds_[i]);
+      sensor_.apply(rendered.color, frame.index, i);
+      frame.views.push_back({std::move(rendered.color), rendered.label > 0});
+    }
+    return frame;
+  }
+
+ private:
+  const Scene scene_;
+  const std::vector<Camera> cameras_;
+  const double frame_rate_;
+  const Script script_;
+  const RenderStyle style_;
+  const Sensor sensor_;
+  const std::vector<cv::Mat> backgrounds_;
+  Renderer renderer_;
+  int frames_ = 0;
+  int next_ = 0;
+};
+
+}  // namespace
+}  // namespace hypotrack::synthetic
+
+HYPOTRACK_PLUGIN(hypotrack::synthetic::Synthetic,
+                 "renders a scripted motion of the scene's own models, with ground truth",
+                 "truth mask")

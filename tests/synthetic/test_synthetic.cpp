@@ -1,0 +1,254 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/renderer.hpp"
+#include "test_models.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+Scene hand_and_box() {
+  std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
+  models.emplace_back("hand", std::make_shared<Model>(make_test_hand()));
+  models.emplace_back("box", std::make_shared<Model>(make_test_box()));
+  return Scene(std::move(models));
+}
+
+const char* const kCameras =
+    "cameras: {width: 320, height: 200, focal_px: 175, baseline_mm: 120}\n";
+const char* const kQuiet = "sensor: {noise_sigma: 0}\n";
+const char* const kPlain = "background: {kind: color, color: [10, 20, 30]}\n";
+const char* const kMotion = R"(
+gestures:
+  fist: {"*_flexion_*": 50, thumb_abduction: 10}
+keyframes:
+  - time: 0
+    gesture: rest
+    pose:
+      hand: {position_mm: [-20, 60, 420], rotation_deg: [0, 170, 0]}
+      box: {position_mm: [100, 0, 500]}
+  - {frame: 5, gesture: {hand: fist}}
+  - {frame: 10, pose: {hand: {position_mm: [30, 50, 450], angles_deg: {index_flexion_1: 15}}}}
+)";
+
+struct Loaded {
+  explicit Loaded(const std::string& yaml)
+      : scene(hand_and_box()),
+        source(plugins.make<Source>(ConfigNode::parse("type: synthetic\n" + yaml, "scene.yaml"),
+                                    &scene)) {}
+  std::vector<Frame> frames() {
+    std::vector<Frame> all;
+    while (std::optional<Frame> frame = source->next()) all.push_back(std::move(*frame));
+    return all;
+  }
+  PluginLoader plugins;
+  Scene scene;
+  std::unique_ptr<Source> source;
+};
+
+Loaded load(const std::string& yaml) { return Loaded(yaml); }
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && a.type() == b.type() &&
+         std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
+}
+
+int parameter(const Scene& scene, const std::string& name) {
+  for (int i = 0; i < scene.dimension(); ++i) {
+    if (scene.parameters()[static_cast<std::size_t>(i)].name == name) return i;
+  }
+  throw std::out_of_range(name);
+}
+
+TEST(Synthetic, yields_the_frames_up_to_the_last_keyframe_with_truth_and_mask) {
+  Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kMotion);
+  EXPECT_EQ(loaded.source->frame_count(), 11);
+  EXPECT_EQ(loaded.source->frame_rate(), 30);
+  ASSERT_EQ(loaded.source->cameras().size(), 2U);
+  EXPECT_NEAR(loaded.source->cameras()[1].camera_from_world.translation().x(), -0.12, 1e-12);
+  const std::vector<Frame> frames = loaded.frames();
+  ASSERT_EQ(frames.size(), 11U);
+  Renderer renderer(loaded.scene);
+  for (std::size_t i = 0; i < frames.size(); i += 5) {
+    const Frame& frame = frames[i];
+    EXPECT_EQ(frame.index, static_cast<int>(i));
+    EXPECT_NEAR(frame.time, static_cast<double>(i) / 30, 1e-12);
+    EXPECT_NO_THROW(loaded.scene.check(frame.truth->state, "truth"));
+    for (std::size_t v = 0; v < 2; ++v) {
+      const RenderedView expected =
+          renderer.render(frame.truth->state, loaded.source->cameras()[v], {});
+      EXPECT_GT(cv::countNonZero(frame.views[v].mask), 1000);
+      EXPECT_TRUE(same(frame.views[v].mask, expected.label > 0));
+      EXPECT_EQ(frame.views[v].color.at<cv::Vec3b>(1, 1), cv::Vec3b(30, 20, 10));
+    }
+  }
+}
+
+TEST(Synthetic, passes_through_poses_and_gestures) {
+  Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kMotion);
+  const std::vector<Frame> frames = loaded.frames();
+  const auto value = [&](std::size_t frame, const std::string& name) {
+    return frames[frame].truth->state[parameter(loaded.scene, name)];
+  };
+  EXPECT_NEAR(value(0, "hand.position_x"), -0.020, 1e-12);
+  EXPECT_NEAR(value(10, "hand.position_z"), 0.450, 1e-12);
+  EXPECT_NEAR(value(5, "hand.index_flexion_2"), 50 * kDegree, 1e-12);
+  EXPECT_NEAR(value(5, "hand.thumb_abduction"), 10 * kDegree, 1e-12);
+  EXPECT_NEAR(value(5, "hand.ring_abduction"), 0, 1e-12) << "a gesture rests what it does not name";
+  EXPECT_NEAR(value(10, "hand.index_flexion_1"), 15 * kDegree, 1e-12);
+  EXPECT_NEAR(value(10, "hand.index_flexion_2"), 50 * kDegree, 1e-12) << "holds the last key";
+  EXPECT_GT(value(5, "hand.position_x"), -0.019) << "a key that names no position does not stop it";
+  EXPECT_LT(value(5, "hand.position_x"), 0.029);
+  EXPECT_EQ(value(10, "box.position_x"), 0.1);
+}
+
+TEST(Synthetic, repeats_itself_to_the_byte) {
+  const std::string yaml = std::string(kCameras) + kMotion + "frames: 2\n";
+  const std::vector<Frame> a = load(yaml).frames(), b = load(yaml).frames();
+  const std::vector<Frame> c = load(yaml + "sensor: {seed: 9}\n").frames();
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t v = 0; v < 2; ++v) {
+      EXPECT_TRUE(same(a[i].views[v].color, b[i].views[v].color));
+      EXPECT_FALSE(same(a[i].views[v].color, c[i].views[v].color)) << "another seed, other noise";
+    }
+  }
+}
+
+TEST(Synthetic, adds_noise_of_the_given_strength_that_differs_everywhere) {
+  const std::string yaml = std::string(kCameras) + kMotion +
+                           "background: {kind: color, color: [100, 100, 100]}\n"
+                           "sensor: {noise_sigma: 4}\nframes: 2\n";
+  const std::vector<Frame> frames = load(yaml).frames();
+  const cv::Rect corner(0, 0, 60, 200);  // background only
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(frames[0].views[0].color(corner), mean, deviation);
+  EXPECT_NEAR(mean[0], 100, 0.3);
+  EXPECT_NEAR(deviation[0], 4, 0.3);
+  for (const auto& [frame, view] : {std::pair(0, 1), std::pair(1, 0)}) {
+    cv::Mat difference =
+        frames[0].views[0].color(corner) !=
+        frames[static_cast<std::size_t>(frame)].views[static_cast<std::size_t>(view)].color(corner);
+    EXPECT_GT(cv::mean(difference)[0], 200) << frame << ' ' << view;
+  }
+}
+
+TEST(Synthetic, shows_the_wall_where_its_distance_says_in_both_views) {
+  // f b / z = 175 * 0.12 / 1.4 = 15 px.
+  const std::string yaml =
+      std::string(kCameras) + kQuiet + kMotion +
+      "background: {kind: procedural, distance_mm: 1400, clutter: 0}\nframes: 1\n";
+  const std::vector<Frame> frames = load(yaml).frames();
+  const cv::Mat left = frames[0].views[0].color(cv::Rect(15, 0, 60, 200)).clone();
+  const cv::Mat right = frames[0].views[1].color(cv::Rect(0, 0, 60, 200)).clone();
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(left, mean, deviation);
+  EXPECT_GT(deviation[1], 8) << "the wall has a pattern";
+  const auto difference = [&](const cv::Mat& a, const cv::Mat& b) {
+    return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(3 * a.total());
+  };
+  EXPECT_LT(difference(left, right), 0.5);
+  EXPECT_GT(difference(left.colRange(1, 60), right.colRange(0, 59)), 2) << "one pixel beside it";
+}
+
+TEST(Synthetic, puts_a_picture_upright_on_the_wall) {
+  const TemporaryDirectory folder;
+  cv::Mat picture(100, 160, CV_8UC3, cv::Scalar(0, 0, 200));
+  picture.rowRange(50, 100).setTo(cv::Scalar(0, 200, 0));
+  picture.colRange(0, 80).setTo(cv::Scalar(200, 0, 0));
+  cv::imwrite((folder.path() / "wall.png").string(), picture);
+  const std::string yaml =
+      std::string(kCameras) + kQuiet + kMotion + "frames: 1\n" +
+      "background: {kind: image, distance_mm: 1e5, file: " + (folder.path() / "wall.png").string() +
+      "}\n";
+  const cv::Mat left = load(yaml).frames()[0].views[0].color;
+  EXPECT_EQ(left.at<cv::Vec3b>(10, 10), cv::Vec3b(200, 0, 0));
+  EXPECT_EQ(left.at<cv::Vec3b>(10, 310), cv::Vec3b(0, 0, 200));
+  EXPECT_EQ(left.at<cv::Vec3b>(190, 310), cv::Vec3b(0, 200, 0));
+}
+
+TEST(Synthetic, changes_the_colours_of_one_camera) {
+  const std::string yaml = std::string(kCameras) + kPlain + kMotion +
+                           "sensor: {noise_sigma: 0, gain: [1, 1.5], offset: [0, 4]}\nframes: 1\n";
+  const Frame frame = load(yaml).frames()[0];
+  EXPECT_EQ(frame.views[0].color.at<cv::Vec3b>(1, 1), cv::Vec3b(30, 20, 10));
+  EXPECT_EQ(frame.views[1].color.at<cv::Vec3b>(1, 1), cv::Vec3b(49, 34, 19));
+}
+
+TEST(Synthetic, takes_pictures_through_a_lens) {
+  const std::string yaml =
+      "cameras: {width: 320, height: 200, focal_px: 175, distortion: [-0.2, 0.05, 0, 0]}\n" +
+      std::string(kQuiet) + kMotion + "frames: 1\n";
+  Loaded loaded(yaml);
+  const Camera camera = loaded.source->cameras()[0];
+  EXPECT_EQ(camera.distortion_model, DistortionModel::brown);
+  const Frame frame = loaded.frames()[0];
+  const Eigen::Vector2d box = project(camera, {0.1, 0, 0.5});
+  EXPECT_NE(frame.views[0].mask.at<unsigned char>(cvRound(box.y()), cvRound(box.x())), 0);
+  EXPECT_EQ(cv::countNonZero(frame.views[0].color.reshape(1) == 0), 0)
+      << "the wall fills the picture";
+}
+
+std::string message_of(const std::string& yaml) {
+  try {
+    load(kCameras + yaml);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Synthetic, explains_what_is_wrong_with_a_script) {
+  const std::string start =
+      "{time: 0, pose: {hand: {position_mm: [0, 0, 400]}, box: {position_mm: [0, 0, 500]}}}";
+  EXPECT_THAT(message_of("keyframes: []\n"),
+              AllOf(HasSubstr("scene.yaml:3"), HasSubstr("at least one keyframe")));
+  EXPECT_THAT(message_of("keyframes: [{time: 0, pose: {hand: {position_mm: [0, 0, 400]}}}]\n"),
+              AllOf(HasSubstr("scene.yaml:3"), HasSubstr("where 'box' is")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {time: 0}\n"),
+              AllOf(HasSubstr("scene.yaml:5"), HasSubstr("times must ascend")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {gesture: rest}\n"),
+              AllOf(HasSubstr("scene.yaml:5"), HasSubstr("either `time` (seconds) or `frame`")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {time: 1, gesture: wave}\n"),
+              AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("no gesture is called 'wave'"),
+                    HasSubstr("rest")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {time: 1, gesture: {foot: rest}}\n"),
+              AllOf(HasSubstr("'foot' is no model"), HasSubstr("hand, box")));
+  EXPECT_THAT(message_of("gestures: {far: {index_flexion_1: 120}}\nkeyframes:\n- " + start +
+                         "\n- {time: 1, gesture: {hand: far}}\n"),
+              AllOf(HasSubstr("scene.yaml:3:"), HasSubstr("'index_flexion_1' to 120 deg"),
+                    HasSubstr("allows")));
+  EXPECT_THAT(
+      message_of("gestures: {odd: {\"index_curl*\": 10}}\nkeyframes:\n- " + start +
+                 "\n- {time: 1, gesture: odd}\n"),
+      AllOf(HasSubstr("scene.yaml:3:"), HasSubstr("'index_curl*'"), HasSubstr("index_flexion_1")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start +
+                         "\n- {time: 1, pose: {hand: {angles_deg: {index_flexion_1: 500}}}}\n"),
+              AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("500")));
+}
+
+TEST(Synthetic, explains_what_is_wrong_with_cameras_background_and_sensor) {
+  const std::string motion = kMotion;
+  EXPECT_THAT(
+      message_of(motion + "sensor: {gain: [1, 1, 1]}\n"),
+      AllOf(HasSubstr("scene.yaml"), HasSubstr("sensor.gain has 3 numbers"), HasSubstr("2")));
+  EXPECT_THAT(message_of(motion + "background: {kind: image, file: /nowhere.png}\n"),
+              AllOf(HasSubstr("/nowhere.png"), HasSubstr("is no readable image")));
+  EXPECT_THAT(message_of(motion + "background: {kind: image}\n"), HasSubstr("needs `file`"));
+  EXPECT_THAT(message_of(motion + "colour: red\n"),
+              AllOf(HasSubstr("scene.yaml"), HasSubstr("colour")));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
