@@ -1,11 +1,13 @@
-# hypotrack_add_plugin(KIND NAME SOURCES... [VERSION 1.2.3] [LICENCE Apache-2.0] [LIBRARIES ...])
+# hypotrack_add_plugin(KIND NAME SOURCES... [VERSION 1.2.3] [LICENCE Apache-2.0] [LIBRARIES ...]
+#                      [CONTRACT_CONFIG parameters.yaml])
 #
 # Builds libhypotrack_<KIND>_<NAME>.so, which a scene names with `type: NAME`. KIND is model,
 # objective, optimizer or source. Inside the project the library goes where hypotrack looks for it
 # and is installed; outside, it goes to the build folder: put that on --plugin-path or
-# HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it.
+# HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it, with the
+# parameters in CONTRACT_CONFIG (what stands in the plugin's place in a scene) or the defaults.
 function(hypotrack_add_plugin kind name)
-  cmake_parse_arguments(ARG "" "VERSION;LICENCE" "LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG" "LIBRARIES" ${ARGN})
   if(NOT kind MATCHES "^(model|objective|optimizer|source)$")
     message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected model, "
       "objective, optimizer or source")
@@ -30,7 +32,12 @@ function(hypotrack_add_plugin kind name)
     HYPOTRACK_PLUGIN_KIND=${kind} HYPOTRACK_PLUGIN_NAME=${name}
     HYPOTRACK_PLUGIN_VERSION="${ARG_VERSION}" HYPOTRACK_PLUGIN_LICENCE="${ARG_LICENCE}")
   set_target_properties(${target} PROPERTIES
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON)
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
+    HYPOTRACK_PLUGIN_ID "${kind};${name}")
+  if(ARG_CONTRACT_CONFIG)
+    get_filename_component(contract_config ${ARG_CONTRACT_CONFIG} ABSOLUTE)
+    set_target_properties(${target} PROPERTIES HYPOTRACK_CONTRACT_CONFIG ${contract_config})
+  endif()
   if(TARGET hypotrack_options)  # inside the project
     target_link_libraries(${target} PRIVATE hypotrack_options)
     set_target_properties(${target} PROPERTIES
@@ -38,5 +45,38 @@ function(hypotrack_add_plugin kind name)
       INSTALL_RPATH "$ORIGIN/../..")
     install(TARGETS ${target} LIBRARY DESTINATION ${HYPOTRACK_PLUGIN_DIR})
     set_property(GLOBAL APPEND PROPERTY HYPOTRACK_PLUGINS ${target})
+  elseif(CMAKE_TESTING_ENABLED)  # inside the project tests/contract does it
+    hypotrack_add_contract_test(${target})
   endif()
+endfunction()
+
+# hypotrack_add_contract_test(TARGET)
+#
+# A test `contract.KIND.NAME` that holds a plugin of hypotrack_add_plugin() to the contract of its
+# kind, by the program that hypotrack was built with or that lies in its installation.
+function(hypotrack_add_contract_test target)
+  if(TARGET hypotrack_contract_test)
+    set(program hypotrack_contract_test)
+  else()
+    # This file lies in PREFIX/lib/cmake/hypotrack or PREFIX/lib/ARCHITECTURE/cmake/hypotrack.
+    find_program(HYPOTRACK_CONTRACT_TEST hypotrack_contract_test
+      HINTS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../bin
+            ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../../bin)
+    if(NOT HYPOTRACK_CONTRACT_TEST)
+      message(WARNING "hypotrack_contract_test is not installed (hypotrack was built without "
+        "HYPOTRACK_TESTS): ${target} gets no contract test")
+      return()
+    endif()
+    set(program ${HYPOTRACK_CONTRACT_TEST})
+  endif()
+  get_target_property(id ${target} HYPOTRACK_PLUGIN_ID)
+  list(GET id 0 kind)
+  list(GET id 1 name)
+  get_target_property(config ${target} HYPOTRACK_CONTRACT_CONFIG)
+  if(NOT config)
+    set(config "")
+  endif()
+  add_test(NAME contract.${kind}.${name}
+    COMMAND ${program} ${kind} $<TARGET_FILE:${target}> ${config})
+  set_tests_properties(contract.${kind}.${name} PROPERTIES TIMEOUT 300)
 endfunction()

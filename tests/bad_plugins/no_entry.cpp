@@ -1,2 +1,0 @@
-// A library like any other.
-extern "C" __attribute__((visibility("default"))) int something_else() { return 1; }

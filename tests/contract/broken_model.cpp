@@ -1,0 +1,98 @@
+// A box with a lid that keeps its contract but for the fault it is asked for.
+#include <array>
+#include <atomic>
+
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+enum class Fault {
+  none,
+  millimetres,
+  two_of_one_name,
+  no_landmarks,
+  dead_angle,
+  never_the_same,
+  ignores_position,
+  ignores_rotation,
+  moves_on_its_own,
+};
+constexpr std::array<std::string_view, 9> kFaults = {
+    "none",           "millimetres",      "two_of_one_name",  "no_landmarks",    "dead_angle",
+    "never_the_same", "ignores_position", "ignores_rotation", "moves_on_its_own"};
+std::span<const std::string_view> enum_names(Fault) { return kFaults; }
+
+Mesh tetrahedron(float size) {
+  Mesh mesh;
+  mesh.vertices = size * Eigen::Matrix3Xf{{0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
+  mesh.triangles = Eigen::Matrix3Xi{{0, 0, 0, 1}, {2, 1, 3, 2}, {1, 3, 2, 3}};
+  mesh.bone_indices = Eigen::Matrix4Xi::Zero(4, 4);
+  mesh.bone_indices(0, 3) = 1;
+  mesh.bone_weights = Eigen::Matrix4Xf::Zero(4, 4);
+  mesh.bone_weights.row(0).setOnes();
+  return mesh;
+}
+
+ModelData make_data(Fault fault) {
+  static std::atomic<int> made = 0;
+  ModelData data;
+  float size = fault == Fault::millimetres ? 100 : 0.1f;
+  if (fault == Fault::never_the_same) size *= 1 + 0.01f * static_cast<float>(++made);
+  data.mesh = tetrahedron(size);
+  data.bones = {{.name = "base"}, {.name = "lid", .parent = 0}};
+  data.parameters = pose_parameters();
+  data.parameters.push_back(
+      {.name = "opening", .kind = ParameterKind::angle, .lower = 0, .upper = 1, .rest = 0});
+  data.rotations = {{.bone = 1,
+                     .parameter = 7,
+                     .axis = Eigen::Vector3d::UnitX(),
+                     .scale = fault == Fault::dead_angle ? 0.0 : 1.0}};
+  data.landmarks = {{.name = "base"},
+                    {.name = fault == Fault::two_of_one_name ? "base" : "lid", .bone = 1}};
+  if (fault == Fault::no_landmarks) data.landmarks.clear();
+  return data;
+}
+
+class Broken final : public Model {
+ public:
+  struct Params {
+    Fault fault = Fault::none;
+    bool poses_itself = false;
+    void visit(ParamVisitor& v) {
+      v("fault", fault, {.help = "what is wrong with it"});
+      v("poses_itself", poses_itself, {.help = "do without the skeleton"});
+    }
+  };
+  explicit Broken(const Params& params) : Model(make_data(params.fault)), params_(params) {}
+
+  bool poses_itself() const override { return params_.poses_itself; }
+
+  void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+            Eigen::Matrix3Xd& landmarks) const override {
+    Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(
+        parameters.data(), static_cast<Eigen::Index>(parameters.size()));
+    if (params_.fault == Fault::ignores_position) values[0] = 0;
+    if (params_.fault == Fault::ignores_rotation) values.segment<4>(3) << 1, 0, 0, 0;
+    if (params_.fault == Fault::moves_on_its_own) values[0] += 1e-7 * (++calls_ % 7);
+    const auto bones =
+        world_from_bones(data(), {values.data(), static_cast<std::size_t>(values.size())});
+    vertices.resize(3, 4);
+    for (int i = 0; i < 4; ++i) {
+      const Eigen::Vector3d p = data().mesh.vertices.col(i).cast<double>();
+      vertices.col(i) = (bones[i == 3 ? 1 : 0] * p).cast<float>();
+    }
+    landmarks.resize(3, 2);
+    for (int i = 0; i < 2; ++i) landmarks.col(i) = bones[i].translation();
+  }
+
+ private:
+  Params params_;
+  mutable std::atomic<int> calls_ = 0;
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Broken, "breaks the contract as asked", "")

@@ -1,0 +1,91 @@
+// An objective that keeps its contract but for the fault it is asked for.
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+enum class Fault {
+  none,
+  nan_where_nothing_is_covered,
+  overflows_on_noise,
+  remembers,
+  depends_on_the_thread,
+  depends_on_the_object,
+  never_repeats,
+  refuses_everything,
+  needs_a_first_frame,
+};
+constexpr std::array<std::string_view, 9> kFaults = {
+    "none",          "nan_where_nothing_is_covered", "overflows_on_noise",
+    "remembers",     "depends_on_the_thread",        "depends_on_the_object",
+    "never_repeats", "refuses_everything",           "needs_a_first_frame"};
+std::span<const std::string_view> enum_names(Fault) { return kFaults; }
+
+/// Mean inverse depth, the more the better.
+class Broken final : public Objective {
+ public:
+  struct Params {
+    Fault fault = Fault::none;
+    void visit(ParamVisitor& v) { v("fault", fault, {.help = "what is wrong with it"}); }
+  };
+  explicit Broken(const Params& params) : fault_(params.fault), number_(++objects_) {}
+
+  void prepare(const Observation& observation) override {
+    if (fault_ == Fault::refuses_everything) throw DataError("this is not what I asked for");
+    if (observation.views.size() < 2) throw DataError("expected two views");
+    ++frames_;
+  }
+
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    double sum = 0;
+    int covered = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        for (int x = tile.x0; x < tile.x1; ++x) {
+          const float z = tile.inverse_depth[y * tile.stride + x];
+          sum += fault_ == Fault::overflows_on_noise ? std::exp(z) : std::fmin(z, 100.0f);
+          covered += z > 0;
+        }
+      }
+    }
+    const double count = fault_ == Fault::nan_where_nothing_is_covered ? covered : covered + 1;
+    return -sum / count + extra(sum);
+  }
+
+ private:
+  double extra(double sum) const {
+    switch (fault_) {
+      case Fault::remembers: {
+        return std::exchange(last_, sum) * 1e-3;
+      }
+      case Fault::depends_on_the_thread:
+        return static_cast<double>(std::hash<std::thread::id>{}(std::this_thread::get_id()) % 997);
+      case Fault::depends_on_the_object:
+        return number_;
+      case Fault::never_repeats:
+        return ++calls_;
+      case Fault::needs_a_first_frame:
+        return frames_ > 2 ? std::numeric_limits<double>::quiet_NaN() : 0;
+      default:
+        return 0;
+    }
+  }
+
+  static inline std::atomic<int> objects_ = 0;
+  Fault fault_;
+  int number_;
+  int frames_ = 0;
+  mutable double last_ = 0;
+  mutable std::atomic<int> calls_ = 0;
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Broken, "breaks the contract as asked", "")

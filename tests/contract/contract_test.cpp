@@ -1,0 +1,224 @@
+// The contract program must notice every way of breaking a contract, and name it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct Outcome {
+  int status = -1;
+  std::string output;
+};
+
+Outcome run(const std::string& arguments) {
+  const std::string command = std::string(HYPOTRACK_CONTRACT_TEST) + " " + arguments + " 2>&1";
+  FILE* pipe = popen(command.c_str(), "r");
+  Outcome outcome;
+  std::array<char, 4096> buffer{};
+  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
+    outcome.output.append(buffer.data(), count);
+  }
+  const int status = pclose(pipe);
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return outcome;
+}
+
+std::string library(const std::string& kind) {
+  return std::string(HYPOTRACK_BROKEN_PLUGINS) + "/libhypotrack_" + kind + "_broken.so";
+}
+
+Outcome run(const std::string& kind, const std::string& parameters) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "parameters.yaml";
+  std::ofstream(file) << parameters;
+  return run(kind + " " + library(kind) + " " + file.string());
+}
+
+struct Case {
+  std::string kind;
+  std::string fault = "";
+  std::string row = "";      ///< the row that fails
+  std::string message = "";  ///< what it says
+  std::string more = "";     ///< more parameters
+};
+
+void PrintTo(const Case& c, std::ostream* os) { *os << c.kind << " that " << c.fault; }
+
+class Contract : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Contract, OneFaultFailsItsRow) {
+  const Case& c = GetParam();
+  const Outcome outcome = run(c.kind, "fault: " + c.fault + "\n" + c.more);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr(c.row + ": FAILED\n"));
+  EXPECT_THAT(outcome.output, HasSubstr(c.message));
+}
+
+const std::string kFrames = "frames: 6\n";
+const std::string kItself = "poses_itself: true\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Optimizer, Contract,
+    ::testing::Values(
+        Case{"optimizer", "starts_elsewhere", "the start is evaluated first",
+             "in 1 dimensions with a budget of 1: the first point evaluated is not the region's"},
+        Case{"optimizer", "overspends", "the budget of evaluations is kept",
+             "with a budget of 1: evaluated 2 points"},
+        Case{"optimizer", "miscounts", "evaluations are counted", "reported 2 evaluations, made 1"},
+        Case{"optimizer", "leaves_the_bounds", "all points are within the bounds",
+             "expected within ["},
+        Case{"optimizer", "returns_the_last_point", "the best point evaluated is returned",
+             "the returned point is not the one of the best cost"},
+        Case{"optimizer", "ignores_the_seed", "equal seeds give equal searches", "took two ways"},
+        Case{"optimizer", "swallows_exceptions", "exceptions of the cost pass through",
+             "an exception of the cost disappeared"},
+        Case{"optimizer", "ignores_time", "a budget of time ends the search",
+             "a budget of 0 seconds did not end the search"},
+        Case{"optimizer", "hardly_searches", "random search is worse at equal evaluations",
+             "on a sphere in 27 dimensions"}),
+    [](const auto& each) { return each.param.fault; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Objective, Contract,
+    ::testing::Values(Case{"objective", "nan_where_nothing_is_covered",
+                           "costs are numbers or +infinity, whatever the depth",
+                           "nothing covered, a rectified pair: the cost is NaN"},
+                      Case{"objective", "overflows_on_noise",
+                           "costs are numbers or +infinity, whatever the depth",
+                           "depth that is noise, a rectified pair: the cost is -infinity"},
+                      Case{"objective", "remembers",
+                           "costs do not depend on what was scored before",
+                           "the cost depends on what was scored before"},
+                      Case{"objective", "depends_on_the_thread", "several threads score the same",
+                           "four threads scoring at once differ from one"},
+                      Case{"objective", "depends_on_the_object", "a second object scores the same",
+                           "two objects give two costs"},
+                      Case{"objective", "never_repeats", "scoring twice gives the same",
+                           "scoring twice gives two costs"},
+                      Case{"objective", "refuses_everything",
+                           "it takes observations in or refuses them with a DataError",
+                           "it refuses every observation"},
+                      Case{"objective", "needs_a_first_frame",
+                           "it can take in a frame after a frame", "the cost is NaN"}),
+    [](const auto& each) { return each.param.fault; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Model, Contract,
+    ::testing::Values(
+        Case{"model", "millimetres", "it is in metres", "is its file in another unit?"},
+        Case{"model", "two_of_one_name", "an object can be made",
+             "two landmarks are called 'base'"},
+        Case{"model", "no_landmarks", "it has landmarks", "expected at least one"},
+        Case{"model", "dead_angle", "every angle moves something",
+             "the angle 'opening' moves nothing"},
+        Case{"model", "never_the_same", "a second object is the same", "its mesh"},
+        Case{"model", "ignores_position", "its position moves it rigidly", "metres from where",
+             kItself},
+        Case{"model", "ignores_rotation", "its rotation turns it rigidly about its origin",
+             "metres from where", kItself},
+        Case{"model", "moves_on_its_own", "it poses itself the same from several threads",
+             "four threads posing at once differ from one", kItself}),
+    [](const auto& each) { return each.param.fault; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Source, Contract,
+    ::testing::Values(
+        Case{"source", "bad_camera", "its cameras are valid", "camera 0", kFrames},
+        Case{"source", "no_frame_rate", "its frame rate is positive", "it is 0.0", kFrames},
+        Case{"source", "one_view_too_few",
+             "every frame has a picture of the right size for each camera, or a problem",
+             "frame 0 has 1 views, expected 2", kFrames},
+        Case{"source", "wrong_size",
+             "every frame has a picture of the right size for each camera, or a problem",
+             "view 0 is 41x30 of type CV_8UC3, expected 40x30", kFrames},
+        Case{"source", "silent_gap",
+             "every frame has a picture of the right size for each camera, or a problem",
+             "frame 2 has no views and names no problem", kFrames},
+        Case{"source", "time_stands_still", "numbers and times of frames grow",
+             "frame 1 at 0.000000 s follows frame 0", kFrames},
+        Case{"source", "truth_of_another_scene", "ground truth fits the scene",
+             "the true state has 5 numbers, expected 27", kFrames},
+        Case{"source", "draws_over_old_frames", "pictures belong to their frame",
+             "frame 0, view 0: the pictures differ", kFrames},
+        Case{"source", "never_the_same", "a second object yields the same frames",
+             "the pictures differ", kFrames},
+        Case{"source", "ends_late", "it ends where it says", "it promises 6 frames and gives more",
+             kFrames},
+        Case{"source", "gives_nothing", "it yields frames", "there is none", kFrames}),
+    [](const auto& each) { return each.param.fault; });
+
+class ContractKept : public ::testing::TestWithParam<Case> {};
+
+TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
+  const Outcome outcome = run(GetParam().kind, "fault: none\n" + GetParam().more);
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("an object can be made: ok\n"),
+                                    HasSubstr(" passed, 0 failed, "), Not(HasSubstr("FAILED"))));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ContractKept,
+                         ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
+                                           Case{"model", "", "", "", kItself},
+                                           Case{"source", "", "", "", kFrames}));
+
+TEST(ContractProgram, AnotherKindIsNoticed) {
+  const Outcome outcome = run("model " + library("optimizer"));
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("it is a plugin of kind 'optimizer', expected 'model'"));
+}
+
+TEST(ContractProgram, AFileThatASceneCouldNotFindIsNoticed) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "mine.so";
+  std::filesystem::copy(library("optimizer"), file);
+  const Outcome outcome = run("optimizer " + file.string());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("the file is mine.so, expected "
+                                        "libhypotrack_optimizer_broken.so"));
+}
+
+TEST(ContractProgram, AFileThatIsNoLibraryIsNoticed) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "libhypotrack_model_text.so";
+  std::ofstream(file) << "not a library";
+  const Outcome outcome = run("model " + file.string());
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr("library opens and describes itself: FAILED\n"
+                                        "    cannot be opened"));
+}
+
+TEST(ContractProgram, ParametersThatDoNotFitFailTheirRow) {
+  const Outcome outcome = run("optimizer", "fault: gigantic\n");
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, AllOf(HasSubstr("an object can be made: FAILED"),
+                                    HasSubstr("parameters.yaml:1:"), HasSubstr("gigantic")));
+}
+
+TEST(ContractProgram, ASourceWithoutParametersIsSkippedSayingSo) {
+  const Outcome outcome = run("source " + library("source"));
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("an object can be made: skipped\n"), HasSubstr("it needs parameters"),
+                    HasSubstr("frames"), HasSubstr("CONTRACT_CONFIG")));
+}
+
+TEST(ContractProgram, AWrongCommandLineSaysHow) {
+  const Outcome outcome = run("camera " + library("source"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.output, HasSubstr("usage: hypotrack_contract_test KIND FILE.so"));
+}
+
+}  // namespace
+}  // namespace hypotrack

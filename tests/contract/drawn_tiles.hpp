@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "hypotrack/objective.hpp"
+
+namespace hypotrack::contract {
+
+/// What an objective may be given, with a name for messages.
+struct NamedObservation {
+  std::string name;
+  Observation observation;
+};
+
+/// Observations of a scene about 0.5 m away: rectified pairs with and without foreground masks, a
+/// pair whose cameras turn towards each other, one view alone, and pairs of flat or invalid images.
+std::vector<NamedObservation> make_observations(const Scene& scene);
+
+/// Depth tiles with the memory they point into. Rows are wider than the tile.
+class DrawnTiles {
+ public:
+  DrawnTiles(const std::vector<TileView>& views);
+  DrawnTiles(const DrawnTiles&) = delete;
+  DrawnTiles& operator=(const DrawnTiles&) = delete;
+  DrawnTiles(DrawnTiles&&) = default;
+
+  float& at(int view, int x, int y);
+  /// Sets the tiles' bounds to what is covered.
+  const std::vector<DepthTile>& finish();
+  const std::vector<DepthTile>& tiles() const { return tiles_; }
+
+ private:
+  std::vector<std::vector<float>> memory_;
+  std::vector<DepthTile> tiles_;
+};
+
+/// A hypothesis and its depth: the scene drawn in a state, or something no scene looks like.
+struct NamedHypothesis {
+  std::string name;
+  Eigen::VectorXd state;  ///< normalised
+  DrawnTiles depth;
+};
+
+/// The scene drawn in several states by a plain rasteriser; then nothing covered, one view covered
+/// only, everything covered, and noise over many orders of magnitude.
+std::vector<NamedHypothesis> make_hypotheses(const Scene& scene, const Observation& observation);
+
+}  // namespace hypotrack::contract

@@ -1,0 +1,51 @@
+// hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]: holds a plugin to the contract of its
+// kind, one row per promise. Exits 0 if no row failed, 1 if one did, 2 on a wrong command line.
+#include <exception>
+#include <iostream>
+#include <map>
+
+#include "subject.hpp"
+#include "test_models.hpp"
+
+namespace {
+
+using namespace hypotrack;
+using namespace hypotrack::contract;
+
+const std::map<std::string, void (*)(Report&, const Subject&)> kChecks = {
+    {"model", check_model},
+    {"objective", check_objective},
+    {"optimizer", check_optimizer},
+    {"source", check_source},
+};
+
+int run(Subject& subject) {
+  subject.scene =
+      std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
+          {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  Report report;
+  if (check_library(report, subject)) kChecks.at(subject.kind)(report, subject);
+  return report.finish();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3 || argc > 4 || !kChecks.contains(argv[1])) {
+    std::cerr << "usage: hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]\n"
+                 "KIND is model, objective, optimizer or source; PARAMETERS.yaml holds what stands "
+                 "in the plugin's place in a scene.\nThe scene around it is one hand of 27 "
+                 "parameters, named `hand`.\n";
+    return 2;
+  }
+  Subject subject;
+  subject.kind = argv[1];
+  subject.library = argv[2];
+  if (argc == 4) subject.config_file = argv[3];
+  try {
+    return run(subject);
+  } catch (const std::exception& error) {
+    std::cerr << "hypotrack_contract_test: " << error.what() << "\n";
+    return 1;
+  }
+}

@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <future>
+
+#include "drawn_tiles.hpp"
+#include "subject.hpp"
+
+namespace hypotrack::contract {
+namespace {
+
+/// Costs of hypotheses, in the given order.
+std::vector<double> score(const Objective& objective,
+                          const std::vector<NamedHypothesis>& hypotheses,
+                          const std::vector<std::size_t>& order) {
+  std::vector<double> costs;
+  for (const std::size_t i : order) {
+    const NamedHypothesis& hypothesis = hypotheses[i];
+    RenderedHypothesis rendered;
+    rendered.state = {hypothesis.state.data(), static_cast<std::size_t>(hypothesis.state.size())};
+    if (objective.needs_rendering()) rendered.views = hypothesis.depth.tiles();
+    costs.push_back(objective.cost(rendered));
+  }
+  return costs;
+}
+
+/// An objective that has taken an observation in, and hypotheses drawn for it.
+struct Setting {
+  std::string name;
+  Observation observation;
+  std::unique_ptr<Objective> objective;
+  std::vector<NamedHypothesis> hypotheses;
+  std::vector<std::size_t> order;  ///< 0, 1, 2, ...
+
+  std::vector<double> costs() const { return score(*objective, hypotheses, order); }
+  std::string at(std::size_t i) const { return hypotheses[i].name + ", " + name; }
+};
+
+/// Settings for all observations that the objective works with. What it refuses, it must refuse
+/// with a DataError.
+std::vector<Setting> make_settings(const Subject& subject) {
+  std::vector<Setting> settings;
+  std::string refusal;
+  for (NamedObservation& named : make_observations(*subject.scene)) {
+    Setting setting;
+    setting.name = named.name;
+    setting.observation = std::move(named.observation);
+    setting.objective = subject.make<Objective>();
+    try {
+      setting.objective->prepare(setting.observation);
+    } catch (const DataError& error) {
+      refusal = setting.name + ": " + error.what();
+      continue;
+    }
+    setting.hypotheses = make_hypotheses(*subject.scene, setting.observation);
+    for (std::size_t i = 0; i < setting.hypotheses.size(); ++i) setting.order.push_back(i);
+    settings.push_back(std::move(setting));
+  }
+  require(!settings.empty(), "it refuses every observation, the last one as " + refusal);
+  return settings;
+}
+
+// Settings move; what was prepared points to the observation inside.
+void prepare_again(std::vector<Setting>& settings) {
+  for (Setting& setting : settings) setting.objective->prepare(setting.observation);
+}
+
+void check_numbers(const Setting& setting) {
+  const std::vector<double> costs = setting.costs();
+  for (std::size_t i = 0; i < costs.size(); ++i) {
+    require(!std::isnan(costs[i]), setting.at(i) + ": the cost is NaN");
+    require(costs[i] > -std::numeric_limits<double>::infinity(),
+            setting.at(i) + ": the cost is -infinity, expected a number or +infinity");
+  }
+}
+
+void check_repeatable(const Setting& setting) {
+  require(setting.costs() == setting.costs(), setting.name + ": scoring twice gives two costs");
+}
+
+void check_stateless(const Setting& setting) {
+  const std::vector<double> forward = setting.costs();
+  const std::vector<std::size_t> order(setting.order.rbegin(), setting.order.rend());
+  std::vector<double> backward = score(*setting.objective, setting.hypotheses, order);
+  std::ranges::reverse(backward);
+  for (std::size_t i = 0; i < forward.size(); ++i) {
+    require(forward[i] == backward[i],
+            setting.at(i) + ": the cost depends on what was scored before: " +
+                std::to_string(forward[i]) + " or " + std::to_string(backward[i]));
+  }
+}
+
+void check_threads(const Setting& setting) {
+  const std::vector<double> expected = setting.costs();
+  std::vector<std::future<bool>> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.push_back(std::async(std::launch::async, [&] {
+      bool same = true;
+      for (int round = 0; round < 8; ++round) same &= setting.costs() == expected;
+      return same;
+    }));
+  }
+  bool same = true;
+  for (auto& thread : threads) same &= thread.get();
+  require(same, setting.name + ": four threads scoring at once differ from one");
+}
+
+void check_second_object(const Subject& subject, const Setting& setting) {
+  // Both have seen exactly this one observation.
+  const auto first = subject.make<Objective>();
+  const auto second = subject.make<Objective>();
+  first->prepare(setting.observation);
+  second->prepare(setting.observation);
+  require(score(*first, setting.hypotheses, setting.order) ==
+              score(*second, setting.hypotheses, setting.order),
+          setting.name + ": two objects give two costs");
+}
+
+}  // namespace
+
+void check_objective(Report& report, const Subject& subject) {
+  if (!check_parameters<Objective>(report, subject)) return;
+  std::vector<Setting> settings;
+  report.row("it takes observations in or refuses them with a DataError", [&] {
+    settings = make_settings(subject);
+    prepare_again(settings);
+  });
+  if (settings.empty()) return;
+  const auto each = [&](const auto& check) { std::ranges::for_each(settings, check); };
+  report.row("costs are numbers or +infinity, whatever the depth", [&] { each(check_numbers); });
+  report.row("scoring twice gives the same", [&] { each(check_repeatable); });
+  report.row("costs do not depend on what was scored before", [&] { each(check_stateless); });
+  report.row("several threads score the same", [&] { each(check_threads); });
+  report.row("a second object scores the same",
+             [&] { each([&](const Setting& setting) { check_second_object(subject, setting); }); });
+  report.row("it can take in a frame after a frame", [&] {
+    prepare_again(settings);
+    each(check_numbers);
+  });
+}
+
+}  // namespace hypotrack::contract
