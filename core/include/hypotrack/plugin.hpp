@@ -87,16 +87,22 @@ class HYPOTRACK_API PluginContext {
 
   /// The models being tracked. Throws PluginError in a model plugin, which has no scene yet.
   const Scene& scene() const;
-  /// Makes another plugin from a nested map (a mirrored model, a wrapped source).
+  /// Makes another plugin from a nested map (a mirrored model, a wrapped source). Its parameters
+  /// join the record at their place.
   template <PluginInterface T>
   std::unique_ptr<T> make(const ConfigNode& config) {
-    return plugins_->make<T>(config, scene_);
+    std::string resolved;
+    auto object = plugins_->make<T>(config, scene_, {}, &resolved);
+    record_nested(config, resolved);
+    return object;
   }
   /// The node that the parameters were read from, for error messages: config().where().
   const ConfigNode& config() const { return config_; }
   const std::string& resolved() const { return resolved_; }
 
  private:
+  void record_nested(const ConfigNode& config, const std::string& resolved);
+
   ConfigNode config_;
   const Scene* scene_;
   PluginLoader* plugins_;

@@ -13,16 +13,6 @@
 namespace hypotrack::detail {
 namespace {
 
-std::vector<std::string> split_path(std::string_view path) {
-  std::vector<std::string> steps;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    steps.emplace_back(path.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return steps;
-}
-
 std::optional<std::size_t> as_index(std::string_view step) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
@@ -69,6 +59,16 @@ std::unique_ptr<YamlNode>& slot(YamlNode& node, const std::string& step, std::st
 }
 
 }  // namespace
+
+std::vector<std::string> split_path(std::string_view path) {
+  std::vector<std::string> steps;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    steps.emplace_back(path.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return steps;
+}
 
 void assign(YamlNode& root, std::span<const std::string> path, std::unique_ptr<YamlNode> value,
             const std::string& say) {

@@ -3,6 +3,8 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "config/yaml_node.hpp"
 
@@ -10,6 +12,9 @@ namespace hypotrack::detail {
 
 /// Applies one `key.path=value`. Throws ConfigError, naming the override.
 void apply_override(YamlNode& root, const std::string& assignment);
+
+/// The steps of a path: `models.0.type`.
+std::vector<std::string> split_path(std::string_view path);
 
 /// Puts a value at a path below `root`, creating what is missing on the way. `say` is how messages
 /// name the assignment.

@@ -60,6 +60,10 @@ std::filesystem::path prefix_folder() {
   return prefix;
 }
 
+std::filesystem::path probe_program() {
+  return prefix_folder() / HYPOTRACK_PROBE_DIR / "hypotrack_plugin_probe";
+}
+
 std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra) {
   std::vector<std::filesystem::path> folders;

@@ -11,6 +11,9 @@ namespace hypotrack::detail {
 /// libhypotrack.so was loaded from.
 std::filesystem::path prefix_folder();
 
+/// The program that opens plugins in a process of their own.
+std::filesystem::path probe_program();
+
 /// `extra`, HYPOTRACK_PLUGIN_PATH (absolute folders with colons between them), the build's own
 /// folder. Relative elements of `extra` are relative to the working directory as it is now, for
 /// they were typed on purpose; in the environment they would depend on where one happens to be, and

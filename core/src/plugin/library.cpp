@@ -95,24 +95,36 @@ std::vector<std::string> plugin_names(std::string_view kind,
   return {names.begin(), names.end()};
 }
 
-const HypotrackPlugin* open_library(const std::filesystem::path& file) {
+void* load_library(const std::filesystem::path& file) {
   // An absolute path, so that the dynamic linker searches nowhere. NODELETE and no dlclose: types
   // and exceptions of a plugin may live as long as the process does.
   const std::string path = std::filesystem::absolute(file).string();
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!library) {
-    throw PluginError(fmt::format("{}: cannot be loaded: {}", path, text_of(dlerror())));
+    std::string_view reason = text_of(dlerror());
+    if (reason.starts_with(path + ": ")) reason.remove_prefix(path.size() + 2);
+    throw PluginError(fmt::format("cannot be loaded: {}", reason));
   }
+  return library;
+}
+
+const HypotrackPlugin& descriptor_of(void* library) {
   void* symbol = dlsym(library, kPluginEntry);
   if (!symbol) {
     throw PluginError(
-        fmt::format("{}: is no hypotrack plugin: it has no function {}(). Expected a library with "
-                    "one HYPOTRACK_PLUGIN(...)",
-                    path, kPluginEntry));
+        fmt::format("is no hypotrack plugin: it has no function {}(); expected a library with one "
+                    "HYPOTRACK_PLUGIN(...)",
+                    kPluginEntry));
   }
-  const auto* plugin = reinterpret_cast<const HypotrackPlugin* (*)()>(symbol)();
-  if (!plugin) throw PluginError(fmt::format("{}: {}() returned null", path, kPluginEntry));
-  return plugin;
+  const HypotrackPlugin* plugin = nullptr;
+  try {
+    plugin = reinterpret_cast<const HypotrackPlugin* (*)()>(symbol)();
+  } catch (...) {
+    throw PluginError(
+        fmt::format("{}() threw an exception instead of returning its descriptor", kPluginEntry));
+  }
+  if (!plugin) throw PluginError(fmt::format("{}() returned null", kPluginEntry));
+  return *plugin;
 }
 
 std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expected) {

@@ -31,9 +31,12 @@ bool is_plugin_name(std::string_view name);
 std::vector<std::string> plugin_names(std::string_view kind,
                                       std::span<const std::filesystem::path> search_path);
 
-/// Opens a library, for good, and returns its descriptor, of which only the address is known to be
-/// right. Throws PluginError.
-const HypotrackPlugin* open_library(const std::filesystem::path& file);
+/// Opens a library for good. Throws PluginError without naming the file.
+void* load_library(const std::filesystem::path& file);
+
+/// What an opened library says it is; nothing in it has been compared yet. Throws PluginError
+/// without naming the file.
+const HypotrackPlugin& descriptor_of(void* library);
 
 /// What keeps a plugin from being used by this hypotrack, with both sides of the mismatch; empty if
 /// nothing does. Reads no member before those that say whether it is there.

@@ -107,12 +107,21 @@ struct PluginLoader::Impl {
     const std::filesystem::path file = find(kind, name, type);
     const std::lock_guard lock(mutex);
     const HypotrackPlugin*& plugin = open[file.string()];
-    if (plugin) return *plugin;
-    const HypotrackPlugin* opened = detail::open_library(file);
-    const std::string mismatch = detail::find_mismatch(*opened, {std::string(kind), name});
-    if (!mismatch.empty()) throw PluginError(fmt::format("{}: {}", file.string(), mismatch));
-    plugin = opened;
+    if (!plugin) plugin = &open_plugin(file, {std::string(kind), name});
     return *plugin;
+  }
+
+  static const HypotrackPlugin& open_plugin(const std::filesystem::path& file,
+                                            const detail::PluginId& id) {
+    std::string problem;
+    try {
+      const HypotrackPlugin& plugin = detail::descriptor_of(detail::load_library(file));
+      problem = detail::find_mismatch(plugin, id);
+      if (problem.empty()) return plugin;
+    } catch (const PluginError& e) {
+      problem = e.what();
+    }
+    throw PluginError(fmt::format("{}: {}", file.string(), problem));
   }
 };
 
@@ -135,21 +144,6 @@ void* PluginLoader::make_object(std::string_view kind, const ConfigNode& config,
   void* object = create(plugin, context);
   if (resolved) *resolved = fmt::format("type: {}\n{}", name, context.resolved());
   return object;
-}
-
-PluginContext::PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
-                             std::vector<std::string> also_allowed)
-    : config_(std::move(config)),
-      scene_(scene),
-      plugins_(&plugins),
-      also_allowed_(std::move(also_allowed)) {}
-
-const Scene& PluginContext::scene() const {
-  if (!scene_) {
-    throw PluginError(config_.where() +
-                      ": the plugin asks for the scene, which exists only once all models do");
-  }
-  return *scene_;
 }
 
 }  // namespace hypotrack

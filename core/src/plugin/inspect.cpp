@@ -1,0 +1,179 @@
+#include "plugin/inspect.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <string.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "config/suggest.hpp"
+#include "hypotrack/error.hpp"
+#include "plugin/child.hpp"
+#include "plugin/folders.hpp"
+#include "plugin/library.hpp"
+
+namespace hypotrack {
+namespace {
+
+std::string signal_name(int signal) {
+  const char* name = sigabbrev_np(signal);
+  return name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
+}
+
+/// What went wrong with a child that gave no result.
+std::string describe_end(const detail::ChildResult& result, std::chrono::milliseconds limit) {
+  const std::string step = result.lines.empty() ? "while starting" : result.lines.back();
+  if (result.timed_out) {
+    return fmt::format("hung: did not finish within {:g} s {}",
+                       static_cast<double>(limit.count()) / 1e3, step);
+  }
+  if (result.signal) return fmt::format("crashed: {} {}", signal_name(result.signal), step);
+  return fmt::format("ended the program with exit code {} {}", result.exit_code, step);
+}
+
+void fill(PluginRow& row, const nlohmann::json& report) {
+  row.version = report.value("version", "");
+  row.summary = report.value("summary", "");
+  row.licence = report.value("licence", "");
+  row.capabilities = report.value("capabilities", "");
+  row.parameters = report.value("parameters", "");
+  row.problem = report.value("problem", "");
+}
+
+PluginRow row_of(const std::filesystem::path& file) {
+  PluginRow row;
+  row.path = std::filesystem::absolute(file).lexically_normal();
+  if (const auto id = detail::id_from_file_name(row.path)) {
+    row.kind = id->kind;
+    row.name = id->name;
+  }
+  return row;
+}
+
+/// Libraries on the search path with nothing but what their file names say, sorted; hidden ones
+/// last among their like.
+std::vector<PluginRow> find_libraries(std::span<const std::filesystem::path> search_path) {
+  std::vector<PluginRow> rows;
+  for (const auto& folder : search_path) {
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, unreadable)) {
+      PluginRow row = row_of(entry.path());
+      if (row.name.empty()) continue;
+      const auto first = std::find_if(rows.begin(), rows.end(), [&](const PluginRow& other) {
+        return other.kind == row.kind && other.name == row.name;
+      });
+      if (first != rows.end()) row.problem = "hidden by " + first->path.string();
+      rows.push_back(std::move(row));
+    }
+  }
+  std::stable_sort(rows.begin(), rows.end(), [](const PluginRow& a, const PluginRow& b) {
+    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+  });
+  return rows;
+}
+
+void inspect(std::vector<PluginRow>& rows, std::chrono::milliseconds limit) {
+  for (PluginRow& row : rows) {
+    if (row.problem.empty()) row = check_plugin(row.path, limit);
+  }
+}
+
+std::string plural(std::size_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+PluginRow check_plugin(const std::filesystem::path& file, std::chrono::milliseconds limit) {
+  PluginRow row = row_of(file);
+  if (!std::filesystem::is_regular_file(row.path)) {
+    row.problem = std::filesystem::exists(row.path) ? "is no file" : "there is no such file";
+    return row;
+  }
+  const auto result = detail::run_child(detail::probe_program(), row.path.string(), limit);
+  const auto report = result.lines.empty()
+                          ? nlohmann::json()
+                          : nlohmann::json::parse(result.lines.back(), nullptr, false);
+  if (report.is_object()) {
+    fill(row, report);
+  } else {
+    row.problem = describe_end(result, limit);
+  }
+  return row;
+}
+
+std::vector<PluginRow> list_plugins(std::span<const std::filesystem::path> search_path,
+                                    std::chrono::milliseconds limit) {
+  auto rows = find_libraries(search_path);
+  inspect(rows, limit);
+  return rows;
+}
+
+std::vector<PluginRow> find_plugins(std::span<const std::filesystem::path> search_path,
+                                    std::string_view what, std::chrono::milliseconds limit) {
+  auto rows = find_libraries(search_path);
+  std::set<std::string> words;
+  for (const PluginRow& row : rows) words.insert({row.kind, row.name, row.kind + "/" + row.name});
+  std::erase_if(rows, [&](const PluginRow& row) {
+    return what != row.kind && what != row.name && what != row.kind + "/" + row.name;
+  });
+  if (rows.empty()) {
+    const std::vector<std::string> candidates(words.begin(), words.end());
+    throw PluginError(fmt::format("there is no plugin or kind of plugin '{}'{}", what,
+                                  detail::did_you_mean(what, candidates)));
+  }
+  inspect(rows, limit);
+  return rows;
+}
+
+std::string format_table(std::span<const PluginRow> rows) {
+  std::size_t kind = 4;
+  std::size_t name = 4;
+  std::size_t version = 7;
+  std::size_t licence = 7;
+  for (const PluginRow& row : rows) {
+    kind = std::max(kind, row.kind.size());
+    name = std::max(name, row.name.size());
+    version = std::max(version, row.version.size());
+    licence = std::max(licence, row.licence.size());
+  }
+  const auto line = [&](const auto& k, const auto& n, const auto& v, const auto& l, const auto& s) {
+    return fmt::format("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {}\n", k, kind, n, name, v, version, l,
+                       licence, s);
+  };
+  std::string text = line("KIND", "NAME", "VERSION", "LICENCE", "SUMMARY");
+  for (const PluginRow& row : rows) {
+    text += row.usable() ? line(row.kind, row.name, row.version, row.licence, row.summary)
+                         : line(row.kind, row.name, "-", "-", "UNUSABLE: " + row.problem);
+  }
+  const auto broken =
+      std::count_if(rows.begin(), rows.end(), [](auto& row) { return !row.usable(); });
+  text += plural(rows.size(), "plugin");
+  return text + (broken ? fmt::format(", {} of them unusable\n", broken) : "\n");
+}
+
+std::string format_info(const PluginRow& row) {
+  if (!row.usable()) {
+    return fmt::format("{} '{}' cannot be used: {}\n  library       {}\n", row.kind, row.name,
+                       row.problem, row.path.string());
+  }
+  return fmt::format(
+      "{} '{}' {}: {}\n"
+      "  licence       {}\n"
+      "  capabilities  {}\n"
+      "  library       {}\n"
+      "parameters{}\n{}",
+      row.kind, row.name, row.version, row.summary, row.licence,
+      row.capabilities.empty() ? "none" : row.capabilities, row.path.string(),
+      row.parameters.empty() ? ": none" : "", row.parameters);
+}
+
+std::string format_check(const PluginRow& row) {
+  if (!row.usable()) return fmt::format("{}: {}\n", row.path.string(), row.problem);
+  return fmt::format("{}: {} '{}' {} can be used\n", row.path.string(), row.kind, row.name,
+                     row.version);
+}
+
+}  // namespace hypotrack

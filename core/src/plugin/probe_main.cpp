@@ -1,0 +1,8 @@
+// hypotrack_plugin_probe FILE: opens one plugin library for `hypotrack plugins`, in a process of
+// its own. Writes its report to file descriptor 3.
+#include "plugin/probe.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  hypotrack::detail::run_probe(argv[1]);
+}

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <gmock/gmock.h>
+#include <stdlib.h>
+
+#include <optional>
+#include <string>
+
+#include "test_paths.hpp"
+
+namespace hypotrack::test {
+
+/// A folder of tests/bad_plugins.
+inline std::filesystem::path fixtures(const std::string& group) {
+  return build_dir() / "tests" / "plugin_fixtures" / group;
+}
+
+inline std::filesystem::path fixture(const std::string& group, const std::string& name) {
+  return fixtures(group) / ("libhypotrack_optimizer_" + name + ".so");
+}
+
+/// Sets an environment variable until the end of the scope.
+class ScopedVariable {
+ public:
+  ScopedVariable(const char* name, const std::string& value) : name_(name) {
+    if (const char* old = getenv(name)) old_ = old;
+    setenv(name, value.c_str(), 1);
+  }
+  ~ScopedVariable() {
+    if (old_) {
+      setenv(name_, old_->c_str(), 1);
+    } else {
+      unsetenv(name_);
+    }
+  }
+  ScopedVariable(const ScopedVariable&) = delete;
+  ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+/// The message of the E that `action` throws; a failed test if it throws none.
+template <class E, class Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const E& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return "";
+}
+
+}  // namespace hypotrack::test

@@ -1,0 +1,146 @@
+#include <atomic>
+#include <thread>
+
+#include "hypotrack/error.hpp"
+#include "plugin/inspect.hpp"
+#include "plugin_fixtures.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+TEST(Inspect, UsablePluginsAreDescribed) {
+  const PluginRow row = check_plugin(fixture("good", "sample"));
+  EXPECT_TRUE(row.usable()) << row.problem;
+  EXPECT_EQ(row.path, fixture("good", "sample"));
+  EXPECT_EQ(row.kind, "optimizer");
+  EXPECT_EQ(row.name, "sample");
+  EXPECT_EQ(row.version, "1.2.3");
+  EXPECT_EQ(row.licence, "Apache-2.0");
+  EXPECT_EQ(row.summary, "does what it is told");
+  EXPECT_EQ(row.capabilities, "deterministic batch");
+  EXPECT_THAT(row.parameters, HasSubstr("particles of the swarm"));
+  EXPECT_EQ(format_check(row),
+            fixture("good", "sample").string() + ": optimizer 'sample' 1.2.3 can be used\n");
+}
+
+TEST(Inspect, HarmIsARowNotTheEnd) {
+  const auto problem = [](const std::string& name) {
+    return check_plugin(fixture("harmful", name)).problem;
+  };
+  EXPECT_EQ(problem("segfault"), "crashed: SIGSEGV while loading");
+  EXPECT_EQ(problem("abort"), "crashed: SIGABRT while loading");
+  EXPECT_EQ(problem("throw"), "crashed: SIGABRT while loading");
+  EXPECT_EQ(problem("exit"), "ended the program with exit code 3 while loading");
+  EXPECT_EQ(check_plugin(fixture("bad", "crash_in_describe")).problem,
+            "crashed: SIGSEGV while describing its parameters");
+}
+
+TEST(Inspect, HangingLibrariesAreKilled) {
+  // Long enough to get as far as loading on a busy machine, if not always.
+  const PluginRow row = check_plugin(fixture("harmful", "hang"), std::chrono::milliseconds(700));
+  EXPECT_THAT(row.problem, StartsWith("hung: did not finish within 0.7 s while "));
+}
+
+TEST(Inspect, ProblemsReadLikeTheLoaders) {
+  const auto problem = [](const std::string& name) {
+    return check_plugin(fixture("bad", name)).problem;
+  };
+  EXPECT_THAT(problem("other_abi"),
+              StartsWith("was built for plugin ABI version 7, this hypotrack has 1;"));
+  EXPECT_THAT(problem("other_tag"), AllOf(HasSubstr("Plugin: 'c++ 201703L, "),
+                                          HasSubstr("This hypotrack: 'c++ 202002L, ")));
+  EXPECT_THAT(problem("no_entry"), StartsWith("is no hypotrack plugin: it has no function "));
+  EXPECT_EQ(problem("not_elf"), "cannot be loaded: invalid ELF header");
+  EXPECT_THAT(problem("unresolved"), HasSubstr("undefined symbol: function_that_nobody_has"));
+}
+
+TEST(Inspect, FilesThatAreNoPluginsAreSaidToBe) {
+  EXPECT_EQ(check_plugin("/nowhere/libhypotrack_optimizer_x.so").problem, "there is no such file");
+  EXPECT_EQ(check_plugin(fixtures("bad")).problem, "is no file");
+  EXPECT_EQ(check_plugin(fixtures("bad") / "no_plugin_name.so").problem,
+            "is not named like a plugin; expected libhypotrack_KIND_NAME.so");
+}
+
+TEST(Inspect, ListsEveryLibraryOnThePathOnce) {
+  const std::vector<std::filesystem::path> path = {fixtures("other"), fixtures("good"), "/nowhere"};
+  const auto rows = list_plugins(path);
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].path, fixture("other", "sample"));
+  EXPECT_TRUE(rows[0].usable()) << rows[0].problem;
+  EXPECT_EQ(rows[1].path, fixture("good", "sample"));
+  EXPECT_EQ(rows[1].problem, "hidden by " + fixture("other", "sample").string());
+  EXPECT_EQ(rows[2].name, "thrower");
+  EXPECT_EQ(rows[3].name, "wrapper");
+}
+
+TEST(Inspect, FindsByKindNameOrBoth) {
+  const std::vector<std::filesystem::path> path = {fixtures("good")};
+  EXPECT_EQ(find_plugins(path, "optimizer").size(), 3u);
+  EXPECT_EQ(find_plugins(path, "sample").size(), 1u);
+  EXPECT_EQ(find_plugins(path, "optimizer/sample").at(0).name, "sample");
+  EXPECT_EQ(message_of<PluginError>([&] { find_plugins(path, "smaple"); }),
+            "there is no plugin or kind of plugin 'smaple'; did you mean 'sample'?");
+  EXPECT_EQ(message_of<PluginError>([&] { find_plugins(path, "source"); }),
+            "there is no plugin or kind of plugin 'source'");
+}
+
+TEST(Inspect, WorksWhileOtherThreadsAllocate) {
+  std::atomic<bool> stop = false;
+  std::thread busy([&] {
+    while (!stop) {
+      delete[] new char[1000];
+      std::this_thread::yield();
+    }
+  });
+  const PluginRow row = check_plugin(fixture("good", "wrapper"));
+  stop = true;
+  busy.join();
+  EXPECT_TRUE(row.usable()) << row.problem;
+}
+
+PluginRow sample_row() {
+  PluginRow row;
+  row.path = "/p/libhypotrack_optimizer_pso.so";
+  row.kind = "optimizer";
+  row.name = "pso";
+  row.version = "0.1.0";
+  row.summary = "a swarm";
+  row.licence = "MIT";
+  row.parameters = "  particles  integer\n";
+  return row;
+}
+
+TEST(Inspect, TableHasALinePerPlugin) {
+  PluginRow broken = sample_row();
+  broken.name = "broken_one";
+  broken.problem = "crashed: SIGSEGV while loading";
+  EXPECT_EQ(format_table(std::vector{sample_row(), broken}),
+            "KIND       NAME        VERSION  LICENCE  SUMMARY\n"
+            "optimizer  pso         0.1.0    MIT      a swarm\n"
+            "optimizer  broken_one  -        -        UNUSABLE: crashed: SIGSEGV while loading\n"
+            "2 plugins, 1 of them unusable\n");
+}
+
+TEST(Inspect, InfoEndsWithTheParameters) {
+  EXPECT_EQ(format_info(sample_row()),
+            "optimizer 'pso' 0.1.0: a swarm\n"
+            "  licence       MIT\n"
+            "  capabilities  none\n"
+            "  library       /p/libhypotrack_optimizer_pso.so\n"
+            "parameters\n"
+            "  particles  integer\n");
+  PluginRow broken = sample_row();
+  broken.problem = "crashed";
+  EXPECT_EQ(format_info(broken),
+            "optimizer 'pso' cannot be used: crashed\n"
+            "  library       /p/libhypotrack_optimizer_pso.so\n");
+  EXPECT_EQ(format_check(broken), "/p/libhypotrack_optimizer_pso.so: crashed\n");
+}
+
+}  // namespace
+}  // namespace hypotrack::test
