@@ -14,7 +14,7 @@ namespace {
 using scalar::Mapped;
 
 TEST(Pixel, ExpIsWithinAMillionthOfTheLibrarys) {
-  for (double x = -86.9; x < 87.9; x += 0.0137) {
+  for (double x = -79.9; x < 87.9; x += 0.0137) {
     const double exact = std::exp(static_cast<double>(static_cast<float>(x)));
     EXPECT_NEAR(pixel::exp(static_cast<float>(x)) / exact, 1.0, 5e-7) << x;
   }
@@ -23,7 +23,7 @@ TEST(Pixel, ExpIsWithinAMillionthOfTheLibrarys) {
 TEST(Pixel, ExpOfZeroIsExactlyOne) { EXPECT_EQ(pixel::exp(0.0f), 1.0f); }
 
 TEST(Pixel, ExpStaysFiniteAndPositiveFarOutside) {
-  EXPECT_EQ(pixel::exp(-1e9f), pixel::exp(-87.0f));
+  EXPECT_EQ(pixel::exp(-1e9f), pixel::exp(-80.0f));
   EXPECT_GT(pixel::exp(-1e9f), 0.0f);
   EXPECT_TRUE(std::isfinite(pixel::exp(1e9f)));
 }

@@ -73,7 +73,7 @@ namespace pixel {
 // exp(x) = 2^n exp(r), n = round(x / ln 2), |r| <= ln 2 / 2, exp(r) by its Taylor polynomial of
 // degree 6 with the last coefficient adjusted to the interval: relative error below 3e-7. All lane
 // types share these numbers and the order of operations, so they agree up to rounding.
-inline constexpr float kExpLowest = -87.0f;  // below, exp() is exp(-87) = 1.6e-38
+inline constexpr float kExpLowest = -80.0f;  // below, exp() is exp(-80) = 1.8e-35
 inline constexpr float kExpHighest = 88.0f;
 inline constexpr float kLog2E = 1.44269504f;
 inline constexpr float kLn2High = 0.693359375f;  // few bits, so that n * kLn2High is exact
@@ -95,7 +95,7 @@ HYPOTRACK_PIXEL float select(bool mask, float yes, float no) { return mask ? yes
 /// The nearest integer, ties to even.
 HYPOTRACK_PIXEL float round(float a) { return std::nearbyint(a); }
 
-/// e^x within 5e-7 relative for -87 <= x <= 88; outside, the value at the nearer end.
+/// e^x within 5e-7 relative for -80 <= x <= 88; outside, the value at the nearer end.
 HYPOTRACK_PIXEL float exp(float x) {
   x = min(max(x, kExpLowest), kExpHighest);
   const float n = round(x * kLog2E);

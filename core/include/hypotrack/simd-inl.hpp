@@ -34,6 +34,14 @@ in HWY_DISABLED_TARGETS before including Highway"
 ///   #include "my_term-inl.hpp"
 ///
 /// Whoever includes this header links Highway (libhwy); nothing else of hypotrack asks for it.
+#ifndef HYPOTRACK_LANE_NUMBERS_
+#define HYPOTRACK_LANE_NUMBERS_
+namespace hypotrack::pixel {
+alignas(64) inline constexpr float kLaneNumbers[] = {0, 1, 2,  3,  4,  5,  6,  7,
+                                                     8, 9, 10, 11, 12, 13, 14, 15};
+}  // namespace hypotrack::pixel
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 
@@ -45,6 +53,7 @@ using UintTag = hn::ScalableTag<std::uint32_t>;
 
 /// Lanes per vector.
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
+static_assert(kLanes <= 16);
 
 /// A yes or no per lane.
 struct LaneMask {
@@ -61,11 +70,6 @@ HYPOTRACK_PIXEL int count(LaneMask a) { return static_cast<int>(hn::CountTrue(Fl
 HYPOTRACK_PIXEL int first(LaneMask a) {
   return static_cast<int>(hn::FindFirstTrue(FloatTag(), a.m));
 }
-/// The first n lanes, n <= kLanes.
-HYPOTRACK_PIXEL LaneMask first_lanes(int n) {
-  return {hn::FirstN(FloatTag(), static_cast<std::size_t>(n))};
-}
-
 /// One float per lane.
 struct Lanes {
   hn::Vec<FloatTag> v;
@@ -118,8 +122,13 @@ HYPOTRACK_PIXEL Lanes exp(Lanes x) {
 /// Sum of all lanes.
 HYPOTRACK_PIXEL float sum(Lanes a) { return hn::GetLane(hn::SumOfLanes(FloatTag(), a.v)); }
 /// start, start + 1, start + 2, ...
-HYPOTRACK_PIXEL Lanes count_from(int start) {
-  return Lanes(hn::Iota(FloatTag(), static_cast<float>(start)));
+HYPOTRACK_PIXEL Lanes count_from(float start) {
+  // Highway's Iota() is a loop over memory on some instruction sets.
+  return Lanes(hn::Add(hn::Load(FloatTag(), pixel::kLaneNumbers), Lanes(start).v));
+}
+/// The first n lanes, n <= kLanes.
+HYPOTRACK_PIXEL LaneMask first_lanes(int n) {
+  return {hn::Lt(hn::Load(FloatTag(), pixel::kLaneNumbers), Lanes(static_cast<float>(n)).v)};
 }
 
 /// One 32-bit integer per lane: columns, rows, indices.

@@ -140,7 +140,7 @@ HYPOTRACK_PIXEL int window_for(const StereoMap& map, const float* row, int x, in
   if (map.width < 2 * kLanes) return -1;
   const float w = row[x + lane];
   const float shift = map.a[0][2] + map.b[0] * w;
-  const int start = x + static_cast<int>(std::lrint(shift)) - kLanes / 2;
+  const int start = x + static_cast<int>(shift) - kLanes / 2;
   const int highest = map.width - 2 * kLanes;
   return start < 0 ? 0 : start > highest ? highest : start;
 }
@@ -162,8 +162,8 @@ HYPOTRACK_PIXEL void walk_vector(const DepthTile& here, const DepthTile& there,
   p.height = map.height;
   p.same_row = kRectified;
   p.uncovered = first_lanes(pixels) && !covered;
-  const Mapped<Lanes> m =
-      map_pixel<kRectified>(map, count_from(x), Lanes(static_cast<float>(y)), w);
+  const Mapped<Lanes> m = map_pixel<kRectified>(map, count_from(static_cast<float>(x)),
+                                                Lanes(static_cast<float>(y)), w);
   p.u = m.u;
   p.v = m.v;
   const LaneMask within = covered && lands_inside<kRectified>(map, m);
