@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 
 namespace hypotrack::stereo_color {
 namespace {
@@ -43,12 +45,27 @@ float sum_3x3(const float* a, const float* b, const float* c) {
   return (a[0] + a[1] + a[2]) + (b[0] + b[1] + b[2]) + (c[0] + c[1] + c[2]);
 }
 
-// The middle one or two values; the two are equal for an odd count.
-std::array<float, 2> middle(std::vector<float> values) {
-  const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), upper, values.end());
-  if (values.size() % 2 == 1) return {*upper, *upper};
-  return {*std::max_element(values.begin(), upper), *upper};
+// The bucket of a non-negative float: exponent and three bits of mantissa, in the order of values.
+std::size_t bucket(float value) { return std::bit_cast<std::uint32_t>(value) >> 20; }
+
+// The middle one or two of non-negative values; the two are equal for an odd count. Exact; buckets
+// only leave few values to look at.
+std::array<float, 2> middle(const std::vector<float>& values) {
+  std::array<std::size_t, 2048> counts{};
+  for (const float v : values) ++counts[bucket(v)];
+  const auto ranked = [&](std::size_t rank) {
+    std::size_t b = 0;
+    for (; rank >= counts[b]; ++b) rank -= counts[b];
+    std::vector<float> candidates;
+    candidates.reserve(counts[b]);
+    std::copy_if(values.begin(), values.end(), std::back_inserter(candidates),
+                 [b](float v) { return bucket(v) == b; });
+    const auto at = candidates.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(candidates.begin(), at, candidates.end());
+    return *at;
+  };
+  const float upper = ranked(values.size() / 2);
+  return {values.size() % 2 == 1 ? upper : ranked(values.size() / 2 - 1), upper};
 }
 
 }  // namespace
@@ -103,8 +120,8 @@ std::vector<float> distinctiveness(const Curvatures& curvatures,
     valid_ratio.push_back(ratio[i]);
   }
   if (valid_norm.empty()) return c;
-  const auto [norm_low, norm_high] = middle(std::move(valid_norm));
-  const auto [ratio_low, ratio_high] = middle(std::move(valid_ratio));
+  const auto [norm_low, norm_high] = middle(valid_norm);
+  const auto [ratio_low, ratio_high] = middle(valid_ratio);
   const float exp_median_d = std::sqrt(norm_low) * std::sqrt(norm_high);
   const float median_a = 0.5f * (std::atan(ratio_low) + std::atan(ratio_high));
   for (std::size_t i = 0; i < size; ++i) {
