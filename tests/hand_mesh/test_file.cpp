@@ -1,0 +1,151 @@
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gmock/gmock.h>
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Geometry>
+#include <assimp/Importer.hpp>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "gltf.hpp"
+#include "test_paths.hpp"
+#include "the_hand.hpp"
+
+namespace hypotrack::hand_mesh {
+namespace {
+
+using Eigen::Vector3d;
+using nlohmann::json;
+
+std::string built_file() {
+  std::ifstream stream(HAND_FILE, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+uint32_t word(const std::string& bytes, size_t offset) {
+  uint32_t value = 0;
+  std::memcpy(&value, bytes.data() + offset, 4);
+  return value;
+}
+
+struct Glb {
+  json document;
+  std::string binary;
+};
+
+Glb parse(const std::string& bytes) {
+  const uint32_t length = word(bytes, 12);
+  return {json::parse(bytes.substr(20, length)), bytes.substr(20 + length + 8)};
+}
+
+TEST(HandFile, is_the_same_bytes_on_every_run) {
+  const std::string here = to_glb(the_hand());
+  const std::string built = built_file();
+  ASSERT_EQ(here.size(), built.size());
+  EXPECT_TRUE(here == built);
+}
+
+TEST(HandFile, is_a_well_formed_glb) {
+  const std::string bytes = built_file();
+  ASSERT_GT(bytes.size(), 100'000u);
+  EXPECT_EQ(bytes.substr(0, 4), "glTF");
+  EXPECT_EQ(word(bytes, 4), 2u);
+  EXPECT_EQ(word(bytes, 8), bytes.size());
+  EXPECT_EQ(word(bytes, 12) % 4, 0u);
+  const Glb glb = parse(bytes);
+  EXPECT_EQ(glb.document["buffers"][0]["byteLength"], glb.binary.size());
+  for (const json& view : glb.document["bufferViews"]) {
+    EXPECT_EQ(view["byteOffset"].get<size_t>() % 4, 0u);
+    EXPECT_LE(view["byteOffset"].get<size_t>() + view["byteLength"].get<size_t>(),
+              glb.binary.size());
+  }
+}
+
+TEST(HandFile, embeds_the_texture_as_png) {
+  const Glb glb = parse(built_file());
+  const json view = glb.document["bufferViews"][glb.document["images"][0]["bufferView"].get<int>()];
+  const auto first = glb.binary.begin() + view["byteOffset"].get<long>();
+  const std::vector<uchar> png(first, first + view["byteLength"].get<long>());
+  const cv::Mat image = cv::imdecode(png, cv::IMREAD_COLOR);
+  ASSERT_EQ(image.size(), the_hand().texture.size());
+  EXPECT_EQ(cv::norm(image, the_hand().texture, cv::NORM_INF), 0);
+}
+
+TEST(HandFile, has_inverse_bind_matrices_that_fit_the_nodes) {
+  const Glb glb = parse(built_file());
+  const json& skin = glb.document["skins"][0];
+  const json accessor = glb.document["accessors"][skin["inverseBindMatrices"].get<int>()];
+  const json view = glb.document["bufferViews"][accessor["bufferView"].get<int>()];
+  ASSERT_EQ(skin["joints"].size(), 21u);
+  std::vector<Eigen::Isometry3f> global(glb.document["nodes"].size(),
+                                        Eigen::Isometry3f::Identity());
+  for (size_t n = 1; n < global.size(); ++n) {  // parents come first
+    const json& node = glb.document["nodes"][n];
+    const auto t = node["translation"].get<std::vector<float>>();
+    const auto r = node["rotation"].get<std::vector<float>>();
+    global[n] = global[n] * Eigen::Translation3f(t[0], t[1], t[2]) *
+                Eigen::Quaternionf(r[3], r[0], r[1], r[2]);
+    if (node.contains("children"))
+      for (const json& child : node["children"]) global[child.get<size_t>()] = global[n];
+  }
+  for (size_t j = 0; j < 21; ++j) {
+    Eigen::Matrix4f inverse_bind;
+    std::memcpy(inverse_bind.data(), glb.binary.data() + view["byteOffset"].get<size_t>() + 64 * j,
+                64);
+    const Eigen::Matrix4f product = global[skin["joints"][j].get<size_t>()].matrix() * inverse_bind;
+    EXPECT_TRUE(product.isIdentity(1e-5f)) << product;
+  }
+}
+
+TEST(HandFile, loads_through_assimp_with_all_bones_in_metres) {
+  Assimp::Importer importer;
+  const aiScene* scene = importer.ReadFile(HAND_FILE, aiProcess_ValidateDataStructure);
+  ASSERT_NE(scene, nullptr) << importer.GetErrorString();
+  ASSERT_EQ(scene->mNumMeshes, 1u);
+  const aiMesh& mesh = *scene->mMeshes[0];
+  EXPECT_EQ(mesh.mNumFaces, the_hand().mesh.triangles.size());
+  EXPECT_TRUE(mesh.HasNormals() && mesh.HasTextureCoords(0));
+  EXPECT_EQ(scene->mNumTextures, 1u);
+  std::set<std::array<float, 3>> welded;
+  float highest = 0;
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    const aiVector3D& p = mesh.mVertices[v];
+    welded.insert({p.x, p.y, p.z});
+    highest = std::max(highest, p.y);
+  }
+  EXPECT_EQ(welded.size(), the_hand().mesh.vertices.size());
+  EXPECT_NEAR(highest, 0.177, 0.02);
+  std::set<std::string> names;
+  for (unsigned b = 0; b < mesh.mNumBones; ++b) names.insert(mesh.mBones[b]->mName.C_Str());
+  for (const SkeletonBone& bone : the_hand().skeleton)
+    EXPECT_TRUE(names.contains(bone.name)) << bone.name;
+}
+
+TEST(HandRig, names_every_bone_and_ends_the_digits_at_their_tips) {
+  const YAML::Node rig =
+      YAML::LoadFile((test::source_dir() / "configs/rigs/hypotrack_hand.yaml").string());
+  ASSERT_EQ(rig["bones"].size(), the_hand().skeleton.size());
+  for (const SkeletonBone& bone : the_hand().skeleton) {
+    YAML::Node entry;
+    for (const YAML::Node& b : rig["bones"])
+      if (b["name"].as<std::string>() == bone.name) entry.reset(b);
+    ASSERT_TRUE(entry.IsMap()) << bone.name;
+    EXPECT_EQ(entry["joint"].as<std::string>(), bone.name);
+    const std::string parent = bone.parent >= 0 ? the_hand().skeleton[bone.parent].name : "";
+    EXPECT_EQ(entry["parent"].as<std::string>(""), parent);
+    if (!bone.name.ends_with("_3")) continue;
+    const auto end = entry["end_at"].as<std::vector<double>>();
+    const Vector3d tip = bone.hand_from_bone * Vector3d(0, bone.length, 0) / 1000;
+    EXPECT_LT((Vector3d(end[0], end[1], end[2]) - tip).norm(), 2e-5)
+        << bone.name << " ends at " << tip.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack::hand_mesh
