@@ -1,1 +1,22 @@
 # Installation and the package that find_package(hypotrack) finds.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hypotrack)
+
+install(TARGETS hypotrack EXPORT hypotrack LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/hypotrack
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(EXPORT hypotrack NAMESPACE hypotrack:: FILE hypotrack-targets.cmake
+  DESTINATION ${package_dir})
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hypotrack-config.cmake.in
+  ${PROJECT_BINARY_DIR}/hypotrack-config.cmake INSTALL_DESTINATION ${package_dir}
+  PATH_VARS CMAKE_INSTALL_BINDIR)
+# Before 1.0 a minor version may change the plugin ABI.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/hypotrack-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/hypotrack-config.cmake
+  ${PROJECT_BINARY_DIR}/hypotrack-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/HypotrackPlugin.cmake
+  DESTINATION ${package_dir})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR})

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hypotrack::app {
+
+/// What every subcommand that opens plugins shares.
+struct CommonOptions {
+  std::vector<std::filesystem::path> plugin_path;
+};
+
+/// A scene and the changes made to it on the command line.
+struct SceneOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> set;
+};
+void add_scene_options(CLI::App& command, SceneOptions& options);
+
+// Each adds one subcommand whose callback does the work and sets `exit_code`.
+void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_plugins_command(CLI::App& app, CommonOptions& common, int& exit_code);
+
+}  // namespace hypotrack::app

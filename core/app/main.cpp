@@ -1,0 +1,58 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "commands.hpp"
+#include "hypotrack/build_tag.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack::app {
+
+void add_scene_options(CLI::App& command, SceneOptions& options) {
+  command.add_option("scene", options.scene, "Scene file (YAML)")->required();
+  command
+      .add_option("--set", options.set,
+                  "Change a key of the scene: key.path=value (list items by index)")
+      ->take_all()
+      ->expected(1)
+      ->type_name("KEY=VALUE");
+}
+
+}  // namespace hypotrack::app
+
+int main(int argc, char** argv) {
+  using namespace hypotrack::app;
+  CLI::App app("Model-based 3D tracking from RGB stereo pairs.", "hypotrack");
+  app.require_subcommand(1);
+  app.set_version_flag("--version",
+                       fmt::format("hypotrack {} (plugin ABI {}: {})", HYPOTRACK_VERSION,
+                                   hypotrack::kAbiVersion, hypotrack::kBuildTag));
+  CommonOptions common;
+  app.add_option("--plugin-path", common.plugin_path,
+                 "Folder to look for plugins in first (may be repeated)")
+      ->expected(1)
+      ->take_all();
+  app.fallthrough();
+  int exit_code = 0;
+  add_run_command(app, common, exit_code);
+  add_validate_command(app, common, exit_code);
+  add_synth_command(app, common, exit_code);
+  add_plugins_command(app, common, exit_code);
+  try {
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  } catch (const hypotrack::Error& e) {
+    fmt::print(stderr, "hypotrack: {}\n", e.what());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "hypotrack: out of memory\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "hypotrack: unexpected error: {}\n", e.what());
+  }
+  return 1;
+}

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+#include "interrupt.hpp"
+#include "output/recording_writer.hpp"
+#include "progress.hpp"
+#include "session/session.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct SynthOptions {
+  SceneOptions scene;
+  std::filesystem::path out;
+  std::optional<int> frames;
+};
+
+int synth(const SynthOptions& options, const CommonOptions& common) {
+  PluginLoader plugins(common.plugin_path);
+  const Session session = open_source(options.scene.scene, options.scene.set, plugins);
+  RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
+                         session.resolved, options.out);
+  InterruptGuard interrupt;
+  {
+    std::optional<int> total = session.source->frame_count();
+    if (options.frames) total = total ? std::min(*total, *options.frames) : *options.frames;
+    Progress progress(total);
+    for (int done = 0; !options.frames || done < *options.frames; ++done) {
+      const auto frame = session.source->next();
+      if (!frame || interrupt.interrupted()) break;
+      writer.add(*frame);
+      progress.advance({});
+    }
+  }
+  writer.finish();
+  fmt::print("recording in {}\n", options.out.string());
+  if (!interrupt.interrupted()) return 0;
+  fmt::print(stderr, "hypotrack: interrupted; the recording ends early\n");
+  return kInterruptedExitCode;
+}
+
+}  // namespace
+
+void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<SynthOptions>();
+  CLI::App* command = app.add_subcommand(
+      "synth", "Write a scene's source as a recording: images, calibration, ground truth");
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "New folder for the recording")->required();
+  command->add_option("--frames", options->frames, "Stop after this many frames")
+      ->check(CLI::PositiveNumber);
+  command->callback([=, &common, &exit_code] { exit_code = synth(*options, common); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "session/session.hpp"
+#include "track/tracker.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+/// Opens everything that a run would open, looks at the first frame and stops there.
+int validate_scene(const SceneOptions& options, const CommonOptions& common, bool print) {
+  PluginLoader plugins(common.plugin_path);
+  Session session = open_session(options.scene, options.set, plugins);
+  const auto first = session.source->next();
+  if (!first) throw DataError("the source has no frame");
+  if (!first->problem.empty())
+    fmt::print("frame {} cannot be used: {}\n", first->index, first->problem);
+  else
+    initial_state(session, *first);
+  const int parameters = session.scene->dimension();
+  const std::size_t models = session.scene->items().size();
+  const std::size_t cameras = session.parts.cameras.size();
+  const Tracker tracker(*session.scene, std::move(session.parts), session.scene->rest_state(),
+                        session.seed);
+  if (print)
+    fmt::print("{}", session.resolved);
+  else
+    fmt::print("{}: ok: {} model{}, {} parameters, {} cameras, {}\n", options.scene.string(), models,
+               models == 1 ? "" : "s", parameters, cameras, tracker.backend());
+  return 0;
+}
+
+}  // namespace
+
+void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<SceneOptions>();
+  auto print = std::make_shared<bool>(false);
+  CLI::App* command = app.add_subcommand("validate", "Check a scene without tracking");
+  add_scene_options(*command, *options);
+  command->add_flag("--print", *print, "Print the scene with every parameter resolved");
+  command->callback(
+      [=, &common, &exit_code] { exit_code = validate_scene(*options, common, *print); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "output/text_file.hpp"
+
+namespace hypotrack {
+
+/// Writes a stereo source as a folder that the `image_sequence` source reads: left_000000.png,
+/// right_000000.png, masks where there are some, calibration.yaml, truth_states.csv and
+/// truth_landmarks.csv where the truth is known, and scene.yaml, which tracks it. The folder appears
+/// under its name when everything is in it.
+class HYPOTRACK_API RecordingWriter {
+ public:
+  /// `scene_yaml` is the resolved scene (Session::resolved), whose source is replaced. Throws
+  /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there are
+  /// two cameras.
+  RecordingWriter(const Scene& scene, const std::vector<Camera>& cameras, double frame_rate,
+                  std::string scene_yaml, std::filesystem::path directory);
+  ~RecordingWriter();
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  /// A frame without views leaves a gap in the numbering.
+  void add(const Frame& frame);
+  void finish();
+
+ private:
+  void write_image(const char* pattern, int index, const cv::Mat& image);
+  void write_scene();
+
+  const Scene* scene_;
+  double frame_rate_;
+  std::string scene_yaml_;
+  std::filesystem::path directory_;
+  std::filesystem::path part_;
+  std::optional<TextFile> states_;
+  std::optional<TextFile> landmarks_;
+  bool masks_ = false;
+  int first_ = -1;
+  int last_ = -1;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,29 @@
+#include "session/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+
+std::span<const std::string_view> enum_names(InitFrom) {
+  static constexpr std::array<std::string_view, 3> names{"truth", "rest", "file"};
+  return names;
+}
+
+LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
+  LoadedScene scene;
+  scene.root = ConfigNode::load(path, overrides);
+  if (!scene.root.is_map())
+    throw ConfigError(fmt::format(
+        "{}: a scene is a map with models, source, objective and optimizer", scene.root.where()));
+  scene.file = ParamReader(scene.root).read<SceneFile>();
+  if (scene.file.init.from == InitFrom::file && scene.file.init.file.empty())
+    throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",
+                                  scene.root.get("init").where()));
+  return scene;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "evaluate/evaluator.hpp"
+#include "geometry/tiles.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+#include "track/search_space.hpp"
+#include "track/status.hpp"
+
+namespace hypotrack {
+
+/// Where the first search starts.
+enum class InitFrom {
+  truth,  ///< the source's ground truth of the first frame
+  rest,   ///< the models' rest state
+  file,   ///< a row of a state table
+};
+HYPOTRACK_API std::span<const std::string_view> enum_names(InitFrom);
+
+/// `init:` of a scene.
+struct InitSettings {
+  InitFrom from = InitFrom::rest;
+  std::filesystem::path file;
+  int frame = 0;
+  ConfigNode pose;
+  void visit(ParamVisitor& v) {
+    v("from", from,
+      {.help = "start of the first search: the source's ground truth, the models' rest state or a "
+               "row of a state table"});
+    v("file", file, {.help = "state table (CSV with frame, time and the state), for from: file"});
+    v("frame", frame, {.help = "which frame of the table", .min = 0});
+    v("pose", pose,
+      {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg or quaternion, "
+               "angles_deg: {NAME: VALUE}}}"});
+  }
+};
+
+/// `budget:` of a scene.
+struct BudgetSettings {
+  std::int64_t evaluations = 0;
+  double seconds = 0;
+  void visit(ParamVisitor& v) {
+    v("evaluations", evaluations,
+      {.help = "evaluations per frame; 0: what the optimizer's parameters imply", .min = 0});
+    v("seconds", seconds,
+      {.help = "wall time per frame; 0: no limit; a run with a limit does not repeat exactly",
+       .min = 0, .unit = "s"});
+  }
+};
+
+/// `output:` of a scene.
+struct OutputSettings {
+  bool overlay = true;
+  void visit(ParamVisitor& v) {
+    v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
+  }
+};
+
+/// The keys of a scene. Plugins' parameters stay nodes until their plugin reads them.
+struct SceneFile {
+  ConfigNode models, source, objective, optimizer;
+  BudgetSettings budget;
+  TileSettings tile;
+  EvaluateSettings evaluate;
+  SearchSettings search;
+  StatusSettings tracker;
+  InitSettings init;
+  OutputSettings output;
+  std::int64_t seed = 1;
+  std::filesystem::path directory;
+  void visit(ParamVisitor& v) {
+    v("directory", directory, {.help = "what relative paths refer to; default: the scene's folder"});
+    v("models", models, {.help = "list of {name, type, ...}: what is tracked", .required = true});
+    v("source", source, {.help = "{type, ...}: where frames come from", .required = true});
+    v("objective", objective,
+      {.help = "{type, ...}, or a list of {type, weight, ...}: what is minimised",
+       .required = true});
+    v("optimizer", optimizer, {.help = "{type, ...}: how it is minimised", .required = true});
+    v("budget", budget, {.help = "what the search of a frame may cost"});
+    v("tile", tile, {.help = "the piece of each view that is looked at"});
+    v("evaluate", evaluate, {.help = "how hypotheses are evaluated"});
+    v("search", search, {.help = "how far the next solution may be"});
+    v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
+    v("init", init, {.help = "where the first search starts"});
+    v("output", output, {.help = "what a run writes"});
+    v("seed", seed, {.help = "of all random numbers", .min = 0});
+  }
+};
+
+/// A scene file and the node that plugins are read from.
+struct LoadedScene {
+  SceneFile file;
+  ConfigNode root;
+};
+
+/// Reads a scene file strictly. Throws ConfigError.
+HYPOTRACK_API LoadedScene load_scene(const std::filesystem::path& path,
+                                     std::span<const std::string> overrides);
+
+}  // namespace hypotrack

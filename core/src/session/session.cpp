@@ -1,0 +1,167 @@
+#include "session/session.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <utility>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/pose.hpp"
+#include "hypotrack/tables.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Builds a session part by part and keeps the protocol of what each part was made with.
+class Opening {
+ public:
+  Opening(LoadedScene scene, PluginLoader& plugins)
+      : file_(std::move(scene.file)), plugins_(&plugins) {}
+
+  void models();
+  void source();
+  void objective();
+  void optimizer();
+  Session finish();
+
+ private:
+  template <class T>
+  std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
+                          YAML::Node& record) {
+    std::string resolved;
+    auto object = plugins_->make<T>(node, session_.scene.get(), std::move(also_allowed), &resolved);
+    record = YAML::Load(resolved);
+    return object;
+  }
+
+  SceneFile file_;
+  PluginLoader* plugins_;
+  Session session_;
+  YAML::Node record_;
+};
+
+/// Text of a scalar key that core reads beside the plugin's own parameters.
+std::string text_of(const ConfigNode& node, std::string_view key, std::string otherwise) {
+  const ConfigNode value = node.get(key);
+  if (!value.defined()) return otherwise;
+  if (!value.is_scalar() || value.scalar().empty())
+    throw ConfigError(fmt::format("{}: {} must be a word", value.where(), key));
+  return value.scalar();
+}
+
+struct WeightParam {
+  double weight = 1;
+  void visit(ParamVisitor& v) {
+    v("weight", weight, {.help = "factor of this term", .min = 0, .max = 1e9});
+  }
+};
+
+void Opening::models() {
+  if (!file_.models.is_list() || file_.models.size() == 0)
+    throw ConfigError(fmt::format("{}: models is a list with at least one {{name, type, ...}}",
+                                  file_.models.where()));
+  std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
+  for (std::size_t i = 0; i < file_.models.size(); ++i) {
+    const ConfigNode node = file_.models.at(i);
+    YAML::Node record;
+    std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
+    const std::string name = text_of(node, "name", text_of(node, "type", ""));
+    if (name.find_first_of(". ,\"\n") != std::string::npos)
+      throw ConfigError(fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
+                                    "spaces", node.get("name").where(), name));
+    record["name"] = name;
+    record_["models"].push_back(record);
+    models.emplace_back(name, std::move(model));
+  }
+  session_.scene = std::make_unique<Scene>(std::move(models));
+}
+
+void Opening::source() {
+  YAML::Node record;
+  session_.source = make<Source>(file_.source, {}, record);
+  record_["source"] = record;
+  session_.parts.cameras = session_.source->cameras();
+}
+
+void Opening::objective() {
+  const bool list = file_.objective.is_list();
+  const std::size_t count = list ? file_.objective.size() : 1;
+  if (count == 0)
+    throw ConfigError(fmt::format("{}: no objective is given", file_.objective.where()));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ConfigNode node = list ? file_.objective.at(i) : file_.objective;
+    YAML::Node record;
+    ObjectiveTerm term;
+    term.objective = make<Objective>(node, {"weight"}, record);
+    const ConfigNode weight = node.get("weight");
+    if (weight.defined())
+      term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
+    record["weight"] = fmt::format("{}", term.weight);
+    record_["objective"].push_back(record);
+    session_.parts.objective.push_back(std::move(term));
+  }
+}
+
+void Opening::optimizer() {
+  YAML::Node record;
+  session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
+  record_["optimizer"] = record;
+}
+
+Session Opening::finish() {
+  session_.parts.tile = file_.tile;
+  session_.parts.evaluate = file_.evaluate;
+  session_.parts.search = file_.search;
+  session_.parts.status = file_.tracker;
+  session_.parts.budget.evaluations = file_.budget.evaluations;
+  if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
+  session_.init = file_.init;
+  session_.output = file_.output;
+  session_.seed = static_cast<std::uint64_t>(file_.seed);
+  YAML::Node settings = YAML::Load(dump_params(file_));
+  for (const char* part : {"models", "source", "objective", "optimizer"})
+    if (record_[part]) settings[part] = record_[part];
+  YAML::Emitter out;
+  out << settings;
+  session_.resolved = std::string(out.c_str()) + "\n";
+  return std::move(session_);
+}
+
+}  // namespace
+
+Session open_session(const std::filesystem::path& scene_file,
+                     std::span<const std::string> overrides, PluginLoader& plugins) {
+  Opening opening(load_scene(scene_file, overrides), plugins);
+  opening.models();
+  opening.source();
+  opening.objective();
+  opening.optimizer();
+  return opening.finish();
+}
+
+Session open_source(const std::filesystem::path& scene_file,
+                    std::span<const std::string> overrides, PluginLoader& plugins) {
+  Opening opening(load_scene(scene_file, overrides), plugins);
+  opening.models();
+  opening.source();
+  return opening.finish();
+}
+
+Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
+  const Scene& scene = *session.scene;
+  Eigen::VectorXd state = scene.rest_state();
+  if (session.init.from == InitFrom::truth) {
+    if (!first.truth || first.truth->state.size() == 0)
+      throw ConfigError(
+          "init.from is 'truth' but the source knows no true state for its first frame; give "
+          "init.pose or init.file instead");
+    state = first.truth->state;
+  } else if (session.init.from == InitFrom::file) {
+    state = read_state_table(session.init.file, scene).state_of(session.init.frame);
+  }
+  if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
+  return state;
+}
+
+}  // namespace hypotrack

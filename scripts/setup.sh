@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs the Debian packages that are missing. Sourced by demo.sh and test.sh; runs alone, too.
+set -euo pipefail
+
+install_missing_packages() {
+  local here missing=() package sudo=()
+  here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+  while read -r package; do
+    dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
+      missing+=("$package")
+  done < <(grep -v '^#' "$here/packages.txt")
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "These Debian packages are missing and need root to install: ${missing[*]}" >&2
+      return 1
+    fi
+    sudo=(sudo)
+  fi
+  echo "Installing: ${missing[*]}"
+  "${sudo[@]}" apt-get update -qq
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -y -qq --no-install-recommends "${missing[@]}"
+}
+
+# build PRESET: configures and builds with one of CMakePresets.json. ccache is used where it is.
+build() {
+  local launcher=()
+  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  cmake --preset "$1" "${launcher[@]}"
+  cmake --build --preset "$1"
+}
+
+if ! command -v apt-get >/dev/null; then
+  echo "This script installs Debian packages; here there is no apt-get. Install what" \
+    "scripts/packages.txt lists and build with: cmake --preset release" >&2
+  exit 1
+fi
+install_missing_packages
