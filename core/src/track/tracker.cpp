@@ -62,43 +62,46 @@ Solution Tracker::track(const Frame& frame) {
   solution.cost = std::numeric_limits<double>::quiet_NaN();
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    const OptimizerResult result = search(frame);
+    const Eigen::VectorXd prior = state_;
+    const OptimizerResult result = search(frame, prior);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const Eigen::VectorXd found = space_.states(result.point, prior);
+    const double visible = visible_share(found);
+    // Where nothing was feasible, or the answer has left every image, the last state is the better
+    // place to search the next frame from.
+    if (std::isfinite(result.cost) && visible > 0) state_ = found;
     solution.seconds = elapsed.count();
     solution.cost = result.cost;
     solution.evaluations = result.evaluations;
-    solution.status = monitor_.judge(result.cost, visible_share(state_));
+    solution.status = monitor_.judge(result.cost, visible);
   }
   solution.state = state_;
   return solution;
 }
 
-OptimizerResult Tracker::search(const Frame& frame) {
-  const Observation observation = tiles_.make(frame, state_);
+OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior) {
+  const Observation observation = tiles_.make(frame, prior);
   evaluator_.prepare(observation);
-  const Eigen::VectorXd prior = state_;
   StateCost cost(space_, prior, evaluator_);
-  OptimizerResult result = parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
-                                                      frame_seed(seed_, frame.index));
-  // Where nothing was feasible the last state is the better guess.
-  if (std::isfinite(result.cost)) state_ = space_.states(result.point, prior);
-  return result;
+  return parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
+                                    frame_seed(seed_, frame.index));
 }
 
 double Tracker::visible_share(const Eigen::VectorXd& state) const {
   Eigen::Index visible = 0, all = 0;
   for (const auto& item : scene_->items()) {
     const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, scene_->part(item, state));
+    all += vertices.cols();
     for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
       bool in_all = true;
       for (const Camera& camera : parts_.cameras) {
         const Eigen::Vector2d p = project(camera, vertices.col(i).cast<double>());
+        if (!p.allFinite()) return 0;  // behind a camera: no tile can be cut around this state
         in_all = in_all && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < camera.width - 0.5 &&
                  p.y() < camera.height - 0.5;
       }
       visible += in_all;
     }
-    all += vertices.cols();
   }
   return all == 0 ? 0 : static_cast<double>(visible) / static_cast<double>(all);
 }

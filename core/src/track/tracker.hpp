@@ -57,7 +57,8 @@ class HYPOTRACK_API Tracker {
   std::string backend() const { return evaluator_.backend(); }
 
  private:
-  OptimizerResult search(const Frame& frame);
+  OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior);
+  /// Share of the models' vertices that every image shows; 0 if any lies behind a camera.
   double visible_share(const Eigen::VectorXd& state) const;
 
   const Scene* scene_;

@@ -1,0 +1,109 @@
+#include "track/search_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "test_models.hpp"
+
+namespace hypotrack {
+namespace {
+
+Scene hand_and_box() {
+  return Scene({{"hand", std::make_shared<Model>(test::make_test_hand())},
+                {"box", std::make_shared<Model>(test::make_test_box())}});
+}
+
+Eigen::Quaterniond rotation_of(const Eigen::VectorXd& state, int offset) {
+  return {state[offset + 3], state[offset + 4], state[offset + 5], state[offset + 6]};
+}
+
+TEST(SearchSpace, QuaternionsAreSearchedComponentByComponent) {
+  const Scene scene = hand_and_box();
+  EXPECT_EQ(SearchSpace(scene, {}).dimension(), 34);
+}
+
+TEST(SearchSpace, TangentSpaceNeedsOneDimensionLessPerRotation) {
+  const Scene scene = hand_and_box();
+  SearchSettings settings;
+  settings.rotation_as = RotationSearch::tangent;
+  EXPECT_EQ(SearchSpace(scene, settings).dimension(), 32);
+}
+
+TEST(SearchSpace, SpreadsAreThoseOfTheParameterKinds) {
+  const Scene scene = hand_and_box();
+  const SearchRegion region = SearchSpace(scene, {}).region(scene.rest_state());
+  EXPECT_DOUBLE_EQ(region.spread[0], 0.040);
+  EXPECT_DOUBLE_EQ(region.spread[3], std::sin(5 * kDegree));
+  EXPECT_DOUBLE_EQ(region.spread[7], 10 * kDegree);
+  EXPECT_DOUBLE_EQ(region.spread[27], 0.040);
+}
+
+TEST(SearchSpace, BoundsAreTheModelsOwn) {
+  const Scene scene = hand_and_box();
+  const SearchRegion region = SearchSpace(scene, {}).region(scene.rest_state());
+  for (int i = 0; i < scene.dimension(); ++i) {
+    EXPECT_EQ(region.lower[i], scene.parameters()[static_cast<std::size_t>(i)].lower) << i;
+    EXPECT_EQ(region.upper[i], scene.parameters()[static_cast<std::size_t>(i)].upper) << i;
+  }
+}
+
+TEST(SearchSpace, APriorOutsideTheBoundsStartsOnThem) {
+  const Scene scene = hand_and_box();
+  Eigen::VectorXd prior = scene.rest_state();
+  prior[8] = 100;
+  const SearchRegion region = SearchSpace(scene, {}).region(prior);
+  EXPECT_EQ(region.start[8], region.upper[8]);
+}
+
+class BothParametrisations : public testing::TestWithParam<RotationSearch> {};
+
+TEST_P(BothParametrisations, TheStartIsThePrior) {
+  const Scene scene = hand_and_box();
+  std::mt19937_64 random(1);
+  const Eigen::VectorXd prior = test::random_state(scene, random);
+  SearchSettings settings;
+  settings.rotation_as = GetParam();
+  const SearchSpace space(scene, settings);
+  const Eigen::MatrixXd states = space.states(space.region(prior).start, prior);
+  EXPECT_LT((states.col(0) - prior).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST_P(BothParametrisations, StatesHaveUnitQuaternions) {
+  const Scene scene = hand_and_box();
+  std::mt19937_64 random(2);
+  std::normal_distribution<double> normal;
+  SearchSettings settings;
+  settings.rotation_as = GetParam();
+  const SearchSpace space(scene, settings);
+  Eigen::MatrixXd points(space.dimension(), 20);
+  for (auto& x : points.reshaped()) x = normal(random);
+  const Eigen::MatrixXd states = space.states(points, scene.rest_state());
+  for (Eigen::Index n = 0; n < states.cols(); ++n)
+    for (const auto& item : scene.items())
+      EXPECT_NEAR(rotation_of(states.col(n), item.offset).norm(), 1, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(SearchSpace, BothParametrisations,
+                         testing::Values(RotationSearch::quaternion, RotationSearch::tangent));
+
+TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
+  const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
+  SearchSettings settings;
+  settings.rotation_as = RotationSearch::tangent;
+  const SearchSpace space(scene, settings);
+  std::mt19937_64 random(3);
+  const Eigen::VectorXd prior = test::random_state(scene, random);
+  Eigen::VectorXd point = space.region(prior).start;
+  point.segment<3>(3) << 0, 0.3, 0;
+  const Eigen::VectorXd state = space.states(point, prior).col(0);
+  const Eigen::Quaterniond expected =
+      rotation_of(prior, 0) * Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
+  EXPECT_LT(rotation_of(state, 0).angularDistance(expected), 1e-12);
+}
+
+}  // namespace
+}  // namespace hypotrack

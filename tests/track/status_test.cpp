@@ -1,0 +1,54 @@
+#include "track/status.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace hypotrack {
+namespace {
+
+StatusMonitor experienced_monitor(const StatusSettings& settings = {}) {
+  StatusMonitor monitor(settings);
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(monitor.judge(-100 + i % 3, 1.0), Status::tracked);
+  return monitor;
+}
+
+TEST(Status, AnUsualCostIsTracked) {
+  EXPECT_EQ(experienced_monitor().judge(-98, 1.0), Status::tracked);
+}
+
+TEST(Status, AnOutlierOfTheCostIsUncertain) {
+  EXPECT_EQ(experienced_monitor().judge(-60, 1.0), Status::uncertain);
+}
+
+TEST(Status, ABetterCostThanEverIsTracked) {
+  EXPECT_EQ(experienced_monitor().judge(-500, 1.0), Status::tracked);
+}
+
+TEST(Status, UncertaintyThatLastsIsLost) {
+  StatusSettings settings;
+  settings.patience = 4;
+  StatusMonitor monitor = experienced_monitor(settings);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(monitor.judge(0, 1.0), Status::uncertain);
+  EXPECT_EQ(monitor.judge(0, 1.0), Status::lost);
+  EXPECT_EQ(monitor.judge(-99, 1.0), Status::tracked);
+}
+
+TEST(Status, OutOfViewIsLostAndHalfOutIsUncertain) {
+  EXPECT_EQ(experienced_monitor().judge(-99, 0.1), Status::lost);
+  EXPECT_EQ(experienced_monitor().judge(-99, 0.5), Status::uncertain);
+}
+
+TEST(Status, AnInfeasibleSolutionIsLost) {
+  EXPECT_EQ(experienced_monitor().judge(std::numeric_limits<double>::infinity(), 1.0),
+            Status::lost);
+}
+
+TEST(Status, TheFirstFramesHaveNothingToCompareWith) {
+  StatusMonitor monitor({});
+  EXPECT_EQ(monitor.judge(-1, 1.0), Status::tracked);
+  EXPECT_EQ(monitor.judge(1000, 1.0), Status::tracked);
+}
+
+}  // namespace
+}  // namespace hypotrack
