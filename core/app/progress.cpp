@@ -39,8 +39,7 @@ std::string Progress::line(const std::string& note) const {
              std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] ";
     }
     text += fmt::format("{}/{} frames, {:.1f} fps", done_, *total_, fps);
-    if (done_ < *total_ && fps > 0)
-      text += ", " + minutes((*total_ - done_) / fps) + " left";
+    if (done_ < *total_ && fps > 0) text += ", " + minutes((*total_ - done_) / fps) + " left";
   } else {
     text = fmt::format("{} frames, {:.1f} fps", done_, fps);
   }

@@ -35,9 +35,10 @@ Frame first_usable_frame(Source& source, std::vector<Frame>& unusable) {
 }
 
 void print_summary(const Summary& s, const std::filesystem::path& out) {
-  fmt::print("{} frames ({} lost, {} uncertain, {} missing) at {:.1f} fps, {:.0f} evaluations/s, {}\n",
-             s.frames, s.lost_frames, s.uncertain_frames, s.missing_frames, s.fps,
-             s.evaluations_per_second, s.backend);
+  fmt::print(
+      "{} frames ({} lost, {} uncertain, {} missing) at {:.1f} fps, {:.0f} evaluations/s, {}\n",
+      s.frames, s.lost_frames, s.uncertain_frames, s.missing_frames, s.fps,
+      s.evaluations_per_second, s.backend);
   if (s.errors)
     fmt::print("joint error: mean {:.2f} mm, median {:.2f} mm, {:.1f} % below 10 mm\n",
                s.errors->mean, s.errors->median, 100 * s.errors->fraction_below[1]);

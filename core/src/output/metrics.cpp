@@ -48,7 +48,8 @@ std::optional<ErrorStatistics> error_statistics(const std::vector<double>& error
   for (std::size_t i = 0; i < kErrorThresholdsMm.size(); ++i)
     s.fraction_below[i] =
         static_cast<double>(std::lower_bound(mm.begin(), mm.end(), kErrorThresholdsMm[i]) -
-                            mm.begin()) / static_cast<double>(n);
+                            mm.begin()) /
+        static_cast<double>(n);
   return s;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +8,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
-#include "output/text_file.hpp"
+#include "hypotrack/tables.hpp"
 
 namespace hypotrack {
 
@@ -22,7 +21,7 @@ class HYPOTRACK_API RecordingWriter {
   /// `scene_yaml` is the resolved scene (Session::resolved), whose source is replaced. Throws
   /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there are
   /// two cameras.
-  RecordingWriter(const Scene& scene, const std::vector<Camera>& cameras, double frame_rate,
+  RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
                   std::string scene_yaml, std::filesystem::path directory);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
@@ -30,22 +29,29 @@ class HYPOTRACK_API RecordingWriter {
 
   /// A frame without views leaves a gap in the numbering.
   void add(const Frame& frame);
+  /// Throws OutputError; also if no frame was added.
   void finish();
 
  private:
-  void write_image(const char* pattern, int index, const cv::Mat& image);
-  void write_scene();
+  void write_image(const std::string& name, int index, const cv::Mat& image) const;
+  void write_truth() const;
+  void write_scene() const;
 
   const Scene* scene_;
+  std::vector<Camera> cameras_;
   double frame_rate_;
   std::string scene_yaml_;
   std::filesystem::path directory_;
-  std::filesystem::path part_;
-  std::optional<TextFile> states_;
-  std::optional<TextFile> landmarks_;
+  std::filesystem::path part_;  ///< grows here; removed if never finished
+  std::vector<StateRow> states_;
+  std::vector<LandmarkRow> landmarks_;
   bool masks_ = false;
   int first_ = -1;
   int last_ = -1;
 };
+
+/// A calibration in the project's own form (calibration.hpp, form 3): what load_calibration reads back
+/// to the same cameras, bit for bit.
+HYPOTRACK_API std::string calibration_yaml(const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack

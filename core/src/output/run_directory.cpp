@@ -19,13 +19,14 @@ RunDirectory::RunDirectory(std::filesystem::path directory) : directory_(std::mo
   std::error_code error;
   std::filesystem::create_directories(directory_, error);
   if (error || !std::filesystem::is_directory(directory_))
-    throw OutputError(fmt::format(
-        "{}: the output folder cannot be made ({}); name another with --out", directory_.string(),
-        error ? error.message() : "there is a file of that name"));
+    throw OutputError(
+        fmt::format("{}: the output folder cannot be made ({}); name another with --out",
+                    directory_.string(), error ? error.message() : "there is a file of that name"));
   if (access(directory_.c_str(), W_OK | X_OK) != 0)
     throw OutputError(fmt::format(
         "{}: the output folder cannot be written; change its permissions or name another with "
-        "--out", directory_.string()));
+        "--out",
+        directory_.string()));
   for (const auto& entry : std::filesystem::directory_iterator(directory_))
     if (entry.path().filename().string().starts_with(kPartPrefix))
       std::filesystem::remove(entry.path(), error);

@@ -15,7 +15,8 @@ constexpr double kLostError = 0.040;  // metres
 
 /// Appends numbers with as many digits as repeat them exactly.
 void append_numbers(std::string& row, const double* values, Eigen::Index count) {
-  for (Eigen::Index i = 0; i < count; ++i) fmt::format_to(std::back_inserter(row), ",{}", values[i]);
+  for (Eigen::Index i = 0; i < count; ++i)
+    fmt::format_to(std::back_inserter(row), ",{}", values[i]);
 }
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace hypotrack {
 
 TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)), out_(path_) {
   if (!out_)
-    throw OutputError(fmt::format("{}: cannot be opened for writing: {}", path_.string(),
-                                  std::strerror(errno)));
+    throw OutputError(
+        fmt::format("{}: cannot be opened for writing: {}", path_.string(), std::strerror(errno)));
 }
 
 void TextFile::write(std::string_view text) {

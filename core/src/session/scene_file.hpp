@@ -75,9 +75,7 @@ struct SceneFile {
   InitSettings init;
   OutputSettings output;
   std::int64_t seed = 1;
-  std::filesystem::path directory;
   void visit(ParamVisitor& v) {
-    v("directory", directory, {.help = "what relative paths refer to; default: the scene's folder"});
     v("models", models, {.help = "list of {name, type, ...}: what is tracked", .required = true});
     v("source", source, {.help = "{type, ...}: where frames come from", .required = true});
     v("objective", objective,

@@ -57,6 +57,14 @@ struct WeightParam {
   }
 };
 
+Eigen::VectorXd state_of_frame(const std::filesystem::path& file, const Scene& scene, int frame) {
+  const std::vector<StateRow> rows = read_states(file, scene);
+  for (const StateRow& row : rows)
+    if (row.frame == frame) return row.state;
+  throw DataError(fmt::format("{}: has no frame {} to start from; it has {} to {}", file.string(),
+                              frame, rows.front().frame, rows.back().frame));
+}
+
 void Opening::models() {
   if (!file_.models.is_list() || file_.models.size() == 0)
     throw ConfigError(fmt::format("{}: models is a list with at least one {{name, type, ...}}",
@@ -68,8 +76,10 @@ void Opening::models() {
     std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
     if (name.find_first_of(". ,\"\n") != std::string::npos)
-      throw ConfigError(fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
-                                    "spaces", node.get("name").where(), name));
+      throw ConfigError(
+          fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
+                      "spaces",
+                      node.get("name").where(), name));
     record["name"] = name;
     record_["models"].push_back(record);
     models.emplace_back(name, std::move(model));
@@ -95,8 +105,7 @@ void Opening::objective() {
     ObjectiveTerm term;
     term.objective = make<Objective>(node, {"weight"}, record);
     const ConfigNode weight = node.get("weight");
-    if (weight.defined())
-      term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
+    if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
     record["weight"] = fmt::format("{}", term.weight);
     record_["objective"].push_back(record);
     session_.parts.objective.push_back(std::move(term));
@@ -140,8 +149,8 @@ Session open_session(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-Session open_source(const std::filesystem::path& scene_file,
-                    std::span<const std::string> overrides, PluginLoader& plugins) {
+Session open_source(const std::filesystem::path& scene_file, std::span<const std::string> overrides,
+                    PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
   opening.source();
@@ -158,7 +167,7 @@ Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
           "init.pose or init.file instead");
     state = first.truth->state;
   } else if (session.init.from == InitFrom::file) {
-    state = read_state_table(session.init.file, scene).state_of(session.init.frame);
+    state = state_of_frame(session.init.file, scene, session.init.frame);
   }
   if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
   return state;

@@ -1,0 +1,50 @@
+#include "output/overlay_video.hpp"
+
+#include <fmt/format.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "hypotrack/error.hpp"
+#include "render/overlay.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// White text on a dark edge, readable on any image.
+void write_caption(cv::Mat& image, const std::string& text) {
+  const double scale = image.rows / 720.0 + 0.2;
+  const cv::Point at(static_cast<int>(12 * scale), static_cast<int>(30 * scale));
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {0, 0, 0}, 4, cv::LINE_AA);
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {255, 255, 255}, 1,
+              cv::LINE_AA);
+}
+
+}  // namespace
+
+OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene,
+                           const Camera& camera, double frame_rate)
+    : scene_(&scene), camera_(camera), renderer_(scene) {
+  writer_.open(file.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), frame_rate,
+               {camera.width, camera.height});
+  if (!writer_.isOpened())
+    throw OutputError(fmt::format(
+        "{}: this OpenCV cannot write an .mp4 video there (it needs its FFmpeg backend); run with "
+        "--set output.overlay=false to do without",
+        file.string()));
+}
+
+void OverlayVideo::add(const Frame& frame, const Solution& solution) {
+  cv::Mat image;
+  std::string caption = fmt::format("frame {}  {}", solution.frame, to_string(solution.status));
+  if (frame.views.empty()) {
+    image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(40, 40, 40));
+    caption += ": " + frame.problem;
+  } else {
+    image = draw_overlay(renderer_, *scene_, frame.views.front().color, camera_, solution.state);
+    caption += fmt::format("  cost {:.4g}", solution.cost);
+  }
+  write_caption(image, caption);
+  writer_.write(image);
+}
+
+}  // namespace hypotrack

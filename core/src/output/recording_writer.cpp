@@ -1,0 +1,114 @@
+#include "output/recording_writer.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <system_error>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "output/text_file.hpp"
+
+namespace hypotrack {
+
+RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
+                                 std::string scene_yaml, std::filesystem::path directory)
+    : scene_(&scene),
+      cameras_(std::move(cameras)),
+      frame_rate_(frame_rate),
+      scene_yaml_(std::move(scene_yaml)),
+      directory_(std::filesystem::absolute(std::move(directory)).lexically_normal()) {
+  if (!directory_.has_filename()) directory_ = directory_.parent_path();
+  if (cameras_.size() != 2)
+    throw DataError(
+        fmt::format("a recording has two cameras, this source has {}", cameras_.size()));
+  if (std::filesystem::exists(directory_) && !std::filesystem::is_empty(directory_))
+    throw OutputError(
+        fmt::format("{}: exists already; name a new folder with --out, or remove this one",
+                    directory_.string()));
+  part_ = directory_.parent_path() / (".part." + directory_.filename().string());
+  std::error_code error;
+  std::filesystem::remove_all(part_, error);
+  std::filesystem::create_directories(part_, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: the folder cannot be made: {}", directory_.string(), error.message()));
+}
+
+RecordingWriter::~RecordingWriter() {
+  std::error_code ignored;
+  if (!part_.empty()) std::filesystem::remove_all(part_, ignored);
+}
+
+void RecordingWriter::write_image(const std::string& name, int index, const cv::Mat& image) const {
+  const auto file = part_ / fmt::format("{}_{:06}.png", name, index);
+  bool written = false;
+  try {
+    written = cv::imwrite(file.string(), image, {cv::IMWRITE_PNG_COMPRESSION, 3});
+  } catch (const cv::Exception&) {
+  }
+  if (!written) throw OutputError(fmt::format("{}: the image cannot be written", file.string()));
+}
+
+void RecordingWriter::add(const Frame& frame) {
+  if (first_ < 0) first_ = frame.index;
+  last_ = frame.index;
+  for (std::size_t i = 0; i < frame.views.size(); ++i) {
+    const std::string side = i == 0 ? "left" : "right";
+    write_image(side, frame.index, frame.views[i].color);
+    if (frame.views[i].mask.empty()) continue;
+    write_image(side + "_mask", frame.index, frame.views[i].mask);
+    masks_ = true;
+  }
+  if (!frame.truth) return;
+  if (frame.truth->state.size() > 0)
+    states_.push_back({frame.index, frame.time, frame.truth->state});
+  Eigen::Matrix3Xd landmarks = frame.truth->landmarks;
+  if (landmarks.cols() == 0) landmarks = scene_->landmarks(frame.truth->state);
+  landmarks_.push_back({frame.index, frame.time, std::move(landmarks)});
+}
+
+void RecordingWriter::write_truth() const {
+  if (!states_.empty()) write_states(part_ / "truth_states.csv", *scene_, states_);
+  if (!landmarks_.empty())
+    write_landmarks(part_ / "truth_landmarks.csv", scene_->landmark_names(), landmarks_);
+}
+
+void RecordingWriter::write_scene() const {
+  YAML::Node scene = YAML::Load(scene_yaml_);
+  YAML::Node source;
+  source["type"] = "image_sequence";
+  source["left"] = "left_%06d.png";
+  source["right"] = "right_%06d.png";
+  if (masks_) {
+    source["left_mask"] = "left_mask_%06d.png";
+    source["right_mask"] = "right_mask_%06d.png";
+  }
+  source["start"] = first_;
+  source["count"] = last_ - first_ + 1;
+  source["frame_rate"] = fmt::format("{}", frame_rate_);
+  source["calibration"]["file"] = "calibration.yaml";
+  if (!states_.empty()) source["truth_states"] = "truth_states.csv";
+  if (!landmarks_.empty()) source["truth_landmarks"] = "truth_landmarks.csv";
+  scene["source"] = source;
+  YAML::Emitter out;
+  out << scene;
+  TextFile(part_ / "scene.yaml").write(std::string(out.c_str()) + "\n");
+}
+
+void RecordingWriter::finish() {
+  if (first_ < 0) throw OutputError("the source gave no frame; there is nothing to record");
+  TextFile(part_ / "calibration.yaml").write(calibration_yaml(cameras_));
+  write_truth();
+  write_scene();
+  std::error_code error;
+  std::filesystem::remove(directory_, error);  // an empty folder of that name
+  std::filesystem::rename(part_, directory_, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: the folder cannot be made: {}", directory_.string(), error.message()));
+  part_.clear();
+}
+
+}  // namespace hypotrack
