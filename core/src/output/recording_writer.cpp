@@ -1,12 +1,12 @@
 #include "output/recording_writer.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 #include <utility>
 
+#include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
 #include "output/text_file.hpp"
 
@@ -76,25 +76,25 @@ void RecordingWriter::write_truth() const {
 }
 
 void RecordingWriter::write_scene() const {
-  YAML::Node scene = YAML::Load(scene_yaml_);
-  YAML::Node source;
-  source["type"] = "image_sequence";
-  source["left"] = "left_%06d.png";
-  source["right"] = "right_%06d.png";
+  detail::YamlDocument calibration;
+  calibration.set_string("file", "calibration.yaml");
+  detail::YamlDocument source;
+  source.set_string("type", "image_sequence");
+  source.set_string("left", "left_%06d.png");
+  source.set_string("right", "right_%06d.png");
   if (masks_) {
-    source["left_mask"] = "left_mask_%06d.png";
-    source["right_mask"] = "right_mask_%06d.png";
+    source.set_string("left_mask", "left_mask_%06d.png");
+    source.set_string("right_mask", "right_mask_%06d.png");
   }
-  source["start"] = first_;
-  source["count"] = last_ - first_ + 1;
-  source["frame_rate"] = fmt::format("{}", frame_rate_);
-  source["calibration"]["file"] = "calibration.yaml";
-  if (!states_.empty()) source["truth_states"] = "truth_states.csv";
-  if (!landmarks_.empty()) source["truth_landmarks"] = "truth_landmarks.csv";
-  scene["source"] = source;
-  YAML::Emitter out;
-  out << scene;
-  TextFile(part_ / "scene.yaml").write(std::string(out.c_str()) + "\n");
+  source.set_plain("start", std::to_string(first_));
+  source.set_plain("count", std::to_string(last_ - first_ + 1));
+  source.set_plain("frame_rate", fmt::format("{}", frame_rate_));
+  source.set("calibration", calibration);
+  if (!states_.empty()) source.set_string("truth_states", "truth_states.csv");
+  if (!landmarks_.empty()) source.set_string("truth_landmarks", "truth_landmarks.csv");
+  detail::YamlDocument scene(scene_yaml_);
+  scene.set("source", source);
+  TextFile(part_ / "scene.yaml").write(scene.text());
 }
 
 void RecordingWriter::finish() {

@@ -1,11 +1,11 @@
 #include "session/session.hpp"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <utility>
 #include <vector>
 
+#include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
@@ -13,11 +13,13 @@
 namespace hypotrack {
 namespace {
 
+using detail::YamlDocument;
+
 /// Builds a session part by part and keeps the protocol of what each part was made with.
 class Opening {
  public:
   Opening(LoadedScene scene, PluginLoader& plugins)
-      : file_(std::move(scene.file)), plugins_(&plugins) {}
+      : file_(std::move(scene.file)), plugins_(&plugins), record_(dump_params(file_)) {}
 
   void models();
   void source();
@@ -28,17 +30,17 @@ class Opening {
  private:
   template <class T>
   std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
-                          YAML::Node& record) {
+                          YamlDocument& record) {
     std::string resolved;
     auto object = plugins_->make<T>(node, session_.scene.get(), std::move(also_allowed), &resolved);
-    record = YAML::Load(resolved);
+    record = YamlDocument(resolved);
     return object;
   }
 
   SceneFile file_;
   PluginLoader* plugins_;
   Session session_;
-  YAML::Node record_;
+  YamlDocument record_;
 };
 
 /// Text of a scalar key that core reads beside the plugin's own parameters.
@@ -70,9 +72,10 @@ void Opening::models() {
     throw ConfigError(fmt::format("{}: models is a list with at least one {{name, type, ...}}",
                                   file_.models.where()));
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
+  std::vector<YamlDocument> records;
   for (std::size_t i = 0; i < file_.models.size(); ++i) {
     const ConfigNode node = file_.models.at(i);
-    YAML::Node record;
+    YamlDocument record;
     std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
     if (name.find_first_of(". ,\"\n") != std::string::npos)
@@ -80,17 +83,18 @@ void Opening::models() {
           fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
                       "spaces",
                       node.get("name").where(), name));
-    record["name"] = name;
-    record_["models"].push_back(record);
+    record.set_string("name", name);
+    records.push_back(std::move(record));
     models.emplace_back(name, std::move(model));
   }
+  record_.set_list("models", records);
   session_.scene = std::make_unique<Scene>(std::move(models));
 }
 
 void Opening::source() {
-  YAML::Node record;
+  YamlDocument record;
   session_.source = make<Source>(file_.source, {}, record);
-  record_["source"] = record;
+  record_.set("source", record);
   session_.parts.cameras = session_.source->cameras();
 }
 
@@ -99,23 +103,25 @@ void Opening::objective() {
   const std::size_t count = list ? file_.objective.size() : 1;
   if (count == 0)
     throw ConfigError(fmt::format("{}: no objective is given", file_.objective.where()));
+  std::vector<YamlDocument> records;
   for (std::size_t i = 0; i < count; ++i) {
     const ConfigNode node = list ? file_.objective.at(i) : file_.objective;
-    YAML::Node record;
+    YamlDocument record;
     ObjectiveTerm term;
     term.objective = make<Objective>(node, {"weight"}, record);
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
-    record["weight"] = fmt::format("{}", term.weight);
-    record_["objective"].push_back(record);
+    record.set_plain("weight", fmt::format("{}", term.weight));
+    records.push_back(std::move(record));
     session_.parts.objective.push_back(std::move(term));
   }
+  record_.set_list("objective", records);
 }
 
 void Opening::optimizer() {
-  YAML::Node record;
+  YamlDocument record;
   session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
-  record_["optimizer"] = record;
+  record_.set("optimizer", record);
 }
 
 Session Opening::finish() {
@@ -128,12 +134,7 @@ Session Opening::finish() {
   session_.init = file_.init;
   session_.output = file_.output;
   session_.seed = static_cast<std::uint64_t>(file_.seed);
-  YAML::Node settings = YAML::Load(dump_params(file_));
-  for (const char* part : {"models", "source", "objective", "optimizer"})
-    if (record_[part]) settings[part] = record_[part];
-  YAML::Emitter out;
-  out << settings;
-  session_.resolved = std::string(out.c_str()) + "\n";
+  session_.resolved = record_.text();
   return std::move(session_);
 }
 
