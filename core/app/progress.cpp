@@ -25,7 +25,8 @@ Progress::Progress(std::optional<int> total)
 
 Progress::~Progress() {
   if (done_ == 0) return;
-  fmt::print(stderr, terminal_ ? "\r{}\x1b[K\n" : "{}\n", line(last_note_));
+  fmt::print(stderr, "{}{}{}\n", terminal_ ? "\r" : "", line(last_note_),
+             terminal_ ? "\x1b[K" : "");
 }
 
 std::string Progress::line(const std::string& note) const {
@@ -54,7 +55,10 @@ void Progress::advance(const std::string& note) {
                              : (now - shown_ > kLinePeriod && now - begin_ > kLinePeriod);
   if (!due) return;
   shown_ = now;
-  fmt::print(stderr, terminal_ ? "\r{}\x1b[K" : "{}\n", line(note));
+  if (terminal_)
+    fmt::print(stderr, "\r{}\x1b[K", line(note));
+  else
+    fmt::print(stderr, "{}\n", line(note));
   std::fflush(stderr);
 }
 

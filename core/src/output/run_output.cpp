@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "output/overlay_video.hpp"
+
 namespace hypotrack {
 namespace {
 
@@ -52,6 +54,8 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
                                               options_.frame_rate);
   write_headers();
 }
+
+RunOutput::~RunOutput() = default;
 
 void RunOutput::write_headers() {
   std::string track = "frame,time,status,cost,evaluations,milliseconds";

@@ -9,12 +9,13 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "output/metrics.hpp"
-#include "output/overlay_video.hpp"
 #include "output/run_directory.hpp"
 #include "output/text_file.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {
+
+class OverlayVideo;
 
 /// What a run amounts to; summary.json.
 struct Summary {
@@ -45,6 +46,10 @@ class HYPOTRACK_API RunOutput {
   /// The scene must outlive it. Throws OutputError or DeviceError before anything is written under a
   /// final name.
   RunOutput(const Scene& scene, const Camera& camera, Options options);
+
+  ~RunOutput();
+  RunOutput(const RunOutput&) = delete;
+  RunOutput& operator=(const RunOutput&) = delete;
 
   /// Adds a frame and returns its error in metres (NaN without ground truth).
   double add(const Frame& frame, const Solution& solution);
