@@ -76,7 +76,7 @@ void HypothesisDrawer::prepare(const FrameProjection& frame) {
   frame_ = &frame;
   const std::size_t views = frame.views.size();
   const std::size_t list = plan_->triangle_count + std::size_t{kBlock};
-  list_storage_.resize(views * 2 * list);
+  list_storage_.resize(views * kSizeClasses * list);
   visible_.resize(views);
   records_.resize(frame.pair ? 1 : views);
   for (AlignedFloats& records : records_) {
@@ -189,15 +189,18 @@ void HypothesisDrawer::set_bounds(std::size_t view, const PixelRange& range) {
   if (tile.x0 >= tile.x1 || tile.y0 >= tile.y1) tile.x0 = tile.x1 = tile.y0 = tile.y1 = 0;
 }
 
-VisibleTriangles HypothesisDrawer::lists(std::size_t view) {
+VisibleTriangles HypothesisDrawer::empty_lists(std::size_t view) {
   const std::size_t size = plan_->triangle_count + std::size_t{kBlock};
-  std::uint32_t* begin = list_storage_.data() + 2 * view * size;
-  return {begin, begin + size, 0, 0};
+  VisibleTriangles lists;
+  for (std::size_t i = 0; i < kSizeClasses; ++i) {
+    lists.list[i] = list_storage_.data() + (view * kSizeClasses + i) * size;
+  }
+  return lists;
 }
 
 void HypothesisDrawer::cull_view(std::size_t view) {
-  visible_[view] = lists(view);
-  if (frame_->pair) visible_[view + 1] = lists(view + 1);
+  visible_[view] = empty_lists(view);
+  if (frame_->pair) visible_[view + 1] = empty_lists(view + 1);
   for (const TriangleRange& range : plan_->ranges) {
     cull_triangles(plan_->corners.data(), range, records_[view].get(), &frame_->views[view],
                    frame_->pair, &visible_[view]);

@@ -35,6 +35,7 @@ class HYPOTRACK_API HypothesisDrawer {
   /// Depth of a normalised state in every view, valid until the next call.
   std::span<const DepthTile> draw(std::span<const double> state);
 
+  std::span<const DepthTile> tiles() const { return tiles_; }
   void clear();                              ///< empties what was drawn before
   void pose(std::span<const double> state);  ///< kinematics and skinning
   void project();
@@ -44,7 +45,7 @@ class HYPOTRACK_API HypothesisDrawer {
  private:
   void pose_itself(const ScenePlan::Posed& posed, std::span<const double> parameters);
   void set_bounds(std::size_t view, const PixelRange& range);
-  VisibleTriangles lists(std::size_t view);
+  VisibleTriangles empty_lists(std::size_t view);
   void cull_view(std::size_t view);
 
   const ScenePlan* plan_;

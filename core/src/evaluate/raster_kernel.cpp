@@ -39,34 +39,54 @@ struct Corner {
   Vec x, y, w, x2;
 };
 
+// Where the record of corner `k` of the i-th triangle at hand lies.
+struct InSequence {
+  const std::uint32_t* corners;  // of the first
+  HWY_INLINE std::size_t operator()(std::size_t i, std::size_t k) const {
+    return corners[4 * i + k];
+  }
+};
+struct InList {
+  const std::uint32_t* corners;
+  const std::uint32_t* list;
+  HWY_INLINE std::size_t operator()(std::size_t i, std::size_t k) const {
+    return corners[4 * std::size_t{list[i]} + k];
+  }
+};
+
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE Corner load_corner(const float* records, const std::uint32_t* offsets) {
-  const float* record = records + offsets[0];
+template <class Offset>
+HWY_INLINE Corner load_corner(const float* records, const Offset& offset, std::size_t k) {
+  const float* record = records + offset(0, k);
   return {hn::Set(f, record[0]), hn::Set(f, record[1]), hn::Set(f, record[2]),
           hn::Set(f, record[3])};
 }
 
 #else
 
-// One 16-byte record for every fourth of `offsets`, in 128-bit blocks.
-template <class D>
-HWY_INLINE hn::Vec<D> load_records(D d, const float* records, const std::uint32_t* offsets) {
+// Records of the triangles first, first + 4, first + 8 ..., one per 128-bit block.
+template <class D, class Offset>
+HWY_INLINE hn::Vec<D> load_records(D d, const float* records, const Offset& offset,
+                                   std::size_t first, std::size_t k) {
   if constexpr (hn::MaxLanes(D()) == 4) {
-    return hn::Load(d, records + offsets[0]);
+    return hn::Load(d, records + offset(first, k));
   } else {
     const hn::Half<D> half;
-    const auto low = load_records(half, records, offsets);
-    const auto high = load_records(half, records, offsets + hn::MaxLanes(half));
+    const auto low = load_records(half, records, offset, first, k);
+    const auto high = load_records(half, records, offset, first + hn::MaxLanes(half), k);
     return hn::Combine(d, high, low);
   }
 }
 
-HWY_INLINE Corner load_corner(const float* records, const std::uint32_t* offsets) {
+template <class Offset>
+HWY_INLINE Corner load_corner(const float* records, const Offset& offset, std::size_t k) {
   const hn::RepartitionToWide<F> wide;
-  // Lane t of every 128-bit block b belongs to triangle 4 b + t: a 4x4 transposition per block.
-  const Vec r0 = load_records(f, records, offsets), r1 = load_records(f, records, offsets + 1);
-  const Vec r2 = load_records(f, records, offsets + 2), r3 = load_records(f, records, offsets + 3);
+  const Vec r0 = load_records(f, records, offset, 0, k);
+  const Vec r1 = load_records(f, records, offset, 1, k);
+  const Vec r2 = load_records(f, records, offset, 2, k);
+  const Vec r3 = load_records(f, records, offset, 3, k);
+  // Transpose the 4x4 numbers of every block.
   const auto xy01 = hn::BitCast(wide, hn::InterleaveLower(f, r0, r1));
   const auto xy23 = hn::BitCast(wide, hn::InterleaveLower(f, r2, r3));
   const auto wx01 = hn::BitCast(wide, hn::InterleaveUpper(f, r0, r1));
@@ -83,18 +103,10 @@ struct Corners {
   Corner a, b, c;
 };
 
-// `number(i)` is the i-th triangle.
-template <class Number>
-HWY_INLINE Corners load_corners(const std::uint32_t* corners, const float* records, Number number) {
-  alignas(64) std::uint32_t offsets[3][kLanes];
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const std::uint32_t* triangle = corners + 4 * std::size_t{number(i)};
-    offsets[0][i] = triangle[0];
-    offsets[1][i] = triangle[1];
-    offsets[2][i] = triangle[2];
-  }
-  return {load_corner(records, offsets[0]), load_corner(records, offsets[1]),
-          load_corner(records, offsets[2])};
+template <class Offset>
+HWY_INLINE Corners load_corners(const float* records, const Offset& offset) {
+  return {load_corner(records, offset, 0), load_corner(records, offset, 1),
+          load_corner(records, offset, 2)};
 }
 
 // Pixels whose centres lie within the bounding boxes, inclusive, cut to the tile.
@@ -121,32 +133,47 @@ HWY_INLINE void append(hn::Vec<U> numbers, Mask mask, std::uint32_t* list, std::
   count += hn::CountTrue(u32, bits);
 }
 
+// Sorts the triangles that are `seen` and whose boxes reach `extent` pixels from their first by
+// size.
+HWY_INLINE void append_by_size(hn::Vec<U> numbers, Mask seen, Mask whole, Vec extent,
+                               VisibleTriangles& visible) {
+  Mask left = seen;
+  for (int i = 0; i + 1 < kSizeClasses; ++i) {
+    const Vec limit = hn::Set(f, static_cast<float>(kBoxSizes[i] - 1));
+    const Mask fits = hn::And(whole, hn::Le(extent, limit));
+    append(numbers, hn::And(left, fits), visible.list[i], visible.count[i]);
+    left = hn::AndNot(fits, left);
+  }
+  append(numbers, left, visible.list[kSizeClasses - 1], visible.count[kSizeClasses - 1]);
+}
+
 void cull(const std::uint32_t* corners, const TriangleRange& range, const float* records,
           const ViewProjection* views, bool pair, VisibleTriangles* visible) {
   const Vec smallest = hn::Set(f, kSmallestArea);
-  const Vec small = hn::Set(f, kSmall - 1.0f);
-  // The views of a rectified pair have the same rows but not the same columns. Lists are kept in
-  // local variables: stores through the list pointers could otherwise change them.
+  // Counted in local variables: stores into the lists could otherwise change the counts.
   VisibleTriangles lists[2] = {visible[0], pair ? visible[1] : VisibleTriangles{}};
   for (std::uint32_t t = range.begin; t < range.end; t += kLanes) {
-    const auto [a, b, c] = load_corners(
-        corners, records, [t](std::size_t i) { return t + static_cast<std::uint32_t>(i); });
+    const auto [a, b, c] = load_corners(records, InSequence{corners + 4 * std::size_t{t}});
     const auto numbers = hn::Iota(u32, t);
+    // The views of a rectified pair have the same rows but not the same columns.
     const Vec y0 = first_pixel(a.y, b.y, c.y);
-    const Vec y1 = last_pixel(a.y, b.y, c.y, views[0].height);
+    const Vec high_y = hn::Max(hn::Max(a.y, b.y), c.y);
+    const Vec last_y = hn::Set(f, static_cast<float>(views[0].height - 1));
+    const Vec y1 = hn::Floor(hn::Min(high_y, last_y));
+    const Mask whole_y = hn::Le(high_y, last_y);
     const Mask in_rows =
         hn::And(hn::Le(y0, y1), hn::Gt(hn::Min(hn::Min(a.w, b.w), c.w), hn::Zero(f)));
-    const Mask small_rows = hn::Le(hn::Sub(y1, y0), small);
     const auto view = [&](Vec ax, Vec bx, Vec cx, int width, VisibleTriangles& list) HWY_ATTR {
       // Counter-clockwise from outside is negative with y downwards.
       Vec area = hn::Neg(twice_area(ax, a.y, bx, b.y, cx, c.y));
       if (range.two_sided) area = hn::Abs(area);
       const Vec x0 = first_pixel(ax, bx, cx);
-      const Vec x1 = last_pixel(ax, bx, cx, width);
+      const Vec high_x = hn::Max(hn::Max(ax, bx), cx);
+      const Vec last_x = hn::Set(f, static_cast<float>(width - 1));
+      const Vec x1 = hn::Floor(hn::Min(high_x, last_x));
       const Mask seen = hn::And(hn::And(in_rows, hn::Le(x0, x1)), hn::Gt(area, smallest));
-      const Mask is_small = hn::And(small_rows, hn::Le(hn::Sub(x1, x0), small));
-      append(numbers, hn::And(seen, is_small), list.small, list.small_count);
-      append(numbers, hn::AndNot(is_small, seen), list.large, list.large_count);
+      const Mask whole = hn::And(whole_y, hn::Le(high_x, last_x));
+      append_by_size(numbers, seen, whole, hn::Max(hn::Sub(x1, x0), hn::Sub(y1, y0)), list);
     };
     view(a.x, b.x, c.x, views[0].width, lists[0]);
     if (pair) view(a.x2, b.x2, c.x2, views[1].width, lists[1]);
@@ -187,46 +214,48 @@ HWY_INLINE Planes make_planes(const Corners& corners, bool second, const ViewPro
   return p;
 }
 
-// Whether all three barycentric coordinates are at least zero; false for NaN.
-HWY_INLINE Mask inside(Vec a, Vec b) {
-  const Vec c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), a), b);
-  return hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
+// Covered pixels that wait to be written: several triangles of a vector may cover the same one.
+struct Fragments {
+  static constexpr std::size_t kRoom = 4096;
+  static constexpr std::size_t kMost =
+      kLanes * kBoxSizes[kSizeClasses - 2] * kBoxSizes[kSizeClasses - 2];
+  alignas(64) float inverse_depth[kRoom + kMost + kLanes];
+  alignas(64) std::int32_t pixel[kRoom + kMost + kLanes];
+  std::size_t count;
+};
+
+HWY_INLINE void flush(Fragments& fragments, float* tile) {
+  for (std::size_t i = 0; i < fragments.count; ++i) {
+    float& nearest = tile[fragments.pixel[i]];
+    nearest = fragments.inverse_depth[i] > nearest ? fragments.inverse_depth[i] : nearest;
+  }
+  fragments.count = 0;
 }
 
-HWY_INLINE Vec interpolate(const Planes& p, Vec a, Vec b) {
-  return hn::MulAdd(a, p.w_ac, hn::MulAdd(b, p.w_bc, p.w_c));
-}
-
-// Draws kLanes small triangles: every lane steps through the pixels of its box; the covered ones
-// are collected and then written one after the other, since several lanes may cover the same pixel.
-HWY_INLINE void draw_small(const Planes& p, int stride, float* tile) {
-  alignas(64) float inverse_depth[kLanes * (kSmall * kSmall + 1)];
-  alignas(64) std::int32_t pixel[kLanes * (kSmall * kSmall + 1)];
-  std::size_t count = 0;
-  const Vec width = hn::Sub(p.x1, p.x0), height = hn::Sub(p.y1, p.y0);
-  const auto columns = static_cast<int>(hn::GetLane(hn::MaxOfLanes(f, width)));
-  const auto rows = static_cast<int>(hn::GetLane(hn::MaxOfLanes(f, height)));
-  const auto origin =
+// Draws kLanes triangles that fit into kSize x kSize pixels: every lane steps through the pixels of
+// such a square.
+template <int kSize>
+HWY_INLINE void draw_boxes(const Planes& p, int stride, Fragments& fragments) {
+  const Vec c_dx = hn::Neg(hn::Add(p.a_dx, p.b_dx));
+  auto row_origin =
       hn::Add(hn::Mul(hn::ConvertTo(s32, p.y0), hn::Set(s32, stride)), hn::ConvertTo(s32, p.x0));
-  for (int dy = 0; dy <= rows; ++dy) {
-    const Vec fy = hn::Set(f, static_cast<float>(dy));
-    const Vec row_a = hn::MulAdd(fy, p.a_dy, p.a), row_b = hn::MulAdd(fy, p.b_dy, p.b);
-    const Mask in_height = hn::Le(fy, height);
-    for (int dx = 0; dx <= columns; ++dx) {
-      const Vec fx = hn::Set(f, static_cast<float>(dx));
-      const Vec a = hn::MulAdd(fx, p.a_dx, row_a), b = hn::MulAdd(fx, p.b_dx, row_b);
-      // The box ends where the tile ends, and the triangle may not.
-      const Mask covered = hn::And(inside(a, b), hn::And(in_height, hn::Le(fx, width)));
-      const auto at = hn::Add(origin, hn::Set(s32, dy * stride + dx));
-      hn::StoreU(hn::Compress(interpolate(p, a, b), covered), f, inverse_depth + count);
-      hn::StoreU(hn::Compress(at, hn::RebindMask(s32, covered)), s32, pixel + count);
+  Vec row_a = p.a, row_b = p.b;
+  std::size_t count = fragments.count;
+  for (int dy = 0; dy < kSize; ++dy) {
+    Vec a = row_a, b = row_b, c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), row_a), row_b);
+    for (int dx = 0; dx < kSize; ++dx) {
+      const Mask covered = hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
+      const Vec w = hn::MulAdd(a, p.w_ac, hn::MulAdd(b, p.w_bc, p.w_c));
+      const auto at = hn::Add(row_origin, hn::Set(s32, dx));
+      hn::StoreU(hn::Compress(w, covered), f, fragments.inverse_depth + count);
+      hn::StoreU(hn::Compress(at, hn::RebindMask(s32, covered)), s32, fragments.pixel + count);
       count += hn::CountTrue(f, covered);
+      a = hn::Add(a, p.a_dx), b = hn::Add(b, p.b_dx), c = hn::Add(c, c_dx);
     }
+    row_a = hn::Add(row_a, p.a_dy), row_b = hn::Add(row_b, p.b_dy);
+    row_origin = hn::Add(row_origin, hn::Set(s32, stride));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    float& nearest = tile[pixel[i]];
-    nearest = inverse_depth[i] > nearest ? inverse_depth[i] : nearest;
-  }
+  fragments.count = count;
 }
 
 // One triangle of Planes in plain numbers.
@@ -263,7 +292,9 @@ HWY_INLINE void draw_large(const Plane& p, std::size_t i, int stride, float* til
     Vec dx = lanes;
     for (int x = start; x <= x1; x += kStep) {
       const Vec a = hn::MulAdd(dx, a_dx, row_a), b = hn::MulAdd(dx, b_dx, row_b);
-      const Mask covered = hn::And(inside(a, b), hn::Le(dx, last));
+      const Vec c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), a), b);
+      const Mask inside = hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
+      const Mask covered = hn::And(inside, hn::Le(dx, last));
       const Vec w = hn::MulAdd(a, w_ac, hn::MulAdd(b, w_bc, w_c));
       const Vec nearest = hn::Load(f, row + x);
       hn::Store(hn::Max(nearest, hn::IfThenElseZero(covered, w)), f, row + x);
@@ -272,22 +303,47 @@ HWY_INLINE void draw_large(const Plane& p, std::size_t i, int stride, float* til
   }
 }
 
+// What is being drawn into one tile.
+struct Drawing {
+  const std::uint32_t* corners;
+  const float* records;
+  bool second;
+  const ViewProjection& view;
+  float* tile;
+
+  HWY_INLINE Planes planes(const std::uint32_t* list) const {
+    return make_planes(load_corners(records, InList{corners, list}), second, view);
+  }
+};
+
+template <int kSize>
+void draw_small(const Drawing& drawing, const std::uint32_t* list, std::size_t count,
+                Fragments& fragments) {
+  for (std::size_t t = 0; t < count; t += kLanes) {
+    draw_boxes<kSize>(drawing.planes(list + t), drawing.view.stride, fragments);
+    if (fragments.count > Fragments::kRoom) flush(fragments, drawing.tile);
+  }
+}
+
 void draw(const std::uint32_t* corners, std::uint32_t degenerate, const float* records, bool second,
           const ViewProjection& view, VisibleTriangles& visible, float* tile) {
-  const auto padding = hn::Set(u32, degenerate);
-  hn::StoreU(padding, u32, visible.small + visible.small_count);
-  hn::StoreU(padding, u32, visible.large + visible.large_count);
-  const auto planes_of = [&](const std::uint32_t* list) HWY_ATTR {
-    const auto number = [list](std::size_t i) { return list[i]; };
-    return make_planes(load_corners(corners, records, number), second, view);
-  };
-  for (std::size_t t = 0; t < visible.small_count; t += kLanes) {
-    draw_small(planes_of(visible.small + t), view.stride, tile);
+  for (int i = 0; i < kSizeClasses; ++i) {
+    std::uint32_t* end = visible.list[i] + visible.count[i];
+    for (std::size_t k = 0; k < kLanes; ++k) end[k] = degenerate;
   }
-  for (std::size_t t = 0; t < visible.large_count; t += kLanes) {
+  const Drawing drawing{corners, records, second, view, tile};
+  Fragments fragments;
+  fragments.count = 0;
+  draw_small<kBoxSizes[0]>(drawing, visible.list[0], visible.count[0], fragments);
+  draw_small<kBoxSizes[1]>(drawing, visible.list[1], visible.count[1], fragments);
+  draw_small<kBoxSizes[2]>(drawing, visible.list[2], visible.count[2], fragments);
+  draw_small<kBoxSizes[3]>(drawing, visible.list[3], visible.count[3], fragments);
+  flush(fragments, tile);
+  constexpr int kLast = kSizeClasses - 1;
+  for (std::size_t t = 0; t < visible.count[kLast]; t += kLanes) {
     Plane plane;
-    store(planes_of(visible.large + t), plane);
-    const std::size_t count = HWY_MIN(kLanes, visible.large_count - t);
+    store(drawing.planes(visible.list[kLast] + t), plane);
+    const std::size_t count = HWY_MIN(kLanes, visible.count[kLast] - t);
     for (std::size_t i = 0; i < count; ++i) draw_large(plane, i, view.stride, tile);
   }
 }

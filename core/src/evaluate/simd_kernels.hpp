@@ -65,14 +65,17 @@ struct TriangleRange {
   bool two_sided = true;             ///< false: those seen from behind are left out
 };
 
-/// Triangles that cover pixels of one view. Room for all triangles and kBlock more each.
+/// Triangles that may cover pixel centres are sorted by size: the i-th list has those whose pixels
+/// fit into a square of kBoxSizes[i] and that no edge of the tile but the left and the top cuts,
+/// the last list the rest.
+inline constexpr int kBoxSizes[] = {2, 3, 5, 8};
+inline constexpr int kSizeClasses = 5;
+
+/// Visible triangles of one view. Each list has room for all triangles and kBlock more.
 struct VisibleTriangles {
-  std::uint32_t* small = nullptr;  ///< those within kSmall x kSmall pixels
-  std::uint32_t* large = nullptr;
-  std::size_t small_count = 0;
-  std::size_t large_count = 0;
+  std::uint32_t* list[kSizeClasses] = {};
+  std::size_t count[kSizeClasses] = {};
 };
-inline constexpr int kSmall = 4;
 
 /// Appends the visible triangles of a range for one view (`pair` false) or for both views of a
 /// rectified pair.
