@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "hypotrack/error.hpp"
-
 namespace hypotrack {
 
 HypothesisRenderer::~HypothesisRenderer() = default;
@@ -16,10 +14,7 @@ std::span<const std::string_view> enum_names(Backend) {
 std::unique_ptr<HypothesisRenderer> make_hypothesis_renderer(const Scene& scene,
                                                              const EvaluateSettings& settings,
                                                              bool draws) {
-  if (draws && settings.backend == Backend::egl) {
-    throw DeviceError(
-        "evaluate: backend egl is not in this build; use `backend: cpu` or `backend: automatic`");
-  }
+  if (draws && settings.backend == Backend::egl) return make_egl_renderer(scene, settings.threads);
   return make_cpu_renderer(scene, draws, settings.threads);
 }
 

@@ -44,6 +44,11 @@ class HYPOTRACK_API HypothesisRenderer {
 HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool draws,
                                                                     int threads);
 
+/// OpenGL on a surfaceless EGL context; hypotheses are handed on over `threads` (0: one per core).
+/// Throws DeviceError if there is no OpenGL.
+HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene,
+                                                                    int threads);
+
 /// The renderer that the settings ask for. Throws DeviceError if it is not to be had; never a
 /// silent substitute. `draws` false: no term needs pictures, so none are made and no device is
 /// opened.

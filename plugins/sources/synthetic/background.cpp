@@ -73,13 +73,16 @@ Mesh make_wall(const Eigen::AlignedBox2d& box, double distance, cv::Mat texture)
 /// coarse and weaker than the one before it.
 cv::Mat make_pattern(cv::RNG& random, int size) {
   constexpr int kCoarsest = 4;
-  constexpr double kFirst = 38, kDecay = 0.72;
-  const auto level = [&] { return random.uniform(60., 180.); };
+  constexpr double kFirst = 38, kDecay = 0.72, kTint = 0.4;
+  const double middle = random.uniform(75., 165.);
+  const auto level = [&] { return middle + random.uniform(-35., 35.); };
   cv::Mat sum(kCoarsest, kCoarsest, CV_32FC3, cv::Scalar(level(), level(), level()));
   for (double amplitude = kFirst;; amplitude *= kDecay) {
-    cv::Mat octave(sum.size(), CV_32FC3);
-    random.fill(octave, cv::RNG::UNIFORM, -amplitude, amplitude);
-    sum += octave;
+    cv::Mat tint(sum.size(), CV_32FC3), light(sum.size(), CV_32FC1), gray;
+    random.fill(tint, cv::RNG::UNIFORM, -kTint * amplitude, kTint * amplitude);
+    random.fill(light, cv::RNG::UNIFORM, -amplitude, amplitude);
+    cv::cvtColor(light, gray, cv::COLOR_GRAY2BGR);
+    sum += tint + gray;
     if (sum.cols >= size) break;
     cv::resize(sum, sum, {}, 2, 2, cv::INTER_CUBIC);
   }
