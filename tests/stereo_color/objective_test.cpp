@@ -85,5 +85,41 @@ TEST(StereoColor, DefaultsAreThePapers) {
   EXPECT_EQ(params.lookup, Lookup::nearest);
 }
 
+Params read(std::string_view yaml) {
+  return ParamReader(ConfigNode::parse(yaml, "scene.yaml")).read<Params>();
+}
+
+TEST(StereoColor, ParametersAreReadInTheUnitsOfTheirKeys) {
+  const Params p = read(
+      "{beta: 25, w_t: 0.2, r_mm: 5, color_space: lab, distinctiveness: none,\n"
+      " aggregation: sum_per_sqrt, direction: both, lookup: bilinear, use_mask: false}");
+  EXPECT_EQ(p.beta, 25);
+  EXPECT_EQ(p.w_t, 0.2);
+  EXPECT_DOUBLE_EQ(p.r, 0.005);
+  EXPECT_EQ(p.color_space, ColorSpace::lab);
+  EXPECT_EQ(p.distinctiveness, Distinctiveness::none);
+  EXPECT_EQ(p.aggregation, Aggregation::sum_per_sqrt);
+  EXPECT_EQ(p.direction, Direction::both);
+  EXPECT_EQ(p.lookup, Lookup::bilinear);
+  EXPECT_FALSE(p.use_mask);
+}
+
+TEST(StereoColor, ParametersSurviveTheRunsProtocol) {
+  const char* yaml = "{beta: 25, r_mm: 5, color_space: hsv, aggregation: mean_rendered}";
+  const std::string once = dump_params(read(yaml));
+  EXPECT_THAT(once, HasSubstr("color_space: hsv"));
+  EXPECT_EQ(dump_params(read(once)), once);
+}
+
+TEST(StereoColor, UnknownWordsAreErrorsThatListTheKnown) {
+  try {
+    read("{aggregation: sum_per_squirrel}");
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("scene.yaml:1"));
+    EXPECT_THAT(e.what(), HasSubstr("mean_rendered"));
+  }
+}
+
 }  // namespace
 }  // namespace hypotrack::stereo_color

@@ -26,14 +26,27 @@
 in HWY_DISABLED_TARGETS before including Highway"
 #endif
 
-/// SIMD vectors with the vocabulary of pixel.hpp. For sources that use Highway's foreach_target:
+/// SIMD vectors with the vocabulary of pixel.hpp. For sources that use Highway's foreach_target, as
+/// my_term.cpp does (its folder has to be on the include path):
 ///
+///   #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 ///   #undef HWY_TARGET_INCLUDE
-///   #define HWY_TARGET_INCLUDE "my_term.cpp"
+///   #define HWY_TARGET_INCLUDE "my_term.cpp"  // is included again for every instruction set
 ///   #include <hwy/foreach_target.h>
-///   #include "my_term-inl.hpp"
+///   #include "my_term-inl.hpp"                // per-pixel functions
+///   HWY_BEFORE_NAMESPACE();
+///   namespace my::HWY_NAMESPACE {
+///   ...                                       // code over Lanes
+///   }  // namespace my::HWY_NAMESPACE
+///   HWY_AFTER_NAMESPACE();
+///   #if HWY_ONCE
+///   ...                                       // HWY_EXPORT, HWY_DYNAMIC_DISPATCH
+///   #endif
 ///
-/// Whoever includes this header links Highway (libhwy); nothing else of hypotrack asks for it.
+/// plugins/objectives/stereo_color/score.cpp is an example. Whoever includes this header links
+/// Highway (libhwy); nothing else of hypotrack asks for it. Give structs that hold Lanes a
+/// constructor of their own if they have default member values, and write HWY_ATTR on lambdas: the
+/// compiler does not carry the instruction set over to implicit functions.
 #ifndef HYPOTRACK_LANE_NUMBERS_
 #define HYPOTRACK_LANE_NUMBERS_
 namespace hypotrack::pixel {

@@ -1,7 +1,5 @@
 #include "score.hpp"
 
-#include <hwy/base.h>
-
 // Too little between neighbours to be worth compiling all of them; the scalable ones do not fit
 // simd-inl.hpp.
 #undef HWY_DISABLED_TARGETS
