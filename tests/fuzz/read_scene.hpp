@@ -1,0 +1,51 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/params.hpp"
+#include "sample_params.hpp"
+
+namespace hypotrack::test {
+
+/// Whether two nodes hold the same values in the same order.
+inline bool same_content(const ConfigNode& a, const ConfigNode& b) {
+  if (a.is_map() != b.is_map() || a.is_list() != b.is_list() || a.is_null() != b.is_null() ||
+      a.scalar() != b.scalar() || a.size() != b.size() || a.keys() != b.keys()) {
+    return false;
+  }
+  for (const std::string& key : a.keys()) {
+    if (!same_content(a.get(key), b.get(key))) return false;
+  }
+  for (std::size_t i = 0; a.is_list() && i < a.size(); ++i) {
+    if (!same_content(a.at(i), b.at(i))) return false;
+  }
+  return true;
+}
+
+/// Reads a text the way a scene is read. Whatever it holds, it is read or refused with a
+/// ConfigError that says where; anything else leaves this function as an exception. Returns whether
+/// it was read to the end.
+inline bool read_scene(std::string_view text) {
+  try {
+    const ConfigNode root = ConfigNode::parse(text, "scene.yaml", "/scenes");
+    // Writing and reading again changes nothing, but may reach the limit on sizes.
+    const std::string written = root.to_yaml();
+    if (!same_content(root, ConfigNode::parse(written, "scene.yaml", "/scenes"))) {
+      throw std::logic_error("written and read again it is another scene:\n" + written);
+    }
+    const ConfigNode optimizer = root.get("optimizer");
+    dump_params(ParamReader(optimizer, {"type"}).read<SampleParams>());
+    return true;
+  } catch (const ConfigError& error) {
+    if (!std::string_view(error.what()).starts_with("scene.yaml:")) {
+      throw std::logic_error(std::string("no position: ") + error.what());
+    }
+    return false;
+  }
+}
+
+}  // namespace hypotrack::test

@@ -1,0 +1,212 @@
+#include <fstream>
+#include <random>
+#include <vector>
+
+#include "read_scene.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+const std::vector<std::string>& valid_scenes() {
+  static const std::vector<std::string> scenes = {
+      R"(# a scene in block style
+source:
+  type: image_sequence
+  left: "images/left_%04d.png"
+  frames: [0, 100]
+models:
+  - type: hand
+    name: right
+  - {type: rigid_box, name: box, size_mm: [60, 80, 120.5]}
+optimizer:
+  type: pso
+  file: a.png
+  particles: 64
+  radius_mm: 2.5
+  range_deg: 1e1
+  mode: bilinear
+  center: [1, -2, .5]
+  weights: [0.25, 1]
+  parts:
+    - size: 3
+      label: 'it''s'
+    - size: .inf
+)",
+      R"({optimizer: {file: "a\tb\u00e9", name: größe, enabled: false, words: [a, b c, 'true'],
+ inner: {depth: 3}, nested: {type: x, list: [[1, 2], {a: ~}, null]}, maybe: 4}, empty: , seed: 7})",
+      R"(optimizer:
+  name: |
+    literal
+      text
+  file: >-
+    folded
+    text
+  words:
+  - one
+  -   two # comment
+  inner:
+    depth:   12
+notes: "a long
+  line"
+)"};
+  return scenes;
+}
+
+/// Damages texts in the ways that typing, merging and malice do.
+class Damage {
+ public:
+  explicit Damage(std::uint64_t seed) : random_(seed) {}
+
+  std::string damaged() {
+    std::string text = pick(valid_scenes());
+    for (auto n = 1 + below(6); n > 0; --n) change(text);
+    return text;
+  }
+
+  void change(std::string& text) {
+    const std::size_t at = below(text.size() + 1);
+    const std::size_t length = std::min(below(20), text.size() - at);
+    switch (below(7)) {
+      case 0:
+        text.insert(at, pick(tokens()));
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(below(text.size() + 1), text.substr(at, length));
+        break;
+      case 3:
+        if (at < text.size()) text[at] = static_cast<char>(below(256));
+        break;
+      case 4:
+        text.replace(at, length, pick(tokens()));
+        break;
+      case 5: {  // another scene's end
+        const std::string& other = pick(valid_scenes());
+        text = text.substr(0, at) + other.substr(below(other.size()));
+        break;
+      }
+      default:  // a token many times
+        for (auto n = below(100); n > 0; --n) text.insert(at, pick(tokens()));
+    }
+  }
+
+  std::size_t below(std::size_t limit) { return limit ? random_() % limit : 0; }
+
+  template <class T>
+  const T& pick(const std::vector<T>& from) {
+    return from[below(from.size())];
+  }
+
+ private:
+  static const std::vector<std::string>& tokens() {
+    static const std::vector<std::string> all = {"- ",
+                                                 "? ",
+                                                 ": ",
+                                                 ":",
+                                                 "---\n",
+                                                 "...\n",
+                                                 "&a ",
+                                                 "*a",
+                                                 "<<: ",
+                                                 "!!str ",
+                                                 "!",
+                                                 "|",
+                                                 ">",
+                                                 ">-",
+                                                 "~",
+                                                 "{",
+                                                 "}",
+                                                 "[",
+                                                 "]",
+                                                 "'",
+                                                 "\"",
+                                                 "\\",
+                                                 "#",
+                                                 " #",
+                                                 "\t",
+                                                 "\n",
+                                                 "\r\n",
+                                                 "  ",
+                                                 ",",
+                                                 "%",
+                                                 "%YAML 1.1\n---\n",
+                                                 "@",
+                                                 "`",
+                                                 "\n ",
+                                                 ".inf",
+                                                 ".nan",
+                                                 "1e999",
+                                                 "-0",
+                                                 "0x1f",
+                                                 "true",
+                                                 "null",
+                                                 "yes",
+                                                 "ü",
+                                                 "手",
+                                                 "\xFF",
+                                                 "\x04",
+                                                 "\xEF\xBB\xBF",
+                                                 "9223372036854775808",
+                                                 "\"\\x\"",
+                                                 "\"\\U00110000\""};
+    return all;
+  }
+
+  std::mt19937_64 random_;
+};
+
+TEST(DamagedScenes, ValidOnesAreRead) {
+  for (const std::string& text : valid_scenes()) EXPECT_TRUE(read_scene(text)) << text;
+}
+
+TEST(DamagedScenes, AreReadOrRefusedWithTheirPosition) {
+  Damage damage(2017);
+  int read = 0;
+  constexpr int kCases = 6000;
+  for (int i = 0; i < kCases; ++i) {
+    const std::string text = damage.damaged();
+    try {
+      read += read_scene(text);
+    } catch (const std::exception& error) {
+      FAIL() << "case " << i << ": " << error.what() << "\n" << text;
+    }
+  }
+  // Both ends of the reader are exercised.
+  EXPECT_GT(read, kCases / 100);
+  EXPECT_LT(read, kCases / 2);
+}
+
+TEST(DamagedScenes, AreRefusedWhereverTheyEnd) {
+  for (const std::string& text : valid_scenes()) {
+    for (std::size_t length = 0; length < text.size(); ++length) {
+      EXPECT_NO_THROW(read_scene(text.substr(0, length))) << text.substr(0, length);
+    }
+  }
+}
+
+TEST(DamagedScenes, DamagedOverridesAreAppliedOrRefused) {
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "scene.yaml";
+  std::ofstream(file) << valid_scenes().front();
+  const std::vector<std::string> valid = {"models.0.type=box", "optimizer.center=[1, 2, 3]",
+                                          "models.2={type: a}", "source.left='x.png'"};
+  Damage damage(7);
+  int applied = 0;
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<std::string> overrides = {damage.pick(valid)};
+    for (auto n = damage.below(3); n > 0; --n) damage.change(overrides[0]);
+    try {
+      applied += ConfigNode::load(file, overrides).is_map();
+    } catch (const ConfigError& error) {
+      EXPECT_TRUE(std::string_view(error.what()).starts_with("--set ")) << error.what();
+    }
+  }
+  EXPECT_GT(applied, 250);
+  EXPECT_LT(applied, 1000);
+}
+
+}  // namespace
+}  // namespace hypotrack::test
