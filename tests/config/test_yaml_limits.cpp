@@ -59,6 +59,11 @@ TEST(YamlLimits, LargeTextsAndFilesAreRefused) {
             file.string() + ": is larger than 8 MiB, which no scene needs");
 }
 
+TEST(YamlLimits, ManyValuesOnOneLineAreRefusedInLinearTime) {
+  EXPECT_THAT(parse_error("[" + repeat("[],", 1'100'000) + "]"),
+              EndsWith(": more than 1000000 values, which no scene needs"));
+}
+
 TEST(YamlLimits, EndlessFilesAreRefused) {
   EXPECT_THAT(message_of<ConfigError>([&] { ConfigNode::load("/dev/zero"); }),
               HasSubstr("is larger than 8 MiB"));

@@ -50,12 +50,19 @@ YamlText::YamlText(std::string_view text, const YamlOrigin& origin) : text_(text
 
 YamlText::Position YamlText::position(int line, int byte) const {
   const auto index = std::min(static_cast<std::size_t>(std::max(line, 0)), line_starts_.size() - 1);
-  const std::size_t begin = line_starts_[index];
-  const std::string_view before = text_.substr(begin, static_cast<std::size_t>(std::max(byte, 0)));
-  const auto characters = std::count_if(before.begin(), before.end(), [](char c) {
+  const auto end = static_cast<std::size_t>(std::max(byte, 0));
+  if (index != known_line_ || end < known_byte_) {
+    known_line_ = index;
+    known_byte_ = 0;
+    known_characters_ = 0;
+  }
+  const std::string_view next =
+      from(static_cast<int>(index), static_cast<int>(known_byte_)).substr(0, end - known_byte_);
+  known_characters_ += static_cast<std::size_t>(std::count_if(next.begin(), next.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  });
-  return {static_cast<int>(index) + 1, static_cast<int>(characters) + 1};
+  }));
+  known_byte_ = end;
+  return {static_cast<int>(index) + 1, static_cast<int>(known_characters_) + 1};
 }
 
 std::string_view YamlText::from(int line, int byte) const {

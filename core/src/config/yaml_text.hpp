@@ -35,6 +35,10 @@ class YamlText {
 
   std::string_view text_;
   std::vector<std::size_t> line_starts_;
+  // Where the last question ended: nearly all go forwards, and a line may be the whole text.
+  mutable std::size_t known_line_ = 0;
+  mutable std::size_t known_byte_ = 0;  ///< in the line
+  mutable std::size_t known_characters_ = 0;
 };
 
 }  // namespace hypotrack::detail
