@@ -8,10 +8,10 @@
 // of the palm). A left hand is the mirror image in x = 0; its rig says `side: left` and otherwise
 // the same.
 //
-//   side: right                   # of the hand in the file
-//   scale: 1.0                    # metres per unit of the file
+//   side: right                   # of the hand in the file (default)
+//   scale: 1.0                    # metres per unit of the file (default)
 //   frame:                        # where the hand frame lies in the file
-//     origin: wrist               # file bone; its joint becomes the origin
+//     origin: wrist               # file bone; its joint becomes the origin (default: the root's)
 //     distal: middle_mcp          # file bone; +Y points from the origin to it ...
 //     radial: [little_mcp, index_mcp]    # ... and +X from the first of these to the second (made
 //                                 # perpendicular to +Y). +Z then is palmar.
@@ -163,7 +163,7 @@ Rig read_rig(const std::filesystem::path& file);
 
 /// The hand that a rig makes of a mesh (imported with the rig's scale): 27 parameters, 21
 /// landmarks. `where` names the rig in messages. Throws DataError on what does not fit: unknown,
-/// missing or doubly used bones and parameters, cycles, points that coincide.
+/// missing or doubly used bones and parameters, points that coincide.
 ModelData rig_hand(const ImportedMesh& imported, const Rig& rig, const std::string& where);
 
 }  // namespace hypotrack
