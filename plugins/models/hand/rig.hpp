@@ -15,8 +15,8 @@
 //     distal: middle_mcp          # file bone; +Y points from the origin to it ...
 //     radial: [little_mcp, index_mcp]    # ... and +X from the first of these to the second (made
 //                                 # perpendicular to +Y). +Z then is palmar.
-//     # or, for a file whose axes are the hand's but for their names:
-//     # {origin: wrist, x: -z, y: -x}    # the file axes that are the hand's +X and +Y
+//     # or by the file's axes, either or both: {origin: wrist, x: -z, y: -x} says which file axes
+//     # are the hand's +X and +Y
 //   flexion_axis: x               # which axis of a file bone its joint bends about (see below)
 //   bones:                        # parents before children; the first is the root
 //     - {name: wrist, joint: wrist, end: middle_mcp, weights: [wrist, forearm]}
@@ -99,7 +99,7 @@ namespace hypotrack {
 enum class Side { right, left };
 std::span<const std::string_view> enum_names(Side);
 
-/// Where the hand frame lies in the file: two file axes by name, or by joints.
+/// Where the hand frame lies in the file: +X by an axis or two joints, +Y by an axis or a joint.
 struct RigFrame {
   std::string origin;
   std::string x;

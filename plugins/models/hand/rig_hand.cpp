@@ -153,23 +153,23 @@ class Rigger {
 
   void move_to_hand_frame() {
     const RigFrame& frame = rig_.frame;
-    const bool by_axes = !frame.x.empty() || !frame.y.empty();
-    const bool by_joints = !frame.distal.empty() || !frame.radial.empty();
-    if (by_axes == by_joints) {
+    if (frame.x.empty() == frame.radial.empty() || frame.y.empty() == frame.distal.empty()) {
       fail(
-          "`frame` must give either `x` and `y` (axes of the file) or `distal` and `radial` "
-          "(bones)");
+          "`frame` must give +X by either `x` (a file axis) or `radial` (two file bones), and +Y "
+          "by "
+          "either `y` (a file axis) or `distal` (a file bone)");
     }
-    if (by_joints && frame.radial.size() != 2) {
+    if (!frame.radial.empty() && frame.radial.size() != 2) {
       fail(fmt::format("`frame: radial` has {} entries instead of two bones", frame.radial.size()));
     }
     const std::string& first = frame.origin.empty() ? rig_.bones.front().joint : frame.origin;
     const Vector3d origin = joint_in_file(first, "origin");
-    const Vector3d y = by_axes ? file_axis(frame.y, "y")
-                               : Vector3d(joint_in_file(frame.distal, "distal") - origin);
-    Vector3d x = by_axes ? file_axis(frame.x, "x")
-                         : Vector3d(joint_in_file(frame.radial[1], "radial") -
-                                    joint_in_file(frame.radial[0], "radial"));
+    const Vector3d y = frame.distal.empty()
+                           ? file_axis(frame.y, "y")
+                           : Vector3d(joint_in_file(frame.distal, "distal") - origin);
+    Vector3d x = frame.radial.empty() ? file_axis(frame.x, "x")
+                                      : Vector3d(joint_in_file(frame.radial[1], "radial") -
+                                                 joint_in_file(frame.radial[0], "radial"));
     x -= x.dot(y) / y.squaredNorm() * y;
     if (!(x.norm() > kSameThing) || !(y.norm() > kSameThing)) {
       fail("`frame` gives no axes: its +X and +Y are parallel, or its bones are in one place");
