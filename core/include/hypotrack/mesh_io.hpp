@@ -24,8 +24,8 @@ struct ImportedMesh {
 };
 
 struct MeshImportOptions {
-  double scale = 1.0;             ///< metres per unit of the file
-  std::filesystem::path texture;  ///< image to use instead of the one that the file names
+  double scale = 1.0;                  ///< metres per unit of the file
+  std::filesystem::path texture = {};  ///< image to use instead of the one that the file names
 };
 
 /// Reads OBJ, STL, glTF or GLB. The import runs in a child process with a time limit, so that a

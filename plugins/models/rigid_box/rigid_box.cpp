@@ -1,0 +1,75 @@
+// A box of given dimensions about its centre.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <vector>
+
+#include "box.hpp"
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+struct RigidBoxParams {
+  Eigen::Vector3d size = Eigen::Vector3d(0.060, 0.120, 0.030);
+  std::vector<double> color;
+  std::filesystem::path texture;
+  int pattern = 1;
+
+  void visit(ParamVisitor& v) {
+    v("size_mm", size,
+      {.help = "edge lengths along x, y, z",
+       .min = 5,
+       .max = 5000,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("color", color,
+      {.help = "one colour (red, green, blue) instead of a pattern; bodies of one colour are hard "
+               "to track",
+       .min = 0,
+       .max = 1});
+    v("texture", texture, {.help = "picture for every face instead of the pattern"});
+    v("pattern", pattern, {.help = "which printed pattern: a different one per number", .min = 0});
+  }
+};
+
+Mesh make_mesh(const RigidBoxParams& params, const ConfigNode& config) {
+  Mesh mesh = box_mesh(params.size);
+  if (!params.color.empty()) {
+    if (params.color.size() != 3 || !params.texture.empty()) {
+      throw ConfigError(
+          fmt::format("{}: `color` must be three numbers, red, green and blue, and "
+                      "excludes `texture`",
+                      config.where()));
+    }
+    mesh.color = Eigen::Map<const Eigen::Vector3d>(params.color.data()).cast<float>();
+    mesh.uv.resize(2, 0);
+    mesh.uv_triangles.resize(3, 0);
+    return mesh;
+  }
+  if (params.texture.empty()) {
+    mesh.texture = box_pattern(params.pattern);
+    return mesh;
+  }
+  const cv::Mat picture = cv::imread(params.texture.string(), cv::IMREAD_COLOR);
+  if (picture.empty()) {
+    throw DataError(fmt::format("{}: the texture {} is missing or no image that OpenCV reads",
+                                config.where(), params.texture.string()));
+  }
+  mesh.texture = repeat_on_faces(picture);
+  return mesh;
+}
+
+class RigidBox : public Model {
+ public:
+  using Params = RigidBoxParams;
+  RigidBox(const Params& params, PluginContext& context)
+      : Model(rigid_model(make_mesh(params, context.config()))) {}
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::RigidBox, "a box of given dimensions, printed all over", "")
