@@ -1,0 +1,99 @@
+#include "read_image.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string_view>
+#include <vector>
+
+namespace hypotrack {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;
+
+/// Whether a JPEG or PNG has its end marker. Decoders fill up what is missing with grey.
+bool is_truncated(const std::vector<char>& bytes) {
+  const std::string_view all(bytes.data(), bytes.size());
+  const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
+  if (all.starts_with("\xFF\xD8\xFF")) return tail.find("\xFF\xD9") == std::string_view::npos;
+  if (all.starts_with("\x89PNG\r\n")) return tail.find("IEND") == std::string_view::npos;
+  return false;
+}
+
+ReadImage decode(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::string name = file.string();
+  if (!std::filesystem::exists(file, error)) return {{}, name + ": is missing"};
+  if (!std::filesystem::is_regular_file(file, error)) return {{}, name + ": is no file"};
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size > kLargestFile) return {{}, name + ": is larger than 512 MiB"};
+  std::ifstream in(file, std::ios::binary);
+  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)),
+                                std::istreambuf_iterator<char>());
+  if (!in.good() && !in.eof()) return {{}, name + ": cannot be read; check its permissions"};
+  if (bytes.empty()) return {{}, name + ": is empty"};
+  if (is_truncated(bytes)) return {{}, name + ": is cut off before its end"};
+  ReadImage read;
+  try {
+    read.image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    read.image.release();  // what OpenCV throws on absurd sizes names its own source lines
+  }
+  if (read.image.empty()) read.problem = name + ": is damaged or no image";
+  return read;
+}
+
+/// Three channels of the same depth.
+cv::Mat to_bgr(const cv::Mat& image) {
+  cv::Mat bgr;
+  switch (image.channels()) {
+    case 1:
+      cv::cvtColor(image, bgr, cv::COLOR_GRAY2BGR);
+      return bgr;
+    case 2:  // grey and alpha
+      cv::extractChannel(image, bgr, 0);
+      cv::cvtColor(bgr, bgr, cv::COLOR_GRAY2BGR);
+      return bgr;
+    case 4:
+      cv::cvtColor(image, bgr, cv::COLOR_BGRA2BGR);
+      return bgr;
+    default:
+      return image;
+  }
+}
+
+}  // namespace
+
+ReadImage read_color(const std::filesystem::path& file, int bits) {
+  ReadImage read = decode(file);
+  if (!read.problem.empty()) return read;
+  if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
+    return {{}, file.string() + ": has floating-point pixels; expected 8 or 16 bits"};
+  }
+  read.image = to_bgr(read.image);
+  if (read.image.depth() == CV_16U) {
+    // The brightest value of so many bits becomes 255.
+    read.image.convertTo(read.image, CV_8U, 255.0 / (std::exp2(bits) - 1));
+  }
+  return read;
+}
+
+ReadImage read_mask(const std::filesystem::path& file) {
+  ReadImage read = decode(file);
+  if (!read.problem.empty()) return read;
+  std::vector<cv::Mat> channels;
+  cv::split(to_bgr(read.image), channels);
+  cv::Mat any = channels[0] != 0;
+  any |= channels[1] != 0;
+  any |= channels[2] != 0;
+  read.image = any;
+  return read;
+}
+
+}  // namespace hypotrack

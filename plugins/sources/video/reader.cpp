@@ -1,0 +1,82 @@
+#include "reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr int kPatience = 30;  // undecodable frames in a row before the rest is given up
+constexpr int kPromised = 3;   // frames at the end that a container may promise and not hold
+
+}  // namespace
+
+VideoReader::VideoReader(const std::filesystem::path& file) : name_(file.string()) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw DataError(fmt::format("{}: no such file; expected a video", name_));
+  }
+  try {
+    capture_.open(name_, cv::CAP_FFMPEG);
+  } catch (const cv::Exception&) {
+    capture_.release();
+  }
+  if (!capture_.isOpened()) {
+    throw DataError(
+        fmt::format("{}: cannot be opened as a video; is it damaged, or coded in a way "
+                    "that OpenCV's FFmpeg does not know?",
+                    name_));
+  }
+  // A calibration holds for the pixels as they are stored.
+  capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
+  const double rate = capture_.get(cv::CAP_PROP_FPS);
+  frame_rate_ = std::isfinite(rate) && rate > 0 && rate < 1e5 ? rate : 0;
+  const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
+  frame_count_ = std::isfinite(count) && count > 0 && count < 1e9 ? static_cast<int>(count) : 0;
+  if (!grab_and_retrieve(first_)) {
+    throw DataError(
+        fmt::format("{}: its first frame cannot be decoded; the video is damaged or "
+                    "empty",
+                    name_));
+  }
+  width_ = first_.cols;
+  height_ = first_.rows;
+}
+
+bool VideoReader::grab_and_retrieve(cv::Mat& frame) {
+  try {
+    cv::Mat decoded;
+    if (!capture_.read(decoded) || decoded.empty()) return false;
+    if (decoded.channels() == 1) cv::cvtColor(decoded, decoded, cv::COLOR_GRAY2BGR);
+    if (decoded.type() != CV_8UC3) return false;
+    frame = decoded.clone();  // the decoder writes the next frame to the same memory
+    return true;
+  } catch (const cv::Exception&) {
+    return false;
+  }
+}
+
+VideoReader::Result VideoReader::next(cv::Mat& frame) {
+  if (position_ == 0 && !first_.empty()) {
+    frame = std::move(first_);
+    first_.release();
+    ++position_;
+    return Result::frame;
+  }
+  const bool read = failures_ <= kPatience && grab_and_retrieve(frame);
+  ++position_;
+  if (read) {
+    failures_ = 0;
+    return Result::frame;
+  }
+  ++failures_;
+  const bool more_promised = position_ <= frame_count_ - kPromised;
+  return more_promised ? Result::damaged : Result::end;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotrack/calibration.hpp"
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/truth.hpp"
+#include "reader.hpp"
+
+namespace hypotrack {
+
+struct VideoParams {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::filesystem::path side_by_side;
+  CalibrationSettings calibration;
+  int offset = 0;
+  int start = 0;
+  int step = 1;
+  std::optional<int> count;
+  std::optional<double> frame_rate;
+  TruthSettings truth;
+
+  void visit(ParamVisitor& v) {
+    v("left", left, {.help = "video of the first camera"});
+    v("right", right, {.help = "video of the second camera; without it there is one view"});
+    v("side_by_side", side_by_side,
+      {.help = "one video with the first camera in the left half and the second in the right half, "
+               "instead of left and right"});
+    v("calibration", calibration, {.help = "the cameras"});
+    v("offset", offset,
+      {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
+               "later",
+       .min = -1000000,
+       .max = 1000000});
+    v("start", start, {.help = "frames of `left` to leave out first", .min = 0, .max = 1000000000});
+    v("step", step, {.help = "take every step-th frame", .min = 1, .max = 1000000});
+    v("count", count, {.help = "number of frames; default: all", .min = 1});
+    v("frame_rate", frame_rate,
+      {.help = "frames per second; default: what the file says, or 30",
+       .min = 1e-3,
+       .max = 1e5,
+       .unit = "1/s"});
+    truth.visit(v);
+  }
+};
+
+/// Two synchronous videos, or one with both views side by side. Ends when either ends. Tables of
+/// the answer (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp;
+/// their frame 0 is the source's first frame unless `truth_offset` says otherwise.
+class Video : public Source {
+ public:
+  using Params = VideoParams;
+
+  Video(const Params& params, PluginContext& context) : params_(params) {
+    open(context.config().where());
+    cameras_ = load_calibration(params.calibration);
+    const std::size_t views = split_ ? 2 : readers_.size();
+    if (cameras_.size() != views) {
+      throw DataError(
+          fmt::format("{}: holds {} cameras, the source has {} views; expected one "
+                      "camera per view",
+                      params.calibration.file.string(), cameras_.size(), views));
+    }
+    for (std::size_t v = 0; v < views; ++v) {
+      const VideoReader& reader = readers_[split_ ? 0 : v];
+      fit_image_size(cameras_[v], split_ ? reader.width() / 2 : reader.width(), reader.height(),
+                     files_[split_ ? 0 : v].string());
+    }
+    if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
+      truth_ = TruthTables(params.truth, context.scene());
+    }
+    // Bring both videos to the first common frame that is wanted.
+    const int left_skip = std::max(params.start, -params.offset);
+    skip(0, left_skip);
+    if (readers_.size() == 2) skip(1, left_skip + params.offset);
+  }
+
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+
+  double frame_rate() const override {
+    const double recorded = readers_[0].frame_rate() > 0 ? readers_[0].frame_rate() : 30;
+    return params_.frame_rate.value_or(recorded) / params_.step;
+  }
+
+  std::optional<int> frame_count() const override {
+    const int first_skip = std::max(params_.start, -params_.offset);
+    std::optional<int> count = params_.count;
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      if (readers_[i].frame_count() == 0) return std::nullopt;
+      const int skipped = first_skip + (i == 1 ? params_.offset : 0);
+      const int rest = std::max(0, readers_[i].frame_count() - skipped);
+      const int frames = (rest + params_.step - 1) / params_.step;
+      count = std::min(count.value_or(frames), frames);
+    }
+    return count;
+  }
+
+  std::optional<Frame> next() override {
+    if (params_.count && index_ == *params_.count) return std::nullopt;
+    if (index_ > 0) {
+      for (std::size_t i = 0; i < readers_.size(); ++i) skip(i, params_.step - 1);
+    }
+    Frame frame;
+    std::vector<cv::Mat> images;
+    for (std::size_t i = 0; i < readers_.size(); ++i) {
+      cv::Mat image;
+      const VideoReader::Result result = readers_[i].next(image);
+      if (result == VideoReader::Result::end) return std::nullopt;
+      if (result == VideoReader::Result::damaged) {
+        frame.problem = fmt::format("{}: a frame cannot be decoded", files_[i].string());
+      }
+      images.push_back(image);
+    }
+    frame.index = index_++;
+    frame.time = frame.index / frame_rate();
+    frame.truth = truth_.at(frame.index);
+    if (frame.problem.empty()) fill_views(frame, images);
+    return frame;
+  }
+
+ private:
+  void open(const std::string& where) {
+    split_ = !params_.side_by_side.empty();
+    if (split_ == !params_.left.empty() || (split_ && !params_.right.empty())) {
+      throw ConfigError(fmt::format("{}: expected either left (and right) or side_by_side", where));
+    }
+    if (split_) {
+      files_ = {params_.side_by_side};
+    } else {
+      files_ = {params_.left};
+      if (!params_.right.empty()) files_.push_back(params_.right);
+    }
+    if (params_.offset != 0 && files_.size() != 2) {
+      throw ConfigError(fmt::format("{}: offset is for two videos", where));
+    }
+    for (const std::filesystem::path& file : files_) readers_.emplace_back(file);
+    if (split_ && readers_[0].width() % 2 != 0) {
+      throw DataError(
+          fmt::format("{}: is {} pixels wide; expected an even number, half for each "
+                      "view",
+                      files_[0].string(), readers_[0].width()));
+    }
+  }
+
+  void skip(std::size_t reader, int frames) {
+    cv::Mat ignored;
+    for (int i = 0; i < frames; ++i) {
+      if (readers_[reader].next(ignored) == VideoReader::Result::end) return;
+    }
+  }
+
+  void fill_views(Frame& frame, std::vector<cv::Mat>& images) const {
+    if (split_) {
+      const int half = images[0].cols / 2;
+      images = {images[0].colRange(0, half).clone(), images[0].colRange(half, 2 * half).clone()};
+    }
+    for (std::size_t v = 0; v < images.size(); ++v) {
+      const cv::Mat& image = images[v];
+      if (image.cols != cameras_[v].width || image.rows != cameras_[v].height) {
+        frame.problem = fmt::format("view {}: the frame is {}x{} pixels; expected {}x{}", v,
+                                    image.cols, image.rows, cameras_[v].width, cameras_[v].height);
+        frame.views.clear();
+        return;
+      }
+      frame.views.push_back({image, {}});
+    }
+  }
+
+  Params params_;
+  bool split_ = false;
+  std::vector<std::filesystem::path> files_;
+  std::vector<VideoReader> readers_;
+  std::vector<Camera> cameras_;
+  TruthTables truth_;
+  int index_ = 0;
+};
+
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Video, "One or two video files, or one with both views side by side",
+                 "")
