@@ -7,9 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <numeric>
 #include <set>
-#include <sstream>
 
 #include "hypotrack/error.hpp"
 
@@ -55,22 +53,6 @@ std::string shown(std::string_view cell) {
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
   }
   return text;
-}
-
-/// Levenshtein's distance.
-std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace
@@ -152,19 +134,6 @@ int CsvTable::frame(const Row& row, int column) const {
                                 where(row), value));
   }
   return static_cast<int>(value);
-}
-
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& offered) {
-  const std::string* best = nullptr;
-  std::size_t least = std::max<std::size_t>(2, name.size() / 3) + 1;
-  for (const std::string& candidate : offered) {
-    const std::size_t distance = edits(name.substr(0, 100), candidate);
-    if (distance < least) {
-      least = distance;
-      best = &candidate;
-    }
-  }
-  return best ? fmt::format("; did you mean '{}'?", *best) : std::string(".");
 }
 
 }  // namespace hypotrack

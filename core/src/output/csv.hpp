@@ -42,7 +42,4 @@ class CsvTable {
   std::vector<Row> rows_;
 };
 
-/// The end of a sentence about an unknown name: "; did you mean 'x'?" or, if none is near, ".".
-std::string did_you_mean(std::string_view name, const std::vector<std::string>& offered);
-
 }  // namespace hypotrack

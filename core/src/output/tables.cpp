@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 
+#include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "output/csv.hpp"
 
@@ -124,9 +125,9 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
     const auto index = resolve(name, names);
     if (!index) {
       throw DataError(
-          fmt::format("{}: '{}' is no landmark of the scene{} Rename it ('{}=<landmark>') "
+          fmt::format("{}: '{}' is no landmark of the scene{}. Rename it ('{}=<landmark>') "
                       "or drop it ('{}=')",
-                      file, name, did_you_mean(name, offered), base, base));
+                      file, name, detail::did_you_mean(name, offered), base, base));
     }
     if (taken[*index]) {
       throw DataError(fmt::format("{}: the landmark '{}' is there twice", file, names[*index]));
@@ -166,9 +167,9 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
     if (columns[i] >= 0) continue;
     const std::vector<std::string> offered(table.columns().begin(), table.columns().end());
     throw DataError(fmt::format(
-        "{}: has no column '{}'{} A table of states has one column for each of the scene's {} "
+        "{}: has no column '{}'{}. A table of states has one column for each of the scene's {} "
         "parameters",
-        file.string(), names[i], did_you_mean(names[i], offered), names.size()));
+        file.string(), names[i], detail::did_you_mean(names[i], offered), names.size()));
   }
   const Timeline timeline = read_timeline(table);
   std::vector<StateRow> rows;
