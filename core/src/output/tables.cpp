@@ -125,9 +125,9 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
     const auto index = resolve(name, names);
     if (!index) {
       throw DataError(
-          fmt::format("{}: '{}' is no landmark of the scene{}. Rename it ('{}=<landmark>') "
-                      "or drop it ('{}=')",
-                      file, name, detail::did_you_mean(name, offered), base, base));
+          fmt::format("{}: '{}' is no landmark of the scene; rename it with "
+                      "'{}=<landmark>' or drop it with '{}='{}",
+                      file, name, base, base, detail::did_you_mean(name, offered)));
     }
     if (taken[*index]) {
       throw DataError(fmt::format("{}: the landmark '{}' is there twice", file, names[*index]));
@@ -167,9 +167,9 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
     if (columns[i] >= 0) continue;
     const std::vector<std::string> offered(table.columns().begin(), table.columns().end());
     throw DataError(fmt::format(
-        "{}: has no column '{}'{}. A table of states has one column for each of the scene's {} "
-        "parameters",
-        file.string(), names[i], detail::did_you_mean(names[i], offered), names.size()));
+        "{}: has no column '{}'; a table of states has one for each of the "
+        "scene's {} parameters{}",
+        file.string(), names[i], names.size(), detail::did_you_mean(names[i], offered)));
   }
   const Timeline timeline = read_timeline(table);
   std::vector<StateRow> rows;

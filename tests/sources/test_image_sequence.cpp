@@ -1,0 +1,282 @@
+#include <gmock/gmock.h>
+
+#include <opencv2/imgcodecs.hpp>
+#include <random>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/tables.hpp"
+#include "source_fixture.hpp"
+
+namespace hypotrack {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class ImageSequence : public test::SourceFixture {
+ protected:
+  void write_pair(int number, const char* extension = "png") {
+    for (int v = 0; v < 2; ++v) {
+      cv::imwrite(file(cv::format("%s_%04d.%s", v ? "right" : "left", number, extension)).string(),
+                  picture(number, v));
+    }
+  }
+  std::string numbered(const std::string& more = "") const {
+    return "type: image_sequence\nleft: left_%04d.png\nright: right_%04d.png\n"
+           "calibration: {file: rig.yml}\n" +
+           more;
+  }
+  auto making(const std::string& yaml) {
+    return [this, yaml] { make(yaml, &scene_); };
+  }
+};
+
+TEST_F(ImageSequence, YieldsPairsInOrderAndThenEnds) {
+  for (int i = 3; i < 7; ++i) write_pair(i);
+  const auto source = make(numbered("frame_rate: 10"));
+  ASSERT_EQ(source->cameras().size(), 2u);
+  EXPECT_EQ(source->cameras()[1].width, 64);
+  EXPECT_EQ(source->frame_rate(), 10);
+  EXPECT_EQ(source->frame_count(), 4);
+  for (int i = 0; i < 4; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->problem, "");
+    EXPECT_EQ(frame->index, i);
+    EXPECT_DOUBLE_EQ(frame->time, 0.1 * i);
+    EXPECT_FALSE(frame->truth);
+    ASSERT_EQ(frame->views.size(), 2u);
+    for (int v = 0; v < 2; ++v) {
+      EXPECT_EQ(cv::norm(frame->views[v].color, picture(i + 3, v), cv::NORM_INF), 0);
+      EXPECT_TRUE(frame->views[v].mask.empty());
+    }
+  }
+  EXPECT_FALSE(source->next());
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, SelectsByStartStepAndCount) {
+  for (int i = 0; i < 10; ++i) write_pair(i);
+  const auto source = make(numbered("start: 1\nstep: 3\ncount: 2\nframe_rate: 30"));
+  EXPECT_EQ(source->frame_count(), 2);
+  EXPECT_DOUBLE_EQ(source->frame_rate(), 10);
+  EXPECT_EQ(source->next()->views[0].color.at<cv::Vec3b>(40, 40)[0], 10);
+  const auto second = source->next();
+  EXPECT_EQ(second->views[0].color.at<cv::Vec3b>(40, 40)[0], 40);
+  EXPECT_DOUBLE_EQ(second->time, 0.1);
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, ReportsGapsAndGoesOn) {
+  for (const int i : {0, 1, 3}) write_pair(i);
+  std::filesystem::remove(file("right_0001.png"));
+  const auto source = make(numbered());
+  EXPECT_EQ(source->frame_count(), 4);
+  EXPECT_EQ(source->next()->problem, "");
+  const auto half = source->next();
+  EXPECT_THAT(half->problem, HasSubstr("right_0001.png: is missing"));
+  EXPECT_TRUE(half->views.empty());
+  EXPECT_THAT(source->next()->problem, HasSubstr("left_0002.png: is missing"));
+  const auto last = source->next();
+  EXPECT_EQ(last->problem, "");
+  EXPECT_EQ(last->index, 3);
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, ReportsImagesThatCannotBeUsedAndGoesOn) {
+  for (int i = 0; i < 7; ++i) write_pair(i);
+  write("left_0001.png", "this is no picture");
+  write("right_0002.png", "");
+  std::filesystem::resize_file(file("left_0003.png"), 100);
+  cv::imwrite(file("right_0004.png").string(), picture(4, 1, {32, 24}));
+  std::filesystem::remove(file("left_0005.png"));
+  std::filesystem::create_directory(file("left_0005.png"));
+  const auto source = make(numbered());
+  EXPECT_EQ(source->next()->problem, "");
+  EXPECT_THAT(source->next()->problem, HasSubstr("left_0001.png: is damaged or no image"));
+  EXPECT_THAT(source->next()->problem, HasSubstr("right_0002.png: is empty"));
+  EXPECT_THAT(source->next()->problem, HasSubstr("left_0003.png: is cut off before its end"));
+  EXPECT_THAT(source->next()->problem,
+              HasSubstr("right_0004.png: is 32x24 pixels; expected 64x48"));
+  EXPECT_THAT(source->next()->problem, HasSubstr("left_0005.png: is no file"));
+  EXPECT_EQ(source->next()->problem, "");
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, NeverEndsEarlyOrThrowsWhateverBytesAreDamaged) {
+  constexpr int kFrames = 60;
+  std::mt19937 random(4);
+  for (int i = 0; i < kFrames; ++i) {
+    const char* extension = i % 2 ? "jpg" : "png";
+    write_pair(i, extension);
+    for (const char* side : {"left", "right"}) {
+      std::ifstream in(file(cv::format("%s_%04d.%s", side, i, extension)), std::ios::binary);
+      std::string bytes((std::istreambuf_iterator<char>(in)), {});
+      for (int k = 0; i > 0 && k < 5; ++k) {
+        bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
+      }
+      write(cv::format("%s_%04d.img", side, i), bytes);
+    }
+  }
+  const auto source = make(
+      "type: image_sequence\nleft: left_%04d.img\nright: right_%04d.img\n"
+      "calibration: {file: rig.yml}\n");
+  int frames = 0;
+  int problems = 0;
+  while (const auto frame = source->next()) {
+    ++frames;
+    problems += !frame->problem.empty();
+    EXPECT_EQ(frame->problem.empty(), frame->views.size() == 2);
+  }
+  EXPECT_EQ(frames, kFrames);
+  EXPECT_GT(problems, 5);
+}
+
+TEST_F(ImageSequence, SortsGlobsByTheirNumbers) {
+  for (const int i : {2, 9, 10, 1}) {
+    cv::imwrite(file(cv::format("a%d.png", i)).string(), picture(i, 0));
+    cv::imwrite(file(cv::format("b%d.png", i)).string(), picture(i, 1));
+  }
+  const std::string yaml =
+      "type: image_sequence\nleft: a*.png\nright: b?*.png\ncalibration: {file: rig.yml}\n";
+  const auto source = make(yaml);
+  for (const int expected : {1, 2, 9, 10}) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(frame->views[0].color.at<cv::Vec3b>(40, 40)[0], 10 * expected);
+    EXPECT_EQ(frame->views[1].color.at<cv::Vec3b>(40, 40)[1], 100);
+  }
+  EXPECT_FALSE(source->next());
+  std::filesystem::remove(file("b9.png"));
+  EXPECT_THAT(making(yaml),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("finds 4 images"), HasSubstr("finds 3"))));
+}
+
+TEST_F(ImageSequence, ReadsOneFileAndOneView) {
+  calibrate(64, 48, 1);
+  cv::imwrite(file("100%.png").string(), picture(7, 0));
+  const auto source = make("type: image_sequence\nleft: 100%%.png\ncalibration: {file: rig.yml}\n");
+  const auto frame = source->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->views.size(), 1u);
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, FindsNumberedFolders) {
+  for (int i = 8; i < 12; ++i) {
+    const auto folder = file(cv::format("%d", i));
+    std::filesystem::create_directory(folder);
+    cv::imwrite((folder / "left.png").string(), picture(i, 0));
+    cv::imwrite((folder / "right.png").string(), picture(i, 1));
+  }
+  const auto source = make(
+      "type: image_sequence\nleft: \"%d/left.png\"\nright: \"%d/right.png\"\n"
+      "calibration: {file: rig.yml}\n");
+  EXPECT_EQ(source->frame_count(), 4);
+  EXPECT_EQ(source->next()->problem, "");
+}
+
+TEST_F(ImageSequence, MakesEightBitColourOfEverything) {
+  const cv::Mat grey(48, 64, CV_8U, cv::Scalar(77));
+  cv::imwrite(file("left_0000.png").string(), grey);
+  cv::imwrite(file("right_0000.png").string(),
+              cv::Mat(48, 64, CV_16UC3, cv::Scalar(65535, 32768, 0)));
+  cv::imwrite(file("left_0001.png").string(), cv::Mat(48, 64, CV_8UC4, cv::Scalar(1, 2, 3, 0)));
+  cv::imwrite(file("right_0001.png").string(), cv::Mat(48, 64, CV_16U, cv::Scalar(4095)));
+  const auto source = make(numbered());
+  auto frame = source->next();
+  ASSERT_EQ(frame->problem, "");
+  EXPECT_EQ(frame->views[0].color.at<cv::Vec3b>(0, 0), cv::Vec3b(77, 77, 77));
+  EXPECT_EQ(frame->views[1].color.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 128, 0));
+  frame = source->next();
+  EXPECT_EQ(frame->views[0].color.at<cv::Vec3b>(0, 0), cv::Vec3b(1, 2, 3)) << "not blended";
+  EXPECT_EQ(frame->views[1].color.at<cv::Vec3b>(0, 0), cv::Vec3b(16, 16, 16));
+  const auto scaled = make(numbered("bits: 12\nstart: 1\n"))->next();
+  EXPECT_EQ(scaled->views[1].color.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 255));
+
+  cv::imwrite(file("left_0000.tiff").string(), grey);
+  cv::imwrite(file("left_0001.tiff").string(), cv::Mat(48, 64, CV_32F, cv::Scalar(0.5)));
+  calibrate(64, 48, 1);
+  const auto mixed =
+      make("type: image_sequence\nleft: left_%04d.tiff\ncalibration: {file: rig.yml}\n");
+  EXPECT_EQ(mixed->next()->problem, "");
+  EXPECT_THAT(mixed->next()->problem, HasSubstr("has floating-point pixels"));
+}
+
+TEST_F(ImageSequence, ReadsMasks) {
+  for (int i = 0; i < 3; ++i) write_pair(i);
+  cv::Mat mask = cv::Mat::zeros(48, 64, CV_8U);
+  mask.colRange(0, 10) = 1;
+  for (int i = 0; i < 2; ++i) {
+    cv::imwrite(file(cv::format("ml_%04d.png", i)).string(), mask);
+    cv::imwrite(file(cv::format("mr_%04d.png", i)).string(), mask);
+  }
+  const auto source = make(numbered("left_mask: ml_%04d.png\nright_mask: mr_%04d.png\n"));
+  const auto frame = source->next();
+  ASSERT_EQ(frame->problem, "");
+  EXPECT_EQ(frame->views[1].mask.type(), CV_8U);
+  EXPECT_EQ(cv::countNonZero(frame->views[1].mask), 10 * 48);
+  source->next();
+  EXPECT_THAT(source->next()->problem, HasSubstr("ml_0002.png: is missing"));
+  EXPECT_THAT(making(numbered("left_mask: ml_%04d.png\n")),
+              ThrowsMessage<ConfigError>(HasSubstr("only one of left_mask and right_mask")));
+}
+
+TEST_F(ImageSequence, KnowsTheAnswerWhereTablesGiveIt) {
+  for (int i = 0; i < 3; ++i) write_pair(i);
+  Eigen::VectorXd state = scene_.rest_state();
+  state[2] = 0.5;
+  write_states(file("states.csv"), scene_, std::vector<StateRow>{{0, 0, state}, {2, 0.1, state}});
+  const std::string name = scene_.landmark_names()[0];
+  write("landmarks.csv", "frame," + name + "_x," + name + "_y," + name + "_z\n1,10,20,30\n");
+  const auto source = make(numbered("truth_states: states.csv\ntruth_landmarks: landmarks.csv\n"
+                                    "truth_units: mm\n"),
+                           &scene_);
+  const auto first = source->next();
+  ASSERT_TRUE(first->truth);
+  EXPECT_EQ(first->truth->state, state);
+  EXPECT_EQ(first->truth->landmarks.size(), 0);
+  const auto second = source->next();
+  ASSERT_TRUE(second->truth);
+  EXPECT_EQ(second->truth->state.size(), 0);
+  EXPECT_NEAR(second->truth->landmarks(1, 0), 0.02, 1e-15);
+}
+
+TEST_F(ImageSequence, SaysWhatItDidNotFind) {
+  EXPECT_THAT(making(numbered()),
+              ThrowsMessage<DataError>(
+                  AllOf(HasSubstr("no image was found; looked for\n  left_%04d.png in "),
+                        HasSubstr(folder_.path().string()), HasSubstr("right_%04d.png"))));
+  EXPECT_THAT(making("type: image_sequence\nleft: none/*.png\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<DataError>(HasSubstr("(no such folder)")));
+  write_pair(5);
+  EXPECT_THAT(making(numbered("start: 9")),
+              ThrowsMessage<DataError>(HasSubstr("the last image has number 5")));
+  EXPECT_THAT(making("type: image_sequence\nleft: left_%s.png\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<DataError>(HasSubstr("the pattern is not understood")));
+  EXPECT_THAT(making("type: image_sequence\nleft: left_%04d.png\nright: right_*.png\n"
+                     "calibration: {file: rig.yml}\n"),
+              ThrowsMessage<DataError>(HasSubstr("only one of the patterns has a number")));
+  cv::imwrite(file("sparse_1.png").string(), picture(0, 0));
+  cv::imwrite(file("sparse_2000000000.png").string(), picture(0, 0));
+  EXPECT_THAT(making("type: image_sequence\nleft: sparse_%d.png\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<DataError>(HasSubstr("most frames would be missing")));
+}
+
+TEST_F(ImageSequence, SaysThatTheCalibrationDoesNotFit) {
+  write_pair(5);
+  calibrate(64, 48, 3);
+  EXPECT_THAT(making(numbered()),
+              ThrowsMessage<DataError>(HasSubstr("holds 3 cameras, the source has 2 views")));
+  calibrate(640, 480, 2);
+  EXPECT_THAT(making(numbered()),
+              ThrowsMessage<DataError>(HasSubstr(
+                  "the image is 64x48 pixels, but its camera is calibrated for 640x480")));
+  calibrate(64, 48, 2);
+  write("right_0005.png", "no picture");
+  EXPECT_THAT(making(numbered()), ThrowsMessage<DataError>(HasSubstr("no image can be read: ")));
+}
+
+}  // namespace
+}  // namespace hypotrack

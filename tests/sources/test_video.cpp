@@ -1,0 +1,149 @@
+#include <gmock/gmock.h>
+
+#include <opencv2/videoio.hpp>
+
+#include "hypotrack/error.hpp"
+#include "source_fixture.hpp"
+
+namespace hypotrack {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+class Video : public test::SourceFixture {
+ protected:
+  /// Frame i of a view has brightness 20 + 10 i in blue and 100 * view in green.
+  void write_video(const std::string& name, int frames, const std::vector<int>& views,
+                   cv::Size size = {64, 48}) {
+    const cv::Size whole(size.width * static_cast<int>(views.size()), size.height);
+    cv::VideoWriter writer(file(name).string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 12,
+                           whole);
+    ASSERT_TRUE(writer.isOpened());
+    for (int i = 0; i < frames; ++i) {
+      cv::Mat image(whole, CV_8UC3);
+      for (std::size_t v = 0; v < views.size(); ++v) {
+        const int x = size.width * static_cast<int>(v);
+        image.colRange(x, x + size.width) = cv::Scalar(20 + 10 * i, 100 * views[v], 30);
+      }
+      writer.write(image);
+    }
+  }
+  /// Which frame of its video a picture is.
+  static int number(const View& view) {
+    return static_cast<int>(std::lround((cv::mean(view.color)[0] - 20) / 10));
+  }
+  static int side(const View& view) {
+    return static_cast<int>(std::lround(cv::mean(view.color)[1] / 100));
+  }
+  auto making(const std::string& yaml) {
+    return [this, yaml] { make(yaml, &scene_); };
+  }
+};
+
+const std::string kTwo =
+    "type: video\nleft: left.avi\nright: right.avi\ncalibration: {file: rig.yml}\n";
+
+TEST_F(Video, YieldsPairsUntilEitherEnds) {
+  write_video("left.avi", 8, {0});
+  write_video("right.avi", 6, {1});
+  const auto source = make(kTwo);
+  EXPECT_DOUBLE_EQ(source->frame_rate(), 12);
+  EXPECT_EQ(source->frame_count(), 6);
+  for (int i = 0; i < 6; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame) << i;
+    ASSERT_EQ(frame->problem, "");
+    EXPECT_EQ(frame->index, i);
+    EXPECT_DOUBLE_EQ(frame->time, i / 12.0);
+    ASSERT_EQ(frame->views.size(), 2u);
+    EXPECT_EQ(number(frame->views[0]), i);
+    EXPECT_EQ(number(frame->views[1]), i);
+    EXPECT_EQ(side(frame->views[0]), 0);
+    EXPECT_EQ(side(frame->views[1]), 1);
+  }
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(Video, ShiftsSkipsAndThinsOut) {
+  write_video("left.avi", 12, {0});
+  write_video("right.avi", 12, {1});
+  auto source = make(kTwo + "offset: 2\nstart: 1\nstep: 3\n");
+  EXPECT_EQ(source->frame_count(), 3);
+  for (const int left : {1, 4, 7}) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_EQ(number(frame->views[0]), left);
+    EXPECT_EQ(number(frame->views[1]), left + 2);
+  }
+  EXPECT_FALSE(source->next());
+  source = make(kTwo + "offset: -4\ncount: 2\nframe_rate: 50\n");
+  EXPECT_EQ(source->frame_rate(), 50);
+  EXPECT_EQ(source->frame_count(), 2);
+  const auto frame = source->next();
+  EXPECT_EQ(number(frame->views[0]), 4);
+  EXPECT_EQ(number(frame->views[1]), 0);
+  EXPECT_TRUE(source->next());
+  EXPECT_FALSE(source->next());
+}
+
+TEST_F(Video, CutsSideBySideInTwo) {
+  write_video("both.avi", 3, {0, 1});
+  const auto source = make("type: video\nside_by_side: both.avi\ncalibration: {file: rig.yml}\n");
+  const auto frame = source->next();
+  ASSERT_EQ(frame->views.size(), 2u);
+  EXPECT_EQ(frame->views[0].color.size(), cv::Size(64, 48));
+  EXPECT_EQ(side(frame->views[0]), 0);
+  EXPECT_EQ(side(frame->views[1]), 1);
+}
+
+TEST_F(Video, KeepsTheFramesItGave) {
+  write_video("left.avi", 4, {0});
+  write_video("right.avi", 4, {1});
+  const auto source = make(kTwo);
+  const auto first = source->next();
+  source->next();
+  source->next();
+  EXPECT_EQ(number(first->views[0]), 0);
+}
+
+TEST_F(Video, ReportsDamagedFramesAndGoesOn) {
+  write_video("left.avi", 20, {0});
+  write_video("right.avi", 20, {1});
+  // Overwrite the middle of the file: some frames in it can no longer be decoded.
+  const auto size = static_cast<std::streamoff>(std::filesystem::file_size(file("left.avi")));
+  std::fstream video(file("left.avi"), std::ios::in | std::ios::out | std::ios::binary);
+  video.seekp(size / 2);
+  video << std::string(static_cast<std::size_t>(size / 6), '\0');
+  video.close();
+  const auto source = make(kTwo);
+  int frames = 0;
+  while (const auto frame = source->next()) {
+    EXPECT_EQ(frame->problem.empty(), frame->views.size() == 2);
+    if (!frame->problem.empty()) {
+      EXPECT_THAT(frame->problem, HasSubstr("left.avi"));
+    }
+    ASSERT_LE(++frames, 20);
+  }
+  EXPECT_GE(frames, 8);
+}
+
+TEST_F(Video, SaysWhatItCannotUse) {
+  write_video("left.avi", 3, {0});
+  write("right.avi", "this is no video");
+  EXPECT_THAT(making(kTwo),
+              ThrowsMessage<DataError>(HasSubstr("right.avi: cannot be opened as a video")));
+  std::filesystem::remove(file("right.avi"));
+  EXPECT_THAT(making(kTwo), ThrowsMessage<DataError>(HasSubstr("right.avi: no such file")));
+  write_video("right.avi", 3, {1}, {32, 24});
+  EXPECT_THAT(making(kTwo), ThrowsMessage<DataError>(HasSubstr("the image is 32x24 pixels")));
+  EXPECT_THAT(making("type: video\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("expected either left (and right) or")));
+  EXPECT_THAT(making("type: video\nleft: left.avi\noffset: 1\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("offset is for two videos")));
+  EXPECT_THAT(making("type: video\nleft: left.avi\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<DataError>(HasSubstr("holds 2 cameras, the source has 1 views")));
+}
+
+}  // namespace
+}  // namespace hypotrack
