@@ -165,7 +165,10 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
   const std::vector<int> columns = columns_of(table, names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (columns[i] >= 0) continue;
-    const std::vector<std::string> offered(table.columns().begin(), table.columns().end());
+    std::vector<std::string> offered;  // what might be the column, misspelt
+    for (const std::string_view column : table.columns()) {
+      if (!resolve(column, names)) offered.emplace_back(column);
+    }
     throw DataError(fmt::format(
         "{}: has no column '{}'; a table of states has one for each of the "
         "scene's {} parameters{}",
