@@ -100,6 +100,17 @@ TEST(Score, DoesNotDependOnTheInstructionSet) {
   }
 }
 
+TEST(Score, OfARectifiedPairIsThatOfTheSamePairTreatedAsGeneral) {
+  for (const auto lookup : {Lookup::nearest, Lookup::bilinear}) {
+    RandomPair pair({.mask = true, .seed = 11});
+    Params params;
+    params.lookup = lookup;
+    const double special = fast(pair, params);
+    pair.observation.rectified = false;
+    EXPECT_NEAR(fast(pair, params) / special, 1, 1e-3);
+  }
+}
+
 TEST(Score, CountsSeenAndRenderedPixels) {
   const RandomPair pair({});
   const auto& views = pair.observation.views;

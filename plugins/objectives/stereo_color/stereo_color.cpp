@@ -102,11 +102,11 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
   }
   switch (params_.direction) {
     case Direction::left_to_right:
-      return -score(hypothesis, 0, 1);
+      return 0.0 - score(hypothesis, 0, 1);  // not -0.0
     case Direction::right_to_left:
-      return -score(hypothesis, 1, 0);
+      return 0.0 - score(hypothesis, 1, 0);
     case Direction::both:
-      return -0.5 * (score(hypothesis, 0, 1) + score(hypothesis, 1, 0));
+      return 0.0 - 0.5 * (score(hypothesis, 0, 1) + score(hypothesis, 1, 0));
   }
   return 0;
 }

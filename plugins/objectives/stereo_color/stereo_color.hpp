@@ -11,7 +11,7 @@ namespace hypotrack::stereo_color {
 
 /// Colour consistency of a hypothesis in a stereo pair: Panteleris and Argyros, "Back to RGB: 3D
 /// tracking of hands and hand-object interactions based on short-baseline stereo", ICCV workshops
-/// 2017, section 3.
+/// 2017. The equations below are the paper's, in its order and symbols (l for lambda).
 ///
 /// Distinctiveness, once per frame and view (the paper's measure after Harris and Stephens). With
 /// l1 >= l2 the eigenvalues of the auto-correlation matrix of the grey image's gradients, summed
