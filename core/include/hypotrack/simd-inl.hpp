@@ -21,9 +21,7 @@
 #define HYPOTRACK_PIXEL_END() HWY_AFTER_NAMESPACE()
 
 #if HWY_HAVE_SCALABLE
-#error \
-    "Lanes holds a vector as a member: put HWY_SVE, HWY_SVE2, HWY_SVE_256, HWY_SVE2_128 and HWY_RVV \
-in HWY_DISABLED_TARGETS before including Highway"
+#error "Lanes holds a vector as a member: disable HWY_SVE* and HWY_RVV (HWY_DISABLED_TARGETS)"
 #endif
 
 /// SIMD vectors with the vocabulary of pixel.hpp. For sources that use Highway's foreach_target, as

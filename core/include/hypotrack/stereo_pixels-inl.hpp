@@ -15,14 +15,16 @@
 ///
 ///   struct MyTerm {
 ///     static constexpr bool kVisitsUncovered = false;  // not called where nothing is covered
-///     void pixels(const StereoPixels& p) {             // HYPOTRACK_PIXEL
-///       const Lanes here = p.here(left_feature);
-///       const Lanes there = p.nearest(right_feature);
+///     const PixelPlane<float>& left_feature;
+///     const PixelPlane<float>& right_feature;
+///     LaneSum sum;
+///     HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
+///       const Lanes here = p.here(left_feature), there = p.nearest(right_feature);
 ///       sum.add(p.seen, closeness(here, there));       // a per-pixel function (pixel.hpp)
 ///     }
-///     void end_row() { sum.end_row(); }                // HYPOTRACK_PIXEL
-///     ...
+///     HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 ///   };
+///   MyTerm term{...};
 ///   for_each_stereo_pixel(left, right, map, 0.003f, covered_box(left), term);
 ///
 /// Pixels outside the covered box are uncovered. A term that needs them all walks whole_tile(left)
