@@ -19,6 +19,7 @@
 #include <string>
 #include <string_view>
 
+#include "model/mesh_import_gltf.hpp"
 #include "model/mesh_import_wire.hpp"
 
 namespace hypotrack::mesh_wire {
@@ -80,8 +81,7 @@ aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
   return common.value_or(aiMatrix4x4());
 }
 
-void add_bones(const aiScene& scene, const aiMesh& mesh, const aiMatrix4x4& file_from_mesh,
-               Bones& known, Scene& out) {
+void add_bones(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, Bones& known, Scene& out) {
   for (unsigned i = 0; i < mesh.mNumBones; ++i) {
     const aiBone& bone = *mesh.mBones[i];
     const std::string name = bone.mName.C_Str();
@@ -106,7 +106,6 @@ void add_bones(const aiScene& scene, const aiMesh& mesh, const aiMatrix4x4& file
       }
     }
   }
-  (void)scene;
 }
 
 void find_parents(const aiScene& scene, const Bones& known, Scene& out) {
@@ -155,7 +154,7 @@ void add_meshes(const aiScene& scene, const aiNode& node, Bones& bones, Scene& o
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
     const aiMatrix4x4 file_from_mesh =
         mesh.HasBones() ? file_from_skinned_mesh(scene, mesh) : global_transform(&node);
-    add_bones(scene, mesh, file_from_mesh, bones, out);
+    add_bones(mesh, file_from_mesh, bones, out);
     out.meshes.push_back(convert_mesh(mesh, file_from_mesh, bones));
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
@@ -191,6 +190,21 @@ Texture convert_texture(const aiTexture& texture) {
   return converted;
 }
 
+/// The glTF importer passes over triangles whose vertices do not exist.
+void check_triangle_count(const aiScene& scene, const std::string& file) {
+  std::uint64_t found = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned k = 0; k < mesh.mNumFaces; ++k) found += mesh.mFaces[k].mNumIndices == 3 ? 1 : 0;
+  }
+  const std::uint64_t expected = count_gltf_triangles(file);
+  if (found < expected) {
+    throw std::runtime_error(std::to_string(expected - found) + " of its " +
+                             std::to_string(expected) +
+                             " triangles name vertices that are not there");
+  }
+}
+
 Scene read(const std::string& file) {
   Assimp::Importer importer;
   std::string extension = file.substr(file.rfind('.') + 1);
@@ -205,6 +219,7 @@ Scene read(const std::string& file) {
     if (out.error.empty()) out.error = "the file holds no scene";
     return out;
   }
+  if (extension.starts_with("gl")) check_triangle_count(*scene, file);
   Bones bones;
   add_meshes(*scene, *scene->mRootNode, bones, out);
   find_parents(*scene, bones, out);

@@ -1,0 +1,184 @@
+#include "mesh_files.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/mesh_io.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kFloat = 5126;
+constexpr int kUnsignedShort = 5123;
+constexpr int kUnsignedByte = 5121;
+
+class GlbWriter {
+ public:
+  template <class T>
+  int add(const std::vector<T>& values, const char* type, int component_type) {
+    const int view = add_view(values.data(), values.size() * sizeof(T));
+    json_["accessors"].push_back({{"bufferView", view},
+                                  {"componentType", component_type},
+                                  {"count", values.size()},
+                                  {"type", type}});
+    return static_cast<int>(json_["accessors"].size()) - 1;
+  }
+
+  int add_view(const void* data, std::size_t size) {
+    while (binary_.size() % 4 != 0) binary_ += '\0';
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
+    binary_.append(static_cast<const char*>(data), size);
+    return static_cast<int>(json_["bufferViews"].size()) - 1;
+  }
+
+  Json& json() { return json_; }
+
+  std::string finish() {
+    while (binary_.size() % 4 != 0) binary_ += '\0';
+    json_["asset"]["version"] = "2.0";
+    json_["buffers"] = {{{"byteLength", binary_.size()}}};
+    std::string text = json_.dump();
+    while (text.size() % 4 != 0) text += ' ';
+    const auto total = static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + binary_.size());
+    std::string file = "glTF";
+    append(file, 2);
+    append(file, total);
+    append(file, static_cast<std::uint32_t>(text.size()));
+    file += "JSON" + text;
+    append(file, static_cast<std::uint32_t>(binary_.size()));
+    return file + std::string("BIN\0", 4) + binary_;
+  }
+
+ private:
+  static void append(std::string& file, std::uint32_t value) {
+    file.append(reinterpret_cast<const char*>(&value), sizeof(value));
+  }
+  Json json_;
+  std::string binary_;
+};
+
+/// Nodes 0 .. n-1 are the bones, node n carries the mesh.
+void add_skeleton(GlbWriter& writer, const GlbContent& content) {
+  Json& json = writer.json();
+  std::vector<std::array<float, 16>> inverse_binds;
+  std::vector<int> joints;
+  Json roots = Json::array();
+  for (std::size_t i = 0; i < content.bones.size(); ++i) {
+    const GlbBone& bone = content.bones[i];
+    Json node = {{"name", bone.name}, {"translation", bone.translation}, {"scale", bone.scale}};
+    for (std::size_t k = 0; k < content.bones.size(); ++k) {
+      if (content.bones[k].parent == static_cast<int>(i)) node["children"].push_back(k);
+    }
+    if (bone.parent < 0) roots.push_back(i);
+    json["nodes"].push_back(node);
+    joints.push_back(static_cast<int>(i));
+    std::array<float, 3> at{};
+    std::array<float, 3> scale{1, 1, 1};
+    for (int b = static_cast<int>(i); b >= 0;
+         b = content.bones[static_cast<std::size_t>(b)].parent) {
+      const GlbBone& above = content.bones[static_cast<std::size_t>(b)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        at[c] = above.translation[c] + above.scale[c] * at[c];
+        scale[c] *= above.scale[c];
+      }
+    }
+    std::array<float, 16> inverse{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      inverse[5 * c] = 1 / scale[c];
+      inverse[12 + c] = -at[c] / scale[c];
+    }
+    inverse[15] = 1;
+    inverse_binds.push_back(inverse);
+  }
+  const int accessor = writer.add(inverse_binds, "MAT4", kFloat);
+  json["skins"] = {{{"joints", joints}, {"inverseBindMatrices", accessor}}};
+  json["nodes"].push_back({{"name", "body"}, {"mesh", 0}, {"skin", 0}});
+  roots.push_back(content.bones.size());
+  json["scenes"] = {{{"nodes", roots}}};
+}
+
+void add_texture(GlbWriter& writer, const GlbContent& content) {
+  Json& json = writer.json();
+  Json image;
+  if (content.image.empty()) {
+    image["uri"] = content.image_uri;
+  } else {
+    image["bufferView"] = writer.add_view(content.image.data(), content.image.size());
+    image["mimeType"] = "image/png";
+  }
+  json["images"] = {image};
+  json["textures"] = {{{"source", 0}}};
+  json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+}
+
+}  // namespace
+
+std::string glb(const GlbContent& content) {
+  GlbWriter writer;
+  Json& json = writer.json();
+  Json attributes;
+  attributes["POSITION"] = writer.add(content.positions, "VEC3", kFloat);
+  if (!content.joints.empty()) {
+    attributes["JOINTS_0"] = writer.add(content.joints, "VEC4", kUnsignedByte);
+    attributes["WEIGHTS_0"] = writer.add(content.weights, "VEC4", kFloat);
+  }
+  if (!content.uvs.empty()) attributes["TEXCOORD_0"] = writer.add(content.uvs, "VEC2", kFloat);
+  Json primitive = {{"attributes", attributes},
+                    {"indices", writer.add(content.indices, "SCALAR", kUnsignedShort)}};
+  if (!content.image.empty() || !content.image_uri.empty()) {
+    add_texture(writer, content);
+    primitive["material"] = 0;
+  }
+  json["meshes"] = {{{"name", "body"}, {"primitives", {primitive}}}};
+  if (content.bones.empty()) {
+    json["nodes"] = {{{"name", "body"}, {"mesh", 0}}};
+    json["scenes"] = {{{"nodes", {0}}}};
+  } else {
+    add_skeleton(writer, content);
+  }
+  json["scene"] = 0;
+  return writer.finish();
+}
+
+std::string obj() {
+  return "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+}
+
+std::string binary_stl() {
+  const std::vector<std::array<std::array<float, 3>, 3>> faces = {
+      {{{0, 0, 0}, {0, 1, 0}, {1, 0, 0}}},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}},
+      {{{0, 0, 0}, {0, 0, 1}, {0, 1, 0}}},
+      {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+  std::string file(80, ' ');
+  const auto count = static_cast<std::uint32_t>(faces.size());
+  file.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  for (const auto& face : faces) {
+    file.append(12, '\0');  // normal
+    file.append(reinterpret_cast<const char*>(&face), sizeof(face));
+    file.append(2, '\0');
+  }
+  return file;
+}
+
+std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
+  return path;
+}
+
+std::string import_error(const std::filesystem::path& path) {
+  try {
+    import_mesh(path);
+  } catch (const DataError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << path << " was read without an error";
+  return {};
+}
+
+}  // namespace hypotrack::test

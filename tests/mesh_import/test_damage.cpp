@@ -1,0 +1,89 @@
+#include <gmock/gmock.h>
+
+#include <limits>
+
+#include "mesh_files.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+class DamagedMesh : public ::testing::Test {
+ protected:
+  std::string error(const char* name, std::string_view bytes) {
+    return import_error(write_file(folder_.path() / name, bytes));
+  }
+  TemporaryDirectory folder_;
+};
+
+TEST_F(DamagedMesh, WithoutFacesSaysSo) {
+  EXPECT_THAT(error("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1\nl 1 2\n"), HasSubstr("a.obj: "));
+  GlbContent content;
+  content.indices = {0, 0, 1, 2, 2, 2};
+  EXPECT_THAT(error("a.glb", glb(content)),
+              HasSubstr("the mesh has no faces: all its triangles are degenerate"));
+}
+
+TEST_F(DamagedMesh, NanVertexIsNamed) {
+  GlbContent content;
+  content.positions[2][1] = kNan;
+  EXPECT_THAT(error("a.glb", glb(content)),
+              AllOf(HasSubstr("vertex 2 of mesh"), HasSubstr("every coordinate must be finite")));
+  EXPECT_THAT(error("a.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n"),
+              HasSubstr("every coordinate must be finite"));
+}
+
+TEST_F(DamagedMesh, WeightsThatAreNoneLeaveTheirVertexWithoutABone) {
+  for (const float weight : {0.0f, -1.0f, kNan}) {
+    GlbContent content;
+    content.weights[1] = {weight, 0, 0, 0};
+    EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("no bone holds vertex 1 of mesh"));
+  }
+}
+
+TEST_F(DamagedMesh, WeightsThatDoNotSumToOneAreRefused) {
+  for (const float weight : {0.3f, -0.25f, kNan, 2.0f}) {
+    GlbContent content;
+    content.weights[3] = {0.25f, weight, 0, 0};
+    EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("the weights of vertex 3 of mesh"));
+  }
+}
+
+TEST_F(DamagedMesh, JointOutOfRangeIsNoBone) {
+  GlbContent content;
+  content.joints[2] = {77, 0, 0, 0};
+  EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("no bone holds vertex 2 of mesh"));
+}
+
+TEST_F(DamagedMesh, IndexOutOfRangeIsNamed) {
+  GlbContent content;
+  content.indices[4] = 999;
+  EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("1 of its 4 triangles name vertices that are not there"));
+  EXPECT_THAT(error("a.obj", obj() + "f 1 2 99\n"), HasSubstr("the mesh could not be read"));
+}
+
+TEST_F(DamagedMesh, TruncatedFilesAreToldFromTheirLength) {
+  const std::string whole = glb({});
+  EXPECT_THAT(error("a.glb", whole.substr(0, whole.size() - 40)),
+              AllOf(HasSubstr("the GLB file is damaged"), HasSubstr("copy or export it again")));
+  EXPECT_THAT(error("a.stl", binary_stl().substr(0, 200)),
+              HasSubstr("its header says 4 triangles, which take 284 bytes; it has 200"));
+}
+
+TEST_F(DamagedMesh, BoneScaledUnevenlyIsRefused) {
+  GlbContent content;
+  content.bones[1].scale = {1, 2, 1};
+  EXPECT_THAT(error("a.glb", glb(content)),
+              HasSubstr("bone 'tip' is scaled unevenly or sheared at the bind pose"));
+}
+
+TEST_F(DamagedMesh, NotJsonIsTheImportersOwnMessage) {
+  EXPECT_THAT(error("a.gltf", "{ this is not JSON"), HasSubstr("the mesh could not be read: "));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
