@@ -79,12 +79,12 @@ TEST(Nlopt, DirectRefusesBudgetsThatDoNotFitIntoMemory) {
 
 TEST(Nlopt, AutomaticPopulationsLeaveRoomForGenerations) {
   using Population = NloptAlgorithm::Population;
-  EXPECT_EQ(automatic_population(Population::crs, 27, 1024), 128u);
+  EXPECT_EQ(automatic_population(Population::crs, 27, 1024), 64u);
   EXPECT_EQ(automatic_population(Population::crs, 27, 100), 29u);      // more than the dimensions
   EXPECT_EQ(automatic_population(Population::crs, 27, 100000), 280u);  // NLopt's own
-  EXPECT_EQ(automatic_population(Population::isres, 27, 1024), 51u);
-  EXPECT_EQ(automatic_population(Population::esch, 27, 1024), 40u);
-  EXPECT_EQ(automatic_population(Population::mlsl, 27, 1024), 16u);
+  EXPECT_EQ(automatic_population(Population::isres, 27, 1024), 16u);
+  EXPECT_EQ(automatic_population(Population::esch, 27, 1024), 8u);
+  EXPECT_EQ(automatic_population(Population::mlsl, 27, 1024), 4u);
   EXPECT_EQ(automatic_population(Population::mlsl, 27, 1), 2u);
 }
 

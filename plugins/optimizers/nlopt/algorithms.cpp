@@ -121,15 +121,16 @@ unsigned automatic_population(NloptAlgorithm::Population rule, std::int64_t dime
   const auto between = [](std::int64_t low, std::int64_t value, std::int64_t high) {
     return static_cast<unsigned>(std::max(low, std::min(value, high)));
   };
+  // Shares that did best on smooth valleys in 27 and 54 dimensions with 1,024 evaluations.
   switch (rule) {
     case Population::crs:  // needs more than `dimension`; NLopt would take 10 (dimension + 1)
-      return between(dimension + 2, evaluations / 8, 10 * (dimension + 1));
+      return between(dimension + 2, evaluations / 16, 10 * (dimension + 1));
     case Population::isres:  // NLopt would take 20 (dimension + 1)
-      return between(8, evaluations / 20, 20 * (dimension + 1));
-    case Population::esch:
-      return between(4, evaluations / 25, 40);
+      return between(8, evaluations / 64, 20 * (dimension + 1));
+    case Population::esch:  // NLopt would take 40
+      return between(4, evaluations / 128, 40);
     case Population::mlsl:  // samples between local searches
-      return between(2, evaluations / 64, 16);
+      return between(2, evaluations / 256, 4);
     case Population::none:
       break;
   }
