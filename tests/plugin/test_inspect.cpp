@@ -84,9 +84,11 @@ TEST(Inspect, FindsByKindNameOrBoth) {
   EXPECT_EQ(find_plugins(path, "sample").size(), 1u);
   EXPECT_EQ(find_plugins(path, "optimizer/sample").at(0).name, "sample");
   EXPECT_EQ(message_of<PluginError>([&] { find_plugins(path, "smaple"); }),
-            "there is no plugin or kind of plugin 'smaple'; did you mean 'sample'?");
-  EXPECT_EQ(message_of<PluginError>([&] { find_plugins(path, "source"); }),
-            "there is no plugin or kind of plugin 'source'");
+            "there is no plugin or kind of plugin 'smaple'; did you mean 'sample'? Searched in " +
+                fixtures("good").string());
+  EXPECT_EQ(
+      message_of<PluginError>([&] { find_plugins(path, "source"); }),
+      "there is no plugin or kind of plugin 'source'. Searched in " + fixtures("good").string());
 }
 
 TEST(Inspect, WorksWhileOtherThreadsAllocate) {

@@ -2,78 +2,21 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
 #include "config/numbers.hpp"
+#include "config/read_value.hpp"
 #include "config/suggest.hpp"
-#include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
-namespace {
 
-[[noreturn]] void fail(const ConfigNode& node, std::string_view problem) {
-  const std::string path = node.path();
-  throw ConfigError(path.empty() ? fmt::format("{}: {}", node.where(), problem)
-                                 : fmt::format("{}: {}: {}", node.where(), path, problem));
-}
-
-/// What a node holds, for "found ..." in messages.
-std::string describe(const ConfigNode& node) {
-  if (node.is_map()) return "a map";
-  if (node.is_list()) return fmt::format("a list of {}", node.size());
-  if (node.is_null()) return "null";
-  constexpr std::size_t kLongest = 60;
-  const std::string& text = node.scalar();
-  const std::string shown = text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
-  return node.is_plain() ? fmt::format("'{}'", shown) : fmt::format("the text \"{}\"", shown);
-}
-
-[[noreturn]] void fail_type(const ConfigNode& node, std::string_view expected) {
-  if (node.is_null()) {
-    fail(node, fmt::format("is null; expected {} (without the key, its default holds)", expected));
-  }
-  fail(node, fmt::format("expected {}, found {}", expected, describe(node)));
-}
-
-std::string with_range(std::string_view type, double min, double max, std::string_view unit) {
-  const std::string range = detail::describe_range(min, max, unit);
-  if (!range.empty()) return fmt::format("{} {}", type, range);
-  return unit.empty() ? std::string(type) : fmt::format("{} in {}", type, unit);
-}
-
-double read_double(const ConfigNode& node, const ParamInfo& info) {
-  const std::string expected = with_range("a number", info.min, info.max, info.unit);
-  const auto number =
-      node.is_plain() ? detail::parse_number(node.scalar()) : std::optional<double>();
-  if (!number) fail_type(node, expected);
-  if (std::isnan(*number)) fail(node, fmt::format("expected {}, found not-a-number", expected));
-  // A limit that went through the unit's factor and back may come out some last bits beyond it.
-  const double slack = info.to_si == 1.0 ? 0.0 : 1e-15;
-  if (*number < info.min - slack * std::abs(info.min) ||
-      *number > info.max + slack * std::abs(info.max)) {
-    fail(node, fmt::format("{} is out of range; expected {}", node.scalar(), expected));
-  }
-  return detail::scale_number(node.scalar(), *number, info.to_si);
-}
-
-const std::string& read_text(const ConfigNode& node, std::string_view expected) {
-  if (!node.is_scalar() || node.is_null()) fail_type(node, expected);
-  return node.scalar();
-}
-
-[[noreturn]] void fail_unknown(const ConfigNode& map, const std::string& key,
-                               const std::vector<std::string>& allowed) {
-  const std::string hint = detail::did_you_mean(key, allowed);
-  throw ConfigError(
-      fmt::format("{}: {}: unknown key{} Allowed: {}", map.where_key(key), map.get(key).path(),
-                  hint.empty() ? "." : hint,
-                  allowed.empty() ? "nothing" : fmt::format("{}", fmt::join(allowed, ", "))));
-}
-
-}  // namespace
+using detail::fail_at;
+using detail::fail_type;
+using detail::read_double;
+using detail::read_text;
+using detail::with_range;
 
 ParamVisitor::~ParamVisitor() = default;
 
@@ -110,10 +53,10 @@ struct ParamReader::Impl : public ParamVisitor {
     allowed.insert(allowed.end(), extra.begin(), extra.end());
     const std::set<std::string_view> known(allowed.begin(), allowed.end());
     for (const std::string& key : level.node.keys()) {
-      if (!known.contains(key)) fail_unknown(level.node, key, allowed);
+      if (!known.contains(key)) detail::fail_unknown(level.node, key, allowed);
     }
     if (level.missing.empty()) return;
-    fail(level.node.get(level.missing.front()), "required key is missing");
+    fail_at(level.node.get(level.missing.front()), "required key is missing");
   }
 
   void on_bool(std::string_view key, bool& value, const ParamInfo& info) override {
@@ -143,7 +86,7 @@ struct ParamReader::Impl : public ParamVisitor {
       return;
     }
     if (in_range) expected = fmt::format("an integer from {} to {}", lowest, highest);
-    fail(*node, fmt::format("{} is out of range; expected {}", node->scalar(), expected));
+    fail_at(*node, fmt::format("{} is out of range; expected {}", node->scalar(), expected));
   }
 
   void on_double(std::string_view key, double& value, const ParamInfo& info) override {
@@ -173,8 +116,8 @@ struct ParamReader::Impl : public ParamVisitor {
     }
     const std::vector<std::string> words(names.begin(), names.end());
     const std::string hint = node->is_null() ? "" : detail::did_you_mean(text, words);
-    fail(*node, fmt::format("expected one of {}; found {}{}", fmt::join(words, ", "),
-                            describe(*node), hint));
+    fail_at(*node, fmt::format("expected one of {}; found {}{}", fmt::join(words, ", "),
+                               detail::describe_value(*node), hint));
   }
 
   void on_doubles(std::string_view key, std::vector<double>& value, std::size_t fixed_size,
@@ -185,7 +128,7 @@ struct ParamReader::Impl : public ParamVisitor {
     const std::string expected = "a list of " + with_range(numbers, info.min, info.max, info.unit);
     if (!node->is_list()) fail_type(*node, expected);
     if (fixed_size && node->size() != fixed_size) {
-      fail(*node, fmt::format("expected {}, found {}", expected, node->size()));
+      fail_at(*node, fmt::format("expected {}, found {}", expected, node->size()));
     }
     value.clear();
     for (std::size_t i = 0; i < node->size(); ++i) value.push_back(read_double(node->at(i), info));

@@ -121,8 +121,11 @@ std::vector<PluginRow> find_plugins(std::span<const std::filesystem::path> searc
   });
   if (rows.empty()) {
     const std::vector<std::string> candidates(words.begin(), words.end());
-    throw PluginError(fmt::format("there is no plugin or kind of plugin '{}'{}", what,
-                                  detail::did_you_mean(what, candidates)));
+    const std::string hint = detail::did_you_mean(what, candidates);
+    std::vector<std::string> folders;
+    for (const auto& folder : search_path) folders.push_back(folder.string());
+    throw PluginError(fmt::format("there is no plugin or kind of plugin '{}'{} Searched in {}",
+                                  what, hint.empty() ? "." : hint, fmt::join(folders, ", ")));
   }
   inspect(rows, limit);
   return rows;

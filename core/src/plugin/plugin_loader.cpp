@@ -7,6 +7,7 @@
 #include <mutex>
 #include <typeinfo>
 
+#include "config/read_value.hpp"
 #include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
@@ -16,27 +17,23 @@
 namespace hypotrack {
 namespace {
 
-[[noreturn]] void fail(const ConfigNode& node, std::string_view problem) {
-  const std::string path = node.path();
-  throw ConfigError(path.empty() ? fmt::format("{}: {}", node.where(), problem)
-                                 : fmt::format("{}: {}: {}", node.where(), path, problem));
-}
-
 /// The plugin that a node names.
 std::string type_of(std::string_view kind, const ConfigNode& config) {
   if (!config.is_map()) {
-    fail(config, fmt::format("{}; expected a map with `type: NAME`, the {} to use",
-                             config.defined() ? "is no map" : "is missing", kind));
+    detail::fail_at(config, fmt::format("{}; expected a map with `type: NAME`, the {} to use",
+                                        config.defined() ? "is no map" : "is missing", kind));
   }
   const ConfigNode type = config.get("type");
-  if (!type.defined()) fail(type, fmt::format("is missing; it names the {} to use", kind));
+  if (!type.defined())
+    detail::fail_at(type, fmt::format("is missing; it names the {} to use", kind));
   if (!type.is_scalar() || type.is_null()) {
-    fail(type, fmt::format("expected the name of the {} to use", kind));
+    detail::fail_at(type, fmt::format("expected the name of the {} to use", kind));
   }
   if (!detail::is_plugin_name(type.scalar())) {
-    fail(type, fmt::format("'{}' cannot be the name of a plugin; expected small letters, digits "
-                           "and '_'",
-                           type.scalar()));
+    detail::fail_at(
+        type, fmt::format("'{}' cannot be the name of a plugin; expected small letters, digits "
+                          "and '_'",
+                          type.scalar()));
   }
   return type.scalar();
 }
