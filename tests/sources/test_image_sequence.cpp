@@ -243,6 +243,23 @@ TEST_F(ImageSequence, KnowsTheAnswerWhereTablesGiveIt) {
   EXPECT_NEAR(second->truth->landmarks(1, 0), 0.02, 1e-15);
 }
 
+TEST_F(ImageSequence, FindsTheAnswerByTheNumberOfTheImage) {
+  for (int i = 0; i < 9; ++i) write_pair(i);
+  Eigen::VectorXd state = scene_.rest_state();
+  std::vector<StateRow> rows;
+  for (int i = 0; i < 9; ++i) {
+    state[2] = i;
+    rows.push_back({i, i / 30.0, state});
+  }
+  write_states(file("states.csv"), scene_, rows);
+  const auto source = make(numbered("start: 3\nstep: 2\ntruth_states: states.csv\n"), &scene_);
+  EXPECT_EQ(source->next()->truth->state[2], 3);
+  EXPECT_EQ(source->next()->truth->state[2], 5);
+  const auto shifted =
+      make(numbered("start: 3\ntruth_states: states.csv\ntruth_offset: -2\n"), &scene_);
+  EXPECT_EQ(shifted->next()->truth->state[2], 1);
+}
+
 TEST_F(ImageSequence, SaysWhatItDidNotFind) {
   EXPECT_THAT(making(numbered()),
               ThrowsMessage<DataError>(

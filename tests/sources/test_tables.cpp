@@ -212,13 +212,13 @@ TEST_F(Tables, TellASourceTheAnswerFrameByFrame) {
   write(kHeader + ",frame\n0,0,1,1,0,0,0,100\n0,0,2,1,0,0,0,102\n");
   TruthSettings settings;
   settings.states = file_;
-  settings.offset = 100;
+  settings.offset = 90;
   const TruthTables truth(settings, scene);
-  ASSERT_TRUE(truth.at(0));
-  EXPECT_EQ(truth.at(0)->state[2], 1);
-  EXPECT_EQ(truth.at(0)->landmarks.size(), 0);
-  EXPECT_FALSE(truth.at(1));
-  EXPECT_EQ(truth.at(2)->state[2], 2);
+  ASSERT_TRUE(truth.at(10));
+  EXPECT_EQ(truth.at(10)->state[2], 1);
+  EXPECT_EQ(truth.at(10)->landmarks.size(), 0);
+  EXPECT_FALSE(truth.at(11));
+  EXPECT_EQ(truth.at(12)->state[2], 2);
   EXPECT_FALSE(TruthTables().at(0));
 }
 

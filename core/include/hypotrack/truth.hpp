@@ -34,7 +34,9 @@ struct TruthSettings {
            "for truth_landmarks, `name=landmark` gives a name of the table to a landmark of the "
            "scene, `name=` drops it"});
     v("truth_offset", offset,
-      {.help = "frame number in the tables of the source's first frame", .min = 0});
+      {.help =
+           "added to the number of an image (%04d), its position (*) or the frame of a video to "
+           "get its frame number in the tables"});
   }
 };
 
@@ -46,8 +48,9 @@ class HYPOTRACK_API TruthTables {
   /// Reads the tables that are named. Throws DataError as read_states and read_landmarks do.
   TruthTables(const TruthSettings& settings, const Scene& scene);
 
-  /// What the tables say about a frame; nothing if they do not mention it.
-  std::optional<GroundTruth> at(int frame) const;
+  /// What the tables say about an image by its number in the recording (which `truth_offset` is
+  /// added to); nothing if they do not mention it.
+  std::optional<GroundTruth> at(int number) const;
 
  private:
   std::map<int, GroundTruth> frames_;

@@ -23,8 +23,8 @@ TruthTables::TruthTables(const TruthSettings& settings, const Scene& scene) {
   }
 }
 
-std::optional<GroundTruth> TruthTables::at(int frame) const {
-  const auto it = frames_.find(frame);
+std::optional<GroundTruth> TruthTables::at(int number) const {
+  const auto it = frames_.find(number);
   if (it == frames_.end()) return std::nullopt;
   return it->second;
 }

@@ -48,8 +48,9 @@ struct ImageSequenceParams {
 };
 
 /// Pictures on disk, one per view and frame. Tables of the answer (`truth_states`,
-/// `truth_landmarks`) are CSV as described in hypotrack/tables.hpp; their frame 0 is the first
-/// frame of the sequence unless `truth_offset` says otherwise.
+/// `truth_landmarks`) are CSV as described in hypotrack/tables.hpp; a row belongs to the image
+/// whose number in the file name is the row's frame (with * instead of a number: the position in
+/// the sorted list), unless `truth_offset` shifts it.
 class ImageSequence : public Source {
  public:
   using Params = ImageSequenceParams;
@@ -69,7 +70,9 @@ class ImageSequence : public Source {
                       context.config().where()));
     }
     if (has_masks_) patterns.insert(patterns.end(), masks.begin(), masks.end());
-    lists_ = find_images(patterns, {params.start, params.step, params.count});
+    Images images = find_images(patterns, {params.start, params.step, params.count});
+    lists_ = std::move(images.views);
+    first_ = images.first;
     cameras_ = load_calibration(params.calibration);
     if (cameras_.size() != views_) {
       throw DataError(fmt::format(
@@ -99,7 +102,7 @@ class ImageSequence : public Source {
     Frame frame;
     frame.index = static_cast<int>(index);
     frame.time = frame.index / frame_rate();
-    frame.truth = truth_.at(frame.index);
+    frame.truth = truth_.at(first_ + frame.index * params_.step);
     for (std::size_t v = 0; v < views_ && frame.problem.empty(); ++v) {
       frame.views.push_back(read_view(v, index, frame.problem));
     }
@@ -151,6 +154,7 @@ class ImageSequence : public Source {
   std::size_t views_ = 0;
   bool has_masks_ = false;
   std::vector<ImageList> lists_;  ///< images of every view, then masks of every view
+  int first_ = 0;                 ///< number of the first image
   std::vector<Camera> cameras_;
   TruthTables truth_;
   std::size_t next_ = 0;

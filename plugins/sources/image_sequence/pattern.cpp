@@ -143,9 +143,8 @@ ImageList glob(const fs::path& pattern) {
   throw DataError("no image was found; looked for" + tried);
 }
 
-std::vector<ImageList> numbered_lists(const std::vector<fs::path>& patterns,
-                                      const std::vector<Numbered>& views,
-                                      const Selection& selection) {
+Images numbered_lists(const std::vector<fs::path>& patterns, const std::vector<Numbered>& views,
+                      const Selection& selection) {
   std::set<int> numbers;
   for (const Numbered& view : views) numbers.merge(existing_numbers(view));
   if (numbers.empty()) nothing_found(patterns);
@@ -173,10 +172,10 @@ std::vector<ImageList> numbered_lists(const std::vector<fs::path>& patterns,
       lists[v].emplace_back(views[v].with(static_cast<int>(number)));
     }
   }
-  return lists;
+  return {std::move(lists), start};
 }
 
-std::vector<ImageList> listed(const std::vector<fs::path>& patterns, const Selection& selection) {
+Images listed(const std::vector<fs::path>& patterns, const Selection& selection) {
   std::vector<ImageList> lists;
   for (const fs::path& pattern : patterns) {
     const bool wild = pattern.filename().string().find_first_of("*?") != std::string::npos;
@@ -211,7 +210,7 @@ std::vector<ImageList> listed(const std::vector<fs::path>& patterns, const Selec
     }
     list = std::move(taken);
   }
-  return lists;
+  return {std::move(lists), selection.start.value_or(0)};
 }
 
 }  // namespace
@@ -243,8 +242,7 @@ bool natural_less(const std::string& a, const std::string& b) {
   return a < b;  // 7 and 07
 }
 
-std::vector<ImageList> find_images(const std::vector<fs::path>& patterns,
-                                   const Selection& selection) {
+Images find_images(const std::vector<fs::path>& patterns, const Selection& selection) {
   std::vector<Numbered> views;
   for (const fs::path& pattern : patterns) {
     if (const auto numbered = parse_numbered(pattern.string())) views.push_back(*numbered);

@@ -17,6 +17,12 @@ struct Selection {
 /// The images of one view: for every frame a path, which need not exist.
 using ImageList = std::vector<std::filesystem::path>;
 
+/// The images of a recording.
+struct Images {
+  std::vector<ImageList> views;  ///< of equal length
+  int first = 0;                 ///< number (printf) or position (glob) of the first frame
+};
+
 /// Turns patterns, one per view, into lists of equal length. A pattern is one of
 ///   left_%04d.png   a number per frame: %d, %5d or %05d, in a file or folder name. Numbers that no
 ///                   view has between the first and the last frame are gaps, and stay in the list
@@ -24,8 +30,7 @@ using ImageList = std::vector<std::filesystem::path>;
 ///   left.png        one frame
 /// Throws DataError if nothing is found, if glob patterns find different numbers of files, or if
 /// the numbers are so sparse that most frames would be gaps.
-std::vector<ImageList> find_images(const std::vector<std::filesystem::path>& patterns,
-                                   const Selection& selection);
+Images find_images(const std::vector<std::filesystem::path>& patterns, const Selection& selection);
 
 /// Whether `a` sorts before `b`, runs of digits compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);

@@ -52,7 +52,7 @@ struct VideoParams {
 
 /// Two synchronous videos, or one with both views side by side. Ends when either ends. Tables of
 /// the answer (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp;
-/// their frame 0 is the source's first frame unless `truth_offset` says otherwise.
+/// their frames are those of the first video, unless `truth_offset` shifts them.
 class Video : public Source {
  public:
   using Params = VideoParams;
@@ -76,9 +76,9 @@ class Video : public Source {
       truth_ = TruthTables(params.truth, context.scene());
     }
     // Bring both videos to the first common frame that is wanted.
-    const int left_skip = std::max(params.start, -params.offset);
-    skip(0, left_skip);
-    if (readers_.size() == 2) skip(1, left_skip + params.offset);
+    first_ = std::max(params.start, -params.offset);
+    skip(0, first_);
+    if (readers_.size() == 2) skip(1, first_ + params.offset);
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
@@ -89,11 +89,10 @@ class Video : public Source {
   }
 
   std::optional<int> frame_count() const override {
-    const int first_skip = std::max(params_.start, -params_.offset);
     std::optional<int> count = params_.count;
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       if (readers_[i].frame_count() == 0) return std::nullopt;
-      const int skipped = first_skip + (i == 1 ? params_.offset : 0);
+      const int skipped = first_ + (i == 1 ? params_.offset : 0);
       const int rest = std::max(0, readers_[i].frame_count() - skipped);
       const int frames = (rest + params_.step - 1) / params_.step;
       count = std::min(count.value_or(frames), frames);
@@ -119,7 +118,7 @@ class Video : public Source {
     }
     frame.index = index_++;
     frame.time = frame.index / frame_rate();
-    frame.truth = truth_.at(frame.index);
+    frame.truth = truth_.at(first_ + frame.index * params_.step);
     if (frame.problem.empty()) fill_views(frame, images);
     return frame;
   }
@@ -178,6 +177,7 @@ class Video : public Source {
   std::vector<VideoReader> readers_;
   std::vector<Camera> cameras_;
   TruthTables truth_;
+  int first_ = 0;  ///< frame of the first video that the source begins with
   int index_ = 0;
 };
 
