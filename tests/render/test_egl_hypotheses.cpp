@@ -23,6 +23,8 @@ constexpr float kDepthTolerance = 1e-4F;  // relative
 // Pixels of a tile that an outline passes so closely that rounding decides: OpenGL snaps vertices
 // to a grid of 1/256 pixel, the CPU does not.
 constexpr int kEdgePixels = 8;
+// Likewise the depth of triangles seen nearly edge-on moves when their corners are snapped.
+constexpr double kSteepShare = 0.005;  // of the covered pixels
 
 using Tiles = std::vector<std::vector<float>>;
 
@@ -120,7 +122,8 @@ void expect_agreement(const Scene& scene, const Observation& observation,
       EXPECT_GT(agreement.covered, 300) << "hypothesis " << index << ", view " << v;
       EXPECT_LE(agreement.coverage_differs, kEdgePixels)
           << "hypothesis " << index << ", view " << v;
-      EXPECT_LE(agreement.depth_differs, kEdgePixels) << "hypothesis " << index << ", view " << v;
+      EXPECT_LE(agreement.depth_differs, kEdgePixels + kSteepShare * agreement.covered)
+          << "hypothesis " << index << ", view " << v;
     }
   }
 }

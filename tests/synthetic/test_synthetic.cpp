@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -198,6 +199,40 @@ TEST(Synthetic, takes_pictures_through_a_lens) {
   EXPECT_NE(frame.views[0].mask.at<unsigned char>(cvRound(box.y()), cvRound(box.x())), 0);
   EXPECT_EQ(cv::countNonZero(frame.views[0].color.reshape(1) == 0), 0)
       << "the wall fills the picture";
+}
+
+TEST(Synthetic, takes_the_cameras_of_a_calibration) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "rig.yaml";
+  std::ofstream(file) << "%YAML:1.0\n---\nunits: mm\ncameras:\n"
+                         "  - {image_width: 200, image_height: 150, model: none, "
+                         "K: [180, 0, 99, 0, 181, 76, 0, 0, 1]}\n"
+                         "  - {image_width: 210, image_height: 140, model: none, "
+                         "K: [170, 0, 101, 0, 172, 70, 0, 0, 1], R: [1, 0, 0, 0, 1, 0, 0, 0, 1], "
+                         "T: [-80, 0, 0]}\n";
+  const std::string calibration = "calibration: {file: " + file.string() + "}\n";
+  Loaded loaded(calibration + kQuiet + kPlain + kMotion + "frames: 1\n");
+  ASSERT_EQ(loaded.source->cameras().size(), 2U);
+  EXPECT_EQ(loaded.source->cameras()[1].fy, 172);
+  EXPECT_NEAR(loaded.source->cameras()[1].camera_from_world.translation().x(), -0.08, 1e-12);
+  const Frame frame = loaded.frames()[0];
+  EXPECT_EQ(frame.views[0].color.size(), cv::Size(200, 150));
+  EXPECT_EQ(frame.views[1].mask.size(), cv::Size(210, 140));
+}
+
+TEST(Synthetic, can_be_repeated_from_what_it_resolved_to) {
+  Loaded loaded(std::string(kCameras) + kMotion + "frames: 1\n");
+  std::string resolved;
+  const ConfigNode config = ConfigNode::parse(
+      "type: synthetic\n" + std::string(kCameras) + kMotion + "frames: 1\n", "a.yaml");
+  loaded.plugins.make<Source>(config, &loaded.scene, {}, &resolved);
+  const auto again =
+      loaded.plugins.make<Source>(ConfigNode::parse(resolved, "resolved.yaml"), &loaded.scene);
+  const std::vector<Frame> frames = loaded.frames();
+  const std::optional<Frame> frame = again->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->truth->state, frames[0].truth->state);
+  EXPECT_TRUE(same(frame->views[1].color, frames[0].views[1].color)) << resolved;
 }
 
 std::string message_of(const std::string& yaml) {

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/renderer.hpp"
 
@@ -103,6 +105,7 @@ struct SensorParams {
 };
 
 struct SyntheticParams {
+  std::optional<CalibrationSettings> calibration;
   CameraParams cameras;
   double frame_rate = 30;
   int frames = 0;
@@ -113,6 +116,7 @@ struct SyntheticParams {
   SensorParams sensor;
   void visit(ParamVisitor& v) {
     v("cameras", cameras, {.help = "what takes the pictures"});
+    v("calibration", calibration, {.help = "cameras from a file, instead of `cameras`"});
     v("frame_rate", frame_rate,
       {.help = "frames per second", .min = 0.01, .max = 1e4, .unit = "Hz"});
     v("frames", frames,

@@ -48,6 +48,18 @@ std::vector<Camera> make_cameras(const CameraParams& params, const std::string& 
   return cameras;
 }
 
+std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std::string& where) {
+  std::vector<Camera> cameras = load_calibration(settings);
+  for (const Camera& c : cameras) {
+    if (c.width > 0 && c.height > 0) continue;
+    throw ConfigError(
+        fmt::format("{}: {} does not say how large the images are; give "
+                    "calibration.image_size: [width, height]",
+                    where, settings.file.string()));
+  }
+  return cameras;
+}
+
 RenderStyle style_of(const LightParams& light) {
   RenderStyle style;
   style.ambient = light.ambient;
@@ -66,7 +78,8 @@ class Synthetic final : public Source {
 
   Synthetic(const Params& params, PluginContext& context)
       : scene_(context.scene()),
-        cameras_(make_cameras(params.cameras, context.config().where())),
+        cameras_(params.calibration ? load_cameras(*params.calibration, context.config().where())
+                                    : make_cameras(params.cameras, context.config().where())),
         frame_rate_(params.frame_rate),
         script_(read_script(params.keyframes, params.gestures, scene_, params.frame_rate)),
         style_(style_of(params.light)),
