@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Relative length of edges: 1 on the palm, about half of that where the surface bends.
+/// Relative length of edges: 1 on the palm, about half of that where the surface bends more.
 double edge_length(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
-  double length = 1.0 + 0.15 * (1 - smooth_step(0, 30, p.y()));
+  double length = 0.85 + 0.15 * smooth_step(-10, 15, p.y());
   for (int d = 0; d < kDigits; ++d)
     for (int k = d == kThumb ? 2 : 1; k < kBonesPerDigit; ++k) {
       const SkeletonBone& bone = skeleton[bone_index(d, k)];
@@ -25,6 +25,12 @@ double edge_length(const std::vector<SkeletonBone>& skeleton, const Vector3d& p)
       const double at_tip = 0.46 + 0.5 * smooth_step(6, 22, tip);
       length = std::min({length, along, at_joint, at_tip});
     }
+  for (int d = 1; d + 1 < kDigits; ++d) {
+    const Vector3d crotch =
+        0.5 * (skeleton[bone_index(d, 1)].hand_from_bone * Vector3d(0, 18, 2) +
+               skeleton[bone_index(d + 1, 1)].hand_from_bone * Vector3d(0, d == 3 ? 21 : 18, 2));
+    length = std::min(length, 0.48 + 0.5 * smooth_step(5, 22, (p - crotch).norm()));
+  }
   return length;
 }
 

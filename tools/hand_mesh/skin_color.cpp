@@ -27,8 +27,8 @@ SkinColor::SkinColor(const std::vector<SkeletonBone>& skeleton)
   for (int d = 0; d < kDigits; ++d) {
     const SkeletonBone& bone = skeleton[bone_index(d, 3)];
     const double half = 0.5 * digit_measures()[d].dip_breadth;
-    nails_.push_back({bone.hand_from_bone.inverse(), (d == kThumb ? 0.82 : 0.76) * half,
-                      0.42 * bone.length, 0.975 * bone.length});
+    nails_.push_back({bone.hand_from_bone.inverse(), (d == kThumb ? 0.80 : 0.72) * half,
+                      0.42 * bone.length, 0.95 * bone.length});
     pulps_.push_back(bone.hand_from_bone * Vector3d(0.8, 0.6 * bone.length, half));
   }
 }
@@ -36,7 +36,7 @@ SkinColor::SkinColor(const std::vector<SkeletonBone>& skeleton)
 /// Blood under the skin: tips, knuckles, the eminences, and blotches.
 double SkinColor::redness(const SkinPoint& point) const {
   const Vector3d& p = point.position;
-  double red = 0.45 * fractal_noise(p / 13.0, 3, 11) + 0.35 * fractal_noise(p / 3.6, 2, 14);
+  double red = 0.45 * fractal_noise(p / 13.0, 3, 11) + 0.5 * fractal_noise(p / 3.3, 3, 14);
   double tip = 0;
   for (const Vector3d& pulp : pulps_)
     tip = std::max(tip, std::exp(-(p - pulp).squaredNorm() / 130));
@@ -70,7 +70,7 @@ double SkinColor::relief(const SkinPoint& point) const {
   const double course =
       (p - pulps_[0]).norm() + (p - pulps_[2]).norm() * 0.7 + 3.0 * noise(p / 6.0, 61);
   const double ridge = std::sin(course * 2 * 3.14159265358979 / 0.62);
-  return 0.95 * lines + dorsal * (0.26 * furrow + 0.16 * fold) +
+  return 0.80 * lines + dorsal * (0.26 * furrow + 0.16 * fold) +
          palmar * (0.10 * fold + 0.12 * furrow + 0.05 * ridge) + 0.10 * grain;
 }
 
@@ -91,15 +91,17 @@ Vector3d SkinColor::skin(const SkinPoint& point) const {
           : 0.0;
   color -= freckle * (0.25 + 0.75 * dorsal) * Vector3d(0.15, 0.15, 0.13);
   // Pale flecks of the palm.
-  const double pale = smooth_step(0.15, 0.7, fractal_noise(p / 2.6, 2, 29));
-  color += point.palmar * pale * Vector3d(0.035, 0.055, 0.05);
+  const double pale = smooth_step(-0.1, 0.75, fractal_noise(p / 2.6, 3, 29));
+  color += point.palmar * pale * Vector3d(0.04, 0.066, 0.062);
   if (dorsal > 0.4) {
     const Vector2d place = wandering(p, 3.0, 14.0, 71);
     double vein = 0;
     for (const SkinCurve& v : veins_) vein = std::max(vein, v(place));
-    color -= smooth_step(0.55, 0.95, dorsal) * vein * Vector3d(0.115, 0.045, 0.02);
+    color -= smooth_step(0.55, 0.95, dorsal) * vein * Vector3d(0.095, 0.04, 0.018);
   }
-  return color * (1 - 0.42 * std::clamp(relief(point), -0.3, 1.1));
+  // Furrows are warmer than their surroundings: light has passed through skin.
+  const double depth = std::clamp(relief(point), -0.3, 1.1);
+  return color.cwiseProduct(Vector3d::Ones() - depth * Vector3d(0.33, 0.45, 0.46));
 }
 
 /// The nail's place is seen along z of the last bone: rounded at the cuticle, white at the free
@@ -107,12 +109,13 @@ Vector3d SkinColor::skin(const SkinPoint& point) const {
 void SkinColor::add_nails(const SkinPoint& point, Vector3d& color) const {
   for (const Nail& nail : nails_) {
     const Vector3d local = nail.bone_from_hand * point.position;
-    if (local.z() > -1 || local.y() < nail.start - 4 || local.y() > nail.end + 4) continue;
+    if (local.z() > -0.6 || local.y() < nail.start - 4 || local.y() > nail.end + 4) continue;
     const double half = 0.5 * (nail.end - nail.start);
     const double x = std::abs(local.x()) / nail.half_width;
     const double y = (local.y() - nail.start - half) / half;
     const double inside = 1 - std::pow(std::pow(x, 3.2) + std::pow(std::abs(y), 3.2), 1 / 3.2);
-    const double plate = smooth_step(-0.015, 0.035, inside);
+    const double on_top = 1 - smooth_step(-1.8, -0.6, local.z());
+    const double plate = on_top * smooth_step(-0.015, 0.035, inside);
     const double fold = std::exp(-std::pow((inside + 0.03) / 0.05, 2));
     const double lunula = 1 - smooth_step(0.75, 0.95, std::hypot(x / 0.62, (y + 0.95) / 0.42));
     const double edge =
@@ -123,7 +126,8 @@ void SkinColor::add_nails(const SkinPoint& point, Vector3d& color) const {
     nail_color += lunula * Vector3d(0.04, 0.10, 0.10) + edge * Vector3d(0.04, 0.17, 0.17);
     nail_color *= (1 + 0.05 * streak) * (1.05 - 0.22 * x * x);
     color = (1 - plate) * color + plate * nail_color;
-    color *= 1 - 0.38 * fold * (1 - 0.5 * edge);
+    color -=
+        0.8 * fold * (1 - 0.6 * edge) * on_top * color.cwiseProduct(Vector3d(0.22, 0.34, 0.34));
   }
 }
 

@@ -114,7 +114,7 @@ JointCreases::JointCreases(const std::vector<SkeletonBone>& skeleton) {
             Eigen::Quaterniond(joint.linear())
                 .slerp(0.5, Eigen::Quaterniond(skeleton[bone - 1].hand_from_bone.linear()))
                 .matrix();
-      Joint j{joint.inverse(), 0.75 * digit_measures()[d].pip_breadth, {}, {}};
+      Joint j{joint.inverse(), 0.72 * digit_measures()[d].pip_breadth, k == 1 ? 0.4 : 1.0, {}, {}};
       if (k == 3) j.palmar = at_dip, j.dorsal = d == kThumb ? knuckle_folds : small_folds;
       if (k == 2) j.palmar = d == kThumb ? thumb_base : at_pip, j.dorsal = knuckle_folds;
       if (k == 1) j.palmar = at_base, j.dorsal = small_folds;
@@ -126,23 +126,24 @@ double JointCreases::operator()(const Vector3d& p, double palmar) const {
   double strongest = 0;
   for (const Joint& joint : joints_) {
     const Vector3d local = joint.joint_from_hand * p;
-    if (std::abs(local.y()) > 22 || std::hypot(local.x(), local.z()) > joint.radius + 4) continue;
-    const double near =
-        1 - smooth_step(joint.radius, joint.radius + 4, std::hypot(local.x(), local.z()));
+    const double away = std::hypot(local.x(), local.z());
+    if (std::abs(local.y()) > 22 || away > joint.radius + 4) continue;
+    const double near = 1 - smooth_step(joint.radius, joint.radius + 4, away);
     const double x = local.x() / joint.radius;
-    for (const bool back : {false, true}) {
-      const double facing =
-          back ? 1 - smooth_step(0.15, 0.6, palmar) : smooth_step(0.3, 0.75, palmar);
-      if (facing <= 0) continue;
-      for (const Vector3d& place : back ? joint.dorsal : joint.palmar) {
-        // Folds over a knuckle close around it like eyelids; palmar creases waver.
-        const double bow = back ? place[0] * (1 - 1.1 * x * x) : place[0] + 0.8 * x * x;
-        const double waver =
-            0.55 * noise(Vector3d(p / 2.4), 31) + 0.2 * noise(Vector3d(p / 0.9), 32);
-        const double gap = back ? 0.5 + 0.5 * noise(Vector3d(p / 1.7 + place), 33) : 0.85;
-        strongest = std::max(strongest, near * facing * place[2] * (0.55 + 0.45 * gap) *
-                                            bell(local.y() - bow - waver, place[1]));
-      }
+    const double waver = 0.6 * noise(p / 2.6, 31) + 0.25 * noise(p / 0.9, 32);
+    const double palmar_side = smooth_step(0.3, 0.75, palmar);
+    for (const Vector3d& fold : joint.palmar) {
+      const double gap = 0.65 + 0.5 * noise(p / 3.1 + fold, 34);
+      strongest = std::max(strongest, near * palmar_side * fold[2] * gap *
+                                          bell(local.y() - fold[0] - 0.8 * x * x - waver, fold[1]));
+    }
+    // Folds over a knuckle close around it like eyelids.
+    const double dorsal_side = joint.dorsal_share * (1 - smooth_step(0.15, 0.6, palmar));
+    for (const Vector3d& fold : joint.dorsal) {
+      const double gap = 0.7 + 0.6 * noise(p / 1.7 + fold, 33);
+      const double bow = fold[0] * (1 - 1.1 * x * x);
+      strongest = std::max(
+          strongest, near * dorsal_side * fold[2] * gap * bell(local.y() - bow - waver, fold[1]));
     }
   }
   return strongest;
@@ -152,9 +153,10 @@ double JointCreases::knuckle(const Vector3d& p) const {
   double most = 0;
   for (const Joint& joint : joints_) {
     const Vector3d local = joint.joint_from_hand * p;
-    most = std::max(most, bell(local.y(), 6.0) *
-                              (1 - smooth_step(joint.radius, joint.radius + 6, local.norm())) *
-                              smooth_step(0, 5, -local.z()));
+    most =
+        std::max(most, bell(local.y(), 6.0) *
+                           (1 - smooth_step(0.7 * joint.radius, joint.radius + 5, local.norm())) *
+                           smooth_step(0, 5, -local.z()));
   }
   return most;
 }

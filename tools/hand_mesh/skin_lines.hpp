@@ -38,6 +38,7 @@ class JointCreases {
   struct Joint {
     Eigen::Isometry3d joint_from_hand;  ///< half way between the two bones
     double radius;
+    double dorsal_share;                  ///< how much its dorsal folds count
     std::vector<Eigen::Vector3d> palmar;  ///< place along the digit, half width, strength
     std::vector<Eigen::Vector3d> dorsal;
   };

@@ -14,6 +14,9 @@ using Eigen::Vector3d;
 /// A weight for every bone; the wrist's stands for all bones that are fixed to it until the end.
 using Row = Eigen::Array<double, kBones, 1>;
 
+/// Less would move the skin by a fraction of a millimetre, of a neighbouring finger perhaps.
+constexpr double kNegligible = 0.01;
+
 double distance_to_bone(const SkeletonBone& bone, const Vector3d& p, double from = 0) {
   Vector3d local = bone.hand_from_bone.inverse() * p;
   local.y() -= std::clamp(local.y(), from, bone.length);
@@ -63,18 +66,18 @@ double thumb_share(const std::vector<SkeletonBone>& skeleton, const Vector3d& p)
   const SkeletonBone& metacarpal = skeleton[bone_index(kThumb, 1)];
   const double along = (metacarpal.hand_from_bone.inverse() * p).y();
   const double away = distance_to_bone(metacarpal, p, 12);
-  return smooth_step(-8, 30, along) * (1 - smooth_step(12, 34, away));
+  return smooth_step(-10, 32, along) * (1 - smooth_step(11, 38, away));
 }
 
 Row raw_weights(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
   Row row = Row::Zero();
   const int digit = nearest_digit(skeleton, p);
   if (digit == kThumb) {
-    const double free = beyond_joint(skeleton[bone_index(kThumb, 2)], p, 0, 0.15, 6.0);
+    const double free = beyond_joint(skeleton[bone_index(kThumb, 2)], p, 0, 0.15, 8.0);
     const double share = std::max(free, thumb_share(skeleton, p));
     add_phalanges(skeleton, kThumb, p, share, 6.0, 4.5, row);
   } else {
-    const double share = beyond_joint(skeleton[bone_index(digit, 1)], p, 3.5, 0.4, 9.0);
+    const double share = beyond_joint(skeleton[bone_index(digit, 1)], p, 3.5, 0.32, 11.0);
     add_phalanges(skeleton, digit, p, share, 4.5, 4.0, row);
     row[bone_index(kThumb, 1)] += (1 - share) * thumb_share(skeleton, p);
   }
@@ -116,7 +119,7 @@ VertexWeights strongest(const Row& row) {
   std::array<int, kBones> order;
   for (int b = 0; b < kBones; ++b) order[b] = b;
   const auto rank = [&](int b) {
-    const double weight = row[b] < 0.004 ? 0.0 : row[b];
+    const double weight = row[b] < kNegligible ? 0.0 : row[b];
     return is_fixed(b) || weight == 0 ? weight : 1 + weight;
   };
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) > rank(b); });
@@ -142,7 +145,7 @@ std::vector<VertexWeights> skin_weights(const TriangleMesh& mesh,
                                         const std::vector<SkeletonBone>& skeleton) {
   std::vector<Row> rows;
   for (const Vector3d& p : mesh.vertices) rows.push_back(raw_weights(skeleton, p));
-  diffuse(mesh, 3, rows);
+  diffuse(mesh, 4, rows);
   std::vector<VertexWeights> weights;
   for (size_t v = 0; v < rows.size(); ++v) {
     share_among_fixed(skeleton, mesh.vertices[v], rows[v]);

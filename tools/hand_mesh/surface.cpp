@@ -35,7 +35,7 @@ void HandSurface::add_finger(int d) {
   const double w = 0.5 * m.pip_breadth, e = 0.5 * m.dip_breadth;
   const SkeletonBone* bone = &skeleton_[bone_index(d, 1)];
   digits_[d].emplace_back(bone[0].hand_from_bone, bone[0].length,
-                          std::vector<ProfileKnot>{{0.0, 1.02 * w, 1.12 * w, 1.00 * w},
+                          std::vector<ProfileKnot>{{0.0, 1.08 * w, 1.12 * w, 1.02 * w},
                                                    {0.3, 1.00 * w, 1.10 * w, 0.92 * w},
                                                    {0.68, 0.93 * w, 0.99 * w, 0.84 * w},
                                                    {1.0, 0.98 * w, 0.84 * w, 0.90 * w}},
@@ -78,7 +78,7 @@ void HandSurface::add_thumb() {
 
 /// Metacarpals, wrist and the two eminences.
 void HandSurface::add_palm() {
-  static const double kHeadWidth[] = {0, 11.8, 11.6, 11.2, 10.4};
+  static const double kHeadWidth[] = {0, 11.0, 11.4, 11.0, 9.6};
   for (int d = 1; d < kDigits; ++d) {
     const SkeletonBone& bone = skeleton_[bone_index(d, 0)];
     const double h = kHeadWidth[d];
@@ -87,7 +87,7 @@ void HandSurface::add_palm() {
                                                 {0.5, h, 12.5, 11.0},
                                                 {0.85, h, 13.0, 10.0},
                                                 {1.0, h, 13.5, 10.4}},
-                       9.0, 10.0);
+                       9.0, 13.0);
   }
   palm_.emplace_back(frame_between({0, -kStumpLength - 15, 2}, {1, 14, 1}), kStumpLength + 29,
                      std::vector<ProfileKnot>{
@@ -97,6 +97,9 @@ void HandSurface::add_palm() {
       frame_between({22, 36, 11}, skeleton_[bone_index(kThumb, 2)].hand_from_bone.translation()),
       {15.0, 27.0, 15.5}));
   pads_.push_back(ellipsoid(frame_between({-22, 36, 10}, {-33, 70, 12}), {13.0, 31.0, 13.5}));
+  // The ulnar border, and the muscle between thumb and index on the back.
+  pads_.push_back(ellipsoid(frame_between({-33.5, 59, 6}, {-40, 82, 7}), {8.5, 24.0, 10.5}));
+  pads_.push_back(ellipsoid(frame_between({24.5, 58, 2}, {29, 80, 1}), {8.0, 24.0, 8.0}));
 }
 
 /// Skin between neighbouring digits.
@@ -107,7 +110,7 @@ void HandSurface::add_webs() {
   for (int d = 1; d + 1 < kDigits; ++d)
     webs_.push_back({along(d, 1, 10.5, 2), along(d + 1, 1, d == 3 ? 14.0 : 11.5, 2),
                      0.5 * (along(d, 0, 60, 2) + along(d + 1, 0, 48, 2)), 7.0});
-  webs_.push_back({along(kThumb, 1, 8, 0), along(kThumb, 1, 36, 1), along(1, 0, 48, 3), 7.5});
+  webs_.push_back({along(kThumb, 1, 8, 0), along(kThumb, 1, 36, 1), along(1, 0, 58, 3), 7.5});
 }
 
 double HandSurface::palm(const Vector3d& p) const {
@@ -129,8 +132,8 @@ double HandSurface::operator()(const Vector3d& p) const {
   const double base = palm(p);
   double skin = base;
   for (int d = 0; d < kDigits; ++d)
-    skin = smooth_min(skin, smooth_min(base, digit(d, p), 7.0), 1.0);
-  return smooth_max(skin, -kStumpLength - p.y(), 5.0);
+    skin = smooth_min(skin, smooth_min(base, digit(d, p), d == kThumb ? 12.0 : 7.0), 2.0);
+  return smooth_max(skin, -kStumpLength - p.y(), 8.0);
 }
 
 Vector3d HandSurface::gradient(const Vector3d& p) const {
