@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "hypotrack/plugin.hpp"
+#include "test_models.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// The source of a scene in configs/, with files of the shared data.
+std::unique_ptr<Source> source_of(const std::string& scene_file, PluginLoader& plugins,
+                                  const Scene& scene, const std::vector<std::string>& overrides) {
+  const ConfigNode config =
+      ConfigNode::load(test::source_dir() / "configs" / scene_file, overrides);
+  return plugins.make<Source>(config.get("source"), &scene);
+}
+
+std::string in_shared(const std::string& key, const std::string& path) {
+  return "source." + key + "=" + (test::shared_data() / path).string();
+}
+
+TEST(RealRecordings, OfTheStbPairProjectTheirLabelsOntoTheHand) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  // Landmarks with the names of the hand's; the shape does not matter here.
+  ModelData data = test::make_test_hand();
+  std::vector<std::string> names = {"wrist", "thumb_cmc", "thumb_mcp", "thumb_ip", "thumb_tip"};
+  for (const char* finger : {"index", "middle", "ring", "little"}) {
+    for (const char* joint : {"_mcp", "_pip", "_dip", "_tip"}) {
+      names.push_back(std::string(finger) + joint);
+    }
+  }
+  ASSERT_EQ(data.landmarks.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) data.landmarks[i].name = names[i];
+  const Scene scene({{"hand", std::make_shared<Model>(data)}});
+  PluginLoader plugins;
+  const auto source =
+      source_of("stb_pair.yaml", plugins, scene,
+                {in_shared("left", "stereo/stb/BB_left_%d.png"),
+                 in_shared("right", "stereo/stb/BB_right_%d.png"),
+                 in_shared("truth_landmarks", "stereo/stb/B1Counting_BB_rows000-499.csv")});
+  const auto frame = source->next();
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->problem, "");
+  ASSERT_TRUE(frame->truth);
+  ASSERT_EQ(frame->truth->landmarks.cols(), 21);
+  EXPECT_TRUE(frame->truth->landmarks.col(0).array().isNaN().all()) << "the palm is no wrist";
+  for (int i = 1; i < 21; ++i) {
+    for (int v = 0; v < 2; ++v) {
+      // Skin is red before it is blue; the curtain is grey, violet and pink.
+      const Eigen::Vector2d p = project(source->cameras()[v], frame->truth->landmarks.col(i));
+      const cv::Vec3b color =
+          frame->views[v].color.at<cv::Vec3b>(int(std::lround(p.y())), int(std::lround(p.x())));
+      EXPECT_GT(color[2], color[1] + 10) << names[i] << " in view " << v << ": " << color;
+      EXPECT_GT(color[1], color[0]) << names[i] << " in view " << v << ": " << color;
+    }
+  }
+}
+
+TEST(RealRecordings, OfTwoWebcamsAreReadToTheirEnd) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  const Scene scene({{"hand", std::make_shared<Model>(test::make_test_hand())}});
+  PluginLoader plugins;
+  const auto source = source_of("two_webcams.yaml", plugins, scene,
+                                {in_shared("left", "stereo/handpose3d/media/cam0_test.mp4"),
+                                 in_shared("right", "stereo/handpose3d/media/cam1_test.mp4"),
+                                 "source.start=370", "source.count=100"});
+  EXPECT_EQ(source->frame_rate(), 30);
+  EXPECT_NEAR(source->cameras()[1].camera_from_world.translation().norm(), 0.5008, 1e-4);
+  int frames = 0;
+  while (const auto frame = source->next()) {
+    EXPECT_EQ(frame->problem, "");
+    ++frames;
+  }
+  EXPECT_EQ(frames, 8);
+}
+
+}  // namespace
+}  // namespace hypotrack
