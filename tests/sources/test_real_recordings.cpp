@@ -47,15 +47,17 @@ TEST(RealRecordings, OfTheStbPairProjectTheirLabelsOntoTheHand) {
   ASSERT_TRUE(frame->truth);
   ASSERT_EQ(frame->truth->landmarks.cols(), 21);
   EXPECT_TRUE(frame->truth->landmarks.col(0).array().isNaN().all()) << "the palm is no wrist";
-  for (int i = 1; i < 21; ++i) {
-    for (int v = 0; v < 2; ++v) {
-      // Skin is red before it is blue; the curtain is grey, violet and pink.
+  for (std::size_t v = 0; v < 2; ++v) {
+    int on_skin = 0;
+    for (int i = 1; i < 21; ++i) {
       const Eigen::Vector2d p = project(source->cameras()[v], frame->truth->landmarks.col(i));
-      const cv::Vec3b color =
-          frame->views[v].color.at<cv::Vec3b>(int(std::lround(p.y())), int(std::lround(p.x())));
-      EXPECT_GT(color[2], color[1] + 10) << names[i] << " in view " << v << ": " << color;
-      EXPECT_GT(color[1], color[0]) << names[i] << " in view " << v << ": " << color;
+      const auto color = frame->views[v].color.at<cv::Vec3b>(static_cast<int>(std::lround(p.y())),
+                                                             static_cast<int>(std::lround(p.x())));
+      // Skin is redder than green and greener than blue; the curtain is grey, violet and pink.
+      on_skin += color[2] > color[1] + 10 && color[1] > color[0];
     }
+    // The labels are good to 5-10 mm: a tip or two lies beside its finger.
+    EXPECT_GE(on_skin, 16) << "view " << v;
   }
 }
 
