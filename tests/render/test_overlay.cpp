@@ -25,6 +25,32 @@ TEST(Overlay, colours_the_models_and_leaves_the_rest_alone) {
   EXPECT_EQ(image.at<cv::Vec3b>(120, 120), cv::Vec3b(128, 128, 128)) << "the input is not touched";
 }
 
+TEST(Overlay, marks_where_a_model_lies_before_itself) {
+  const Camera camera = camera_at_origin();
+  Mesh steps = parallelogram({0, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0});  // and half of it nearer
+  const Mesh nearer = parallelogram({0.02, 0, 0.45}, {0.02, 0, 0}, {0, -0.04, 0});
+  steps.vertices.conservativeResize(3, 8);
+  steps.vertices.rightCols(4) = nearer.vertices;
+  steps.triangles.conservativeResize(3, 4);
+  steps.triangles.rightCols(2) = nearer.triangles.array() + 4;
+  steps.bone_indices = Eigen::Matrix4Xi::Zero(4, 8);
+  steps.bone_weights = Eigen::Matrix4Xf::Zero(4, 8);
+  steps.bone_weights.row(0).setOnes();
+  steps.uv.resize(2, 0);
+  steps.uv_triangles.resize(3, 0);
+  const Scene scene = scene_of({steps});
+  const cv::Mat image(camera.height, camera.width, CV_8UC3, cv::Scalar(128, 128, 128));
+  Renderer renderer(scene);
+  const cv::Mat drawn = draw_overlay(renderer, scene, image, camera, scene.rest_state());
+  const Eigen::Vector2d rim = project(camera, {0, 0, 0.45});
+  double darkest, brightest;
+  cv::Mat green;
+  cv::extractChannel(drawn, green, 1);
+  cv::minMaxIdx(green(cv::Rect(cvRound(rim.x()) - 2, cvRound(rim.y()), 4, 1)), &darkest,
+                &brightest);
+  EXPECT_LT(darkest, 0.5 * brightest);
+}
+
 TEST(Overlay, outlines_without_filling_at_opacity_zero) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({parallelogram({0, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0})});

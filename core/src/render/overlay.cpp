@@ -1,6 +1,7 @@
 #include "render/overlay.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -28,8 +29,26 @@ void draw_contours(const cv::Mat& label, const cv::Rect& roi, int model, int thi
   cv::compare(label(roi), model + 1, inside, cv::CMP_EQ);
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(inside, contours, cv::RETR_CCOMP, cv::CHAIN_APPROX_NONE, roi.tl());
-  std::erase_if(contours, [](const auto& contour) { return contour.size() < 6; });  // specks
+  std::erase_if(contours, [](const auto& contour) { return contour.size() < 16; });  // specks
   cv::polylines(image, contours, true, color, thickness, cv::LINE_AA);
+}
+
+/// Darkens the rims where a part of a model lies before another part of it, finger before palm.
+void draw_rims(const RenderedView& view, const cv::Rect& roi, cv::Mat& image) {
+  constexpr float kJump = 0.006F;  // metres from pixel to pixel
+  const auto jumps = [&](cv::Point a, cv::Point b) {
+    return view.label.at<unsigned char>(a) == view.label.at<unsigned char>(b) &&
+           std::abs(view.depth.at<float>(a) - view.depth.at<float>(b)) > kJump;
+  };
+  for (int y = roi.y; y + 1 < roi.y + roi.height; ++y) {
+    for (int x = roi.x; x + 1 < roi.x + roi.width; ++x) {
+      const cv::Point here(x, y);
+      if (view.label.at<unsigned char>(here) == 0) continue;
+      if (jumps(here, {x + 1, y}) || jumps(here, {x, y + 1})) {
+        image.at<cv::Vec3b>(here) = image.at<cv::Vec3b>(here) * 0.35;
+      }
+    }
+  }
 }
 
 cv::Scalar bgr(const Eigen::Vector3f& rgb, float lighten) {
@@ -49,6 +68,7 @@ cv::Mat draw_overlay(Renderer& renderer, const Scene& scene, const cv::Mat& imag
   if (!style.contours || roi.empty()) return result;
   const int thickness = std::max(1, cvRound(std::max(camera.width, camera.height) / 900.0));
   const int models = static_cast<int>(scene.items().size());
+  draw_rims(view, roi, result);
   for (int i = 0; i < models; ++i) {  // a dark halo keeps the line readable on bright ground
     draw_contours(view.label, roi, i, thickness + 2, cv::Scalar(20, 20, 20), result);
   }

@@ -13,7 +13,7 @@ namespace hypotrack {
 /// How a solution is drawn on an image.
 struct OverlayStyle {
   double opacity = 0.5;  ///< of the models; 0: outlines only
-  bool contours = true;  ///< outline every model, also where one lies before another
+  bool contours = true;  ///< outline every model, also where it lies before another or itself
 };
 
 /// Draws the scene in `state` on a copy of `image` (8-bit BGR of the camera's size): every model in
