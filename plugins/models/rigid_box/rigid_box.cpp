@@ -53,7 +53,10 @@ Mesh make_mesh(const RigidBoxParams& params, const ConfigNode& config) {
     mesh.texture = box_pattern(params.pattern);
     return mesh;
   }
-  const cv::Mat picture = cv::imread(params.texture.string(), cv::IMREAD_COLOR);
+  cv::Mat picture;
+  if (std::filesystem::is_regular_file(params.texture)) {
+    picture = cv::imread(params.texture.string(), cv::IMREAD_COLOR);
+  }
   if (picture.empty()) {
     throw DataError(fmt::format("{}: the texture {} is missing or no image that OpenCV reads",
                                 config.where(), params.texture.string()));

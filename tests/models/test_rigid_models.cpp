@@ -1,0 +1,133 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "model_plugins.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+double volume(const Mesh& mesh) {
+  double sum = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Matrix3f corners = mesh.vertices(Eigen::all, mesh.triangles.col(t));
+    sum += static_cast<double>(corners.determinant()) / 6;
+  }
+  return sum;
+}
+
+TEST(RigidBox, HasTheDimensionsOfTheScene) {
+  const auto box = make_model("{type: rigid_box, size_mm: [60, 120, 30]}");
+  const Mesh& mesh = box->data().mesh;
+  EXPECT_EQ(box->dimension(), 7);
+  EXPECT_TRUE(mesh.vertices.rowwise().maxCoeff().isApprox(Vector3f(0.03f, 0.06f, 0.015f)));
+  EXPECT_TRUE(mesh.vertices.rowwise().minCoeff().isApprox(Vector3f(-0.03f, -0.06f, -0.015f)));
+  EXPECT_NEAR(volume(mesh), 0.06 * 0.12 * 0.03, 1e-9);
+}
+
+TEST(RigidBox, HasThreeAnchors) {
+  const auto box = make_model("{type: rigid_box, size_mm: [60, 120, 30]}");
+  ASSERT_EQ(box->data().landmarks.size(), 3u);
+  EXPECT_TRUE(model_landmark(*box, "center", {}).isZero(1e-9));
+  EXPECT_TRUE(model_landmark(*box, "end_y", {}).isApprox(Vector3d(0, 0.06, 0), 1e-6));
+  EXPECT_TRUE(model_landmark(*box, "end_x", {}).isApprox(Vector3d(0.03, 0, 0), 1e-6));
+}
+
+TEST(RigidBox, EveryFaceIsPrintedDifferentlyAndTheSameSeedTheSameWay) {
+  const auto one = make_model("{type: rigid_box, pattern: 3}");
+  const auto same = make_model("{type: rigid_box, pattern: 3}");
+  const auto other = make_model("{type: rigid_box, pattern: 4}");
+  const cv::Mat& texture = one->data().mesh.texture;
+  EXPECT_EQ(cv::norm(texture, same->data().mesh.texture), 0);
+  EXPECT_GT(cv::norm(texture, other->data().mesh.texture), 0);
+  const int side = texture.rows / 2;
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  for (int face = 0; face < 6; ++face) {
+    const cv::Mat tile = texture(cv::Rect(face % 3 * side, face / 3 * side, side, side));
+    cv::meanStdDev(tile, mean, deviation);
+    EXPECT_GT(deviation[0] + deviation[1] + deviation[2], 60) << "face " << face << " is too plain";
+    for (int before = 0; before < face; ++before) {
+      const cv::Mat earlier = texture(cv::Rect(before % 3 * side, before / 3 * side, side, side));
+      EXPECT_GT(cv::norm(tile, earlier), 0);
+    }
+  }
+}
+
+TEST(RigidBox, TextureTilesFaceOutwardsUnmirrored) {
+  const auto box = make_model("type: rigid_box");
+  const Mesh& mesh = box->data().mesh;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Matrix<float, 2, 3> uv = mesh.uv(Eigen::all, mesh.uv_triangles.col(t));
+    const Eigen::Vector2f a = uv.col(1) - uv.col(0);
+    const Eigen::Vector2f b = uv.col(2) - uv.col(0);
+    EXPECT_GT(a.x() * b.y() - a.y() * b.x(), 0) << "a mirrored picture on triangle " << t;
+  }
+}
+
+TEST(RigidBox, TakesAColourOrAPicture) {
+  const auto plain = make_model("{type: rigid_box, color: [1, 0.5, 0]}");
+  EXPECT_TRUE(plain->data().mesh.texture.empty());
+  EXPECT_TRUE(plain->data().mesh.color.isApprox(Vector3f(1, 0.5f, 0)));
+  TemporaryDirectory folder;
+  const std::string file = (folder.path() / "label.png").string();
+  cv::imwrite(file, cv::Mat(10, 20, CV_8UC3, cv::Scalar(1, 2, 3)));
+  const auto printed = make_model("{type: rigid_box, texture: " + file + "}");
+  EXPECT_EQ(printed->data().mesh.texture.size(), cv::Size(60, 20));
+}
+
+class RigidMesh : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = (folder_.path() / "part.obj").string();
+    std::ofstream(file_) << "v 10 0 0\nv 50 0 0\nv 10 20 0\nv 10 0 30\n"
+                            "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  }
+  TemporaryDirectory folder_;
+  std::string file_;
+};
+
+TEST_F(RigidMesh, UnitsMakeMetresAndTheOriginIsTheCentre) {
+  const auto part = make_model("{type: rigid_mesh, mesh: " + file_ + ", units: mm}");
+  const Mesh& mesh = part->data().mesh;
+  EXPECT_TRUE(mesh.vertices.rowwise().maxCoeff().isApprox(Vector3f(0.02f, 0.01f, 0.015f), 1e-5f));
+  EXPECT_EQ(part->data().landmarks.size(), 3u);
+  const auto as_is = make_model("{type: rigid_mesh, mesh: " + file_ + ", units: mm, origin: file}");
+  EXPECT_NEAR(as_is->data().mesh.vertices.row(0).maxCoeff(), 0.05, 1e-6);
+}
+
+TEST_F(RigidMesh, AnchorsOfTheSceneReplaceThoseOfTheBox) {
+  const auto part =
+      make_model("{type: rigid_mesh, mesh: " + file_ +
+                 ", units: mm, anchors: [{name: corner, position_mm: [-20, -10, -15]}]}");
+  ASSERT_EQ(part->data().landmarks.size(), 1u);
+  EXPECT_TRUE(model_landmark(*part, "corner", {}).isApprox(Vector3d(-0.02, -0.01, -0.015), 1e-9));
+}
+
+TEST_F(RigidMesh, MillimetresReadAsMetresAreToldWhatToDo) {
+  EXPECT_THAT(model_error("{type: rigid_mesh, mesh: " + file_ + "}"),
+              ::testing::AllOf(::testing::HasSubstr("the object is 40 m long"),
+                               ::testing::HasSubstr("`units: mm`")));
+}
+
+TEST_F(RigidMesh, ReadsTheScannedBoxesWithTheirTexture) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  int found = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(shared_data() / "objects" / "ycb")) {
+    if (entry.path().extension() != ".obj") continue;
+    const auto box = make_model("{type: rigid_mesh, mesh: '" + entry.path().string() + "'}");
+    EXPECT_EQ(box->data().mesh.triangles.cols(), 16384) << entry.path();
+    EXPECT_EQ(box->data().mesh.texture.rows, 2048) << entry.path();
+    ++found;
+  }
+  EXPECT_EQ(found, 2);
+}
+
+}  // namespace
+}  // namespace hypotrack::test
