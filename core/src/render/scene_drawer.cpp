@@ -1,186 +1,26 @@
 #include "render/scene_drawer.hpp"
 
 #include <epoxy/gl.h>
-#include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/imgproc.hpp>
-#include <optional>
 #include <vector>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
+#include "render/drawable.hpp"
 #include "render/egl_context.hpp"
 #include "render/gl_objects.hpp"
+#include "render/render_targets.hpp"
 #include "render/shaders.hpp"
-#include "render/shading_mesh.hpp"
 
 namespace hypotrack {
 namespace {
 
 /// Surfaces nearer than this are cut away: a projection has no meaning at the camera's centre.
 constexpr double kNearest = 1e-3;
-constexpr float kAnisotropy = 8.0F;
-
-/// A model on the OpenGL side.
-struct Drawable {
-  ShadingMesh mesh;
-  gl::VertexArray vertex_array;
-  gl::Buffer positions;
-  gl::Buffer normals;
-  gl::Buffer uv;
-  gl::Buffer triangles;
-  gl::Texture texture;  // 0: none
-  Eigen::Vector3f color;
-};
-
-void attribute(GLuint location, const gl::Buffer& buffer, GLint components) {
-  glBindBuffer(GL_ARRAY_BUFFER, buffer);
-  glEnableVertexAttribArray(location);
-  glVertexAttribPointer(location, components, GL_FLOAT, GL_FALSE, 0, nullptr);
-}
-
-template <class Matrix>
-void upload(GLenum target, const gl::Buffer& buffer, const Matrix& data, GLenum usage) {
-  glBindBuffer(target, buffer);
-  glBufferData(target, static_cast<GLsizeiptr>(data.size() * sizeof(typename Matrix::Scalar)),
-               data.data(), usage);
-}
-
-gl::Texture make_texture(const cv::Mat& image) {
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
-  cv::Mat fitted = image;
-  if (const int size = std::max(image.cols, image.rows); size > largest) {
-    const double scale = static_cast<double>(largest) / size;
-    cv::resize(image, fitted, {}, scale, scale, cv::INTER_AREA);
-  }
-  if (!fitted.isContinuous()) fitted = fitted.clone();
-  gl::Texture texture = gl::make_texture();
-  glBindTexture(GL_TEXTURE_2D, texture);
-  glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, fitted.cols, fitted.rows, 0, GL_BGR, GL_UNSIGNED_BYTE,
-               fitted.data);
-  glGenerateMipmap(GL_TEXTURE_2D);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-    GLfloat most = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, kAnisotropy));
-  }
-  return texture;
-}
-
-Drawable make_drawable(const Mesh& mesh) {
-  Drawable drawable{ShadingMesh(mesh),
-                    gl::make_vertex_array(),
-                    gl::make_buffer(),
-                    gl::make_buffer(),
-                    gl::make_buffer(),
-                    gl::make_buffer(),
-                    {},
-                    mesh.color};
-  glBindVertexArray(drawable.vertex_array);
-  Eigen::Matrix2Xf uv = drawable.mesh.uv();
-  uv.row(1) = (1.0F - uv.row(1).array()).matrix();
-  upload(GL_ARRAY_BUFFER, drawable.uv, uv, GL_STATIC_DRAW);
-  attribute(0, drawable.positions, 3);
-  attribute(1, drawable.normals, 3);
-  attribute(2, drawable.uv, 2);
-  upload(GL_ELEMENT_ARRAY_BUFFER, drawable.triangles, drawable.mesh.triangles(), GL_STATIC_DRAW);
-  const bool has_uv = mesh.uv_triangles.cols() == mesh.triangles.cols();
-  if (has_uv && !mesh.texture.empty()) drawable.texture = make_texture(mesh.texture);
-  return drawable;
-}
-
-/// Size of framebuffers, which are as large as anything drawn so far.
-struct TargetSize {
-  int width = 0;
-  int height = 0;
-  int samples = 0;
-  bool holds(const TileCamera& camera, int wanted_samples) const {
-    return width >= camera.width && height >= camera.height && samples == wanted_samples;
-  }
-};
-
-struct ColorTarget {
-  TargetSize size;
-  gl::Framebuffer multisampled;
-  gl::Renderbuffer multisampled_color;
-  gl::Renderbuffer multisampled_depth;
-  gl::Framebuffer resolved;
-  gl::Renderbuffer resolved_color;
-};
-
-struct GeometryTarget {
-  TargetSize size;
-  gl::Framebuffer framebuffer;
-  gl::Renderbuffer depth;
-  gl::Renderbuffer label;
-  gl::Renderbuffer z_buffer;
-};
-
-/// Throws DeviceError if OpenGL cannot draw pictures that large.
-TargetSize grown(const TargetSize& former, const TileCamera& camera, int samples) {
-  GLint largest = 0;
-  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-  if (camera.width > largest || camera.height > largest) {
-    throw DeviceError(fmt::format(
-        "cannot draw a picture of {}x{} pixels: this OpenGL goes up to {}x{}; use a smaller camera",
-        camera.width, camera.height, largest, largest));
-  }
-  const auto grow = [&](int have, int need) {
-    return std::max(have, std::min(largest, (need + 63) / 64 * 64));
-  };
-  return {grow(former.width, camera.width), grow(former.height, camera.height), samples};
-}
-
-void attach(GLenum attachment, const gl::Renderbuffer& buffer) {
-  glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
-}
-
-ColorTarget make_color_target(const TargetSize& size) {
-  const auto [width, height, samples] = size;
-  ColorTarget t;
-  t.size = size;
-  t.multisampled = gl::make_framebuffer();
-  t.multisampled_color = gl::make_renderbuffer(GL_RGBA8, width, height, samples);
-  t.multisampled_depth = gl::make_renderbuffer(GL_DEPTH_COMPONENT24, width, height, samples);
-  glBindFramebuffer(GL_FRAMEBUFFER, t.multisampled);
-  attach(GL_COLOR_ATTACHMENT0, t.multisampled_color);
-  attach(GL_DEPTH_ATTACHMENT, t.multisampled_depth);
-  gl::check_framebuffer("the colour image");
-  t.resolved = gl::make_framebuffer();
-  t.resolved_color = gl::make_renderbuffer(GL_RGBA8, width, height, 0);
-  glBindFramebuffer(GL_FRAMEBUFFER, t.resolved);
-  attach(GL_COLOR_ATTACHMENT0, t.resolved_color);
-  gl::check_framebuffer("the resolved colour image");
-  return t;
-}
-
-GeometryTarget make_geometry_target(const TargetSize& size) {
-  GeometryTarget t;
-  t.size = size;
-  t.framebuffer = gl::make_framebuffer();
-  t.depth = gl::make_renderbuffer(GL_R32F, size.width, size.height, 0);
-  t.label = gl::make_renderbuffer(GL_R8UI, size.width, size.height, 0);
-  t.z_buffer = gl::make_renderbuffer(GL_DEPTH_COMPONENT24, size.width, size.height, 0);
-  glBindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
-  attach(GL_COLOR_ATTACHMENT0, t.depth);
-  attach(GL_COLOR_ATTACHMENT1, t.label);
-  attach(GL_DEPTH_ATTACHMENT, t.z_buffer);
-  constexpr std::array<GLenum, 2> outputs = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1};
-  glDrawBuffers(2, outputs.data());
-  gl::check_framebuffer("the depth and label images");
-  return t;
-}
 
 /// Pinhole projection with pixel centres at integers: pixel x covers [x - 0.5, x + 0.5].
 Eigen::Matrix4f clip_from_camera(const TileCamera& c, double near_z, double far_z) {
@@ -373,9 +213,7 @@ void SceneDrawer::pose(const Eigen::VectorXd& state) {
   }
   const gl::CurrentContext current(impl_->context);
   for (std::size_t i = 0; i < posed.size(); ++i) {
-    const Drawable& drawable = impl_->drawables[i];
-    upload(GL_ARRAY_BUFFER, drawable.positions, drawable.mesh.positions(posed[i]), GL_STREAM_DRAW);
-    upload(GL_ARRAY_BUFFER, drawable.normals, drawable.mesh.normals(posed[i]), GL_STREAM_DRAW);
+    pose_drawable(impl_->drawables[i], posed[i]);
   }
   gl::check_errors("posing the scene");
   impl_->posed = std::move(posed);
