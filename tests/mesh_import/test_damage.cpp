@@ -62,7 +62,8 @@ TEST_F(DamagedMesh, JointOutOfRangeIsNoBone) {
 TEST_F(DamagedMesh, IndexOutOfRangeIsNamed) {
   GlbContent content;
   content.indices[4] = 999;
-  EXPECT_THAT(error("a.glb", glb(content)), HasSubstr("1 of its 4 triangles name vertices that are not there"));
+  EXPECT_THAT(error("a.glb", glb(content)),
+              HasSubstr("1 of its 4 triangles name vertices that are not there"));
   EXPECT_THAT(error("a.obj", obj() + "f 1 2 99\n"), HasSubstr("the mesh could not be read"));
 }
 
@@ -79,6 +80,12 @@ TEST_F(DamagedMesh, BoneScaledUnevenlyIsRefused) {
   content.bones[1].scale = {1, 2, 1};
   EXPECT_THAT(error("a.glb", glb(content)),
               HasSubstr("bone 'tip' is scaled unevenly or sheared at the bind pose"));
+}
+
+TEST_F(DamagedMesh, FileThatCrashesTheImporterIsAnErrorLikeAnyOther) {
+  // The JSON parser of assimp 5.2.5 recurses until its stack ends.
+  const std::string bytes = "{\"asset\":" + std::string(2'000'000, '[') + "}";
+  EXPECT_THAT(error("a.gltf", bytes), HasSubstr("the importer crashed (SIGSEGV)"));
 }
 
 TEST_F(DamagedMesh, NotJsonIsTheImportersOwnMessage) {
