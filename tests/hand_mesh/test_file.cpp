@@ -142,7 +142,7 @@ TEST(HandRig, names_every_bone_and_ends_the_digits_at_their_tips) {
     if (!bone.name.ends_with("_3")) continue;
     const auto end = entry["end_at"].as<std::vector<double>>();
     const Vector3d tip = bone.hand_from_bone * Vector3d(0, bone.length, 0) / 1000;
-    EXPECT_LT((Vector3d(end[0], end[1], end[2]) - tip).norm(), 2e-5)
+    EXPECT_LT((Vector3d(end[0], end[1], end[2]) - tip).norm(), 1e-6)
         << bone.name << " ends at " << tip.transpose();
   }
 }

@@ -72,6 +72,54 @@ TEST(HandSkinning, changes_smoothly_along_edges) {
       }
 }
 
+TEST(HandSkinning, moves_no_vertex_that_its_neighbours_leave_behind) {
+  const HandAsset& hand = the_hand();
+  const auto moving = [&](int v) {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i)
+      if (hand.weights[v].bones[i] > 0 && (hand.weights[v].bones[i] - 1) % kBonesPerDigit > 0)
+        sum += hand.weights[v].weights[i];
+    return sum;
+  };
+  for (const Triangle& t : hand.mesh.triangles)
+    for (int i = 0; i < 3; ++i)
+      ASSERT_LT(std::abs(moving(t[i]) - moving(t[(i + 1) % 3])), 0.45)
+          << hand.mesh.vertices[t[i]].transpose();
+}
+
+/// Triangles whose posed normal points against their vertices' blended bind normals.
+int turned_over(const DigitAngles& angles) {
+  const HandAsset& hand = the_hand();
+  const std::vector<Vector3d> vertices = posed(angles);
+  const std::vector<Isometry3d> bones = pose_skeleton(angles);
+  int count = 0;
+  for (const Triangle& t : hand.mesh.triangles) {
+    Vector3d expected = Vector3d::Zero();
+    for (int v : t)
+      for (int i = 0; i < 4; ++i) {
+        const int b = hand.weights[v].bones[i];
+        expected += hand.weights[v].weights[i] *
+                    (bones[b].linear() * hand.skeleton[b].hand_from_bone.linear().transpose() *
+                     hand.attributes.normals[v]);
+      }
+    const Vector3d normal =
+        (vertices[t[1]] - vertices[t[0]]).cross(vertices[t[2]] - vertices[t[0]]);
+    count += normal.dot(expected) < 0;
+  }
+  return count;
+}
+
+TEST(HandSkinning, turns_no_skin_inside_out) {
+  const DigitAngles spread = in_radians(
+      {{{20, -15, -8, -10}, {18, -5, 0, 0}, {2, -5, 0, 0}, {-14, -5, 0, 0}, {-28, -5, 0, 0}}});
+  EXPECT_EQ(turned_over(bind_angles()), 0);
+  EXPECT_EQ(turned_over(flat_angles()), 0);
+  EXPECT_EQ(turned_over(spread), 0);
+  EXPECT_EQ(turned_over(pinch_angles()), 0);
+  // In a fist skin folds away inside of the creases.
+  EXPECT_LT(turned_over(fist_angles()), 0.03 * the_hand().mesh.triangles.size());
+}
+
 TEST(HandSkinning, leaves_the_neighbouring_fingers_where_they_are) {
   const HandAsset& hand = the_hand();
   for (int d = 0; d < kDigits; ++d) {
@@ -126,9 +174,7 @@ TEST(HandSkinning, keeps_the_volume_in_a_fist_and_flat) {
 }
 
 TEST(HandSkinning, brings_thumb_and_index_together_in_a_pinch) {
-  const DigitAngles pinch = in_radians(
-      {{{4, 39, 4, 5}, {-8, 35, 63, 46}, {0, 30, 40, 20}, {-2, 22, 32, 18}, {-6, 18, 25, 15}}});
-  const auto bones = pose_skeleton(pinch);
+  const auto bones = pose_skeleton(pinch_angles());
   const auto pulp = [&](int d) {
     const SkeletonBone& bone = the_hand().skeleton[bone_index(d, 3)];
     return bones[bone_index(d, 3)] *

@@ -32,6 +32,11 @@ DigitAngles fist_angles() {
       {{{30, 25, 35, 55}, {0, 90, 100, 70}, {0, 90, 100, 70}, {0, 90, 100, 70}, {0, 90, 100, 70}}});
 }
 
+DigitAngles pinch_angles() {
+  return in_radians(
+      {{{4, 39, 4, 5}, {-8, 35, 63, 46}, {0, 30, 40, 20}, {-2, 22, 32, 18}, {-6, 18, 25, 15}}});
+}
+
 std::vector<Eigen::Vector3d> posed(const DigitAngles& angles) {
   const HandAsset& hand = the_hand();
   return skin(hand.mesh, hand.weights, hand.skeleton, pose_skeleton(angles));

@@ -17,6 +17,7 @@ DigitAngles in_radians(DigitAngles degrees);
 DigitAngles bind_angles();
 DigitAngles flat_angles();
 DigitAngles fist_angles();
+DigitAngles pinch_angles();
 
 /// The hand's vertices in a pose.
 std::vector<Eigen::Vector3d> posed(const DigitAngles& angles);

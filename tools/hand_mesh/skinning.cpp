@@ -25,12 +25,12 @@ double distance_to_bone(const SkeletonBone& bone, const Vector3d& p, double from
 
 bool is_fixed(int bone) { return bone == 0 || (bone - 1) % kBonesPerDigit == 0; }
 
-/// The digit whose free part is nearest, relative to its thickness.
-int nearest_digit(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
-  int nearest = 0;
+/// The finger that is nearest, relative to its thickness.
+int nearest_finger(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
+  int nearest = 1;
   double least = 1e9;
-  for (int d = 0; d < kDigits; ++d)
-    for (int k = d == kThumb ? 2 : 1; k < kBonesPerDigit; ++k) {
+  for (int d = 1; d < kDigits; ++d)
+    for (int k = 1; k < kBonesPerDigit; ++k) {
       const double distance =
           distance_to_bone(skeleton[bone_index(d, k)], p) - 0.5 * digit_measures()[d].pip_breadth;
       if (distance < least) {
@@ -60,27 +60,33 @@ void add_phalanges(const std::vector<SkeletonBone>& skeleton, int digit, const V
   row[first + 2] += share * third;
 }
 
-/// How far the thumb's metacarpal takes the skin with it: fully around its head, fading towards the
-/// wrist, the palm and the first web.
+/// How far the thumb takes the skin with it: its free part fully, its metacarpal fully around the
+/// head, fading towards the wrist, the palm and the first web.
 double thumb_share(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
   const SkeletonBone& metacarpal = skeleton[bone_index(kThumb, 1)];
+  const SkeletonBone& proximal = skeleton[bone_index(kThumb, 2)];
   const double along = (metacarpal.hand_from_bone.inverse() * p).y();
-  const double away = distance_to_bone(metacarpal, p, 12);
-  return smooth_step(-10, 32, along) * (1 - smooth_step(11, 38, away));
+  const double at_metacarpal =
+      smooth_step(-10, 32, along) * (1 - smooth_step(11, 38, distance_to_bone(metacarpal, p, 12)));
+  const double away =
+      std::min(distance_to_bone(proximal, p), distance_to_bone(skeleton[bone_index(kThumb, 3)], p));
+  const double free = beyond_joint(proximal, p, 0, 0.15, 8.0) * (1 - smooth_step(12, 21, away));
+  return std::max(at_metacarpal, free);
 }
 
 Row raw_weights(const std::vector<SkeletonBone>& skeleton, const Vector3d& p) {
   Row row = Row::Zero();
-  const int digit = nearest_digit(skeleton, p);
-  if (digit == kThumb) {
-    const double free = beyond_joint(skeleton[bone_index(kThumb, 2)], p, 0, 0.15, 8.0);
-    const double share = std::max(free, thumb_share(skeleton, p));
-    add_phalanges(skeleton, kThumb, p, share, 6.0, 4.5, row);
-  } else {
-    const double share = beyond_joint(skeleton[bone_index(digit, 1)], p, 3.5, 0.32, 11.0);
-    add_phalanges(skeleton, digit, p, share, 4.5, 4.0, row);
-    row[bone_index(kThumb, 1)] += (1 - share) * thumb_share(skeleton, p);
-  }
+  const int finger = nearest_finger(skeleton, p);
+  const double of_finger = beyond_joint(skeleton[bone_index(finger, 1)], p, 3.5, 0.32, 11.0);
+  const double of_thumb = thumb_share(skeleton, p);
+  // A finger's side of the first web is the finger's.
+  const double near_finger =
+      1 - smooth_step(10, 22,
+                      distance_to_bone(skeleton[bone_index(finger, 1)], p) -
+                          distance_to_bone(skeleton[bone_index(kThumb, 2)], p) + 10);
+  const double thumb = of_thumb * (1 - of_finger * near_finger);
+  add_phalanges(skeleton, kThumb, p, thumb, 6.0, 4.5, row);
+  add_phalanges(skeleton, finger, p, of_finger * (1 - thumb), 4.5, 4.0, row);
   row[0] = 1 - row.tail<kBones - 1>().sum();
   return row;
 }
@@ -114,27 +120,33 @@ void share_among_fixed(const std::vector<SkeletonBone>& skeleton, const Vector3d
   row += total * share;
 }
 
-/// The four that matter. Weights of fixed bones go to other fixed bones, which move alike.
+/// Bones of one kind by falling weight, without the negligible.
+std::vector<int> ranked(const Row& row, bool fixed) {
+  std::vector<int> bones;
+  for (int b = 0; b < kBones; ++b)
+    if (is_fixed(b) == fixed && row[b] >= kNegligible) bones.push_back(b);
+  std::stable_sort(bones.begin(), bones.end(), [&](int a, int b) { return row[a] > row[b]; });
+  return bones;
+}
+
+/// The four that matter. Moving bones come first, but the fixed ones together, which move alike,
+/// keep their full weight on at least one slot where it is more than the fourth moving bone's.
 VertexWeights strongest(const Row& row) {
-  std::array<int, kBones> order;
-  for (int b = 0; b < kBones; ++b) order[b] = b;
-  const auto rank = [&](int b) {
-    const double weight = row[b] < kNegligible ? 0.0 : row[b];
-    return is_fixed(b) || weight == 0 ? weight : 1 + weight;
-  };
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return rank(a) > rank(b); });
+  std::vector<int> moving = ranked(row, false), fixed = ranked(row, true);
+  double fixed_total = 0, fixed_kept = 0;
+  for (int b : fixed) fixed_total += row[b];
+  if (moving.size() > 3) moving.resize(fixed_total > row[moving[3]] ? 3 : 4);
+  fixed.resize(std::min(fixed.size(), 4 - moving.size()));
+  for (int b : fixed) fixed_kept += row[b];
   VertexWeights result;
-  double fixed = 0, fixed_kept = 0;
-  for (int b = 0; b < kBones; ++b) fixed += is_fixed(b) ? row[b] : 0.0;
-  for (int i = 0; i < 4; ++i) fixed_kept += is_fixed(order[i]) ? row[order[i]] : 0.0;
+  int slot = 0;
   double sum = 0;
-  for (int i = 0; i < 4; ++i) {
-    const int b = order[i];
-    const double scale = is_fixed(b) && fixed_kept > 0 ? fixed / fixed_kept : 1.0;
-    result.weights[i] = rank(b) > 0 ? scale * row[b] : 0.0;
-    result.bones[i] = result.weights[i] > 0 ? b : 0;
-    sum += result.weights[i];
-  }
+  for (const std::vector<int>* bones : {&moving, &fixed})
+    for (int b : *bones) {
+      result.bones[slot] = b;
+      result.weights[slot] = is_fixed(b) ? row[b] * fixed_total / fixed_kept : row[b];
+      sum += result.weights[slot++];
+    }
   for (double& w : result.weights) w /= sum;
   return result;
 }
