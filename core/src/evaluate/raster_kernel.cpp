@@ -6,6 +6,12 @@
 // vector has lanes; then the small ones are drawn with one triangle per lane, stepping all lanes
 // through the pixels of their bounding boxes together, and the rest one by one with one pixel per
 // lane.
+
+// Vectors of a length known only at run time do not fit kBlock; SSSE3 is too near to SSE4 to be
+// worth compiling.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "evaluate/raster_kernel.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -243,6 +249,7 @@ HWY_INLINE void draw_boxes(const Planes& p, int stride, Fragments& fragments) {
   std::size_t count = fragments.count;
   for (int dy = 0; dy < kSize; ++dy) {
     Vec a = row_a, b = row_b, c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), row_a), row_b);
+#pragma GCC unroll 8
     for (int dx = 0; dx < kSize; ++dx) {
       const Mask covered = hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
       const Vec w = hn::MulAdd(a, p.w_ac, hn::MulAdd(b, p.w_bc, p.w_c));

@@ -97,4 +97,7 @@ HYPOTRACK_API void clear_pixels(float* tile, int stride, int x0, int y0, int x1,
 /// Name of the instruction set in use: `AVX3`.
 HYPOTRACK_API const char* simd_target();
 
+/// The instruction sets that there are kernels for: Highway's bits.
+HYPOTRACK_API std::int64_t compiled_simd_targets();
+
 }  // namespace hypotrack

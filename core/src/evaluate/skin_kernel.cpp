@@ -1,4 +1,10 @@
 // Compiled once for every instruction set: the include below includes this file again.
+
+// Vectors of a length known only at run time do not fit kBlock; SSSE3 is too near to SSE4 to be
+// worth compiling.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "evaluate/skin_kernel.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
@@ -150,6 +156,8 @@ void project_pair(const float* x, const float* y, const float* z, std::size_t co
                   const ViewProjection* views, float* records, PixelRange* ranges) {
   HWY_DYNAMIC_DISPATCH(project_both)(x, y, z, count, views, records, ranges);
 }
+
+std::int64_t compiled_simd_targets() { return HWY_TARGETS; }
 
 const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
