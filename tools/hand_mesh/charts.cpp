@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <queue>
 
 #include "unwrap.hpp"
 

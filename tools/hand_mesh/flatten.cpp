@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 
 namespace hypotrack::hand_mesh {
 namespace {

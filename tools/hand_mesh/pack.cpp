@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace hypotrack::hand_mesh {
@@ -89,7 +90,7 @@ bool try_pack(std::vector<Chart>& charts, const std::vector<int>& order, double 
     Stamp best;
     int best_column = 0, best_row = 0, best_top = kGrid + 1;
     for (int turn = 0; turn < 12; ++turn) {
-      Stamp stamp = make_stamp(charts[i], cells_per_mm, turn * 0.5235987755982988);
+      Stamp stamp = make_stamp(charts[i], cells_per_mm, turn * std::numbers::pi / 6);
       int column = 0, row = 0;
       if (!sheet.find(stamp, column, row) || row + stamp.height >= best_top) continue;
       best_top = row + stamp.height;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "field.hpp"
 #include "noise.hpp"
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-double blend(double a, double b, double t) { return a + t * (b - a); }
 
 /// Places moved about by noise, so that drawn lines look grown.
 Vector2d wandering(const Vector3d& p, double strength, double size, uint32_t seed) {
@@ -69,7 +68,7 @@ double SkinColor::relief(const SkinPoint& point) const {
   // Papillary ridges, half a millimetre apart, running around the pulps.
   const double course =
       (p - pulps_[0]).norm() + (p - pulps_[2]).norm() * 0.7 + 3.0 * noise(p / 6.0, 61);
-  const double ridge = std::sin(course * 2 * 3.14159265358979 / 0.62);
+  const double ridge = std::sin(course * 2 * std::numbers::pi / 0.62);
   return 0.80 * lines + dorsal * (0.26 * furrow + 0.16 * fold) +
          palmar * (0.10 * fold + 0.12 * furrow + 0.05 * ridge) + 0.10 * grain;
 }
@@ -78,11 +77,11 @@ Vector3d SkinColor::skin(const SkinPoint& point) const {
   const Vector3d& p = point.position;
   const double dorsal = 1 - point.palmar;
   const Vector3d palm_tone(0.855, 0.640, 0.555), back_tone(0.745, 0.545, 0.440);
-  Vector3d color = blend(0, 1, point.palmar) * palm_tone + dorsal * back_tone;
+  Vector3d color = point.palmar * palm_tone + dorsal * back_tone;
   const double red = redness(point);
   color += red * Vector3d(0.015, -0.062, -0.055);
   // Pigment: broad patches and, on the back, freckles.
-  const double tan = fractal_noise(p / 17.0, 3, 21) + 0.6 * fractal_noise(p / 1.9, 2, 24);
+  const double tan = fractal_noise(p / 17.0, 3, 21) + 0.9 * fractal_noise(p / 1.9, 2, 24);
   color *= 1 - (0.05 + 0.035 * dorsal) * tan;
   const Cellular spots = cellular_noise(p / 4.6, 27);
   const double freckle =

@@ -100,6 +100,8 @@ void HandSurface::add_palm() {
   // The ulnar border, and the muscle between thumb and index on the back.
   pads_.push_back(ellipsoid(frame_between({-33.5, 59, 6}, {-40, 82, 7}), {8.5, 24.0, 10.5}));
   pads_.push_back(ellipsoid(frame_between({24.5, 58, 2}, {29, 80, 1}), {8.0, 24.0, 8.0}));
+  // From the wrist into the thumb.
+  pads_.push_back(ellipsoid(frame_between({22, 16, 5}, {32, 38, 10}), {9.5, 24.0, 12.0}));
 }
 
 /// Skin between neighbouring digits.
@@ -116,7 +118,7 @@ void HandSurface::add_webs() {
 double HandSurface::palm(const Vector3d& p) const {
   double d = palm_.front()(p);
   for (size_t i = 1; i < palm_.size(); ++i) d = smooth_min(d, palm_[i](p), 7.0);
-  for (const Limb& pad : pads_) d = smooth_min(d, pad(p), 7.0);
+  for (const Limb& pad : pads_) d = smooth_min(d, pad(p), 8.0);
   for (const Web& web : webs_)
     d = smooth_min(d, rounded_triangle(p, web.a, web.b, web.c, web.radius), 6.0);
   return d;
