@@ -21,7 +21,7 @@ namespace hypotrack {
 enum class InitFrom {
   truth,  ///< the source's ground truth of the first frame
   rest,   ///< the models' rest state
-  file,   ///< a row of a state table
+  file,   ///< a pose (YAML) or a row of a state table (CSV)
 };
 HYPOTRACK_API std::span<const std::string_view> enum_names(InitFrom);
 
@@ -34,8 +34,10 @@ struct InitSettings {
   void visit(ParamVisitor& v) {
     v("from", from,
       {.help = "start of the first search: the source's ground truth, the models' rest state or a "
-               "row of a state table"});
-    v("file", file, {.help = "state table (CSV with frame, time and the state), for from: file"});
+               "file"});
+    v("file", file,
+      {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
+               "track.csv for example)"});
     v("frame", frame, {.help = "which frame of the table", .min = 0});
     v("pose", pose,
       {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg or quaternion, "
@@ -52,7 +54,8 @@ struct BudgetSettings {
       {.help = "evaluations per frame; 0: what the optimizer's parameters imply", .min = 0});
     v("seconds", seconds,
       {.help = "wall time per frame; 0: no limit; a run with a limit does not repeat exactly",
-       .min = 0, .unit = "s"});
+       .min = 0,
+       .unit = "s"});
   }
 };
 

@@ -108,6 +108,7 @@ void Opening::objective() {
     const ConfigNode node = list ? file_.objective.at(i) : file_.objective;
     YamlDocument record;
     ObjectiveTerm term;
+    term.name = text_of(node, "type", "");
     term.objective = make<Objective>(node, {"weight"}, record);
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
@@ -168,7 +169,10 @@ Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
           "init.pose or init.file instead");
     state = first.truth->state;
   } else if (session.init.from == InitFrom::file) {
-    state = state_of_frame(session.init.file, scene, session.init.frame);
+    const std::string suffix = session.init.file.extension().string();
+    state = suffix == ".yaml" || suffix == ".yml"
+                ? read_pose(ConfigNode::load(session.init.file), scene, std::move(state))
+                : state_of_frame(session.init.file, scene, session.init.frame);
   }
   if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
   return state;

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <memory>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/tables.hpp"
+#include "session/session.hpp"
+#include "test_models.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+using testing::HasSubstr;
+
+Session box_session() {
+  Session session;
+  session.scene =
+      std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
+          {"box", std::make_shared<Model>(test::make_test_box())}});
+  return session;
+}
+
+std::string message_of(const Session& session, const Frame& frame) {
+  try {
+    initial_state(session, frame);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+TEST(InitialState, IsTheRestStateChangedByThePose) {
+  Session session = box_session();
+  session.init.pose = ConfigNode::parse("{box: {position_mm: [10, 20, 500]}}", "test");
+  const Eigen::VectorXd state = initial_state(session, {});
+  EXPECT_NEAR(state[0], 0.010, 1e-12);
+  EXPECT_NEAR(state[2], 0.500, 1e-12);
+  EXPECT_EQ(state[3], 1);
+}
+
+TEST(InitialState, IsTheTruthOfTheFirstFrame) {
+  Session session = box_session();
+  session.init.from = InitFrom::truth;
+  Frame frame;
+  EXPECT_THAT(message_of(session, frame), HasSubstr("the source knows no true state"));
+  frame.truth = GroundTruth{session.scene->rest_state(), {}};
+  frame.truth->state[1] = 0.25;
+  EXPECT_EQ(initial_state(session, frame), frame.truth->state);
+}
+
+TEST(InitialState, IsAPoseFile) {
+  const test::TemporaryDirectory folder;
+  Session session = box_session();
+  session.init.from = InitFrom::file;
+  session.init.file = folder.path() / "pose.yaml";
+  std::ofstream(session.init.file) << "box:\n  position_mm: [0, 0, 700]\n";
+  EXPECT_NEAR(initial_state(session, {})[2], 0.700, 1e-12);
+}
+
+TEST(InitialState, IsARowOfAStateTable) {
+  const test::TemporaryDirectory folder;
+  Session session = box_session();
+  session.init.from = InitFrom::file;
+  session.init.file = folder.path() / "track.csv";
+  session.init.frame = 4;
+  const std::vector<StateRow> rows{{3, 0.1, session.scene->rest_state()},
+                                   {4, 0.2, session.scene->rest_state()}};
+  write_states(session.init.file, *session.scene, rows);
+  EXPECT_EQ(initial_state(session, {}), rows[1].state);
+  session.init.frame = 9;
+  EXPECT_THAT(message_of(session, {}), HasSubstr("has no frame 9 to start from; it has 3 to 4"));
+}
+
+}  // namespace
+}  // namespace hypotrack
