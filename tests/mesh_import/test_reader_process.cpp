@@ -4,8 +4,8 @@
 
 #include "hypotrack/error.hpp"
 #include "mesh_files.hpp"
-#include "model/mesh_import_process.hpp"
-#include "model/mesh_import_wire.hpp"
+#include "mesh_import/process.hpp"
+#include "mesh_import/wire.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -22,10 +22,10 @@
 //     - {name: wrist, joint: wrist, end: middle_mcp, weights: [wrist, forearm]}
 //     - {name: index_1, parent: wrist, joint: index_mcp, end: index_pip,
 //        abduction: index_abduction, flexion: index_flexion_1}
-//     - {name: index_2, parent: index_1, joint: index_pip, end: index_dip, flexion:
-//     index_flexion_2}
-//     - {name: index_3, parent: index_2, joint: index_dip, end: index_tip, flexion:
-//     index_flexion_3}
+//     - {name: index_2, parent: index_1, joint: index_pip, end: index_dip,
+//        flexion: index_flexion_2}
+//     - {name: index_3, parent: index_2, joint: index_dip, end: index_tip,
+//        flexion: index_flexion_3}
 //     - {name: thumb_1, parent: wrist, joint: thumb_cmc, end: thumb_mcp, zero_deg: [45, -60, 0],
 //        abduction: thumb_abduction, flexion: thumb_flexion_1}
 //     # ...
@@ -49,7 +49,7 @@
 // +Y), +Z = X x Y, palmar. `flexion_axis`, for the whole rig or for one bone, says where X is from:
 // `x`, `-x`, `y`, `-y`, `z` or `-z`, that axis of the file bone `joint`; `hand` (the default), the
 // parent's X, without twist; `bend`, the axis about which the joint is already bent at the bind
-// pose; `same`, the parent's flexion axis as it stands (a hinge parallel to the one before).
+// pose.
 // `twist_deg` turns it further about +Y. The root bone has the axes of the hand frame.
 //
 // ## Angles

@@ -1,4 +1,4 @@
-#include "model/mesh_import_format.hpp"
+#include "mesh_import/format.hpp"
 
 #include <fmt/format.h>
 

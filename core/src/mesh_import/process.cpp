@@ -1,4 +1,4 @@
-#include "model/mesh_import_process.hpp"
+#include "mesh_import/process.hpp"
 
 #include <dlfcn.h>
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-#include "model/mesh_import_gltf.hpp"
+#include "mesh_import/reader/gltf.hpp"
 
 #include <cstring>
 #include <fstream>

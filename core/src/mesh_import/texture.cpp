@@ -1,4 +1,4 @@
-#include "model/mesh_import_texture.hpp"
+#include "mesh_import/texture.hpp"
 
 #include <fmt/format.h>
 

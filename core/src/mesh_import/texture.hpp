@@ -4,7 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "model/mesh_import_wire.hpp"
+#include "mesh_import/wire.hpp"
 
 namespace hypotrack {
 

@@ -17,7 +17,7 @@ struct MeshReader {
 /// missing.
 HYPOTRACK_API MeshReader default_mesh_reader(const std::filesystem::path& mesh);
 
-/// Lets the reader program read `mesh` and returns the bytes that it wrote (mesh_import_wire.hpp).
+/// Lets the reader program read `mesh` and returns the bytes that it wrote (wire.hpp).
 /// Safe in a program with threads. Throws DataError, naming `mesh`, if the reader crashes, fails,
 /// takes longer than its limit or writes more than 2 GiB.
 HYPOTRACK_API std::string run_mesh_reader(const MeshReader& reader,

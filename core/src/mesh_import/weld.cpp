@@ -1,4 +1,4 @@
-#include "model/mesh_import_weld.hpp"
+#include "mesh_import/weld.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "rig.hpp"
+
+namespace hypotrack {
+
+inline constexpr double kSameThing = 1e-4;  // metres: points closer than this give no direction
+
+/// A hand in the making. rig_hand() takes it through the steps below, one after the other; every
+/// step reads what those before it have written.
+struct Rigging {
+  Rigging(ImportedMesh imported, const Rig& its_rig, const std::string& its_name);
+
+  [[noreturn]] void fail(const std::string& what) const;
+
+  // Names become indices; `who` says in the message who gave an unknown name.
+  std::size_t file_bone(const std::string& name, const std::string& who) const;
+  int rig_bone(const std::string& name, const std::string& who) const;
+  int angle_index(const std::string& name, const std::string& who) const;
+
+  ImportedMesh in;
+  const Rig& rig;
+  const std::string& where;
+  std::map<std::string, std::size_t> file_bones;
+  std::vector<std::string> file_names;
+  std::map<std::string, int> rig_bones;
+  std::vector<std::string> rig_names;
+  std::vector<std::string> angle_names;
+
+  Eigen::Isometry3d hand_from_file = Eigen::Isometry3d::Identity();
+  ModelData data;
+  std::map<std::string, double> bind;  // parameter to what replaces its measured bind angle
+  std::map<std::string, int> driven;   // parameter to the bone that it turns
+  std::vector<Eigen::Isometry3d> hand_from_bone;  // of the rig's bones, at the bind pose
+  std::vector<Eigen::Vector3d> ends;              // hand frame, at the bind pose
+};
+
+/// How messages call a bone of the rig.
+std::string who(const RigBone& bone);
+
+// --- The steps
+
+/// A left hand's file becomes a right hand's: everything after this is written for one.
+void mirror_in_file(ImportedMesh& imported);
+
+/// Moves vertices and file bones to the hand frame: `file_from_bone` is `hand_from_bone` from here
+/// on.
+void move_to_hand_frame(Rigging& r);
+
+/// Gives the vertices to the bones of the rig.
+void assign_weights(Rigging& r);
+
+/// Appends the 20 angles to the parameters, with the bounds, rest and bind values of the rig.
+void add_angles(Rigging& r);
+
+/// Appends a bone of the rig and the rotations by which parameters turn it.
+void add_bone(Rigging& r, std::size_t index);
+
+void add_landmarks(Rigging& r);
+
+// --- What add_bone() consists of
+
+/// Where a bone begins, hand frame.
+Eigen::Vector3d joint_of(const Rigging& r, const RigBone& bone);
+
+/// Where a bone that begins at `joint` ends, hand frame.
+Eigen::Vector3d end_of(const Rigging& r, std::size_t index, const Eigen::Vector3d& joint);
+
+/// The bone that a bone's angles are measured against: its parent, or what that is rigid with.
+int moving_parent(const Rigging& r, int parent);
+
+/// The axis, hand frame, that a bone bends about; not yet perpendicular to `y`, its direction.
+/// `zero` has the axes of its zero frame.
+Eigen::Vector3d flexion_axis(const Rigging& r, std::size_t index, int parent,
+                             const Eigen::Matrix3d& zero, const Eigen::Vector3d& y);
+
+/// Lets the parameter `name` (none if empty) turn a bone about an axis in its frame; `measured` is
+/// the angle at the bind pose.
+void drive(Rigging& r, std::size_t index, const std::string& name, const Eigen::Vector3d& axis,
+           double measured);
+
+}  // namespace hypotrack
