@@ -1,0 +1,198 @@
+// A real stereo pair with labelled joints: configs/stb_pair.yaml. What the search makes of it is
+// recorded, not asserted; docs/real_data.md says what was found and why.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "landmark_fit.hpp"
+#include "output/metrics.hpp"
+#include "session/session.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+// Left over right on the hand at the labels, median over its pixels and the three channels.
+constexpr double kRightGain = 0.8605;
+
+struct Stb {
+  Session session;
+  Frame frame;
+  Eigen::VectorXd fitted;  ///< the pose of the scene
+
+  double distance(const Eigen::VectorXd& state) const {
+    return mean_landmark_error(*session.scene, session.scene->landmarks(state),
+                               frame.truth->landmarks);
+  }
+};
+
+Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
+  const auto stb = test::shared_data() / "stereo" / "stb";
+  overrides.push_back("source.left=" + (stb / "BB_left_%d.png").string());
+  overrides.push_back("source.right=" + (stb / "BB_right_%d.png").string());
+  overrides.push_back("source.truth_landmarks=" + (stb / "B1Counting_BB_rows000-499.csv").string());
+  Stb out{
+      open_session(test::source_dir() / "configs" / "stb_pair.yaml", overrides, plugins), {}, {}};
+  out.frame = out.session.source->next().value();
+  out.fitted = initial_state(out.session, out.frame);
+  return out;
+}
+
+/// The brightness of the right image brought to the left one's.
+void match_brightness(Frame& frame) {
+  cv::Mat matched;
+  frame.views[1].color.convertTo(matched, CV_8U, kRightGain);
+  frame.views[1].color = matched;
+}
+
+/// The pose moved by `metres` in a random direction and turned about its wrist by `radians`.
+Eigen::VectorXd displaced(Eigen::VectorXd state, double metres, double radians,
+                          std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  const auto direction = [&] {
+    const double x = normal(random), y = normal(random), z = normal(random);
+    return Eigen::Vector3d(x, y, z).normalized();
+  };
+  const Eigen::Quaterniond q(state[3], state[4], state[5], state[6]);
+  state.head<3>() += metres * direction();
+  const Eigen::Quaterniond turned = q * Eigen::AngleAxisd(radians, direction());
+  state.segment<4>(3) << turned.w(), turned.x(), turned.y(), turned.z();
+  return state;
+}
+
+/// Searches the pair once from `start`; the seed is the search's.
+Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start, int size,
+                std::uint64_t seed, PluginLoader& plugins) {
+  TrackerParts parts;
+  parts.cameras = stb.session.parts.cameras;
+  parts.objective = stb.session.parts.objective;
+  parts.tile = stb.session.parts.tile;
+  parts.search = stb.session.parts.search;
+  parts.optimizer = plugins.make<Optimizer>(ConfigNode::parse(
+      fmt::format("{{type: pso, particles: {0}, generations: {0}}}", size), "stb test"));
+  Tracker tracker(*stb.session.scene, std::move(parts), start, seed);
+  return tracker.track(frame);
+}
+
+/// Costs of states on the tiles around the first of them.
+Eigen::VectorXd costs(const Stb& stb, const Frame& frame, const Eigen::MatrixXd& states) {
+  const TileMaker tiles(*stb.session.scene, stb.session.parts.cameras, stb.session.parts.tile);
+  Evaluator evaluator(*stb.session.scene, stb.session.parts.objective, stb.session.parts.evaluate);
+  const Observation observation = tiles.make(frame, states.col(0));
+  evaluator.prepare(observation);
+  Eigen::VectorXd out(states.cols());
+  evaluator.evaluate(states, out);
+  return out;
+}
+
+TEST(StbPair, TheHandFitsTheLabelsAndTheSceneStartsThere) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  const Stb stb = open_stb(plugins);
+  // As far off as a look at the image gets.
+  Eigen::VectorXd start = stb.session.scene->rest_state();
+  start.head<3>() << 0.129, 0.098, 0.660;
+  const Eigen::Vector3d turn = kDegree * Eigen::Vector3d(172.4, -23.0, -10.4);
+  const Eigen::Quaterniond q(Eigen::AngleAxisd(turn.norm(), turn.normalized()));
+  start.segment<4>(3) << q.w(), q.x(), q.y(), q.z();
+  ASSERT_GT(stb.distance(start), 0.010);
+
+  const auto fit =
+      test::fit_landmarks(*stb.session.scene, stb.frame.truth->landmarks, start, 1.1, plugins);
+  fmt::print("fit to the labels: {:.2f} mm from {:.1f} mm; the scene's pose: {:.2f} mm\n",
+             1e3 * fit.mean_distance, 1e3 * stb.distance(start), 1e3 * stb.distance(stb.fitted));
+  EXPECT_LT(fit.mean_distance, 0.004);
+  EXPECT_NEAR(fit.scale, 1, 0.005) << "of the model with the scale in the scene";
+  EXPECT_NEAR(stb.distance(stb.fitted), fit.mean_distance, 1e-4);
+}
+
+TEST(StbPair, TheWebxrHandFitsTheLabelsToo) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  const auto folder = test::shared_data() / "hands" / "webxr";
+  std::string mesh;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".glb") mesh = entry.path().string();
+  PluginLoader plugins;
+  const Stb stb = open_stb(plugins, {"models.0.of.mesh=" + mesh, "models.0.of.rig=webxr",
+                                     "models.0.of.scale=1", "init.pose.hand.angles_deg={}"});
+  const auto fit =
+      test::fit_landmarks(*stb.session.scene, stb.frame.truth->landmarks, stb.fitted, 1, plugins);
+  fmt::print("WebXR hand: {:.2f} mm at scale {:.3f}\n", 1e3 * fit.mean_distance, fit.scale);
+  EXPECT_LT(fit.mean_distance, 0.005);
+  EXPECT_NEAR(fit.scale, 0.936, 0.01);
+}
+
+TEST(StbPair, WithEqualBrightnessTheScorePeaksAtTheLabelledDepth) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  for (const char* beta : {"100", "25"}) {
+    const Stb stb = open_stb(plugins, {std::string("objective.beta=") + beta});
+    Frame frame = stb.frame;
+    match_brightness(frame);
+    Eigen::MatrixXd states = stb.fitted.replicate(1, 13);
+    for (int i = 1; i < 13; ++i) states(2, i) += 0.005 * (i <= 6 ? i : 6 - i);
+    const Eigen::VectorXd score = -costs(stb, frame, states);
+    Eigen::Index best = 0;
+    score.maxCoeff(&best);
+    EXPECT_LE(std::abs(states(2, best) - stb.fitted[2]), 0.0051) << "beta " << beta;
+    EXPECT_LT(score[6], 0.5 * score[0]) << "30 mm behind";
+    EXPECT_LT(score[12], 0.5 * score[0]) << "30 mm before";
+  }
+}
+
+/// Records where the search goes from the fitted pose and from 10 mm and 5 degrees away.
+void record_searches(const Stb& stb, const Frame& frame, const std::string& name, int size,
+                     PluginLoader& plugins) {
+  constexpr int kDraws = 3;
+  for (const bool away : {false, true}) {
+    std::mt19937_64 random(7);
+    double before = 0, after = 0;
+    int above = 0;
+    for (std::uint64_t seed = 1; seed <= kDraws; ++seed) {
+      const Eigen::VectorXd start =
+          away ? displaced(stb.fitted, 0.010, 5 * kDegree, random) : stb.fitted;
+      ASSERT_NEAR((start - stb.fitted).head<3>().norm(), away ? 0.010 : 0, 1e-9);
+      ASSERT_NEAR(std::abs(start.segment<4>(3).dot(stb.fitted.segment<4>(3))),
+                  std::cos(away ? 2.5 * kDegree : 0), 1e-9);
+      Eigen::MatrixXd states(start.size(), 2);
+      states << start, stb.fitted;
+      const Eigen::VectorXd known = costs(stb, frame, states);
+      const Solution solution = search(stb, frame, start, size, seed, plugins);
+      ASSERT_EQ(solution.evaluations, size * size);
+      ASSERT_LE(solution.cost, known[0]) << "worse than its own start";
+      ASSERT_TRUE(std::isfinite(stb.distance(solution.state)));
+      before += 1e3 * stb.distance(start) / kDraws;
+      after += 1e3 * stb.distance(solution.state) / kDraws;
+      above += solution.cost < known[1];
+    }
+    const std::string line = fmt::format("{:.1f} -> {:.1f} mm, {} of {} score above the labels",
+                                         before, after, above, kDraws);
+    const std::string key = fmt::format("{}_pso_{}_{}", name, size, away ? "10mm_5deg" : "fitted");
+    testing::Test::RecordProperty(key, line);
+    fmt::print("{}: {}\n", key, line);
+  }
+}
+
+TEST(StbPair, SearchesEndAndAreRecorded) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  for (const char* beta : {"100", "25"}) {
+    const Stb stb = open_stb(plugins, {std::string("objective.beta=") + beta});
+    Frame matched = stb.frame;
+    match_brightness(matched);
+    for (const int size : {32, 64}) {
+      record_searches(stb, stb.frame, std::string("as_it_is_beta_") + beta, size, plugins);
+      record_searches(stb, matched, std::string("matched_beta_") + beta, size, plugins);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack
