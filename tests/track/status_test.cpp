@@ -34,6 +34,14 @@ TEST(Status, UncertaintyThatLastsIsLost) {
   EXPECT_EQ(monitor.judge(-99, 1.0), Status::tracked);
 }
 
+TEST(Status, ACostThatStaysBecomesWhatIsExpected) {
+  StatusMonitor monitor = experienced_monitor();
+  int uncertain = 0;
+  while (monitor.judge(-60, 1.0) != Status::tracked) ASSERT_LT(++uncertain, 40);
+  EXPECT_GT(uncertain, 3);
+  EXPECT_EQ(monitor.judge(-60, 1.0), Status::tracked);
+}
+
 TEST(Status, OutOfViewIsLostAndHalfOutIsUncertain) {
   EXPECT_EQ(experienced_monitor().judge(-99, 0.1), Status::lost);
   EXPECT_EQ(experienced_monitor().judge(-99, 0.5), Status::uncertain);

@@ -39,12 +39,14 @@ Status StatusMonitor::judge(double cost, double visible) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
-  if (is_outlier(cost) || visible < 2 * settings_.min_visible) {
-    return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
-  }
-  uncertain_in_a_row_ = 0;
+  const bool outlier = is_outlier(cost);
+  // Outliers are remembered, too: a closing fist changes the cost for good, and must become what is
+  // expected.
   costs_.push_back(cost);
   if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
+  if (outlier || visible < 2 * settings_.min_visible)
+    return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
+  uncertain_in_a_row_ = 0;
   return Status::tracked;
 }
 

@@ -24,7 +24,7 @@ struct StatusSettings {
   double min_visible = 0.3;
   void visit(ParamVisitor& v) {
     v("history", history,
-      {.help = "tracked frames whose costs say what to expect", .min = 5, .max = 10000});
+      {.help = "past frames whose costs say what to expect", .min = 5, .max = 10000});
     v("outlier", outlier,
       {.help = "uncertain above median + this many robust standard deviations of those costs",
        .min = 1,
@@ -50,7 +50,7 @@ class HYPOTRACK_API StatusMonitor {
  private:
   bool is_outlier(double cost) const;
   StatusSettings settings_;
-  std::deque<double> costs_;  ///< of tracked frames, newest last
+  std::deque<double> costs_;  ///< of past frames, newest last
   int uncertain_in_a_row_ = 0;
 };
 
