@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -5,8 +7,6 @@
 
 namespace hypotrack {
 namespace {
-
-constexpr int kTile = 512;  // pixels
 
 cv::Scalar vivid(cv::RNG& random) {
   const cv::Mat hsv(
@@ -19,48 +19,64 @@ cv::Scalar vivid(cv::RNG& random) {
           static_cast<double>(color[2])};
 }
 
-cv::Point somewhere(cv::RNG& random) {
-  return {random.uniform(0, kTile), random.uniform(0, kTile)};
+cv::Point somewhere(const cv::Mat& face, cv::RNG& random) {
+  return {random.uniform(0, face.cols), random.uniform(0, face.rows)};
+}
+
+void draw_blob(cv::Mat& face, int size, cv::RNG& random) {
+  const cv::Point at = somewhere(face, random);
+  const int radius = std::max(2, size / 2 + random.uniform(-size / 4, size / 4 + 1));
+  if (random.uniform(0, 2) == 0) {
+    cv::circle(face, at, radius, vivid(random), cv::FILLED, cv::LINE_AA);
+    return;
+  }
+  const cv::Size2f axes(static_cast<float>(2 * radius), static_cast<float>(radius));
+  const auto angle = static_cast<float>(random.uniform(0, 180));
+  cv::ellipse(face, cv::RotatedRect(at, axes, angle), vivid(random), cv::FILLED, cv::LINE_AA);
+}
+
+void draw_stroke(cv::Mat& face, double unit, cv::RNG& random) {
+  const cv::Point at = somewhere(face, random);
+  const cv::Scalar ink = random.uniform(0, 2) == 0 ? cv::Scalar(25, 25, 25) : vivid(random);
+  const cv::Point2d to(random.uniform(15.0, 60.0) * unit, random.uniform(-6.0, 6.0) * unit);
+  const int thickness = std::max(1, static_cast<int>(random.uniform(2.0, 6.0) * unit));
+  cv::line(face, at, at + cv::Point(to), ink, thickness, cv::LINE_AA);
 }
 
 /// Shapes of many sizes, so that there is something to see near and far, then small lines of
-/// "print".
-void draw_face(cv::Mat& face, cv::RNG& random) {
+/// "print". Sizes and density are those of the whole box, whose mean edge has `edge` pixels.
+void draw_face(cv::Mat& face, double edge, cv::RNG& random) {
   face.setTo(vivid(random));
-  for (int size = kTile / 3; size >= 12; size = size * 2 / 3) {
-    const int count = kTile / size * 3;
-    for (int i = 0; i < count; ++i) {
-      const cv::Point at = somewhere(random);
-      const int radius = std::max(2, size / 2 + random.uniform(-size / 4, size / 4));
-      if (random.uniform(0, 2) == 0) {
-        cv::circle(face, at, radius, vivid(random), cv::FILLED, cv::LINE_AA);
-      } else {
-        cv::ellipse(face,
-                    cv::RotatedRect(
-                        at, cv::Size2f(static_cast<float>(2 * radius), static_cast<float>(radius)),
-                        static_cast<float>(random.uniform(0, 180))),
-                    vivid(random), cv::FILLED, cv::LINE_AA);
-      }
-    }
+  const double share = static_cast<double>(face.total()) / (edge * edge);
+  const double smallest = std::max(3.0, edge * 0.023);
+  for (double size = edge / 3; size >= smallest; size *= 2.0 / 3) {
+    const int count = std::max(1, static_cast<int>(3 * edge / size * share));
+    for (int i = 0; i < count; ++i) draw_blob(face, static_cast<int>(size), random);
   }
-  for (int i = 0; i < 60; ++i) {
-    const cv::Point at = somewhere(random);
-    const cv::Scalar ink = random.uniform(0, 2) == 0 ? cv::Scalar(25, 25, 25) : vivid(random);
-    cv::line(face, at, at + cv::Point(random.uniform(15, 60), random.uniform(-6, 6)), ink,
-             random.uniform(2, 6), cv::LINE_AA);
-  }
+  const int strokes = static_cast<int>(60 * share);
+  for (int i = 0; i < strokes; ++i) draw_stroke(face, edge / 512, random);
+}
+
+/// A face and the margin around it.
+cv::Rect tile_of(const cv::Rect2d& face, const cv::Size& image) {
+  constexpr double kMargin = 2;
+  const cv::Point low(static_cast<int>(face.x - kMargin), static_cast<int>(face.y - kMargin));
+  const cv::Point high(static_cast<int>(std::ceil(face.x + face.width + kMargin)),
+                       static_cast<int>(std::ceil(face.y + face.height + kMargin)));
+  return cv::Rect(low, high) & cv::Rect(cv::Point(), image);
 }
 
 }  // namespace
 
-cv::Mat box_pattern(int seed) {
-  cv::Mat texture(kBoxRows * kTile, kBoxColumns * kTile, CV_8UC3);
+cv::Mat box_pattern(const BoxLayout& layout, int seed) {
+  cv::Mat texture(layout.image, CV_8UC3, cv::Scalar::all(0));
   cv::RNG random(static_cast<std::uint64_t>(seed) * 2654435761u + 88172645463325252u);
-  for (int row = 0; row < kBoxRows; ++row) {
-    for (int column = 0; column < kBoxColumns; ++column) {
-      cv::Mat face = texture(cv::Rect(column * kTile, row * kTile, kTile, kTile));
-      draw_face(face, random);
-    }
+  // The x faces are y wide and z high, the y faces z wide.
+  const double mean_edge =
+      std::cbrt(layout.faces[0].width * layout.faces[0].height * layout.faces[2].height);
+  for (const cv::Rect2d& face : layout.faces) {
+    cv::Mat tile = texture(tile_of(face, layout.image));
+    draw_face(tile, mean_edge, random);
   }
   return texture;
 }
@@ -73,7 +89,7 @@ cv::Mat repeat_on_faces(const cv::Mat& picture) {
     cv::resize(picture, tile, cv::Size(), factor, factor, cv::INTER_AREA);
   }
   cv::Mat texture;
-  cv::repeat(tile, kBoxRows, kBoxColumns, texture);
+  cv::repeat(tile, 2, 3, texture);
   return texture;
 }
 

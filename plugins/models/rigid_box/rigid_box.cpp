@@ -35,24 +35,7 @@ struct RigidBoxParams {
   }
 };
 
-Mesh make_mesh(const RigidBoxParams& params, const ConfigNode& config) {
-  Mesh mesh = box_mesh(params.size);
-  if (!params.color.empty()) {
-    if (params.color.size() != 3 || !params.texture.empty()) {
-      throw ConfigError(
-          fmt::format("{}: `color` must be three numbers, red, green and blue, and "
-                      "excludes `texture`",
-                      config.where()));
-    }
-    mesh.color = Eigen::Map<const Eigen::Vector3d>(params.color.data()).cast<float>();
-    mesh.uv.resize(2, 0);
-    mesh.uv_triangles.resize(3, 0);
-    return mesh;
-  }
-  if (params.texture.empty()) {
-    mesh.texture = box_pattern(params.pattern);
-    return mesh;
-  }
+cv::Mat read_picture(const RigidBoxParams& params, const ConfigNode& config) {
   cv::Mat picture;
   if (std::filesystem::is_regular_file(params.texture)) {
     picture = cv::imread(params.texture.string(), cv::IMREAD_COLOR);
@@ -61,7 +44,34 @@ Mesh make_mesh(const RigidBoxParams& params, const ConfigNode& config) {
     throw DataError(fmt::format("{}: the texture {} is missing or no image that OpenCV reads",
                                 config.where(), params.texture.string()));
   }
-  mesh.texture = repeat_on_faces(picture);
+  return picture;
+}
+
+Mesh plain_box(const RigidBoxParams& params, const ConfigNode& config) {
+  if (params.color.size() != 3 || !params.texture.empty()) {
+    throw ConfigError(
+        fmt::format("{}: `color` must be three numbers, red, green and blue, and "
+                    "excludes `texture`",
+                    config.where()));
+  }
+  Mesh mesh = box_mesh(params.size, layout_in_proportion(params.size));
+  mesh.color = Eigen::Map<const Eigen::Vector3d>(params.color.data()).cast<float>();
+  mesh.uv.resize(2, 0);
+  mesh.uv_triangles.resize(3, 0);
+  return mesh;
+}
+
+Mesh make_mesh(const RigidBoxParams& params, const ConfigNode& config) {
+  if (!params.color.empty()) return plain_box(params, config);
+  if (!params.texture.empty()) {
+    const cv::Mat picture = read_picture(params, config);
+    Mesh mesh = box_mesh(params.size, layout_of_pictures(picture.size()));
+    mesh.texture = repeat_on_faces(picture);
+    return mesh;
+  }
+  const BoxLayout layout = layout_in_proportion(params.size);
+  Mesh mesh = box_mesh(params.size, layout);
+  mesh.texture = box_pattern(layout, params.pattern);
   return mesh;
 }
 
