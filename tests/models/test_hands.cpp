@@ -165,6 +165,18 @@ TEST(MirroredHand, MirrorsAnyModelThatIsNamed) {
   EXPECT_THAT(model_error("{type: mirrored_hand, of: {type: hnad}}"), ::testing::HasSubstr("hnad"));
 }
 
+TEST(MirroredHand, DefaultModelLeavesAllItsParametersInTheRecord) {
+  PluginLoader loader;
+  const ConfigNode scene = ConfigNode::parse("models: [{type: mirrored_hand}]", "scene.yaml");
+  std::string resolved;
+  loader.make<Model>(scene.get("models").at(0), nullptr, {}, &resolved);
+  const ConfigNode of = ConfigNode::parse(resolved, "run.yaml").get("of");
+  EXPECT_EQ(of.get("type").scalar(), "hand") << resolved;
+  for (const char* key : {"mesh", "rig", "scale"}) {
+    EXPECT_TRUE(of.get(key).defined()) << key << " is not in:\n" << resolved;
+  }
+}
+
 TEST(MirroredHand, OfTheRightFileIsTheLeftFile) {
   HYPOTRACK_NEEDS_SHARED_DATA();
   const std::string folder = (shared_data() / "hands" / "godot_xr_tools").string();

@@ -67,6 +67,8 @@ class HYPOTRACK_API ConfigNode {
   std::string where_key(std::string_view key) const;
   /// The keys that lead here from the root, `models.0.type`; empty at the root.
   std::string path() const;
+  /// The same value as if it were at another path: a default for a key that a document lacks.
+  ConfigNode placed_at(std::string path) const;
   /// The folder that relative paths in this node refer to.
   const std::filesystem::path& directory() const;
   /// The node as YAML text, without comments: block style, lists of scalars on one line. Reading it

@@ -131,10 +131,17 @@ std::string ConfigNode::where_key(std::string_view key) const {
 
 std::string ConfigNode::path() const {
   std::string path = missing_.value_or("");
-  for (const YamlNode* node = node_.get(); node && node->parent; node = node->parent) {
-    path = join_path(step_of(*node), path);
-  }
-  return path;
+  if (!node_) return path;
+  const YamlNode* node = node_.get();
+  for (; node->parent; node = node->parent) path = join_path(step_of(*node), path);
+  return join_path(node->origin->path, path);
+}
+
+ConfigNode ConfigNode::placed_at(std::string path) const {
+  if (!defined()) return *this;
+  auto origin = std::make_shared<YamlOrigin>(*node_->origin);
+  origin->path = std::move(path);
+  return ConfigNode(std::shared_ptr<const YamlNode>(detail::read_yaml(to_yaml(), origin)));
 }
 
 const std::filesystem::path& ConfigNode::directory() const {

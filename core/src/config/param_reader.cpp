@@ -146,7 +146,11 @@ struct ParamReader::Impl : public ParamVisitor {
   }
 
   void on_config(std::string_view key, ConfigNode& value, const ParamInfo& info) override {
-    if (const auto node = take(key, info)) value = *node;
+    if (const auto node = take(key, info)) {
+      value = *node;
+    } else if (levels.back().node.is_map()) {
+      value = value.placed_at(levels.back().node.get(key).path());
+    }
   }
 
   bool enter_section(std::string_view key, const ParamInfo& info) override {

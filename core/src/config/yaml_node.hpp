@@ -12,6 +12,7 @@ struct YamlOrigin {
   std::string name;
   std::filesystem::path directory;  ///< absolute; what relative paths refer to
   bool is_override = false;         ///< has no lines: the name says it all
+  std::string path = {};            ///< of the root, if that stands for a part of another document
 };
 
 /// One value of a document. Parents own their children; a document is owned by its root.
