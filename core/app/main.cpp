@@ -53,6 +53,10 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "hypotrack: out of memory\n");
   } catch (const std::exception& e) {
     fmt::print(stderr, "hypotrack: unexpected error: {}\n", e.what());
+  } catch (...) {
+    fmt::print(stderr,
+               "hypotrack: unexpected error: a plugin threw something that is no "
+               "std::exception\n");
   }
   return 1;
 }

@@ -47,6 +47,11 @@ std::string Progress::line(const std::string& note) const {
   return note.empty() ? text : text + ", " + note;
 }
 
+void Progress::say(const std::string& text) {
+  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+  shown_ = {};  // the next frame shows the bar again
+}
+
 void Progress::advance(const std::string& note) {
   ++done_;
   last_note_ = note;

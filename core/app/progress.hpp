@@ -19,6 +19,9 @@ class Progress {
   /// One more frame is done; `note` is shown behind the numbers.
   void advance(const std::string& note);
 
+  /// A line of its own, clear of the bar.
+  void say(const std::string& text);
+
  private:
   using Clock = std::chrono::steady_clock;
   std::string line(const std::string& note) const;

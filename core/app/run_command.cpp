@@ -24,14 +24,19 @@ struct RunOptions {
   std::optional<std::int64_t> seed;
 };
 
-/// The first frame that can be used; those before it are counted and reported.
-Frame first_usable_frame(Source& source, std::vector<Frame>& unusable) {
-  while (auto frame = source.next()) {
-    if (!frame->views.empty()) return *std::move(frame);
-    fmt::print(stderr, "frame {}: {}\n", frame->index, frame->problem);
-    unusable.push_back(*std::move(frame));
+/// The frames up to the first that can be used, which is the last of them. Throws DataError if none
+/// of the first `limit` frames can be.
+std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limit) {
+  std::vector<Frame> frames;
+  while (!limit || frames.size() < static_cast<std::size_t>(*limit)) {
+    auto frame = source.next();
+    if (!frame) break;
+    frames.push_back(*std::move(frame));
+    if (!frames.back().views.empty()) return frames;
   }
-  throw DataError("the source has no usable frame");
+  if (frames.empty()) throw DataError("the source has no frame");
+  throw DataError(fmt::format("none of the source's {} frames can be used; the first: {}",
+                              frames.size(), frames.front().problem));
 }
 
 void print_summary(const Summary& s, const std::filesystem::path& out) {
@@ -51,24 +56,36 @@ std::string note_of(const Solution& solution, double error) {
   return note;
 }
 
-/// Tracks until the source ends, `frames` are done or the user interrupts; true in the first two
-/// cases.
-bool track_all(Session& session, Tracker& tracker, RunOutput& output, const Frame& first,
-               std::optional<int> frames) {
+/// Tracks `first`, which the source has given already, and then the rest of the source, until it
+/// ends, `limit` frames are done or the user interrupts; true in the first two cases.
+bool track_all(Session& session, Tracker& tracker, RunOutput& output,
+               const std::vector<Frame>& first, std::optional<int> limit,
+               const InterruptGuard& interrupt) {
   std::optional<int> total = session.source->frame_count();
-  if (frames) total = total ? std::min(*total, *frames) : *frames;
-  InterruptGuard interrupt;
+  if (limit) total = total ? std::min(*total, *limit) : *limit;
   Progress progress(total);
-  std::optional<Frame> frame = first;
-  for (int done = 0; frame; ++done) {
-    if (frames && done >= *frames) return true;
-    if (!frame->problem.empty()) fmt::print(stderr, "frame {}: {}\n", frame->index, frame->problem);
+  for (int done = 0; !limit || done < *limit; ++done) {
+    if (interrupt.interrupted()) return false;
+    const auto index = static_cast<std::size_t>(done);
+    const std::optional<Frame> frame = index < first.size() ? first[index] : session.source->next();
+    if (!frame) break;
+    if (!frame->problem.empty())
+      progress.say(fmt::format("frame {}: {}", frame->index, frame->problem));
     const Solution solution = tracker.track(*frame);
     progress.advance(note_of(solution, output.add(*frame, solution)));
-    if (interrupt.interrupted()) return false;
-    frame = session.source->next();
   }
   return true;
+}
+
+/// Ends a run by the exception that is being handled: what was tracked so far is kept, unless that
+/// is what fails.
+void finish_after_error(RunOutput& output, const std::filesystem::path& out) {
+  try {
+    output.finish(false);
+    fmt::print(stderr, "hypotrack: the run ends early; {} holds the frames so far\n", out.string());
+  } catch (const OutputError& e) {
+    fmt::print(stderr, "hypotrack: {}\n", e.what());
+  }
 }
 
 int run(const RunOptions& options, const CommonOptions& common) {
@@ -76,10 +93,10 @@ int run(const RunOptions& options, const CommonOptions& common) {
   if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
   PluginLoader plugins(common.plugin_path);
   Session session = open_session(options.scene.scene, overrides, plugins);
-  std::vector<Frame> unusable;
-  const Frame first = first_usable_frame(*session.source, unusable);
-  Tracker tracker(*session.scene, std::move(session.parts), initial_state(session, first),
+  const std::vector<Frame> first = frames_up_to_a_usable(*session.source, options.frames);
+  Tracker tracker(*session.scene, std::move(session.parts), initial_state(session, first.back()),
                   session.seed);
+  const InterruptGuard interrupt;
   RunOutput output(*session.scene, session.source->cameras().front(),
                    {.directory = options.out,
                     .overlay = session.output.overlay,
@@ -87,15 +104,18 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .resolved = session.resolved,
                     .backend = tracker.backend()});
   fmt::print(stderr, "tracking with {}\n", tracker.backend());
-  for (const Frame& frame : unusable) output.add(frame, tracker.track(frame));
   bool complete = false;
   try {
-    complete = track_all(session, tracker, output, first, options.frames);
+    complete = track_all(session, tracker, output, first, options.frames, interrupt);
   } catch (const OutputError&) {
     throw;  // the files cannot be finished either
   } catch (...) {
-    output.finish(false);  // what was tracked so far is kept
+    if (!output.empty()) finish_after_error(output, options.out);
     throw;
+  }
+  if (output.empty()) {
+    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    return kInterruptedExitCode;
   }
   print_summary(output.finish(complete), options.out);
   if (complete) return 0;

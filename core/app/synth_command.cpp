@@ -39,6 +39,10 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
       progress.advance({});
     }
   }
+  if (writer.empty() && interrupt.interrupted()) {
+    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    return kInterruptedExitCode;
+  }
   writer.finish();
   fmt::print("recording in {}\n", options.out.string());
   if (!interrupt.interrupted()) return 0;

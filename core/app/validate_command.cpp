@@ -3,6 +3,8 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "geometry/tiles.hpp"
+#include "hypotrack/error.hpp"
 #include "session/session.hpp"
 #include "track/tracker.hpp"
 
@@ -16,9 +18,10 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   const auto first = session.source->next();
   if (!first) throw DataError("the source has no frame");
   if (!first->problem.empty())
-    fmt::print("frame {} cannot be used: {}\n", first->index, first->problem);
+    fmt::print(stderr, "frame {} cannot be used: {}\n", first->index, first->problem);
   else
-    initial_state(session, *first);
+    TileMaker(*session.scene, session.parts.cameras, session.parts.tile)
+        .make(*first, initial_state(session, *first));  // the first search has something to look at
   const int parameters = session.scene->dimension();
   const std::size_t models = session.scene->items().size();
   const std::size_t cameras = session.parts.cameras.size();

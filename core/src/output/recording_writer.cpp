@@ -8,6 +8,7 @@
 
 #include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
+#include "output/metrics.hpp"
 #include "output/text_file.hpp"
 
 namespace hypotrack {
@@ -23,17 +24,18 @@ RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras
   if (cameras_.size() != 2)
     throw DataError(
         fmt::format("a recording has two cameras, this source has {}", cameras_.size()));
-  if (std::filesystem::exists(directory_) && !std::filesystem::is_empty(directory_))
+  std::error_code error;
+  if (std::filesystem::exists(directory_, error) &&
+      !(std::filesystem::is_directory(directory_) && std::filesystem::is_empty(directory_)))
     throw OutputError(
         fmt::format("{}: exists already; name a new folder with --out, or remove this one",
                     directory_.string()));
   part_ = directory_.parent_path() / (".part." + directory_.filename().string());
-  std::error_code error;
   std::filesystem::remove_all(part_, error);
   std::filesystem::create_directories(part_, error);
   if (error)
-    throw OutputError(
-        fmt::format("{}: the folder cannot be made: {}", directory_.string(), error.message()));
+    throw OutputError(fmt::format("{}: the folder cannot be made: {}; name another with --out",
+                                  directory_.string(), error.message()));
 }
 
 RecordingWriter::~RecordingWriter() {
@@ -48,7 +50,11 @@ void RecordingWriter::write_image(const std::string& name, int index, const cv::
     written = cv::imwrite(file.string(), image, {cv::IMWRITE_PNG_COMPRESSION, 3});
   } catch (const cv::Exception&) {
   }
-  if (!written) throw OutputError(fmt::format("{}: the image cannot be written", file.string()));
+  if (!written)
+    throw OutputError(fmt::format(
+        "{}: the image cannot be written; check that there is space, or name another folder with "
+        "--out",
+        file.string()));
 }
 
 void RecordingWriter::add(const Frame& frame) {
@@ -64,9 +70,8 @@ void RecordingWriter::add(const Frame& frame) {
   if (!frame.truth) return;
   if (frame.truth->state.size() > 0)
     states_.push_back({frame.index, frame.time, frame.truth->state});
-  Eigen::Matrix3Xd landmarks = frame.truth->landmarks;
-  if (landmarks.cols() == 0) landmarks = scene_->landmarks(frame.truth->state);
-  landmarks_.push_back({frame.index, frame.time, std::move(landmarks)});
+  if (auto landmarks = true_landmarks(*scene_, frame))
+    landmarks_.push_back({frame.index, frame.time, *std::move(landmarks)});
 }
 
 void RecordingWriter::write_truth() const {

@@ -31,6 +31,7 @@ class HYPOTRACK_API RecordingWriter {
   void add(const Frame& frame);
   /// Throws OutputError; also if no frame was added.
   void finish();
+  bool empty() const { return first_ < 0; }
 
  private:
   void write_image(const std::string& name, int index, const cv::Mat& image) const;

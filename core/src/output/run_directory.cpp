@@ -15,9 +15,10 @@ constexpr const char* kPartPrefix = ".part.";
 
 }  // namespace
 
-RunDirectory::RunDirectory(std::filesystem::path directory) : directory_(std::move(directory)) {
+RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::string> results)
+    : directory_(std::move(directory)), results_(std::move(results)) {
   std::error_code error;
-  std::filesystem::create_directories(directory_, error);
+  made_ = std::filesystem::create_directories(directory_, error);
   if (error || !std::filesystem::is_directory(directory_))
     throw OutputError(
         fmt::format("{}: the output folder cannot be made ({}); name another with --out",
@@ -27,9 +28,21 @@ RunDirectory::RunDirectory(std::filesystem::path directory) : directory_(std::mo
         "{}: the output folder cannot be written; change its permissions or name another with "
         "--out",
         directory_.string()));
-  for (const auto& entry : std::filesystem::directory_iterator(directory_))
-    if (entry.path().filename().string().starts_with(kPartPrefix))
-      std::filesystem::remove(entry.path(), error);
+  // Found at the end, this would cost the whole run.
+  for (const std::string& name : results_)
+    if (std::filesystem::is_directory(directory_ / name))
+      throw OutputError(fmt::format(
+          "{}: is a folder, and a result of the run has this name; move it away or name "
+          "another output folder with --out",
+          (directory_ / name).string()));
+  for (const std::string& name : results_) std::filesystem::remove(part_path(name), error);
+}
+
+RunDirectory::~RunDirectory() {
+  if (keep_) return;
+  std::error_code ignored;
+  for (const std::string& name : names_) std::filesystem::remove(part_path(name), ignored);
+  if (made_) std::filesystem::remove(directory_, ignored);  // only if it is empty
 }
 
 std::filesystem::path RunDirectory::part_path(const std::string& name) const {
@@ -41,7 +54,8 @@ std::filesystem::path RunDirectory::part(const std::string& name) {
   return part_path(name);
 }
 
-void RunDirectory::finish(const std::vector<std::string>& stale) {
+void RunDirectory::finish() {
+  keep_ = true;
   for (const std::string& name : names_) {
     std::error_code error;
     std::filesystem::rename(part_path(name), directory_ / name, error);
@@ -50,7 +64,7 @@ void RunDirectory::finish(const std::vector<std::string>& stale) {
                                     (directory_ / name).string(), error.message(),
                                     part_path(name).string()));
   }
-  for (const std::string& name : stale) {
+  for (const std::string& name : results_) {
     std::error_code error;
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       std::filesystem::remove(directory_ / name, error);

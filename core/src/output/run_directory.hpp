@@ -8,27 +8,39 @@
 
 namespace hypotrack {
 
-/// The folder of a run's results. Files grow under a name of their own (`.track.csv.part`) and get
+/// The folder of a run's results. Files grow under a name of their own (`.part.track.csv`) and get
 /// their real one all together when the run ends, so that whatever carries a final name is whole.
 class HYPOTRACK_API RunDirectory {
  public:
-  /// Makes the folder if need be and removes what an earlier, killed run left unfinished. Throws
-  /// OutputError if the folder cannot be made or written.
-  explicit RunDirectory(std::filesystem::path directory);
+  /// Makes the folder if need be and removes what an earlier, killed run left unfinished. `results`
+  /// are the names that a run may write. Throws OutputError if the folder cannot be made or written
+  /// or a folder has the name of a result.
+  RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
+
+  /// Unless keep() was called, removes the unfinished files, and the folder if it was made here.
+  ~RunDirectory();
+  RunDirectory(const RunDirectory&) = delete;
+  RunDirectory& operator=(const RunDirectory&) = delete;
 
   const std::filesystem::path& path() const { return directory_; }
 
   /// Where to write the file that will be called `name`. A video keeps its suffix.
   std::filesystem::path part(const std::string& name);
 
+  /// From now on unfinished files are worth keeping, whatever happens.
+  void keep() { keep_ = true; }
+
   /// Gives every file of part() its final name, replacing what an earlier run left there, and
-  /// removes results of an earlier run in `stale` that this one did not write.
-  void finish(const std::vector<std::string>& stale = {});
+  /// removes results of an earlier run that this one did not write. Throws OutputError.
+  void finish();
 
  private:
   std::filesystem::path part_path(const std::string& name) const;
   std::filesystem::path directory_;
+  std::vector<std::string> results_;
   std::vector<std::string> names_;
+  bool made_ = false;
+  bool keep_ = false;
 };
 
 }  // namespace hypotrack

@@ -45,7 +45,8 @@ std::string to_json(const Summary& s) {
 RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     : scene_(&scene),
       options_(std::move(options)),
-      directory_(options_.directory),
+      directory_(options_.directory, {"track.csv", "joints.csv", "errors.csv", "overlay.mp4",
+                                      "run.yaml", "summary.json"}),
       track_(directory_.part("track.csv")),
       joints_(directory_.part("joints.csv")) {
   TextFile(directory_.part("run.yaml")).write(options_.resolved);
@@ -68,6 +69,7 @@ void RunOutput::write_headers() {
 }
 
 double RunOutput::add(const Frame& frame, const Solution& solution) {
+  directory_.keep();
   std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                 to_string(solution.status), solution.cost, solution.evaluations,
                                 1000 * solution.seconds);
@@ -116,7 +118,7 @@ Summary RunOutput::finish(bool complete) {
   const Summary summary = summarize(complete);
   if (overlay_) overlay_->close();
   TextFile(directory_.part("summary.json")).write(to_json(summary));
-  directory_.finish({"overlay.mp4", "errors.csv"});
+  directory_.finish();
   return summary;
 }
 

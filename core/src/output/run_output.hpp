@@ -43,8 +43,7 @@ class HYPOTRACK_API RunOutput {
     std::string backend;
   };
 
-  /// The scene must outlive it. Throws OutputError or DeviceError before anything is written under a
-  /// final name.
+  /// The scene must outlive it. Throws OutputError or DeviceError and then leaves nothing behind.
   RunOutput(const Scene& scene, const Camera& camera, Options options);
 
   ~RunOutput();
@@ -54,8 +53,11 @@ class HYPOTRACK_API RunOutput {
   /// Adds a frame and returns its error in metres (NaN without ground truth).
   double add(const Frame& frame, const Solution& solution);
 
-  /// Closes everything and gives the files their names.
+  /// Closes everything and gives the files their names. Without it the unfinished files stay, or go
+  /// if no frame was added.
   Summary finish(bool complete);
+
+  bool empty() const { return counts_.frames == 0; }
 
  private:
   void write_headers();

@@ -12,14 +12,18 @@ namespace hypotrack {
 TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)), out_(path_) {
   if (!out_)
     throw OutputError(
-        fmt::format("{}: cannot be opened for writing: {}", path_.string(), std::strerror(errno)));
+        fmt::format("{}: cannot be opened for writing: {}; name another folder with --out",
+                    path_.string(), std::strerror(errno)));
 }
 
 void TextFile::write(std::string_view text) {
+  errno = 0;
   out_ << text << std::flush;
   if (!out_)
-    throw OutputError(
-        fmt::format("{}: cannot be written: {}", path_.string(), std::strerror(errno)));
+    throw OutputError(fmt::format(
+        "{}: cannot be written: {}; the lines before this one are in the file. Make room or name "
+        "another folder with --out",
+        path_.string(), errno != 0 ? std::strerror(errno) : "unknown reason"));
 }
 
 }  // namespace hypotrack

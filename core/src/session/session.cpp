@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,10 @@ void Opening::models() {
           fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
                       "spaces",
                       node.get("name").where(), name));
+    const auto same = [&](const auto& other) { return other.first == name; };
+    if (std::any_of(models.begin(), models.end(), same))
+      throw ConfigError(fmt::format("{}: two models are called '{}'; give each a `name` of its own",
+                                    node.get("name").where(), name));
     record.set_string("name", name);
     records.push_back(std::move(record));
     models.emplace_back(name, std::move(model));
@@ -168,11 +173,13 @@ Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
           "init.from is 'truth' but the source knows no true state for its first frame; give "
           "init.pose or init.file instead");
     state = first.truth->state;
+    scene.check(state, fmt::format("the source's true state of frame {}", first.index));
   } else if (session.init.from == InitFrom::file) {
     const std::string suffix = session.init.file.extension().string();
     state = suffix == ".yaml" || suffix == ".yml"
                 ? read_pose(ConfigNode::load(session.init.file), scene, std::move(state))
                 : state_of_frame(session.init.file, scene, session.init.frame);
+    scene.check(state, session.init.file.string());
   }
   if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
   return state;

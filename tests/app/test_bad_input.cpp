@@ -1,0 +1,159 @@
+#include <array>
+#include <cstdint>
+#include <cstring>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::HasSubstr;
+
+using BadInputTest = AppTest;
+
+TEST_F(BadInputTest, MissingScene) {
+  const std::string file = path("nothing.yaml").string();
+  expect_refusal(run_program({"run", file, "--out", path("out").string()}), {file});
+}
+
+TEST_F(BadInputTest, BrokenYaml) { expect_refused("models: [{name: box\n", {"scene.yaml:2:1"}); }
+
+TEST_F(BadInputTest, EmptyScene) { expect_refused("", {"scene.yaml", "models", "missing"}); }
+
+TEST_F(BadInputTest, SceneThatIsNoMap) {
+  expect_refused("- 1\n- 2\n", {"scene.yaml:1:1", "models, source, objective and optimizer"});
+}
+
+TEST_F(BadInputTest, UnknownKeys) {
+  expect_refused(box_scene() + "sede: 3\n", {"scene.yaml:13:1", "sede", "did you mean 'seed'"});
+  expect_refused(replaced(box_scene(), "particles", "particels"),
+                 {"scene.yaml:9:", "particels", "did you mean 'particles'"});
+}
+
+TEST_F(BadInputTest, UnknownPlugin) {
+  expect_refused(replaced(box_scene(), "type: pso", "type: psso"),
+                 {"scene.yaml:9:", "there is no optimizer 'psso'", "did you mean 'pso'"});
+}
+
+TEST_F(BadInputTest, PluginOfAnotherAbi) {
+  const std::string folder = (build_dir() / "tests/plugin_fixtures/bad").string();
+  expect_refused(
+      replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", "{type: other_abi}"),
+      {"libhypotrack_optimizer_other_abi.so", "ABI"}, {"--plugin-path", folder});
+}
+
+TEST_F(BadInputTest, ValuesOutOfRange) {
+  expect_refused(replaced(box_scene(), "particles: 8", "particles: 0"),
+                 {"scene.yaml:9:", "0 is out of range"});
+  expect_refused(box_scene() + "seed: -1\n", {"scene.yaml:13:", "-1 is out of range"});
+  expect_refused(box_scene(), {"--set optimizer.particles=no", "expected an integer"},
+                 {"--set", "optimizer.particles=no"});
+}
+
+TEST_F(BadInputTest, NoModels) {
+  expect_refused(
+      replaced(box_scene(), "[{name: box, type: rigid_box, size_mm: [90, 60, 40]}]", "[]"),
+      {"scene.yaml:1:", "at least one"});
+}
+
+TEST_F(BadInputTest, TwoModelsOfOneName) {
+  expect_refused(replaced(box_scene(), "[90, 60, 40]}]",
+                          "[90, 60, 40]}, {name: box, type: "
+                          "rigid_box}]"),
+                 {"scene.yaml:1:", "two models are called 'box'", "name"});
+}
+
+TEST_F(BadInputTest, StereoObjectiveOnOneCamera) {
+  expect_refused(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,"),
+                 {"stereo_color", "two"});
+}
+
+TEST_F(BadInputTest, StartOutsideTheBounds) {
+  const std::string hand = replaced(box_scene(), "init: {from: truth}",
+                                    "init: {from: rest, pose: {box: {angles_deg: "
+                                    "{index_flexion_1: 300}}}}");
+  expect_refused(replaced(hand, "type: rigid_box, size_mm: [90, 60, 40]", "type: hand"),
+                 {"scene.yaml:11:", "300 is out of range"});
+}
+
+TEST_F(BadInputTest, StartOfATableOutsideTheBounds) {
+  write_text(path("states.csv"),
+             "frame,time,position_x,position_y,position_z,rotation_w,rotation_x,rotation_y,"
+             "rotation_z\n3,0,nan,0,0.4,1,0,0,0\n");
+  const auto with = [](const std::string& init) {
+    return replaced(box_scene(), "init: {from: truth}", "init: {" + init + "}");
+  };
+  expect_refused(with("from: file, file: states.csv"), {"states.csv:2", "finite"});
+  expect_refused(with("from: file"), {"scene.yaml:11:", "init.file names none"});
+  expect_refused(with("from: file, file: missing.csv"), {"missing.csv", "no such file"});
+}
+
+TEST_F(BadInputTest, StartBehindTheCameras) {
+  expect_refused(replaced(box_scene(), "init: {from: truth}",
+                          "init: {from: rest, pose: {box: {position_mm: [0, 0, -400]}}}"),
+                 {"'box' lies at or behind camera 0"});
+}
+
+TEST_F(BadInputTest, BadMeshes) {
+  const auto with = [](const std::string& mesh) {
+    return replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]",
+                    "type: rigid_mesh, mesh: " + mesh);
+  };
+  write_text(path("points.obj"), "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\n");
+  expect_refused(with("points.obj"), {"points.obj"});
+  write_text(path("nan.obj"), "v 0 0 0\nv nan 0 0\nv 0 0.1 0\nf 1 2 3\n");
+  expect_refused(with("nan.obj"), {"nan.obj"});
+  expect_refused(with("missing.obj"), {"missing.obj"});
+}
+
+TEST_F(BadInputTest, OutputFolderUnderAFile) {
+  write_text(path("file"), "");
+  const std::string out = path("file/out").string();
+  expect_refusal(run_program({"run", scene(box_scene()), "--out", out}),
+                 {out, "the output folder cannot be made", "--out"});
+}
+
+TEST_F(BadInputTest, OutputFolderIsAFile) {
+  const std::string out = path("file").string();
+  write_text(out, "mine");
+  expect_refusal(run_program({"run", scene(box_scene()), "--out", out}),
+                 {out, "cannot be made", "--out"});
+  EXPECT_EQ(read_text(out), "mine");
+}
+
+TEST_F(BadInputTest, OutputFolderThatNobodyCanWrite) {
+  const std::string out = "/proc/hypotrack_results";
+  expect_refusal(run_program({"run", scene(box_scene()), "--out", out}), {out, "--out"});
+}
+
+TEST_F(BadInputTest, AFolderInAResultsPlaceIsFoundBeforeTheRun) {
+  const auto in_the_way = path("results/summary.json");
+  std::filesystem::create_directories(in_the_way);
+  expect_refusal(run_program({"run", scene(box_scene()), "--out", path("results").string()}),
+                 {in_the_way.string(), "is a folder", "--out"});
+  EXPECT_THAT(names_in(path("results")), testing::ElementsAre("summary.json"));
+}
+
+TEST_F(BadInputTest, WithoutMp4NothingIsWrittenAndTheWayOutIsSaid) {
+  Start start;
+  start.arguments = {"run", scene(replaced(box_scene(), "overlay: false", "overlay: true")),
+                     "--out", path("out").string()};
+  start.environment = {"OPENCV_VIDEOIO_PRIORITY_FFMPEG=0", "OPENCV_VIDEOIO_PRIORITY_GSTREAMER=0"};
+  expect_refusal(run_program(start), {"overlay.mp4", "--set output.overlay=false"});
+}
+
+TEST_F(BadInputTest, AFullDiskIsReportedAndLeavesNoFinishedName) {
+  Start start;
+  start.arguments = {"run", scene(box_scene()), "--out", path("out").string()};
+  start.largest_file = 4096;
+  start.arguments.insert(start.arguments.end(), {"--set", "source.frames=60"});
+  const Outcome outcome = run_program(start);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
+  EXPECT_THAT(outcome.err, HasSubstr("Make room"));
+  for (const std::string& name : names_in(path("out")))
+    EXPECT_THAT(name, testing::StartsWith(".part."));
+}
+
+}  // namespace
+}  // namespace hypotrack::test

@@ -1,0 +1,142 @@
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using testing::StartsWith;
+
+class InterruptTest : public AppTest {
+ protected:
+  /// A run that lasts until it is stopped.
+  Start long_run(bool overlay = false) const {
+    Start start;
+    start.arguments = {"run",   scene(box_scene()),
+                       "--out", path("out").string(),
+                       "--set", "source.frames=1000000",
+                       "--set", overlay ? "output.overlay=true" : "output.overlay=false"};
+    return start;
+  }
+
+  /// Waits until a growing file has some lines.
+  void wait_for_lines(Program& program, const std::string& name, std::size_t lines) const {
+    while (program.running() && lines_of(read_text(path(name))).size() < lines)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(program.running()) << program.wait().err;
+  }
+
+  /// Every line of a table has as many cells as its header, and the last is ended.
+  void expect_whole_lines(const std::filesystem::path& file) const {
+    const std::string text = read_text(file);
+    ASSERT_THAT(text, testing::EndsWith("\n"));
+    const auto lines = lines_of(text);
+    const auto cells = [](const std::string& line) {
+      return std::count(line.begin(), line.end(), ',');
+    };
+    for (const std::string& line : lines) EXPECT_EQ(cells(line), cells(lines.front())) << line;
+  }
+};
+
+TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
+  Program program(long_run(true));
+  wait_for_lines(program, "out/.part.track.csv", 4);
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
+  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "overlay.mp4",
+                                                 "run.yaml", "summary.json", "track.csv"));
+  expect_whole_lines(path("out/track.csv"));
+  expect_whole_lines(path("out/joints.csv"));
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), false);
+  EXPECT_EQ(summary.at("frames").get<std::size_t>() + 1,
+            lines_of(read_text(path("out/track.csv"))).size());
+}
+
+TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
+  {
+    Program program(long_run());
+    wait_for_lines(program, "out/.part.track.csv", 4);
+    program.signal(SIGKILL);
+    EXPECT_EQ(program.wait().exit_code, 128 + SIGKILL);
+  }
+  EXPECT_THAT(names_in(path("out")), Each(StartsWith(".part.")));
+  expect_whole_lines(path("out/.part.track.csv"));
+  const Outcome outcome = run(box_scene());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_in(path("out")),
+              ElementsAre("errors.csv", "joints.csv", "run.yaml", "summary.json", "track.csv"));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+}
+
+class FailingPluginTest : public InterruptTest {
+ protected:
+  Outcome fail(const std::string& optimizer) const {
+    return run(replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer),
+               {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+  }
+};
+
+TEST_F(FailingPluginTest, AnExceptionKeepsTheFramesSoFar) {
+  const Outcome outcome = fail("{type: failing, frames: 2}");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("the search is broken"));
+  EXPECT_THAT(outcome.err, HasSubstr("holds the frames so far"));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), false);
+  EXPECT_EQ(summary.at("frames"), 2);
+}
+
+TEST_F(FailingPluginTest, AnythingThrownIsReported) {
+  const Outcome outcome = fail("{type: failing, frames: 1, how: int}");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("a plugin threw something that is no std::exception"));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(2));
+}
+
+TEST_F(FailingPluginTest, AnExceptionOnTheFirstFrameLeavesNothing) {
+  const Outcome outcome = fail("{type: failing, frames: 0}");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("the search is broken"));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(FailingPluginTest, ACrashLeavesOnlyPartFilesWithWholeLines) {
+  const Outcome outcome = fail("{type: failing, frames: 2, how: segfault}");
+  EXPECT_NE(outcome.exit_code, 0);
+  EXPECT_NE(outcome.exit_code, 1);
+  EXPECT_THAT(names_in(path("out")), Each(StartsWith(".part.")));
+  EXPECT_THAT(lines_of(read_text(path("out/.part.track.csv"))), SizeIs(3));
+  expect_whole_lines(path("out/.part.track.csv"));
+}
+
+TEST_F(InterruptTest, CtrlCLeavesAShorterRecording) {
+  Start start;
+  start.arguments = {"synth", scene(box_scene()),     "--out", path("recording").string(),
+                     "--set", "source.frames=1000000"};
+  Program program(start);
+  while (program.running() && names_in(path(".part.recording")).size() < 6)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("the recording ends early"));
+  EXPECT_FALSE(std::filesystem::exists(path(".part.recording")));
+  const Outcome tracked = run_program({"run", path("recording/scene.yaml").string(), "--out",
+                                       path("out").string(), "--frames", "2"});
+  EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+}
+
+}  // namespace
+}  // namespace hypotrack::test

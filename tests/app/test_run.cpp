@@ -1,0 +1,114 @@
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+using testing::StartsWith;
+
+using RunTest = AppTest;
+
+TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
+  const Outcome outcome = run(replaced(box_scene(), "overlay: false", "overlay: true"));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "overlay.mp4",
+                                                 "run.yaml", "summary.json", "track.csv"));
+  const auto track = lines_of(read_text(path("out/track.csv")));
+  ASSERT_THAT(track, SizeIs(6));
+  EXPECT_THAT(track[0], StartsWith("frame,time,status,cost,evaluations,milliseconds,"
+                                   "box.position_x,box.position_y,box.position_z,"));
+  EXPECT_THAT(track[1], StartsWith("0,0,"));
+  EXPECT_THAT(lines_of(read_text(path("out/joints.csv"))), SizeIs(6));
+  const auto errors = lines_of(read_text(path("out/errors.csv")));
+  ASSERT_THAT(errors, SizeIs(6));
+  EXPECT_EQ(errors[0], "frame,time,mean_joint_error_mm");
+
+  cv::VideoCapture video(path("out/overlay.mp4").string());
+  ASSERT_TRUE(video.isOpened());
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 160);
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 120);
+  EXPECT_EQ(video.get(cv::CAP_PROP_FPS), 30);
+  int frames = 0;
+  for (cv::Mat image; video.read(image); ++frames) EXPECT_FALSE(image.empty());
+  EXPECT_EQ(frames, 5);
+}
+
+TEST_F(RunTest, SummaryHasThePromisedKeys) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), true);
+  EXPECT_EQ(summary.at("frames"), 5);
+  for (const char* key : {"fps", "evaluations_per_second"})
+    EXPECT_GT(summary.at(key).get<double>(), 0) << key;
+  for (const char* key : {"lost_frames", "uncertain_frames", "missing_frames"})
+    EXPECT_TRUE(summary.at(key).is_number_integer()) << key;
+  double sum = 0;
+  for (const std::string& line : lines_of(read_text(path("out/errors.csv"))))
+    if (line.find("frame") == std::string::npos) sum += std::stod(line.substr(line.rfind(',') + 1));
+  EXPECT_NEAR(summary.at("mean_joint_error_mm").get<double>(), sum / 5, 1e-3);
+  EXPECT_GT(summary.at("median_joint_error_mm").get<double>(), 0);
+  double last = 0;
+  for (const char* key : {"fraction_below_5mm", "fraction_below_10mm", "fraction_below_20mm",
+                          "fraction_below_40mm"}) {
+    const auto fraction = summary.at(key).get<double>();
+    EXPECT_GE(fraction, last) << key;
+    EXPECT_LE(fraction, 1) << key;
+    last = fraction;
+  }
+}
+
+TEST_F(RunTest, SaysWhatItDid) {
+  const Outcome outcome = run(box_scene());
+  EXPECT_THAT(outcome.out, HasSubstr("5 frames (0 lost, 0 uncertain, 0 missing) at "));
+  EXPECT_THAT(outcome.out, HasSubstr("joint error: mean "));
+  EXPECT_THAT(outcome.out, HasSubstr("results in " + path("out").string()));
+  EXPECT_THAT(outcome.err, HasSubstr("5/5 frames, "));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("\x1b")));  // no bar where there is no terminal
+}
+
+TEST_F(RunTest, FramesEndsEarlyAndIsComplete) {
+  ASSERT_EQ(run(box_scene(), {"--frames", "2"}).exit_code, 0);
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("frames"), 2);
+  EXPECT_EQ(summary.at("complete"), true);
+}
+
+TEST_F(RunTest, MoreFramesThanThereAreIsAllOfThem) {
+  ASSERT_EQ(run(box_scene(), {"--frames", "50"}).exit_code, 0);
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+}
+
+TEST_F(RunTest, ASecondRunReplacesTheResultsAndDropsThoseItDoesNotHave) {
+  ASSERT_EQ(run(replaced(box_scene(), "overlay: false", "overlay: true")).exit_code, 0);
+  write_text(path("out/notes.txt"), "mine");
+  ASSERT_EQ(run(box_scene(), {"--frames", "1"}).exit_code, 0);
+  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "notes.txt",
+                                                 "run.yaml", "summary.json", "track.csv"));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(2));
+}
+
+TEST_F(RunTest, WithoutOutResultsAreInAFolderOfTheWorkingDirectory) {
+  Start start;
+  start.arguments = {"run", scene(box_scene()), "--frames", "1"};
+  start.directory = folder();
+  ASSERT_EQ(run_program(start).exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("out/track.csv")));
+}
+
+TEST_F(RunTest, SetChangesKeysOfTheScene) {
+  const Outcome outcome = run(
+      box_scene(), {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}",
+                    "--set", "budget.evaluations=20", "--frames", "1"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(read_text(path("out/run.yaml")), HasSubstr("type: random_search"));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv")))[1], HasSubstr(",20,"));  // evaluations
+}
+
+}  // namespace
+}  // namespace hypotrack::test

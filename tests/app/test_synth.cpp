@@ -1,0 +1,79 @@
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+
+class SynthTest : public AppTest {
+ protected:
+  Outcome record(const std::string& text, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"synth", scene(text), "--out", path("out").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+};
+
+TEST_F(SynthTest, TrackingTheRecordingIsTrackingTheSource) {
+  const Outcome recorded = record(box_scene());
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  const auto names = names_in(path("out"));
+  for (const char* name :
+       {"calibration.yaml", "left_000000.png", "left_mask_000000.png", "right_000004.png",
+        "scene.yaml", "truth_landmarks.csv", "truth_states.csv"})
+    EXPECT_THAT(names, Contains(name));
+  ASSERT_EQ(
+      run_program({"run", path("scene.yaml").string(), "--out", path("direct").string()}).exit_code,
+      0);
+  const Outcome tracked =
+      run_program({"run", path("out/scene.yaml").string(), "--out", path("from_disk").string()});
+  ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
+  EXPECT_EQ(track_without_times(path("from_disk")), track_without_times(path("direct")));
+  EXPECT_EQ(read_text(path("from_disk/errors.csv")), read_text(path("direct/errors.csv")));
+}
+
+TEST_F(SynthTest, ARecordingCanBeMoved) {
+  ASSERT_EQ(record(box_scene(), {"--frames", "2"}).exit_code, 0);
+  std::filesystem::rename(path("out"), path("moved"));
+  const Outcome tracked =
+      run_program({"run", path("moved/scene.yaml").string(), "--out", path("results").string()});
+  EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
+}
+
+TEST_F(SynthTest, AnExistingFolderIsRefusedUnlessItIsEmpty) {
+  std::filesystem::create_directory(path("out"));
+  EXPECT_EQ(record(box_scene(), {"--frames", "1"}).exit_code, 0);
+  const auto before = names_in(path("out"));
+  const Outcome again = record(box_scene(), {"--frames", "2"});
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_THAT(again.err, testing::HasSubstr(path("out").string() + ": exists already"));
+  EXPECT_EQ(names_in(path("out")), before);
+}
+
+TEST_F(SynthTest, AFileInItsPlaceIsLeftAlone) {
+  write_text(path("out"), "");
+  const Outcome outcome = record(box_scene(), {"--frames", "1"});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("exists already"));
+  EXPECT_TRUE(std::filesystem::is_regular_file(path("out")));
+}
+
+TEST_F(SynthTest, AFailureLeavesNothing) {
+  Start start;
+  start.arguments = {"synth", scene(box_scene()), "--out", path("out").string()};
+  start.largest_file = 8192;  // less than a picture
+  const Outcome outcome = run_program(start);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("the image cannot be written"));
+  EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
+}
+
+TEST_F(SynthTest, OneCameraIsNoRecording) {
+  expect_refusal(record(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,")),
+                 {"a recording has two cameras"});
+  EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
+}
+
+}  // namespace
+}  // namespace hypotrack::test

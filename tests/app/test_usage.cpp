@@ -1,0 +1,115 @@
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class UsageTest : public AppTest {
+ protected:
+  static std::string fixture(const std::string& group, const std::string& name) {
+    return (build_dir() / "tests/plugin_fixtures" / group /
+            ("libhypotrack_optimizer_" + name + ".so"))
+        .string();
+  }
+};
+
+TEST_F(UsageTest, HelpAndVersionSucceed) {
+  const Outcome help = run_program({"--help"});
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("run"), HasSubstr("validate"), HasSubstr("synth"),
+                              HasSubstr("plugins"), HasSubstr("--plugin-path")));
+  const Outcome run_help = run_program({"run", "--help"});
+  EXPECT_EQ(run_help.exit_code, 0);
+  EXPECT_THAT(run_help.out, AllOf(HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--frames"),
+                                  HasSubstr("--seed")));
+  const Outcome version = run_program({"--version"});
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_THAT(version.out, testing::ContainsRegex("hypotrack [0-9]+\\.[0-9]+.*plugin ABI"));
+}
+
+TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
+  const std::vector<std::vector<std::string>> mistakes = {
+      {},
+      {"rum"},
+      {"run"},
+      {"run", "a.yaml", "--frames", "0"},
+      {"run", "a.yaml", "--frames", "many"},
+      {"run", "a.yaml", "--seed", "-1"},
+      {"run", "a.yaml", "b.yaml"},
+      {"run", "a.yaml", "--no-such-option"},
+      {"synth", "a.yaml"},
+      {"plugins"},
+      {"plugins", "info"},
+      {"plugins", "check"},
+  };
+  for (const auto& arguments : mistakes) {
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments);
+    EXPECT_NE(outcome.err, "") << testing::PrintToString(arguments);
+  }
+}
+
+TEST_F(UsageTest, ValidateSaysWhatTheSceneIs) {
+  const std::string file = scene(box_scene());
+  const Outcome outcome = run_program({"validate", file});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(file + ": ok: 1 model, 7 parameters, 2 cameras, "));
+  EXPECT_THAT(names_in(folder()), testing::ElementsAre("scene.yaml"));
+}
+
+TEST_F(UsageTest, ValidatePrintsASceneThatIsValidAndPrintsTheSame) {
+  const Outcome first = run_program({"validate", scene(box_scene()), "--print"});
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  EXPECT_THAT(first.out, AllOf(HasSubstr("beta: "), HasSubstr("seed: ")));
+  const Outcome second = run_program({"validate", scene(first.out, "again.yaml"), "--print"});
+  EXPECT_EQ(second.exit_code, 0) << second.err;
+  EXPECT_EQ(second.out, first.out);
+}
+
+TEST_F(UsageTest, ValidateFindsAStartThatNothingCanBeSearchedFrom) {
+  const Outcome outcome =
+      run_program({"validate", scene(replaced(box_scene(), "init: {from: truth}",
+                                              "init: {from: rest, pose: {box: {position_mm: [0, "
+                                              "0, -400]}}}"))});
+  expect_refusal(outcome, {"'box' lies at or behind camera 0"});
+}
+
+TEST_F(UsageTest, PluginsAreListed) {
+  const Outcome outcome = run_program({"plugins", "list"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* name : {"rigid_box", "stereo_color", "pso", "synthetic"})
+    EXPECT_THAT(outcome.out, HasSubstr(name));
+}
+
+TEST_F(UsageTest, InfoTellsAPluginsParameters) {
+  const Outcome outcome = run_program({"plugins", "info", "optimizer/pso"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("particles"), HasSubstr("generations")));
+  const Outcome unknown = run_program({"plugins", "info", "psso"});
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean 'pso'"));
+}
+
+TEST_F(UsageTest, CheckSaysWhyAPluginCannotBeUsed) {
+  const Outcome good = run_program({"plugins", "check", fixture("good", "sample")});
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  const Outcome other = run_program({"plugins", "check", fixture("bad", "other_abi")});
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.out, HasSubstr("ABI"));
+  const Outcome crash = run_program({"plugins", "check", fixture("harmful", "segfault")});
+  EXPECT_EQ(crash.exit_code, 1);
+  EXPECT_THAT(crash.out, HasSubstr("crash"));
+}
+
+TEST_F(UsageTest, NoHarmfulPluginEndsTheList) {
+  const std::string folder = (build_dir() / "tests/plugin_fixtures/bad").string();
+  const Outcome outcome = run_program({"plugins", "list", "--plugin-path", folder});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("crash_in_describe"), HasSubstr("pso")));
+}
+
+}  // namespace
+}  // namespace hypotrack::test

@@ -1,0 +1,74 @@
+#include "output/run_directory.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "hypotrack/error.hpp"
+#include "output/text_file.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+using std::filesystem::exists;
+
+TEST(RunDirectory, FilesGetTheirNamesAllTogether) {
+  const test::TemporaryDirectory folder;
+  RunDirectory directory(folder.path() / "new" / "out", {"a.csv", "b.csv"});
+  TextFile(directory.part("a.csv")).write("a");
+  TextFile(directory.part("b.csv")).write("b");
+  EXPECT_FALSE(exists(directory.path() / "a.csv"));
+  directory.finish();
+  EXPECT_TRUE(exists(directory.path() / "a.csv"));
+  EXPECT_TRUE(exists(directory.path() / "b.csv"));
+  EXPECT_FALSE(exists(directory.path() / ".part.a.csv"));
+}
+
+TEST(RunDirectory, WithoutAnythingToKeepNothingStays) {
+  const test::TemporaryDirectory folder;
+  {
+    RunDirectory directory(folder.path() / "out", {"a.csv"});
+    TextFile(directory.part("a.csv")).write("a");
+  }
+  EXPECT_FALSE(exists(folder.path() / "out"));
+}
+
+TEST(RunDirectory, WhatIsWorthKeepingStaysUnderItsUnfinishedName) {
+  const test::TemporaryDirectory folder;
+  {
+    RunDirectory directory(folder.path(), {"a.csv"});
+    TextFile(directory.part("a.csv")).write("a");
+    directory.keep();
+  }
+  EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
+}
+
+TEST(RunDirectory, RemovesOldResultsAndOldUnfinishedFilesButNothingElse) {
+  const test::TemporaryDirectory folder;
+  for (const char* name : {"a.csv", "b.csv", ".part.b.csv", ".part.mine", "mine"})
+    std::ofstream(folder.path() / name) << "old";
+  RunDirectory directory(folder.path(), {"a.csv", "b.csv"});
+  EXPECT_FALSE(exists(folder.path() / ".part.b.csv"));
+  EXPECT_TRUE(exists(folder.path() / "b.csv"));  // until there is something better
+  TextFile(directory.part("a.csv")).write("new");
+  directory.finish();
+  EXPECT_FALSE(exists(folder.path() / "b.csv"));
+  EXPECT_TRUE(exists(folder.path() / "mine"));
+  EXPECT_TRUE(exists(folder.path() / ".part.mine"));
+}
+
+TEST(TextFile, ADiskThatIsFullIsReported) {
+  if (!exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
+  TextFile file("/dev/full");
+  try {
+    file.write("line\n");
+    FAIL() << "nothing was thrown";
+  } catch (const OutputError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("/dev/full: cannot be written: No space left"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("Make room"));
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack
