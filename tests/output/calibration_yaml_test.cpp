@@ -30,7 +30,7 @@ Camera random_camera(DistortionModel model, std::size_t coefficients, std::mt199
   return camera;
 }
 
-TEST(CalibrationYaml, ReadsBackToTheSameBits) {
+TEST(CalibrationYaml, ReadsBackToTheSameCameras) {
   const test::TemporaryDirectory folder;
   CalibrationSettings settings;
   settings.file = folder.path() / "calibration.yaml";
@@ -52,7 +52,13 @@ TEST(CalibrationYaml, ReadsBackToTheSameBits) {
       EXPECT_EQ(read[i].cy, written[i].cy);
       EXPECT_EQ(read[i].distortion_model, written[i].distortion_model);
       EXPECT_EQ(read[i].distortion, written[i].distortion);
-      EXPECT_EQ(read[i].camera_from_world.matrix(), written[i].camera_from_world.matrix());
+      EXPECT_EQ(read[i].camera_from_world.translation(),
+                written[i].camera_from_world.translation());
+      // The reader makes every R the nearest rotation, which costs the last digit.
+      EXPECT_LT((read[i].camera_from_world.linear() - written[i].camera_from_world.linear())
+                    .cwiseAbs()
+                    .maxCoeff(),
+                2e-15);
     }
   }
 }

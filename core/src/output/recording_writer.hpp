@@ -52,7 +52,7 @@ class HYPOTRACK_API RecordingWriter {
 };
 
 /// A calibration in the project's own form (calibration.hpp, form 3): what load_calibration reads back
-/// to the same cameras, bit for bit.
+/// to the same cameras, bit for bit but for the last digit of rotations (it makes them orthonormal).
 HYPOTRACK_API std::string calibration_yaml(const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack
