@@ -17,20 +17,6 @@ std::vector<std::string> steps_between(const std::string& outer, const std::stri
   return detail::split_path(std::string_view(inner).substr(head.size()));
 }
 
-/// The steps to the first entry of `tree` that reads `text`; empty if there is none.
-std::vector<std::string> find_equal(const detail::YamlNode& tree, const std::string& text) {
-  for (std::size_t i = 0; i < tree.entries.size(); ++i) {
-    const auto& entry = tree.entries[i];
-    std::vector<std::string> steps{entry.key.empty() ? std::to_string(i) : entry.key};
-    if (detail::write_yaml(*entry.value) == text) return steps;
-    const auto below = find_equal(*entry.value, text);
-    if (below.empty()) continue;
-    steps.insert(steps.end(), below.begin(), below.end());
-    return steps;
-  }
-  return {};
-}
-
 }  // namespace
 
 PluginContext::PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
@@ -49,13 +35,11 @@ const Scene& PluginContext::scene() const {
 }
 
 void PluginContext::record_nested(const ConfigNode& config, const std::string& resolved) {
+  const auto steps = steps_between(config_.path(), config.path());
+  if (steps.empty()) return;  // from elsewhere: no parameter of this plugin
   auto origin = std::make_shared<detail::YamlOrigin>();
   origin->name = config.where();
   const auto tree = detail::read_yaml(resolved_, origin);
-  auto steps = steps_between(config_.path(), config.path());
-  // The default of a parameter is a document of its own, whose path says nothing about its place.
-  if (steps.empty()) steps = find_equal(*tree, config.to_yaml());
-  if (steps.empty()) return;  // from elsewhere: no parameter of this plugin
   detail::assign(*tree, steps, detail::read_yaml(resolved, origin), origin->name);
   resolved_ = detail::write_yaml(*tree);
 }
