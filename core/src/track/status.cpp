@@ -27,6 +27,7 @@ bool StatusMonitor::is_outlier(double cost) const {
   const std::vector<double> costs(costs_.begin(), costs_.end());
   const double expected = median(costs);
   std::vector<double> deviations;
+  deviations.reserve(costs.size());
   for (double c : costs) deviations.push_back(std::abs(c - expected));
   // 1.4826 MAD estimates a normal distribution's standard deviation; the floor keeps a nearly
   // constant cost from making every frame an outlier.
