@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "expect_error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -40,17 +41,5 @@ class ScopedVariable {
   const char* name_;
   std::optional<std::string> old_;
 };
-
-/// The message of the E that `action` throws; a failed test if it throws none.
-template <class E, class Action>
-std::string message_of(Action action) {
-  try {
-    action();
-  } catch (const E& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
-}
 
 }  // namespace hypotrack::test

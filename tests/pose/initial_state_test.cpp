@@ -75,5 +75,14 @@ TEST(InitialState, IsARowOfAStateTable) {
   EXPECT_THAT(message_of(session, {}), HasSubstr("has no frame 9 to start from; it has 3 to 4"));
 }
 
+TEST(InitialState, IsNotToBeHadFromATableWithoutRows) {
+  const test::TemporaryDirectory folder;
+  Session session = box_session();
+  session.init.from = InitFrom::file;
+  session.init.file = folder.path() / "track.csv";
+  write_states(session.init.file, *session.scene, {});
+  EXPECT_THAT(message_of(session, {}), HasSubstr("has no rows; expected one to start from"));
+}
+
 }  // namespace
 }  // namespace hypotrack

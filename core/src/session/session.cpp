@@ -64,6 +64,8 @@ Eigen::VectorXd state_of_frame(const std::filesystem::path& file, const Scene& s
   const std::vector<StateRow> rows = read_states(file, scene);
   for (const StateRow& row : rows)
     if (row.frame == frame) return row.state;
+  if (rows.empty())
+    throw DataError(fmt::format("{}: has no rows; expected one to start from", file.string()));
   throw DataError(fmt::format("{}: has no frame {} to start from; it has {} to {}", file.string(),
                               frame, rows.front().frame, rows.back().frame));
 }
