@@ -8,10 +8,13 @@
 
 namespace hypotrack {
 
-/// What one camera saw, as it came from the sensor (distorted, unrectified).
+/// What one camera saw, as it came from the sensor (distorted, unrectified). Every image that is
+/// there has the size of its camera; a view has colour, depth or both.
 struct View {
-  cv::Mat color;  ///< 8-bit BGR, the size of its camera
-  cv::Mat mask;   ///< 8-bit foreground (non-zero) of the same size; empty if unknown
+  cv::Mat color{};  ///< 8-bit BGR; empty for a camera that gives depth only
+  cv::Mat mask{};   ///< 8-bit foreground (non-zero); empty if unknown
+  cv::Mat depth{};  ///< 32-bit float z in metres along the optical axis, 0: not measured; empty for
+                    ///< a colour camera
 };
 
 /// Where a source knows the answer. Either part may be missing.

@@ -23,9 +23,11 @@ struct TileCamera {
 /// A square piece of one view around the last solution.
 struct TileView {
   TileCamera camera;
-  cv::Mat color;  ///< 8-bit BGR
+  cv::Mat color;  ///< 8-bit BGR, empty if the view has none
   cv::Mat valid;  ///< 8-bit: non-zero where the pixel comes from inside the image
-  cv::Mat mask;   ///< 8-bit foreground, empty if the frame has none
+  cv::Mat mask;   ///< 8-bit foreground, empty if the view has none
+  cv::Mat depth;  ///< 32-bit float z in metres along the tile camera's axis, 0: not measured (never
+                  ///< a mixture of two pixels); empty if the view has none
 };
 
 /// What an objective gets once per frame. Views are in the order of the source's cameras.
