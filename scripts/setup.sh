@@ -2,13 +2,14 @@
 # Installs the Debian packages that are missing. Sourced by demo.sh and test.sh; runs alone, too.
 set -euo pipefail
 
+# install_missing_packages LIST: a file of this folder with a package a line.
 install_missing_packages() {
   local here missing=() package sudo=()
   here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
   while read -r package; do
     dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' ||
       missing+=("$package")
-  done < <(grep -v '^#' "$here/packages.txt")
+  done < <(grep -v '^#' "$here/$1")
   [ ${#missing[@]} -eq 0 ] && return 0
   if [ "$(id -u)" -ne 0 ]; then
     if ! command -v sudo >/dev/null; then
@@ -36,4 +37,4 @@ if ! command -v apt-get >/dev/null; then
     "scripts/packages.txt lists and build with: cmake --preset release" >&2
   exit 1
 fi
-install_missing_packages
+install_missing_packages packages.txt
