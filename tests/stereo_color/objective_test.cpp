@@ -49,6 +49,16 @@ TEST(StereoColor, ImagesOfAnotherSizeOrTypeThanTheTileAreErrors) {
               HasSubstr("the mask of view 1 is 8x8"));
 }
 
+TEST(StereoColor, AViewWithoutColourIsAnErrorThatSaysWhatToDo) {
+  RandomPair pair({.size = 32});
+  pair.observation.views[1].color.release();
+  pair.observation.views[1].depth = cv::Mat1f(32, 32, 0.5f);
+  StereoColor objective({});
+  EXPECT_THAT(message_of([&] { objective.prepare(pair.observation); }),
+              HasSubstr("objective stereo_color: view 1 has no colour; expected colour images of "
+                        "both cameras. Use a stereo source"));
+}
+
 TEST(StereoColor, TilesOfAnotherSizeThanThePreparedFrameAreErrors) {
   const RandomPair pair({.size = 32}), other({.size = 48});
   StereoColor objective({});

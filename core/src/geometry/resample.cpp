@@ -41,6 +41,33 @@ cv::Mat inside_mask(const ImageMap& map, int size, int width, int height) {
   return valid;
 }
 
+/// Depth at the nearest image pixel of every tile pixel, never a mixture of two, turned from the
+/// camera's optical axis to the tile's. What is not a positive number counts as not measured.
+cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap& map,
+                      const TileCamera& tile, const Eigen::Matrix3f& camera_from_ideal) {
+  const Eigen::RowVector3f axis = camera_from_ideal.row(2);
+  cv::Mat out = cv::Mat::zeros(valid.size(), CV_32F);
+  for (int v = 0; v < valid.rows; ++v) {
+    const float* x = map.x.ptr<float>(v + 1) + 1;
+    const float* y = map.y.ptr<float>(v + 1) + 1;
+    const auto* inside = valid.ptr<unsigned char>(v);
+    auto* to = out.ptr<float>(v);
+    const auto ray_y = static_cast<float>((v - tile.cy) / tile.fy);
+    for (int u = 0; u < valid.cols; ++u) {
+      if (inside[u] == 0) continue;
+      // Halves go up, as `inside` has it; cv::remap would take the even neighbour.
+      const int column = static_cast<int>(std::floor(x[u] + 0.5f));
+      const int row = static_cast<int>(std::floor(y[u] + 0.5f));
+      const float z =
+          depth.at<float>(std::min(row, depth.rows - 1), std::min(column, depth.cols - 1));
+      const auto ray_x = static_cast<float>((u - tile.cx) / tile.fx);
+      const float along = z / (axis.x() * ray_x + (axis.y() * ray_y + axis.z()));
+      if (along > 0 && std::isfinite(along)) to[u] = along;
+    }
+  }
+  return out;
+}
+
 /// The part of the image that the map's lookups touch, widened to whole blocks. The image's last
 /// pixels that fill no block are left out.
 cv::Rect touched(const ImageMap& map, const cv::Mat& valid, cv::Size image, int blocks) {
@@ -147,9 +174,12 @@ TileView Resampler::cut(const View& view, const TileCamera& tile, const ImageMap
   out.camera = tile;
   out.valid = inside_mask(map, size, camera_.width, camera_.height);
   const int blocks = std::min({plan.blocks, camera_.width, camera_.height});
-  const cv::Rect roi = touched(map, out.valid, view.color.size(), blocks);
+  if (!view.depth.empty())
+    out.depth = nearest_depth(view.depth, out.valid, map, tile, camera_from_ideal_);
+  if (view.color.empty() && view.mask.empty()) return out;
+  const cv::Rect roi = touched(map, out.valid, {camera_.width, camera_.height}, blocks);
   if (roi.empty()) {
-    out.color = cv::Mat::zeros(size, size, CV_8UC3);
+    if (!view.color.empty()) out.color = cv::Mat::zeros(size, size, CV_8UC3);
     if (!view.mask.empty()) out.mask = cv::Mat::zeros(size, size, CV_8U);
     return out;
   }
@@ -176,7 +206,7 @@ TileView Resampler::cut(const View& view, const TileCamera& tile, const ImageMap
     }
     return look_up(part, x, y, size, plan.samples);
   };
-  out.color = take(view.color(roi));
+  if (!view.color.empty()) out.color = take(view.color(roi));
   if (!view.mask.empty()) {
     out.mask = take(view.mask(roi) != 0) >= 128;
     out.mask &= out.valid;

@@ -36,8 +36,9 @@ class HYPOTRACK_API Resampler {
   /// The map of a tile; only the intrinsics of the tile camera are looked at.
   ImageMap map(const TileCamera& tile) const;
 
-  /// Colour, validity and mask of a tile. `view` is of the camera's size. Colour outside the image
-  /// continues its border, so that no edge appears there.
+  /// Validity, and what the view has of colour, mask and depth, of a tile. `view` is of the
+  /// camera's size. Colour outside the image continues its border, so that no edge appears there;
+  /// depth is that of the nearest pixel, along the tile's optical axis, and 0 outside.
   TileView cut(const View& view, const TileCamera& tile, const ImageMap& map,
                const ReductionPlan& plan) const;
 

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
 
 #include "geometry/rectification.hpp"
 #include "geometry/resample.hpp"
@@ -63,26 +63,30 @@ TileCamera tile_camera(int size, double extent, double centre_x, double centre_y
   return camera;
 }
 
-void check_view(const View& view, const Camera& camera, const Frame& frame, std::size_t index) {
-  const cv::Mat& color = view.color;
-  if (color.cols != camera.width || color.rows != camera.height) {
-    throw DataError(fmt::format(
-        "frame {}, view {}: the image is {}x{} pixels, its camera {}x{}; expected the same size",
-        frame.index, index, color.cols, color.rows, camera.width, camera.height));
-  }
-  if (color.type() != CV_8UC3) {
+void check_image(const cv::Mat& image, int type, const char* what, const char* expected,
+                 const Camera& camera, const std::string& where) {
+  if (image.cols != camera.width || image.rows != camera.height) {
     throw DataError(
-        fmt::format("frame {}, view {}: the image has {} channels of OpenCV depth {}; "
-                    "expected 8-bit BGR",
-                    frame.index, index, color.channels(), color.depth()));
+        fmt::format("{}: the {} is {}x{} pixels, its camera {}x{}; expected the same size", where,
+                    what, image.cols, image.rows, camera.width, camera.height));
   }
-  if (!view.mask.empty() && (view.mask.size() != color.size() || view.mask.type() != CV_8U)) {
-    throw DataError(fmt::format(
-        "frame {}, view {}: the mask is {}x{} pixels with {} channels; expected {}x{}, 8-bit, one "
-        "channel",
-        frame.index, index, view.mask.cols, view.mask.rows, view.mask.channels(), color.cols,
-        color.rows));
+  if (image.type() != type) {
+    throw DataError(fmt::format("{}: the {} is of OpenCV type {}; expected {}", where, what,
+                                cv::typeToString(image.type()), expected));
   }
+}
+
+void check_view(const View& view, const Camera& camera, const Frame& frame, std::size_t index) {
+  const std::string where = fmt::format("frame {}, view {}", frame.index, index);
+  if (view.color.empty() && view.depth.empty()) {
+    throw DataError(where + ": there is neither colour nor depth; expected at least one of them");
+  }
+  const auto check = [&](const cv::Mat& image, int type, const char* what, const char* expected) {
+    if (!image.empty()) check_image(image, type, what, expected, camera, where);
+  };
+  check(view.color, CV_8UC3, "image", "8-bit BGR");
+  check(view.mask, CV_8UC1, "mask", "8 bits and one channel");
+  check(view.depth, CV_32FC1, "depth image", "metres as 32-bit floats, one channel");
 }
 
 }  // namespace

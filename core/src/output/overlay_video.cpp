@@ -6,6 +6,7 @@
 
 #include "hypotrack/error.hpp"
 #include "render/overlay.hpp"
+#include "render/picture.hpp"
 
 namespace hypotrack {
 namespace {
@@ -40,7 +41,8 @@ void OverlayVideo::add(const Frame& frame, const Solution& solution) {
     image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(40, 40, 40));
     caption += ": " + frame.problem;
   } else {
-    image = draw_overlay(renderer_, *scene_, frame.views.front().color, camera_, solution.state);
+    image =
+        draw_overlay(renderer_, *scene_, picture_of(frame.views.front()), camera_, solution.state);
     caption += fmt::format("  cost {:.4g}", solution.cost);
   }
   write_caption(image, caption);

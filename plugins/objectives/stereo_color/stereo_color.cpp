@@ -28,6 +28,12 @@ void check_view(const TileView& view, std::size_t index) {
                     "expected 2x2 or more",
                     index, view.camera.width, view.camera.height));
   }
+  if (view.color.empty()) {
+    throw DataError(fmt::format(
+        "objective stereo_color: view {} has no colour; expected colour images of both cameras. "
+        "Use a stereo source, or an objective for depth",
+        index));
+  }
   check_image(view.color, CV_8UC3, view, index, "colour image");
   check_image(view.valid, CV_8UC1, view, index, "valid image");
   if (!view.mask.empty()) check_image(view.mask, CV_8UC1, view, index, "mask");

@@ -140,6 +140,47 @@ DrawnTiles fill(const Observation& observation, const Function& inverse_depth) {
   return tiles;
 }
 
+/// Depth of the scene at rest before a wall, with holes as sensors leave them.
+cv::Mat measured_depth(const DepthTile& drawn, int view) {
+  cv::Mat depth(kSize, kSize, CV_32F);
+  for (int y = 0; y < kSize; ++y) {
+    for (int x = 0; x < kSize; ++x) {
+      const float inverse = drawn.inverse_depth[y * drawn.stride + x];
+      const bool hole = (x + 3 * y + view) % 11 == 0;
+      depth.at<float>(y, x) = hole ? 0 : inverse > 0 ? 1 / inverse : 0.8f;
+    }
+  }
+  return depth;
+}
+
+Observation with_depth(Observation observation) {
+  const DrawnTiles drawn = draw(*observation.scene, observation, rest_in_front(*observation.scene));
+  for (int i = 0; i < static_cast<int>(observation.views.size()); ++i) {
+    observation.views[i].depth = measured_depth(drawn.tiles()[i], i);
+  }
+  return observation;
+}
+
+Observation without_colors(Observation observation) {
+  for (TileView& view : observation.views) view.color.release();
+  return observation;
+}
+
+Observation with_unmeasured_depth(Observation observation) {
+  for (TileView& view : observation.views) view.depth = cv::Mat::zeros(kSize, kSize, CV_32F);
+  return observation;
+}
+
+Observation with_depth_noise(Observation observation) {
+  cv::RNG random(2);
+  for (TileView& view : observation.views) {
+    view.depth.create(kSize, kSize, CV_32F);
+    random.fill(view.depth, cv::RNG::UNIFORM, -20, 20);
+    cv::exp(view.depth, view.depth);
+  }
+  return observation;
+}
+
 }  // namespace
 
 DrawnTiles::DrawnTiles(const std::vector<TileView>& views) {
@@ -196,6 +237,12 @@ std::vector<NamedObservation> make_observations(const Scene& scene) {
       {"a black pair", with_flat_colors(copied(pair), 0)},
       {"a white pair with masks", with_masks(with_flat_colors(copied(pair), 255))},
       {"a pair without valid pixels", without_valid_pixels(copied(pair))},
+      {"a single view with depth", with_depth(single)},
+      {"a single view with depth and no colour", without_colors(with_depth(single))},
+      {"a pair with depth and masks", with_depth(with_masks(copied(pair)))},
+      {"a pair that is not rectified, with depth", with_depth(make_pair(scene, 0.2))},
+      {"a single view with no depth measured", with_unmeasured_depth(single)},
+      {"a pair with depth that is noise", with_depth_noise(pair)},
   };
 }
 

@@ -15,7 +15,8 @@ struct NamedObservation {
 };
 
 /// Observations of a scene about 0.5 m away: rectified pairs with and without foreground masks, a
-/// pair whose cameras turn towards each other, one view alone, and pairs of flat or invalid images.
+/// pair whose cameras turn towards each other, one view alone, and pairs of flat or invalid images;
+/// then views with depth, also without colour, with nothing measured, and with noise as depth.
 std::vector<NamedObservation> make_observations(const Scene& scene);
 
 /// Depth tiles with the memory they point into. Rows are wider than the tile.

@@ -30,6 +30,14 @@ void check_cameras(const Source& source) {
   }
 }
 
+void check_image(const cv::Mat& image, int type, cv::Size size, const std::string& what) {
+  require(image.empty() || (image.type() == type && image.size() == size),
+          what + " is " + std::to_string(image.cols) + "x" + std::to_string(image.rows) +
+              " of type " + cv::typeToString(image.type()) + ", expected " +
+              std::to_string(size.width) + "x" + std::to_string(size.height) +
+              ", its camera's size, and " + cv::typeToString(type));
+}
+
 void check_views(const Source& source, const Frame& frame) {
   if (frame.views.empty()) {
     require(!frame.problem.empty(), name(frame) + " has no views and names no problem");
@@ -43,14 +51,13 @@ void check_views(const Source& source, const Frame& frame) {
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
     const cv::Size size(source.cameras()[i].width, source.cameras()[i].height);
-    require(view.color.type() == CV_8UC3 && view.color.size() == size,
-            name(frame) + ", view " + std::to_string(i) + " is " + std::to_string(view.color.cols) +
-                "x" + std::to_string(view.color.rows) + " of type " +
-                cv::typeToString(view.color.type()) + ", expected " + std::to_string(size.width) +
-                "x" + std::to_string(size.height) + ", its camera's size, and CV_8UC3");
-    require(view.mask.empty() || (view.mask.type() == CV_8UC1 && view.mask.size() == size),
-            name(frame) + ", view " + std::to_string(i) +
-                ": the mask must be empty or 8-bit and of its camera's size");
+    const std::string where = name(frame) + ", view " + std::to_string(i);
+    require(!view.color.empty() || !view.depth.empty(), where + " has neither colour nor depth");
+    check_image(view.color, CV_8UC3, size, where);
+    check_image(view.mask, CV_8UC1, size, where + ": the mask");
+    check_image(view.depth, CV_32FC1, size, where + ": the depth");
+    require(view.depth.empty() || cv::checkRange(view.depth, true, nullptr, 0, 1e6),
+            where + ": depth is negative or not finite, expected metres, or 0 where not measured");
   }
 }
 
@@ -102,7 +109,8 @@ void check_same(const Frame& a, const Frame& b) {
           name(a) + " differs in number, time, views or problem");
   for (std::size_t i = 0; i < a.views.size(); ++i) {
     require(same_image(a.views[i].color, b.views[i].color) &&
-                same_image(a.views[i].mask, b.views[i].mask),
+                same_image(a.views[i].mask, b.views[i].mask) &&
+                same_image(a.views[i].depth, b.views[i].depth),
             name(a) + ", view " + std::to_string(i) + ": the pictures differ");
   }
 }
