@@ -40,13 +40,16 @@ std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limi
 }
 
 void print_summary(const Summary& s, const std::filesystem::path& out) {
+  const Metrics& m = s.metrics;
   fmt::print(
       "{} frames ({} lost, {} uncertain, {} missing) at {:.1f} fps, {:.0f} evaluations/s, {}\n",
-      s.frames, s.lost_frames, s.uncertain_frames, s.missing_frames, s.fps,
+      m.frames, m.lost_frames, s.uncertain_frames, m.missing_frames, s.fps,
       s.evaluations_per_second, s.backend);
-  if (s.errors)
-    fmt::print("joint error: mean {:.2f} mm, median {:.2f} mm, {:.1f} % below 10 mm\n",
-               s.errors->mean, s.errors->median, 100 * s.errors->fraction_below[1]);
+  if (m.evaluated_frames > 0)
+    fmt::print(
+        "joint error: mean {:.2f} mm, median {:.2f} mm, 95 % below {:.2f} mm, {:.1f} % of the "
+        "frames below 10 mm\n",
+        m.mean_error_mm, m.median_error_mm, m.p95_error_mm, 100 * m.success.front());
   fmt::print("results in {}\n", out.string());
 }
 
@@ -100,6 +103,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
   RunOutput output(*session.scene, session.source->cameras().front(),
                    {.directory = options.out,
                     .overlay = session.output.overlay,
+                    .worst_frames = session.output.worst_frames,
                     .frame_rate = session.source->frame_rate(),
                     .resolved = session.resolved,
                     .backend = tracker.backend()});

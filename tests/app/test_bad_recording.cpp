@@ -46,6 +46,13 @@ TEST_F(BadRecordingTest, ADamagedImageIsAMissingFrameAndTheRunGoesOn) {
   EXPECT_THAT(track_lines[4], Not(HasSubstr("missing")));
   EXPECT_EQ(summary().at("missing_frames"), 1);
   EXPECT_EQ(summary().at("complete"), true);
+  // Its truth is known, but there is no solution that could be wrong.
+  EXPECT_EQ(lines_of(read_text(path("out/errors.csv")))[3].substr(0, 2), "2,");
+  EXPECT_THAT(lines_of(read_text(path("out/errors.csv")))[3], testing::EndsWith(",nan,nan"));
+  const auto metrics = nlohmann::json::parse(read_text(path("out/metrics.json")));
+  EXPECT_EQ(metrics.at("frames"), 5);
+  EXPECT_EQ(metrics.at("missing_frames"), 1);
+  EXPECT_EQ(metrics.at("evaluated_frames"), 4);
 }
 
 TEST_F(BadRecordingTest, DamageBeforeTheFirstUsableFrameCountsAsFrames) {

@@ -52,8 +52,10 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
-  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "overlay.mp4",
-                                                 "run.yaml", "summary.json", "track.csv"));
+  EXPECT_THAT(names_in(path("out")),
+              testing::IsSupersetOf({"errors.csv", "joints.csv", "metrics.json", "overlay.mp4",
+                                     "run.yaml", "summary.json", "track.csv", "truth_states.csv"}));
+  EXPECT_THAT(names_in(path("out")), Each(testing::Not(StartsWith(".part."))));
   expect_whole_lines(path("out/track.csv"));
   expect_whole_lines(path("out/joints.csv"));
   const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
@@ -74,7 +76,9 @@ TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
   const Outcome outcome = run(box_scene());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_in(path("out")),
-              ElementsAre("errors.csv", "joints.csv", "run.yaml", "summary.json", "track.csv"));
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "run.yaml", "summary.json",
+                          "track.csv", "truth_landmarks.csv", "truth_states.csv",
+                          testing::MatchesRegex("worst_[0-4]\\.jpg")));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
 }
 

@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <sstream>
 
 #include "app_test.hpp"
 
@@ -11,13 +15,29 @@ using testing::HasSubstr;
 using testing::SizeIs;
 using testing::StartsWith;
 
-using RunTest = AppTest;
+class RunTest : public AppTest {
+ protected:
+  /// The rows of a table of numbers, without its header.
+  static std::vector<std::vector<double>> numbers_in(const std::filesystem::path& file) {
+    std::vector<std::vector<double>> rows;
+    for (const std::string& line : lines_of(read_text(file))) {
+      if (line.starts_with("frame,")) continue;
+      rows.emplace_back();
+      std::istringstream cells(line);
+      for (std::string cell; std::getline(cells, cell, ',');)
+        rows.back().push_back(std::stod(cell));
+    }
+    return rows;
+  }
+};
 
 TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
   const Outcome outcome = run(replaced(box_scene(), "overlay: false", "overlay: true"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "overlay.mp4",
-                                                 "run.yaml", "summary.json", "track.csv"));
+  EXPECT_THAT(names_in(path("out")),
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "overlay.mp4", "run.yaml",
+                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv",
+                          testing::MatchesRegex("worst_[0-4]\\.jpg")));
   const auto track = lines_of(read_text(path("out/track.csv")));
   ASSERT_THAT(track, SizeIs(6));
   EXPECT_THAT(track[0], StartsWith("frame,time,status,cost,evaluations,milliseconds,"
@@ -26,7 +46,7 @@ TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
   EXPECT_THAT(lines_of(read_text(path("out/joints.csv"))), SizeIs(6));
   const auto errors = lines_of(read_text(path("out/errors.csv")));
   ASSERT_THAT(errors, SizeIs(6));
-  EXPECT_EQ(errors[0], "frame,time,mean_joint_error_mm");
+  EXPECT_EQ(errors[0], "frame,time,mean_joint_error_mm,box");
 
   cv::VideoCapture video(path("out/overlay.mp4").string());
   ASSERT_TRUE(video.isOpened());
@@ -47,10 +67,11 @@ TEST_F(RunTest, SummaryHasThePromisedKeys) {
     EXPECT_GT(summary.at(key).get<double>(), 0) << key;
   for (const char* key : {"lost_frames", "uncertain_frames", "missing_frames"})
     EXPECT_TRUE(summary.at(key).is_number_integer()) << key;
-  double sum = 0;
-  for (const std::string& line : lines_of(read_text(path("out/errors.csv"))))
-    if (line.find("frame") == std::string::npos) sum += std::stod(line.substr(line.rfind(',') + 1));
-  EXPECT_NEAR(summary.at("mean_joint_error_mm").get<double>(), sum / 5, 1e-3);
+  const auto metrics = nlohmann::json::parse(read_text(path("out/metrics.json")));
+  EXPECT_EQ(summary.at("mean_joint_error_mm"), metrics.at("mean_error_mm"));
+  EXPECT_EQ(summary.at("median_joint_error_mm"), metrics.at("median_error_mm"));
+  EXPECT_EQ(summary.at("fraction_below_10mm"), metrics.at("success_10mm"));
+  EXPECT_EQ(summary.at("lost_frames"), metrics.at("lost_frames"));
   EXPECT_GT(summary.at("median_joint_error_mm").get<double>(), 0);
   double last = 0;
   for (const char* key : {"fraction_below_5mm", "fraction_below_10mm", "fraction_below_20mm",
@@ -60,6 +81,51 @@ TEST_F(RunTest, SummaryHasThePromisedKeys) {
     EXPECT_LE(fraction, 1) << key;
     last = fraction;
   }
+}
+
+TEST_F(RunTest, ErrorsAndMetricsAreThoseOfTheTables) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  const auto joints = numbers_in(path("out/joints.csv"));
+  const auto truth = numbers_in(path("out/truth_landmarks.csv"));
+  const auto errors = numbers_in(path("out/errors.csv"));
+  ASSERT_THAT(joints, SizeIs(5));
+  ASSERT_THAT(truth, SizeIs(5));
+  ASSERT_THAT(errors, SizeIs(5));
+  double sum = 0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    double frame_sum = 0;
+    for (std::size_t k = 2; k < 11; k += 3)  // frame, time, then three anchors
+      frame_sum += 1000 * std::hypot(joints[i][k] - truth[i][k], joints[i][k + 1] - truth[i][k + 1],
+                                     joints[i][k + 2] - truth[i][k + 2]);
+    EXPECT_NEAR(errors[i][2], frame_sum / 3, 1e-4);
+    EXPECT_EQ(errors[i][3], errors[i][2]);  // the only model
+    sum += frame_sum / 3;
+  }
+  const auto metrics = nlohmann::json::parse(read_text(path("out/metrics.json")));
+  EXPECT_NEAR(metrics.at("mean_error_mm").get<double>(), sum / 5, 1e-9);
+  EXPECT_NEAR(metrics.at("models").at("box").get<double>(), sum / 5, 1e-9);
+  EXPECT_THAT(metrics.at("landmarks"), SizeIs(3));
+}
+
+TEST_F(RunTest, TrueStatesAreThoseOfTheScene) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  const auto states = numbers_in(path("out/truth_states.csv"));
+  ASSERT_THAT(states, SizeIs(5));
+  EXPECT_DOUBLE_EQ(states[0][4], 0.4);  // frame, time, x, y, z
+  EXPECT_DOUBLE_EQ(states[4][2], 0.02);
+}
+
+TEST_F(RunTest, TheWorstFrameIsDrawnUnlessItShouldNotBe) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  const auto errors = numbers_in(path("out/errors.csv"));
+  const auto worst = std::max_element(errors.begin(), errors.end(),
+                                      [](const auto& a, const auto& b) { return a[2] < b[2]; });
+  const cv::Mat picture =
+      cv::imread(path("out/worst_" + std::to_string(worst - errors.begin()) + ".jpg").string());
+  ASSERT_FALSE(picture.empty());
+  EXPECT_EQ(std::max(picture.cols, picture.rows - 56), 640);  // enlarged, over a legend
+  ASSERT_EQ(run(box_scene(), {"--set", "output.worst_frames=0"}).exit_code, 0);
+  EXPECT_THAT(names_in(path("out")), testing::Not(testing::Contains(StartsWith("worst_"))));
 }
 
 TEST_F(RunTest, SaysWhatItDid) {
@@ -88,8 +154,10 @@ TEST_F(RunTest, ASecondRunReplacesTheResultsAndDropsThoseItDoesNotHave) {
   ASSERT_EQ(run(replaced(box_scene(), "overlay: false", "overlay: true")).exit_code, 0);
   write_text(path("out/notes.txt"), "mine");
   ASSERT_EQ(run(box_scene(), {"--frames", "1"}).exit_code, 0);
-  EXPECT_THAT(names_in(path("out")), ElementsAre("errors.csv", "joints.csv", "notes.txt",
-                                                 "run.yaml", "summary.json", "track.csv"));
+  EXPECT_THAT(names_in(path("out")),
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "notes.txt", "run.yaml",
+                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv",
+                          "worst_0.jpg"));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(2));
 }
 

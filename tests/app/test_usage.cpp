@@ -19,8 +19,9 @@ class UsageTest : public AppTest {
 TEST_F(UsageTest, HelpAndVersionSucceed) {
   const Outcome help = run_program({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  EXPECT_THAT(help.out, AllOf(HasSubstr("run"), HasSubstr("validate"), HasSubstr("synth"),
-                              HasSubstr("plugins"), HasSubstr("--plugin-path")));
+  EXPECT_THAT(help.out,
+              AllOf(HasSubstr("run"), HasSubstr("validate"), HasSubstr("synth"),
+                    HasSubstr("evaluate"), HasSubstr("plugins"), HasSubstr("--plugin-path")));
   const Outcome run_help = run_program({"run", "--help"});
   EXPECT_EQ(run_help.exit_code, 0);
   EXPECT_THAT(run_help.out, AllOf(HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--frames"),
@@ -41,6 +42,8 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"run", "a.yaml", "b.yaml"},
       {"run", "a.yaml", "--no-such-option"},
       {"synth", "a.yaml"},
+      {"evaluate"},
+      {"evaluate", "a", "--units", "inch"},
       {"plugins"},
       {"plugins", "info"},
       {"plugins", "check"},

@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "output/text_file.hpp"
 #include "test_paths.hpp"
@@ -56,6 +57,27 @@ TEST(RunDirectory, RemovesOldResultsAndOldUnfinishedFilesButNothingElse) {
   EXPECT_FALSE(exists(folder.path() / "b.csv"));
   EXPECT_TRUE(exists(folder.path() / "mine"));
   EXPECT_TRUE(exists(folder.path() / ".part.mine"));
+}
+
+TEST(RunDirectory, AHashInAResultStandsForAnyNumber) {
+  const test::TemporaryDirectory folder;
+  for (const char* name : {"worst_7.jpg", "worst_case.jpg", "worst_.jpg", ".part.worst_12.jpg"})
+    std::ofstream(folder.path() / name) << "old";
+  RunDirectory directory(folder.path(), {"worst_#.jpg"});
+  EXPECT_FALSE(exists(folder.path() / ".part.worst_12.jpg"));
+  TextFile(directory.part("worst_30.jpg")).write("new");
+  directory.finish();
+  EXPECT_FALSE(exists(folder.path() / "worst_7.jpg"));
+  EXPECT_TRUE(exists(folder.path() / "worst_30.jpg"));
+  EXPECT_TRUE(exists(folder.path() / "worst_case.jpg"));
+  EXPECT_TRUE(exists(folder.path() / "worst_.jpg"));
+}
+
+TEST(RunDirectory, AFolderWithTheNameOfANumberedResultIsRefused) {
+  const test::TemporaryDirectory folder;
+  std::filesystem::create_directory(folder.path() / "worst_7.jpg");
+  EXPECT_THAT(test::message_of<OutputError>([&] { RunDirectory(folder.path(), {"worst_#.jpg"}); }),
+              testing::HasSubstr("worst_7.jpg: is a folder"));
 }
 
 TEST(TextFile, ADiskThatIsFullIsReported) {

@@ -47,10 +47,13 @@ struct LandmarkTableOptions {
   /// `name=landmark` gives a column triple of the file to a landmark of the scene; `name=` drops
   /// it.
   std::vector<std::string> rename;
+  /// Whose landmarks `landmark_names` are, in messages.
+  std::string owner = "the scene";
 };
 
 /// Reads landmarks. Empty cells and `nan` are unknown, and so are landmarks without columns. Throws
-/// DataError where read_states does, and on names that are no landmark of the scene (rename them).
+/// DataError where read_states does, and on names that are not among `landmark_names` (rename
+/// them).
 HYPOTRACK_API std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
                                                       std::span<const std::string> landmark_names,
                                                       const LandmarkTableOptions& options = {});

@@ -23,8 +23,8 @@ void write_caption(cv::Mat& image, const std::string& text) {
 }  // namespace
 
 OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene,
-                           const Camera& camera, double frame_rate)
-    : scene_(&scene), camera_(camera), renderer_(scene) {
+                           Renderer& renderer, const Camera& camera, double frame_rate)
+    : scene_(&scene), renderer_(&renderer), camera_(camera) {
   writer_.open(file.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), frame_rate,
                {camera.width, camera.height});
   if (!writer_.isOpened())
@@ -42,7 +42,7 @@ void OverlayVideo::add(const Frame& frame, const Solution& solution) {
     caption += ": " + frame.problem;
   } else {
     image =
-        draw_overlay(renderer_, *scene_, picture_of(frame.views.front()), camera_, solution.state);
+        draw_overlay(*renderer_, *scene_, picture_of(frame.views.front()), camera_, solution.state);
     caption += fmt::format("  cost {:.4g}", solution.cost);
   }
   write_caption(image, caption);

@@ -14,18 +14,18 @@ namespace hypotrack {
 /// overlay.mp4: every frame's solution drawn on the first view.
 class HYPOTRACK_API OverlayVideo {
  public:
-  /// The scene must outlive the video. Throws DeviceError without OpenGL, OutputError if the video
-  /// cannot be opened.
-  OverlayVideo(const std::filesystem::path& file, const Scene& scene, const Camera& camera,
-               double frame_rate);
+  /// The scene and its renderer must outlive the video. Throws OutputError if the video cannot be
+  /// opened.
+  OverlayVideo(const std::filesystem::path& file, const Scene& scene, Renderer& renderer,
+               const Camera& camera, double frame_rate);
 
   void add(const Frame& frame, const Solution& solution);
   void close() { writer_.release(); }
 
  private:
   const Scene* scene_;
+  Renderer* renderer_;
   Camera camera_;
-  Renderer renderer_;
   cv::VideoWriter writer_;
 };
 

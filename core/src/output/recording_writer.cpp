@@ -8,8 +8,8 @@
 
 #include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
-#include "output/metrics.hpp"
 #include "output/text_file.hpp"
+#include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 
 #include "hypotrack/error.hpp"
@@ -12,6 +13,17 @@ namespace hypotrack {
 namespace {
 
 constexpr const char* kPartPrefix = ".part.";
+
+/// Whether a name is what a result may be called, # standing for digits.
+bool matches(std::string_view name, std::string_view result) {
+  const std::size_t hash = result.find('#');
+  if (hash == std::string_view::npos) return name == result;
+  const std::string_view head = result.substr(0, hash), tail = result.substr(hash + 1);
+  if (name.size() <= head.size() + tail.size()) return false;
+  if (!name.starts_with(head) || !name.ends_with(tail)) return false;
+  const auto digits = name.substr(head.size(), name.size() - head.size() - tail.size());
+  return digits.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 }  // namespace
 
@@ -29,13 +41,14 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
         "--out",
         directory_.string()));
   // Found at the end, this would cost the whole run.
-  for (const std::string& name : results_)
+  for (const std::string& name : results_there(""))
     if (std::filesystem::is_directory(directory_ / name))
       throw OutputError(fmt::format(
           "{}: is a folder, and a result of the run has this name; move it away or name "
           "another output folder with --out",
           (directory_ / name).string()));
-  for (const std::string& name : results_) std::filesystem::remove(part_path(name), error);
+  for (const std::string& name : results_there(kPartPrefix))
+    std::filesystem::remove(directory_ / name, error);
 }
 
 RunDirectory::~RunDirectory() {
@@ -47,6 +60,20 @@ RunDirectory::~RunDirectory() {
 
 std::filesystem::path RunDirectory::part_path(const std::string& name) const {
   return directory_ / (kPartPrefix + name);
+}
+
+std::vector<std::string> RunDirectory::results_there(const std::string& prefix) const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix)) continue;
+    const std::string_view result = std::string_view(name).substr(prefix.size());
+    if (std::any_of(results_.begin(), results_.end(),
+                    [&](const std::string& allowed) { return matches(result, allowed); }))
+      names.push_back(name);
+  }
+  return names;
 }
 
 std::filesystem::path RunDirectory::part(const std::string& name) {
@@ -64,7 +91,7 @@ void RunDirectory::finish() {
                                     (directory_ / name).string(), error.message(),
                                     part_path(name).string()));
   }
-  for (const std::string& name : results_) {
+  for (const std::string& name : results_there("")) {
     std::error_code error;
     if (std::find(names_.begin(), names_.end(), name) == names_.end())
       std::filesystem::remove(directory_ / name, error);

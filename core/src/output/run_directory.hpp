@@ -13,8 +13,8 @@ namespace hypotrack {
 class HYPOTRACK_API RunDirectory {
  public:
   /// Makes the folder if need be and removes what an earlier, killed run left unfinished. `results`
-  /// are the names that a run may write. Throws OutputError if the folder cannot be made or written
-  /// or a folder has the name of a result.
+  /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Throws
+  /// OutputError if the folder cannot be made or written or a folder has the name of a result.
   RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
 
   /// Unless keep() was called, removes the unfinished files, and the folder if it was made here.
@@ -36,6 +36,8 @@ class HYPOTRACK_API RunDirectory {
 
  private:
   std::filesystem::path part_path(const std::string& name) const;
+  /// Names in the folder that are `prefix` and a result's name.
+  std::vector<std::string> results_there(const std::string& prefix) const;
   std::filesystem::path directory_;
   std::vector<std::string> results_;
   std::vector<std::string> names_;

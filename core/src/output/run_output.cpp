@@ -2,121 +2,110 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iterator>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "output/overlay_video.hpp"
+#include "output/table_text.hpp"
+#include "output/true_landmarks.hpp"
+#include "render/picture.hpp"
 
 namespace hypotrack {
 namespace {
 
-constexpr double kLostError = 0.040;  // metres
-
-/// Appends numbers with as many digits as repeat them exactly.
-void append_numbers(std::string& row, const double* values, Eigen::Index count) {
-  for (Eigen::Index i = 0; i < count; ++i)
-    fmt::format_to(std::back_inserter(row), ",{}", values[i]);
+FrameVerdict verdict_of(Status status) {
+  if (status == Status::missing) return FrameVerdict::missing;
+  return status == Status::lost ? FrameVerdict::lost : FrameVerdict::solved;
 }
 
 }  // namespace
 
-std::string to_json(const Summary& s) {
-  nlohmann::ordered_json json;
-  json["complete"] = s.complete;
-  json["frames"] = s.frames;
-  json["fps"] = s.fps;
-  json["evaluations_per_second"] = s.evaluations_per_second;
-  json["lost_frames"] = s.lost_frames;
-  json["uncertain_frames"] = s.uncertain_frames;
-  json["missing_frames"] = s.missing_frames;
-  json["backend"] = s.backend;
-  if (s.errors) {
-    json["mean_joint_error_mm"] = s.errors->mean;
-    json["median_joint_error_mm"] = s.errors->median;
-    for (std::size_t i = 0; i < kErrorThresholdsMm.size(); ++i)
-      json[fmt::format("fraction_below_{}mm", kErrorThresholdsMm[i])] = s.errors->fraction_below[i];
-  }
-  return json.dump(2) + "\n";
-}
-
 RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     : scene_(&scene),
+      camera_(camera),
       options_(std::move(options)),
-      directory_(options_.directory, {"track.csv", "joints.csv", "errors.csv", "overlay.mp4",
-                                      "run.yaml", "summary.json"}),
+      directory_(options_.directory, {"track.csv", "joints.csv", "truth_states.csv",
+                                      "truth_landmarks.csv", "errors.csv", "overlay.mp4",
+                                      "worst_#.jpg", "run.yaml", "metrics.json", "summary.json"}),
       track_(directory_.part("track.csv")),
-      joints_(directory_.part("joints.csv")) {
+      joints_(directory_.part("joints.csv")),
+      metrics_(landmark_layout(scene.landmark_names())),
+      truth_(scene, metrics_.layout(), directory_),
+      worst_(options_.worst_frames) {
   TextFile(directory_.part("run.yaml")).write(options_.resolved);
   if (options_.overlay)
-    overlay_ = std::make_unique<OverlayVideo>(directory_.part("overlay.mp4"), scene, camera,
-                                              options_.frame_rate);
-  write_headers();
+    overlay_ = std::make_unique<OverlayVideo>(directory_.part("overlay.mp4"), scene, renderer(),
+                                              camera, options_.frame_rate);
+  std::string track = "frame,time,status,cost,evaluations,milliseconds";
+  for (const Parameter& p : scene.parameters()) track += "," + p.name;
+  track_.write(track + "\n");
+  joints_.write(landmarks_header(scene.landmark_names()));
 }
 
 RunOutput::~RunOutput() = default;
 
-void RunOutput::write_headers() {
-  std::string track = "frame,time,status,cost,evaluations,milliseconds";
-  for (const Parameter& p : scene_->parameters()) track += "," + p.name;
-  track_.write(track + "\n");
-  std::string joints = "frame,time";
-  for (const std::string& name : scene_->landmark_names())
-    for (const char* axis : {"_x", "_y", "_z"}) joints += "," + name + axis;
-  joints_.write(joints + "\n");
+Renderer& RunOutput::renderer() {
+  if (!renderer_) renderer_ = std::make_unique<Renderer>(*scene_);
+  return *renderer_;
 }
 
 double RunOutput::add(const Frame& frame, const Solution& solution) {
+  const auto truth = true_landmarks(*scene_, frame);
+  if (truth && options_.worst_frames > 0)
+    renderer();  // without OpenGL, fail now and not at the end
   directory_.keep();
   std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                 to_string(solution.status), solution.cost, solution.evaluations,
                                 1000 * solution.seconds);
-  append_numbers(row, solution.state.data(), solution.state.size());
+  for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
   track_.write(row + "\n");
 
   const Eigen::Matrix3Xd landmarks = scene_->landmarks(solution.state);
-  row = fmt::format("{},{}", solution.frame, solution.time);
-  append_numbers(row, landmarks.data(), landmarks.size());
-  joints_.write(row + "\n");
-
-  double error = std::numeric_limits<double>::quiet_NaN();
-  if (const auto truth = true_landmarks(*scene_, frame)) {
-    error = mean_landmark_error(*scene_, landmarks, *truth);
-    if (!errors_) {
-      errors_.emplace(directory_.part("errors.csv"));
-      errors_->write("frame,time,mean_joint_error_mm\n");
-    }
-    errors_->write(fmt::format("{},{},{:.4f}\n", solution.frame, solution.time, 1000 * error));
+  joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
+  const FrameError error = metrics_.add(solution.frame, solution.time, verdict_of(solution.status),
+                                        landmarks, truth.value_or(Eigen::Matrix3Xd()));
+  if (truth) {
+    truth_.add(frame, *truth, error);
+    remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
   }
   if (overlay_) overlay_->add(frame, solution);
 
-  frame_errors_.push_back(error);
-  ++counts_.frames;
-  counts_.lost_frames += solution.status == Status::lost || error > kLostError;
-  counts_.uncertain_frames += solution.status == Status::uncertain;
-  counts_.missing_frames += solution.status == Status::missing;
+  ++frames_;
+  uncertain_frames_ += solution.status == Status::uncertain;
   seconds_ += solution.seconds;
   evaluations_ += solution.evaluations;
-  return error;
+  return error.mean;
+}
+
+void RunOutput::remember_if_bad(const Frame& frame, const Solution& solution, double error,
+                                const ScenePose& truth, const Eigen::Matrix3Xd& landmarks) {
+  if (!worst_.wants(solution.frame, error)) return;
+  worst_.offer({.frame = solution.frame,
+                .error = error,
+                .status = std::string(to_string(solution.status)),
+                .picture = picture_of(frame.views.front()).clone(),
+                .solution = {solution.state, landmarks},
+                .truth = truth});
 }
 
 Summary RunOutput::summarize(bool complete) const {
-  Summary summary = counts_;
+  Summary summary;
   summary.complete = complete;
+  summary.uncertain_frames = uncertain_frames_;
   summary.backend = options_.backend;
+  summary.metrics = metrics_.metrics();
   if (seconds_ > 0) {
-    summary.fps = (summary.frames - summary.missing_frames) / seconds_;
+    summary.fps = (frames_ - summary.metrics.missing_frames) / seconds_;
     summary.evaluations_per_second = static_cast<double>(evaluations_) / seconds_;
   }
-  summary.errors = error_statistics(frame_errors_);
   return summary;
 }
 
 Summary RunOutput::finish(bool complete) {
   const Summary summary = summarize(complete);
   if (overlay_) overlay_->close();
+  if (!worst_.frames().empty()) worst_.write(directory_, renderer(), camera_);
+  if (truth_.known()) TextFile(directory_.part("metrics.json")).write(to_json(summary.metrics));
   TextFile(directory_.part("summary.json")).write(to_json(summary));
   directory_.finish();
   return summary;

@@ -1,43 +1,34 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "hypotrack/export.hpp"
+#include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
-#include "output/metrics.hpp"
+#include "metrics/metrics.hpp"
 #include "output/run_directory.hpp"
+#include "output/summary.hpp"
 #include "output/text_file.hpp"
+#include "output/truth_output.hpp"
+#include "output/worst_frames.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {
 
 class OverlayVideo;
 
-/// What a run amounts to; summary.json.
-struct Summary {
-  bool complete = false;  ///< false if the run was interrupted or ended by an error
-  int frames = 0;
-  int lost_frames = 0;       ///< status lost or, with ground truth, off by more than 40 mm
-  int uncertain_frames = 0;
-  int missing_frames = 0;
-  double fps = 0;            ///< frames per second of tracking: images in, state out
-  double evaluations_per_second = 0;
-  std::string backend;
-  std::optional<ErrorStatistics> errors;
-};
-HYPOTRACK_API std::string to_json(const Summary& summary);
-
-/// Writes what a run leaves behind: track.csv, joints.csv, errors.csv (with ground truth),
-/// overlay.mp4, run.yaml and summary.json.
+/// Writes what a run leaves behind: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json;
+/// with ground truth also truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and
+/// worst_<frame>.jpg.
 class HYPOTRACK_API RunOutput {
  public:
   struct Options {
     std::filesystem::path directory;
     bool overlay = true;
+    int worst_frames = 3;
     double frame_rate = 30;
     std::string resolved;  ///< content of run.yaml
     std::string backend;
@@ -50,28 +41,34 @@ class HYPOTRACK_API RunOutput {
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
-  /// Adds a frame and returns its error in metres (NaN without ground truth).
+  /// Adds a frame and returns its error in metres (NaN without ground truth or a solution).
   double add(const Frame& frame, const Solution& solution);
 
   /// Closes everything and gives the files their names. Without it the unfinished files stay, or go
   /// if no frame was added.
   Summary finish(bool complete);
 
-  bool empty() const { return counts_.frames == 0; }
+  bool empty() const { return frames_ == 0; }
 
  private:
-  void write_headers();
+  Renderer& renderer();
+  void remember_if_bad(const Frame& frame, const Solution& solution, double error,
+                       const ScenePose& truth, const Eigen::Matrix3Xd& landmarks);
   Summary summarize(bool complete) const;
 
   const Scene* scene_;
+  Camera camera_;
   Options options_;
   RunDirectory directory_;
   TextFile track_;
   TextFile joints_;
-  std::optional<TextFile> errors_;  ///< opened at the first frame with a truth
+  std::unique_ptr<Renderer> renderer_;  ///< made when there is something to draw
   std::unique_ptr<OverlayVideo> overlay_;
-  std::vector<double> frame_errors_;
-  Summary counts_;
+  MetricsCollector metrics_;
+  TruthOutput truth_;
+  WorstFrames worst_;
+  int frames_ = 0;
+  int uncertain_frames_ = 0;
   double seconds_ = 0;
   std::int64_t evaluations_ = 0;
 };

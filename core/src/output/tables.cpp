@@ -1,12 +1,10 @@
 #include "hypotrack/tables.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
@@ -14,6 +12,8 @@
 #include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "output/csv.hpp"
+#include "output/table_text.hpp"
+#include "output/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -125,9 +125,9 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
     const auto index = resolve(name, names);
     if (!index) {
       throw DataError(
-          fmt::format("{}: '{}' is no landmark of the scene; rename it with "
+          fmt::format("{}: '{}' is no landmark of {}; rename it with "
                       "'{}=<landmark>' or drop it with '{}='{}",
-                      file, name, base, base, detail::did_you_mean(name, offered)));
+                      file, name, options.owner, base, base, detail::did_you_mean(name, offered)));
     }
     if (taken[*index]) {
       throw DataError(fmt::format("{}: the landmark '{}' is there twice", file, names[*index]));
@@ -136,24 +136,6 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
     triples.push_back({static_cast<int>(*index), xyz});
   }
   return triples;
-}
-
-/// Writes beside the file and moves into place, so that nobody sees half a table.
-void write_whole(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
-  std::ofstream out(partial, std::ios::binary);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) {
-    std::filesystem::rename(partial, file, error);
-    if (!error) return;
-  }
-  std::error_code ignored;
-  std::filesystem::remove(partial, ignored);
-  throw OutputError(fmt::format(
-      "{}: cannot be written{}; check that the folder exists, is writable and has space",
-      file.string(), error ? " (" + error.message() + ")" : std::string()));
 }
 
 }  // namespace
@@ -222,29 +204,16 @@ std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
 
 void write_states(const std::filesystem::path& file, const Scene& scene,
                   std::span<const StateRow> rows) {
-  std::string text = "frame,time";
-  for (const Parameter& p : scene.parameters()) text += "," + p.name;
-  text += '\n';
-  for (const StateRow& row : rows) {
-    text += fmt::format("{},{}", row.frame, row.time);
-    for (const double value : row.state) text += fmt::format(",{}", value);
-    text += '\n';
-  }
+  std::string text = states_header(scene);
+  for (const StateRow& row : rows) text += table_line(row.frame, row.time, row.state);
   write_whole(file, text);
 }
 
 void write_landmarks(const std::filesystem::path& file, std::span<const std::string> landmark_names,
                      std::span<const LandmarkRow> rows) {
-  std::string text = "frame,time";
-  for (const std::string& name : landmark_names) text += fmt::format(",{0}_x,{0}_y,{0}_z", name);
-  text += '\n';
-  for (const LandmarkRow& row : rows) {
-    text += fmt::format("{},{}", row.frame, row.time);
-    for (Eigen::Index i = 0; i < row.landmarks.size(); ++i) {
-      text += fmt::format(",{}", row.landmarks.data()[i]);
-    }
-    text += '\n';
-  }
+  std::string text = landmarks_header(landmark_names);
+  for (const LandmarkRow& row : rows)
+    text += table_line(row.frame, row.time, row.landmarks.reshaped());
   write_whole(file, text);
 }
 

@@ -1,9 +1,11 @@
 #include "output/text_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "hypotrack/error.hpp"
 
@@ -24,6 +26,23 @@ void TextFile::write(std::string_view text) {
         "{}: cannot be written: {}; the lines before this one are in the file. Make room or name "
         "another folder with --out",
         path_.string(), errno != 0 ? std::strerror(errno) : "unknown reason"));
+}
+
+void write_whole(const std::filesystem::path& file, std::string_view text) {
+  const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
+  std::ofstream out(partial, std::ios::binary);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) {
+    std::filesystem::rename(partial, file, error);
+    if (!error) return;
+  }
+  std::error_code ignored;
+  std::filesystem::remove(partial, ignored);
+  throw OutputError(fmt::format(
+      "{}: cannot be written{}; check that the folder exists, is writable and has space",
+      file.string(), error ? " (" + error.message() + ")" : std::string()));
 }
 
 }  // namespace hypotrack

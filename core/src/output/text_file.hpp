@@ -22,4 +22,7 @@ class HYPOTRACK_API TextFile {
   std::ofstream out_;
 };
 
+/// Writes beside the file and moves into place, so that nobody sees half of it. Throws OutputError.
+HYPOTRACK_API void write_whole(const std::filesystem::path& file, std::string_view text);
+
 }  // namespace hypotrack

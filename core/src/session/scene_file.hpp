@@ -62,8 +62,14 @@ struct BudgetSettings {
 /// `output:` of a scene.
 struct OutputSettings {
   bool overlay = true;
+  int worst_frames = 3;
   void visit(ParamVisitor& v) {
     v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
+    v("worst_frames", worst_frames,
+      {.help = "with ground truth, draw the solution and the truth at up to this many frames of "
+               "largest error (worst_<frame>.jpg)",
+       .min = 0,
+       .max = 100});
   }
 };
 

@@ -1,0 +1,49 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "metrics/metrics.hpp"
+
+namespace hypotrack {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json table(const std::vector<std::pair<std::string, double>>& entries) {
+  Json json = Json::object();
+  for (const auto& [name, value] : entries) json[name] = value;
+  return json;
+}
+
+}  // namespace
+
+std::string to_json(const Metrics& m) {
+  Json json;
+  json["frames"] = m.frames;
+  json["evaluated_frames"] = m.evaluated_frames;
+  json["missing_frames"] = m.missing_frames;
+  json["mean_error_mm"] = m.mean_error_mm;
+  json["sd_error_mm"] = m.sd_error_mm;
+  json["median_error_mm"] = m.median_error_mm;
+  json["p75_error_mm"] = m.p75_error_mm;
+  json["p90_error_mm"] = m.p90_error_mm;
+  json["p95_error_mm"] = m.p95_error_mm;
+  json["max_error_mm"] = m.max_error_mm;
+  json["auc_20_50"] = m.auc_20_50;
+  for (std::size_t i = 0; i < m.success.size(); ++i)
+    json[fmt::format("success_{}mm", kSuccessThresholdsMm[i])] = m.success[i];
+  json["lost_frames"] = m.lost_frames;
+  json["lost_share"] = m.lost_share;
+  json["time_to_loss_s"] = m.time_to_loss_s;
+  json["frames_to_loss"] = m.frames_to_loss ? Json(*m.frames_to_loss) : Json();
+  json["jitter_mm"] = m.jitter_mm;
+  json["models"] = table(m.models);
+  json["landmarks"] = table(m.landmarks);
+  std::array<int, kSuccessCurvePoints> thresholds{};
+  std::iota(thresholds.begin(), thresholds.end(), 0);
+  json["success_curve"] = {{"threshold_mm", thresholds}, {"share", m.success_curve}};
+  return json.dump(2) + "\n";  // JSON knows no NaN: nlohmann writes null
+}
+
+}  // namespace hypotrack

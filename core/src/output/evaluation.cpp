@@ -1,0 +1,222 @@
+#include "output/evaluation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string_view>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/tables.hpp"
+#include "output/csv.hpp"
+
+namespace hypotrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kOtherUnits = 30;  // nobody is that far off, and units differ by 10 at least
+
+fs::path run_table(const fs::path& run) {
+  if (!fs::exists(run))
+    throw DataError(
+        fmt::format("{}: is missing; expected a folder of 'hypotrack run' or a table of landmarks",
+                    run.string()));
+  if (!fs::is_directory(run)) return run;
+  const fs::path table = run / "joints.csv";
+  if (fs::exists(table)) return table;
+  const bool unfinished = fs::exists(run / ".part.joints.csv");
+  throw DataError(fmt::format(
+      "{}: has no joints.csv{}; expected a folder of 'hypotrack run' or a table of landmarks",
+      run.string(), unfinished ? " (the run has not ended, or was killed)" : ""));
+}
+
+fs::path truth_table(const EvaluationInput& input) {
+  if (!input.truth && !fs::is_directory(input.run))
+    throw DataError(
+        fmt::format("{}: a table of landmarks brings no truth of its own; name one with --truth",
+                    input.run.string()));
+  const fs::path& truth = input.truth ? *input.truth : input.run;
+  if (!fs::exists(truth))
+    throw DataError(fmt::format(
+        "{}: is missing; expected a recording, a run with ground truth or a table of landmarks",
+        truth.string()));
+  if (!fs::is_directory(truth)) return truth;
+  const fs::path table = truth / "truth_landmarks.csv";
+  if (fs::exists(table)) return table;
+  throw DataError(fmt::format(
+      "{}: has no truth_landmarks.csv; {}", truth.string(),
+      input.truth ? "expected a recording, a run with ground truth or a table of landmarks"
+                  : "the run's source knew no truth: name one with --truth"));
+}
+
+/// The landmarks that a table has columns for.
+std::vector<std::string> landmarks_in(const fs::path& file) {
+  const CsvTable table(file);
+  std::vector<std::string> names;
+  for (const std::string_view column : table.columns()) {
+    if (!column.ends_with("_x")) continue;
+    const std::string base(column.substr(0, column.size() - 2));
+    if (table.find(base + "_y") >= 0 && table.find(base + "_z") >= 0) names.push_back(base);
+  }
+  if (names.empty())
+    throw DataError(
+        fmt::format("{}: has no landmark; expected frame, time and columns <landmark>_x, _y and _z",
+                    file.string()));
+  return names;
+}
+
+/// The truth's landmarks under their full names: one without a model gets that of the one landmark
+/// of the run that is called so.
+std::vector<std::string> full_names(std::vector<std::string> names,
+                                    const std::vector<std::string>& of_run) {
+  for (std::string& name : names) {
+    if (name.find('.') != std::string::npos) continue;
+    const auto is_it = [ending = "." + name](const std::string& other) {
+      return other.ends_with(ending);
+    };
+    if (std::count_if(of_run.begin(), of_run.end(), is_it) == 1)
+      name = *std::find_if(of_run.begin(), of_run.end(), is_it);
+  }
+  return names;
+}
+
+FrameVerdict verdict_of(const CsvTable& table, const CsvTable::Row& row, int column) {
+  const std::string_view status = row.cells[static_cast<std::size_t>(column)];
+  if (status == "missing") return FrameVerdict::missing;
+  if (status == "lost") return FrameVerdict::lost;
+  if (status == "tracked" || status == "uncertain") return FrameVerdict::solved;
+  throw DataError(
+      fmt::format("{}: the status is '{}'; expected tracked, uncertain, lost or missing",
+                  table.where(row), status));
+}
+
+/// What the tracker said of each frame; empty for a table from elsewhere.
+std::map<int, FrameVerdict> read_verdicts(const fs::path& run) {
+  std::map<int, FrameVerdict> verdicts;
+  if (!fs::is_directory(run) || !fs::exists(run / "track.csv")) return verdicts;
+  const CsvTable table(run / "track.csv");
+  const int frame = table.find("frame"), status = table.find("status");
+  if (frame < 0 || status < 0)
+    throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
+                                (run / "track.csv").string(), frame < 0 ? "frame" : "status"));
+  for (const CsvTable::Row& row : table.rows())
+    verdicts[table.frame(row, frame)] = verdict_of(table, row, status);
+  return verdicts;
+}
+
+/// One side of the comparison, by frame.
+class Side {
+ public:
+  Side(const fs::path& file, const std::vector<std::string>& names,
+       const LandmarkTableOptions& options)
+      : file_(file.string()) {
+    std::vector<LandmarkRow> rows = read_landmarks(file, names, options);
+    if (rows.empty()) throw DataError(fmt::format("{}: has no rows", file_));
+    for (LandmarkRow& row : rows) {
+      has_times_ = has_times_ || row.time != 0;
+      rows_.emplace(row.frame, std::move(row));
+    }
+  }
+
+  const std::string& file() const { return file_; }
+  const std::map<int, LandmarkRow>& rows() const { return rows_; }
+  const LandmarkRow* find(int frame) const {
+    const auto it = rows_.find(frame);
+    return it == rows_.end() ? nullptr : &it->second;
+  }
+  /// NaN if the table says nothing about it.
+  double time(int frame) const {
+    const LandmarkRow* row = has_times_ ? find(frame) : nullptr;
+    return row == nullptr ? kNan : row->time;
+  }
+  std::string frames() const {
+    return fmt::format("frames {} to {}", rows_.begin()->first, rows_.rbegin()->first);
+  }
+  /// Median distance of the landmarks from the origin; NaN without any.
+  double distance() const {
+    std::vector<double> distances;
+    for (const auto& [frame, row] : rows_)
+      for (const double distance : row.landmarks.colwise().norm()) distances.push_back(distance);
+    return percentile(without_nan(distances), 0.5);
+  }
+
+ private:
+  std::string file_;
+  std::map<int, LandmarkRow> rows_;
+  bool has_times_ = false;
+};
+
+void check_units(const Side& run, const Side& truth) {
+  const double run_distance = run.distance(), truth_distance = truth.distance();
+  const double ratio = run_distance / truth_distance;
+  if (!(ratio > kOtherUnits || ratio < 1 / kOtherUnits)) return;  // true for NaN
+  throw DataError(fmt::format(
+      "{}: its landmarks lie {:.4g} m from the origin, those of {} {:.4g} m; tables are in metres "
+      "unless --units (for the run) or --truth-units says otherwise",
+      run.file(), run_distance, truth.file(), truth_distance));
+}
+
+Metrics compare(const std::vector<std::string>& names, const Side& run, const Side& truth,
+                const std::map<int, FrameVerdict>& verdicts) {
+  const auto landmarks_count = static_cast<Eigen::Index>(names.size());
+  const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Constant(3, landmarks_count, kNan);
+  const int first = run.rows().begin()->first, last = run.rows().rbegin()->first;
+  std::set<int> frames;
+  for (const auto& [frame, row] : run.rows()) frames.insert(frame);
+  for (const auto& [frame, row] : truth.rows())
+    if (frame >= first && frame <= last) frames.insert(frame);
+  MetricsCollector collector(landmark_layout(names));
+  for (const int frame : frames) {
+    const LandmarkRow* estimate = run.find(frame);
+    const LandmarkRow* answer = truth.find(frame);
+    const auto verdict = verdicts.find(frame);
+    const bool missing = estimate == nullptr || estimate->landmarks.array().isNaN().all();
+    const double time = run.time(frame);
+    collector.add(frame, std::isnan(time) ? truth.time(frame) : time,
+                  missing                     ? FrameVerdict::missing
+                  : verdict != verdicts.end() ? verdict->second
+                                              : FrameVerdict::solved,
+                  estimate == nullptr ? nothing : estimate->landmarks,
+                  answer == nullptr ? Eigen::Matrix3Xd() : answer->landmarks);
+  }
+  return collector.metrics();
+}
+
+void check_overlap(const Side& run, const Side& truth, const Metrics& metrics) {
+  if (metrics.evaluated_frames > 0) return;
+  const bool common = std::any_of(run.rows().begin(), run.rows().end(), [&](const auto& entry) {
+    return truth.find(entry.first) != nullptr;
+  });
+  if (!common)
+    throw DataError(fmt::format(
+        "{}: no frame in common with {}: {} against {}; frames are matched by their numbers",
+        run.file(), truth.file(), run.frames(), truth.frames()));
+  throw DataError(fmt::format(
+      "{}: no landmark is known both here and in {} in any frame that they have in common",
+      run.file(), truth.file()));
+}
+
+}  // namespace
+
+Evaluation evaluate(const EvaluationInput& input) {
+  Evaluation evaluation{run_table(input.run), truth_table(input), {}};
+  const std::vector<std::string> names =
+      full_names(landmarks_in(evaluation.truth_table), landmarks_in(evaluation.run_table));
+  const Side truth(evaluation.truth_table, names,
+                   {.metres_per_unit = input.truth_metres_per_unit, .rename = {}});
+  const Side run(evaluation.run_table, names,
+                 {.metres_per_unit = input.run_metres_per_unit,
+                  .rename = input.rename,
+                  .owner = evaluation.truth_table.string()});
+  check_units(run, truth);
+  evaluation.metrics = compare(names, run, truth, read_verdicts(input.run));
+  check_overlap(run, truth, evaluation.metrics);
+  return evaluation;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,27 @@
+#include "output/table_text.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace hypotrack {
+
+std::string states_header(const Scene& scene) {
+  std::string line = "frame,time";
+  for (const Parameter& p : scene.parameters()) line += "," + p.name;
+  return line + "\n";
+}
+
+std::string landmarks_header(std::span<const std::string> landmark_names) {
+  std::string line = "frame,time";
+  for (const std::string& name : landmark_names) line += fmt::format(",{0}_x,{0}_y,{0}_z", name);
+  return line + "\n";
+}
+
+std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::string line = fmt::format("{},{}", frame, time);
+  for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
+  return line + "\n";
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,37 @@
+#include "output/truth_output.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+
+#include "output/table_text.hpp"
+
+namespace hypotrack {
+
+void TruthOutput::open() {
+  landmarks_.emplace(directory_->part("truth_landmarks.csv"));
+  landmarks_->write(landmarks_header(scene_->landmark_names()));
+  errors_.emplace(directory_->part("errors.csv"));
+  std::string header = "frame,time,mean_joint_error_mm";
+  for (const std::string& model : layout_->models) header += "," + model;
+  errors_->write(header + "\n");
+}
+
+void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
+                      const FrameError& error) {
+  if (!errors_) open();
+  landmarks_->write(table_line(frame.index, frame.time, landmarks.reshaped()));
+  std::string line = fmt::format("{},{},{:.4f}", frame.index, frame.time, 1000 * error.mean);
+  for (const double model : error.models)
+    fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * model);
+  errors_->write(line + "\n");
+  if (frame.truth->state.size() == 0) return;
+  if (!states_) {
+    states_.emplace(directory_->part("truth_states.csv"));
+    states_->write(states_header(*scene_));
+  }
+  states_->write(table_line(frame.index, frame.time, frame.truth->state));
+}
+
+}  // namespace hypotrack
