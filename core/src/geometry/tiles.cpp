@@ -170,6 +170,7 @@ Observation TileMaker::make(const Frame& frame, const Eigen::VectorXd& state) co
   observation.frame = frame.index;
   observation.time = frame.time;
   observation.scene = &self.scene;
+  observation.start = state;
   observation.rectified = self.rig.rectified;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     // A pair is compared pixel by pixel: both views must be smoothed the same way.

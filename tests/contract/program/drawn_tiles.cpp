@@ -16,6 +16,14 @@ constexpr int kStride = 80;
 constexpr double kBaseline = 0.12;
 constexpr double kDistance = 0.5;
 
+Eigen::VectorXd rest_in_front(const Scene& scene) {
+  Eigen::VectorXd state = scene.rest_state();
+  for (const Scene::Item& item : scene.items()) {
+    state.segment<3>(item.offset) = Eigen::Vector3d(0, 0, kDistance);
+  }
+  return state;
+}
+
 cv::Mat noise_image(std::uint64_t seed, int shift) {
   cv::RNG random(seed);
   cv::Mat wide(kSize, 2 * kSize, CV_8UC3);
@@ -27,6 +35,7 @@ cv::Mat noise_image(std::uint64_t seed, int shift) {
 Observation make_pair(const Scene& scene, double toe_in) {
   Observation observation;
   observation.scene = &scene;
+  observation.start = rest_in_front(scene);
   observation.rectified = toe_in == 0;
   for (int i = 0; i < 2; ++i) {
     TileView view;
@@ -67,14 +76,6 @@ Observation with_flat_colors(Observation observation, double level) {
 Observation without_valid_pixels(Observation observation) {
   for (TileView& view : observation.views) view.valid.setTo(0);
   return with_flat_colors(std::move(observation), 0);
-}
-
-Eigen::VectorXd rest_in_front(const Scene& scene) {
-  Eigen::VectorXd state = scene.rest_state();
-  for (const Scene::Item& item : scene.items()) {
-    state.segment<3>(item.offset) = Eigen::Vector3d(0, 0, kDistance);
-  }
-  return state;
 }
 
 /// Pixel x, y and inverse depth of every vertex.
