@@ -1,10 +1,6 @@
 #pragma once
 
-#include <gtest/gtest.h>
-#include <hwy/highway.h>
-
-#include <cstdint>
-
+#include "../support/every_target.hpp"
 #include "score.hpp"
 
 namespace hypotrack::stereo_color {
@@ -12,19 +8,7 @@ namespace hypotrack::stereo_color {
 /// Runs a body once per instruction set that this machine has and the objective is compiled for.
 template <class Body>
 void on_every_target(Body body) {
-  int targets = 0;
-  for (std::int64_t rest = hwy::SupportedTargets() & compiled_targets(); rest != 0;
-       rest &= rest - 1) {
-    const std::int64_t target = rest & -rest;
-    SCOPED_TRACE(hwy::TargetName(target));
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    body();
-    ++targets;
-  }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  EXPECT_GE(targets, 1);
+  test::on_every_target(compiled_targets(), body);
 }
 
 }  // namespace hypotrack::stereo_color

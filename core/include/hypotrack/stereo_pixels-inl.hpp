@@ -9,6 +9,7 @@
 #include "hypotrack/simd-inl.hpp"
 #include "hypotrack/stereo_pixels.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "hypotrack/view_pixels-inl.hpp"
 
 /// Walks over a stereo hypothesis a vector of pixels at a time. An objective brings its features
 /// (PixelPlane, made in `prepare`) and a functor:
@@ -127,16 +128,6 @@ struct StereoPixels {
 };
 
 namespace detail {
-// kLanes values of a row from x on, zero beyond the region; never reads beyond the stride.
-HYPOTRACK_PIXEL Lanes load_depth(const float* row, int x, int pixels, int stride) {
-  if (HWY_LIKELY(x + kLanes <= stride)) {
-    return select(first_lanes(pixels), load(row + x), Lanes(0.0f));
-  }
-  HWY_ALIGN float copy[kLanes] = {};
-  for (int i = 0; i < pixels; ++i) copy[i] = row[x + i];
-  return load(copy);
-}
-
 // The window for look_up(): two vectors around where the first of these pixels lands.
 HYPOTRACK_PIXEL int window_for(const StereoMap& map, const float* row, int x, int lane) {
   if (map.width < 2 * kLanes) return -1;

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hypotrack/objective.hpp"
+#include "hypotrack/pixel.hpp"
+
+namespace hypotrack {
+
+/// A feature per pixel of a tile, rows without gaps, with enough room behind the last row for a
+/// whole SIMD vector. T is float or std::uint32_t (for example two 16-bit features).
+template <class T>
+class PixelPlane {
+ public:
+  static_assert(sizeof(T) == 4, "SIMD lanes are 32 bits wide");
+
+  PixelPlane() = default;
+  /// All zero.
+  PixelPlane(int width, int height) { resize(width, height); }
+
+  void resize(int width, int height) {
+    width_ = width;
+    height_ = height;
+    data_.assign(static_cast<std::size_t>(width) * height + kPadding, T{});
+  }
+  int width() const { return width_; }
+  int height() const { return height_; }
+  T* row(int y) { return data_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+  const T* row(int y) const { return data_.data() + static_cast<std::ptrdiff_t>(y) * width_; }
+
+ private:
+  static constexpr std::size_t kPadding = 64;
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<T> data_;
+};
+
+/// Two numbers of 0 .. 1 (others are clamped) as 16-bit fractions in one word: simd-inl.hpp's
+/// unorm16_low() and unorm16_high() undo it. Exact for 8-bit values (k / 255).
+inline std::uint32_t pack_unorm16(float low, float high) {
+  const auto bits = [](float x) {
+    return static_cast<std::uint32_t>(pixel::min(pixel::max(x, 0.0f), 1.0f) * 65535.0f + 0.5f);
+  };
+  return bits(low) | bits(high) << 16;
+}
+
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct PixelBox {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// The part of a tile that a hypothesis may cover.
+inline PixelBox covered_box(const DepthTile& tile) { return {tile.x0, tile.y0, tile.x1, tile.y1}; }
+/// All of a tile.
+inline PixelBox whole_tile(const DepthTile& tile) { return {0, 0, tile.width, tile.height}; }
+
+}  // namespace hypotrack
