@@ -1,0 +1,38 @@
+// Included once per instruction set: no #pragma once.
+#if defined(RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_
+#undef RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_
+#else
+#define RGBD_DEPTH_DEPTH_AGREEMENT_INL_HPP_
+#endif
+
+#include "hypotrack/pixel.hpp"
+#include "observed.hpp"
+
+/// The per-pixel function of the rgbd_depth objective, for every lane type (pixel.hpp).
+HYPOTRACK_PIXEL_BEGIN();
+namespace hypotrack::rgbd_depth::HYPOTRACK_TARGET {
+
+template <class F>
+struct DepthAgreement {
+  using Mask = decltype(F(0.0f) < F(0.0f));
+  F closeness;   ///< d_M - min(|o_d - r_d|, d_M), metres; 0 where no foreground was measured
+  Mask matched;  ///< o_s and r_m
+  Mask beyond;   ///< r_m but not o_s
+};
+
+/// How a covered pixel agrees with what was observed there (observed.hpp).
+template <class F>
+HYPOTRACK_PIXEL DepthAgreement<F> depth_agreement(F inverse_depth, F observed, F d_max, F d_match) {
+  using pixel::abs;
+  using pixel::max;
+  // The values for "not measured" are so far away that nothing is near them.
+  const F difference = abs(observed - F(1.0f) / inverse_depth);
+  return {max(d_max - difference, F(0.0f)), difference <= d_match || observed == F(kUnmeasured),
+          observed == F(kBackground)};
+}
+
+}  // namespace hypotrack::rgbd_depth::HYPOTRACK_TARGET
+HYPOTRACK_PIXEL_END();
+
+#endif

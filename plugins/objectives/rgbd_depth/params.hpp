@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::rgbd_depth {
+
+enum class Foreground { automatic, mask, depth, skin };
+
+std::span<const std::string_view> enum_names(Foreground);
+
+/// Parameters of `type: rgbd_depth`; the defaults of the first four are the papers'.
+struct Params {
+  double d_max = 40 * kMillimetre;
+  double d_match = 10 * kMillimetre;
+  double lambda = 20;
+  double lambda_k = 10;
+  Foreground foreground = Foreground::automatic;
+  double range = 100 * kMillimetre;
+
+  void visit(ParamVisitor& v) {
+    v("d_max_mm", d_max,
+      {.help = "depth differences count up to this (the papers' d_M)",
+       .min = 1e-3,
+       .max = 1e4,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("d_match_mm", d_match,
+      {.help = "depths that differ by this or less are the same surface (the papers' d_m)",
+       .min = 1e-3,
+       .max = 1e4,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("lambda", lambda,
+      {.help = "weight of the silhouettes against the depth difference in cm",
+       .min = 0,
+       .max = 1e6});
+    v("lambda_k", lambda_k,
+      {.help = "weight of fingers that cross, per radian", .min = 0, .max = 1e6});
+    v("foreground", foreground,
+      {.help = "which pixels show the models: the frame's mask; depth: all within range_mm of the "
+               "last solution's depth; skin: those of them with the colour of skin; auto: the mask "
+               "where there is one, otherwise depth"});
+    v("range_mm", range,
+      {.help = "how far before and behind the last solution depth is foreground",
+       .min = 0,
+       .max = 1e4,
+       .unit = "mm",
+       .to_si = kMillimetre});
+  }
+};
+
+}  // namespace hypotrack::rgbd_depth

@@ -1,0 +1,6 @@
+#include "hypotrack/plugin.hpp"
+
+#include "rgbd_depth.hpp"
+
+HYPOTRACK_PLUGIN(hypotrack::rgbd_depth::RgbdDepth,
+                 "agreement with a depth image and its foreground (Oikonomidis et al., 2011)", "")

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/objective.hpp"
+#include "hypotrack/view_pixels.hpp"
+
+namespace hypotrack::rgbd_depth {
+
+/// Sums over the pixels of one view that a hypothesis covers.
+struct Agreement {
+  double closeness = 0;  ///< of d_M - min(|o_d - r_d|, d_M) where foreground was measured, metres
+  std::int64_t matched = 0;  ///< number with o_s and r_m
+  std::int64_t beyond = 0;   ///< number with r_m but not o_s
+};
+
+/// Walks over the covered pixels of a tile. `observed` (observed.hpp) has the tile's size. SIMD,
+/// for the best instruction set that this machine (or hwy::SetSupportedTargetsForTest) offers;
+/// they differ by rounding only. Distances in metres.
+Agreement compare(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
+                  float d_match);
+
+/// The instruction sets that compare() is compiled for, as Highway's bits.
+std::int64_t compiled_targets();
+
+}  // namespace hypotrack::rgbd_depth
