@@ -1,6 +1,6 @@
-// Whole stereo evaluations per second and what each stage takes: a hand drawn in both views of a
-// rectified pair and scored, at the spread of a search around the last solution. Run on a quiet
-// machine:
+// Whole evaluations per second and what each stage takes: a hand drawn in both views of a rectified
+// pair and scored by stereo_color, or drawn in one view and scored by rgbd_depth, at the spread of
+// a search around the last solution. Run on a quiet machine:
 //   build/release/bin/bench_evaluate
 #include <benchmark/benchmark.h>
 
@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "evaluate/evaluator.hpp"
@@ -35,10 +36,18 @@ std::shared_ptr<const Model> make_hand(PluginLoader& plugins, std::string& label
   }
 }
 
+Eigen::VectorXd start_state(const Scene& scene) {
+  Eigen::VectorXd start = scene.rest_state();
+  start[2] = 0.5;
+  start.segment<4>(3) << 0, 1, 0, 0;  // fingers up, the palm turned to the cameras
+  return start;
+}
+
 // Two rectified views, 120 mm apart, of a textured scene 0.5 m away; a hand fills 1 / 1.4 of them.
 Observation make_observation(const Scene& scene, int size) {
   Observation observation;
   observation.scene = &scene;
+  observation.start = start_state(scene);
   observation.rectified = true;
   TileCamera left;
   left.width = left.height = size;
@@ -60,13 +69,31 @@ Observation make_observation(const Scene& scene, int size) {
   return observation;
 }
 
+// The first view alone, with the depth of the hand before a wall.
+void keep_one_view_with_depth(Observation& observation) {
+  observation.views.resize(1);
+  observation.rectified = false;
+  const ScenePlan plan(*observation.scene);
+  const FrameProjection frame(observation);
+  HypothesisDrawer drawer(plan);
+  drawer.prepare(frame);
+  const auto& start = observation.start;
+  const DepthTile tile = drawer.draw({start.data(), static_cast<std::size_t>(start.size())})[0];
+  cv::Mat1f depth(tile.height, tile.width);
+  for (int y = 0; y < tile.height; ++y) {
+    for (int x = 0; x < tile.width; ++x) {
+      const float w = tile.inverse_depth[y * tile.stride + x];
+      depth(y, x) = w > 0 ? 1 / w : 0.9f;
+    }
+  }
+  observation.views[0].depth = depth;
+}
+
 // States like those of a particle swarm: +-20 mm, +-5 degrees and +-5 degrees per joint (1 sigma).
 Eigen::MatrixXd make_states(const Scene& scene) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
-  Eigen::VectorXd start = scene.rest_state();
-  start[2] = 0.5;
-  start.segment<4>(3) << 0, 1, 0, 0;  // fingers up, the palm turned to the cameras
+  const Eigen::VectorXd start = start_state(scene);
   Eigen::MatrixXd states(scene.dimension(), kBatch);
   for (int i = 0; i < kBatch; ++i) {
     Eigen::VectorXd state = start;
@@ -82,12 +109,14 @@ Eigen::MatrixXd make_states(const Scene& scene) {
 }
 
 struct Setup {
-  explicit Setup(int size)
+  Setup(const char* type, int size)
       : scene({{"hand", make_hand(plugins, label)}}),
         observation(make_observation(scene, size)),
         states(make_states(scene)),
-        objective(
-            plugins.make<Objective>(ConfigNode::parse("type: stereo_color", "bench"), &scene)) {}
+        objective(plugins.make<Objective>(ConfigNode::parse(std::string("type: ") + type, "bench"),
+                                          &scene)) {
+    if (type == std::string_view("rgbd_depth")) keep_one_view_with_depth(observation);
+  }
 
   PluginLoader plugins;
   std::string label;
@@ -98,12 +127,12 @@ struct Setup {
 };
 
 // Arguments: tile size, threads.
-void whole_evaluation(benchmark::State& state) {
-  const Setup setup(static_cast<int>(state.range(0)));
+void whole_evaluation(benchmark::State& state, const char* objective) {
+  const Setup setup(objective, static_cast<int>(state.range(0)));
   EvaluateSettings settings;
   settings.backend = Backend::cpu;
   settings.threads = static_cast<int>(state.range(1));
-  Evaluator evaluator(setup.scene, {{1, setup.objective, "stereo_color"}}, settings);
+  Evaluator evaluator(setup.scene, {{1, setup.objective, objective}}, settings);
   evaluator.prepare(setup.observation);
   Eigen::VectorXd costs(kBatch);
   for (auto _ : state) {
@@ -115,8 +144,8 @@ void whole_evaluation(benchmark::State& state) {
 }
 
 // Microseconds per evaluation of every stage. Argument: tile size.
-void stages(benchmark::State& state) {
-  const Setup setup(static_cast<int>(state.range(0)));
+void stages(benchmark::State& state, const char* objective) {
+  const Setup setup(objective, static_cast<int>(state.range(0)));
   const ScenePlan plan(setup.scene);
   const FrameProjection frame(setup.observation);
   HypothesisDrawer drawer(plan);
@@ -152,12 +181,17 @@ void stages(benchmark::State& state) {
   state.SetLabel(setup.label + ", " + simd_target());
 }
 
-BENCHMARK(whole_evaluation)
-    ->ArgNames({"tile", "threads"})
-    ->ArgsProduct({{128, 256}, {1, 2}})
-    ->UseRealTime()
-    ->Unit(benchmark::kMicrosecond);
-BENCHMARK(stages)->ArgName("tile")->Arg(128)->Arg(256)->Unit(benchmark::kMicrosecond);
+void whole_arguments(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"tile", "threads"})->ArgsProduct({{128, 256}, {1, 2}});
+  b->UseRealTime()->Unit(benchmark::kMicrosecond);
+}
+void stage_arguments(benchmark::internal::Benchmark* b) {
+  b->ArgName("tile")->Arg(128)->Arg(256)->Unit(benchmark::kMicrosecond);
+}
+BENCHMARK_CAPTURE(whole_evaluation, stereo_color, "stereo_color")->Apply(whole_arguments);
+BENCHMARK_CAPTURE(whole_evaluation, rgbd_depth, "rgbd_depth")->Apply(whole_arguments);
+BENCHMARK_CAPTURE(stages, stereo_color, "stereo_color")->Apply(stage_arguments);
+BENCHMARK_CAPTURE(stages, rgbd_depth, "rgbd_depth")->Apply(stage_arguments);
 
 }  // namespace
 }  // namespace hypotrack
