@@ -89,22 +89,75 @@ Eigen::Quaterniond RotationTrack::at(double time) const {
 }
 
 Motion::Motion(const Scene& scene)
-    : rest_(scene.rest_state()),
-      numbers_(static_cast<std::size_t>(scene.dimension())),
-      rotations_(scene.items().size()) {
-  for (const Scene::Item& item : scene.items()) offsets_.push_back(item.offset);
+    : rest_(scene.rest_state()), numbers_(static_cast<std::size_t>(scene.dimension())) {
+  for (const Scene::Item& item : scene.items()) ways_.push_back({item.offset, {Path{}}, {}});
+}
+
+NumberTrack& Motion::number(int parameter) {
+  for (Way& way : ways_) {
+    const int axis = parameter - way.offset;
+    if (axis >= 0 && axis < 3) return way.paths.back().position[static_cast<std::size_t>(axis)];
+  }
+  return numbers_.at(static_cast<std::size_t>(parameter));
 }
 
 void Motion::add_number(int parameter, double time, double value) {
-  numbers_.at(static_cast<std::size_t>(parameter)).add(time, value);
+  number(parameter).add(time, value);
 }
 
 void Motion::add_rotation(std::size_t model, double time, const Eigen::Quaterniond& rotation) {
-  rotations_.at(model).add(time, rotation);
+  ways_.at(model).paths.back().rotation.add(time, rotation);
+}
+
+void Motion::add_hold(std::size_t held, std::size_t holder, double from, double to) {
+  Way& way = ways_.at(held);
+  const Placement at_start = placement(way, from);
+  const Placement by = placement(ways_.at(holder), from);
+  way.holds.push_back({holder,
+                       from,
+                       to,
+                       {by.rotation.conjugate() * (at_start.position - by.position),
+                        by.rotation.conjugate() * at_start.rotation}});
+  way.paths.emplace_back();
+  if (!std::isfinite(to)) return;
+  const Placement left = placement(way, std::nextafter(to, from));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    way.paths.back().position[axis].add(to, left.position[static_cast<Eigen::Index>(axis)]);
+  }
+  way.paths.back().rotation.add(to, left.rotation);
 }
 
 bool Motion::has_number(int parameter) const {
+  for (const Way& way : ways_) {
+    const int axis = parameter - way.offset;
+    if (axis >= 0 && axis < 3) {
+      return !way.paths.front().position[static_cast<std::size_t>(axis)].empty();
+    }
+  }
   return !numbers_.at(static_cast<std::size_t>(parameter)).empty();
+}
+
+Placement Motion::on_path(const Way& way, std::size_t index, double time) const {
+  const Path& path = way.paths[index];
+  Placement out{rest_.segment<3>(way.offset),
+                Eigen::Quaterniond(rest_[way.offset + 3], rest_[way.offset + 4],
+                                   rest_[way.offset + 5], rest_[way.offset + 6])};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const NumberTrack& track = path.position[axis];
+    if (!track.empty()) out.position[static_cast<Eigen::Index>(axis)] = track.at(time);
+  }
+  if (!path.rotation.empty()) out.rotation = path.rotation.at(time);
+  return out;
+}
+
+Placement Motion::placement(const Way& way, double time) const {
+  std::size_t begun = 0;
+  while (begun < way.holds.size() && way.holds[begun].from <= time) ++begun;
+  if (begun == 0 || time >= way.holds[begun - 1].to) return on_path(way, begun, time);
+  const Hold& hold = way.holds[begun - 1];
+  const Placement by = placement(ways_[hold.holder], time);
+  return {by.position + by.rotation * hold.holder_from_held.position,
+          by.rotation * hold.holder_from_held.rotation};
 }
 
 Eigen::VectorXd Motion::state(double time) const {
@@ -113,10 +166,10 @@ Eigen::VectorXd Motion::state(double time) const {
     const NumberTrack& track = numbers_[static_cast<std::size_t>(i)];
     if (!track.empty()) state[i] = track.at(time);
   }
-  for (std::size_t m = 0; m < rotations_.size(); ++m) {
-    if (rotations_[m].empty()) continue;
-    const Eigen::Quaterniond q = rotations_[m].at(time);
-    state.segment<4>(offsets_[m] + 3) << q.w(), q.x(), q.y(), q.z();
+  for (const Way& way : ways_) {
+    const Placement now = placement(way, time);
+    const Eigen::Quaterniond& q = now.rotation;
+    state.segment<7>(way.offset) << now.position, q.w(), q.x(), q.y(), q.z();
   }
   return state;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <vector>
 
 #include "hypotrack/scene.hpp"
@@ -39,6 +40,12 @@ class RotationTrack {
   std::vector<Eigen::Quaterniond> rotations_;
 };
 
+/// Where a model is.
+struct Placement {
+  Eigen::Vector3d position;  ///< metres
+  Eigen::Quaterniond rotation;
+};
+
 /// The state of a scene over time. What no key names stays at its rest value.
 class Motion {
  public:
@@ -48,6 +55,11 @@ class Motion {
   void add_number(int parameter, double time, double value);
   /// The rotation of a model, by its place in the scene.
   void add_rotation(std::size_t model, double time, const Eigen::Quaterniond& rotation);
+  /// From one moment to another (infinite: for good) a model keeps its place relative to another
+  /// that holds it; then it is left where it is and moves on to its later keys from rest. Needs all
+  /// keys of the holder, which must not be held itself, and the held model's keys up to `from`;
+  /// those after `to` are added afterwards.
+  void add_hold(std::size_t held, std::size_t holder, double from, double to);
   /// Whether a position or angle has a key.
   bool has_number(int parameter) const;
 
@@ -55,10 +67,29 @@ class Motion {
   Eigen::VectorXd state(double time) const;
 
  private:
+  /// A model between two holds.
+  struct Path {
+    std::array<NumberTrack, 3> position;
+    RotationTrack rotation;
+  };
+  struct Hold {
+    std::size_t holder;
+    double from, to;
+    Placement holder_from_held;
+  };
+  /// A model's way: a path, a hold, a path, a hold, ... and a path.
+  struct Way {
+    int offset = 0;  ///< of the model in the state
+    std::vector<Path> paths;
+    std::vector<Hold> holds;
+  };
+  Placement placement(const Way& way, double time) const;
+  Placement on_path(const Way& way, std::size_t path, double time) const;
+  NumberTrack& number(int parameter);
+
   Eigen::VectorXd rest_;
-  std::vector<int> offsets_;  // of the models in the state
-  std::vector<NumberTrack> numbers_;
-  std::vector<RotationTrack> rotations_;
+  std::vector<Way> ways_;             // by model
+  std::vector<NumberTrack> numbers_;  // by parameter; a pose's are unused
 };
 
 }  // namespace hypotrack::synthetic

@@ -110,6 +110,7 @@ struct SyntheticParams {
   double frame_rate = 30;
   int frames = 0;
   ConfigNode gestures;
+  std::filesystem::path gesture_file;
   ConfigNode keyframes;
   BackgroundParams background;
   LightParams light;
@@ -123,6 +124,7 @@ struct SyntheticParams {
       {.help = "number of frames; 0: up to the last keyframe", .min = 0, .max = 1e7});
     v("gestures", gestures,
       {.help = "named hand postures: maps of joint angles to degrees; * in a name is any text"});
+    v("gesture_file", gesture_file, {.help = "YAML file of more gestures, as `gestures` has them"});
     v("keyframes", keyframes,
       {.help = "list of {time or frame, gesture, pose} that the motion passes through",
        .required = true});

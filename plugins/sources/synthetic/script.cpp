@@ -1,9 +1,9 @@
 #include "script.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,58 +21,38 @@ constexpr int kPoseLength = 7;
 struct KeyframeParams {
   std::optional<double> time;
   std::optional<int> frame;
-  ConfigNode gesture, pose;
+  ConfigNode gesture, pose, hold;
+  std::vector<std::string> release;
   void visit(ParamVisitor& v) {
     v("time", time, {.help = "moment of the keyframe", .min = 0, .max = 1e6, .unit = "s"});
     v("frame", frame, {.help = "instead of time: number of the frame", .min = 0});
     v("gesture", gesture, {.help = "name of a gesture, or a map of models to gestures"});
     v("pose", pose, {.help = "map of models to position_mm, rotation_deg, quaternion, angles_deg"});
-  }
-};
-
-/// A gesture as written: patterns and angles, in order.
-struct GestureParams {
-  struct Entry {
-    std::string pattern;
-    double angle = 0;
-  };
-  std::vector<Entry> entries;
-  void visit(ParamVisitor& v) {
-    for (Entry& e : entries) {
-      v(e.pattern, e.angle, {.help = "joint angle", .unit = "deg", .to_si = kDegree});
-    }
+    v("hold", hold, {.help = "map of models to the model that holds them from now on"});
+    v("release", release, {.help = "models that are no longer held"});
   }
 };
 
 /// What one keyframe says.
 struct Keys {
+  ConfigNode node;
+  double time = 0;
   std::map<int, double> numbers;                        // by parameter of the scene
   std::map<std::size_t, Eigen::Quaterniond> rotations;  // by model
+  std::map<std::size_t, std::size_t> holds;             // holder by held model
+  std::vector<std::size_t> releases;
 };
 
-std::string joined(const std::vector<std::string>& names) {
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-std::vector<std::string> angle_names(const Model& model) {
-  std::vector<std::string> names;
-  for (const Parameter& p : model.data().parameters) {
-    if (p.kind == ParameterKind::angle) names.push_back(p.name);
-  }
-  return names;
-}
-
-class ScriptReader {
+class KeyframeReader {
  public:
-  ScriptReader(const ConfigNode& gestures, const Scene& scene)
-      : gestures_(gestures), scene_(scene) {
-    if (gestures.defined() && !gestures.is_map()) {
-      throw ConfigError(gestures.where() + ": expected a map of gesture names to angles");
-    }
-  }
+  KeyframeReader(const Gestures& gestures, const Scene& scene, double frame_rate)
+      : gestures_(gestures), scene_(scene), frame_rate_(frame_rate) {}
 
-  Keys read(const KeyframeParams& keyframe) const {
+  Keys read(const ConfigNode& node) const {
+    const auto keyframe = ParamReader(node).read<KeyframeParams>();
     Keys keys;
+    keys.node = node;
+    keys.time = time_of(keyframe, node);
     if (keyframe.gesture.is_scalar()) {
       for (const Scene::Item& item : scene_.items()) {
         if (item.model->dimension() > kPoseLength) apply_gesture(keyframe.gesture, item, keys);
@@ -81,10 +61,32 @@ class ScriptReader {
       apply_gestures(keyframe.gesture, keys);
     }
     if (keyframe.pose.defined()) apply_pose(keyframe.pose, keys);
+    if (keyframe.hold.defined()) apply_holds(keyframe.hold, keys);
+    for (const std::string& name : keyframe.release) {
+      keys.releases.push_back(model(name, node.get("release")));
+    }
     return keys;
   }
 
  private:
+  double time_of(const KeyframeParams& keyframe, const ConfigNode& node) const {
+    if (keyframe.time.has_value() == keyframe.frame.has_value()) {
+      throw ConfigError(node.where() + ": a keyframe needs either `time` (seconds) or `frame`");
+    }
+    return keyframe.time ? *keyframe.time : *keyframe.frame / frame_rate_;
+  }
+
+  /// Place of a model in the scene.
+  std::size_t model(const std::string& name, const ConfigNode& where) const {
+    std::vector<std::string> known;
+    for (const Scene::Item& item : scene_.items()) {
+      if (item.name == name) return known.size();
+      known.push_back(item.name);
+    }
+    throw ConfigError(fmt::format("{}: '{}' is no model of this scene; its models are: {}",
+                                  where.where(), name, fmt::join(known, ", ")));
+  }
+
   void apply_gestures(const ConfigNode& by_model, Keys& keys) const {
     if (!by_model.is_map()) {
       throw ConfigError(by_model.where() +
@@ -92,71 +94,19 @@ class ScriptReader {
     }
     for (const std::string& name : by_model.keys()) {
       const ConfigNode gesture = by_model.get(name);
-      const Scene::Item* found = nullptr;
-      std::vector<std::string> known;
-      for (const Scene::Item& item : scene_.items()) {
-        if (item.name == name) found = &item;
-        known.push_back(item.name);
-      }
-      if (!found) {
-        throw ConfigError(fmt::format("{}: '{}' is no model of this scene; its models are: {}",
-                                      gesture.where(), name, joined(known)));
-      }
+      const Scene::Item& item = scene_.items()[model(name, gesture)];
       if (!gesture.is_scalar()) {
         throw ConfigError(gesture.where() + ": expected the name of a gesture");
       }
-      apply_gesture(gesture, *found, keys);
+      apply_gesture(gesture, item, keys);
     }
   }
 
   void apply_gesture(const ConfigNode& name, const Scene::Item& item, Keys& keys) const {
-    const std::vector<Parameter>& parameters = item.model->data().parameters;
-    std::vector<double> angles;
-    for (const Parameter& p : parameters) angles.push_back(p.rest);
-    std::vector<std::string> said(parameters.size());  // the pattern that set an angle
-    const ConfigNode gesture = gestures_.get(name.scalar());
-    if (gesture.defined()) {
-      for (const auto& [pattern, angle] : entries_of(gesture).entries) {
-        bool used = false;
-        for (std::size_t i = kPoseLength; i < parameters.size(); ++i) {
-          if (fnmatch(pattern.c_str(), parameters[i].name.c_str(), 0) != 0) continue;
-          angles[i] = angle;
-          said[i] = pattern;
-          used = true;
-        }
-        if (!used) {
-          throw ConfigError(fmt::format("{}: no joint angle of '{}' is called '{}'; there are: {}",
-                                        gesture.get(pattern).where(), item.name, pattern,
-                                        joined(angle_names(*item.model))));
-        }
-      }
-    } else if (name.scalar() != "rest") {
-      throw ConfigError(fmt::format("{}: no gesture is called '{}'; there are: {}", name.where(),
-                                    name.scalar(), known_gestures()));
-    }
+    const std::vector<double> parameters = gestures_.parameters(name, item);
     for (std::size_t i = kPoseLength; i < parameters.size(); ++i) {
-      check_bounds(name, gesture.get(said[i]), parameters[i], angles[i]);
-      keys.numbers[item.offset + static_cast<int>(i)] = angles[i];
+      keys.numbers[item.offset + static_cast<int>(i)] = parameters[i];
     }
-  }
-
-  static GestureParams entries_of(const ConfigNode& gesture) {
-    if (!gesture.is_map()) {
-      throw ConfigError(gesture.where() + ": expected a map of joint angles to degrees");
-    }
-    GestureParams params;
-    for (const std::string& pattern : gesture.keys()) params.entries.push_back({pattern, 0});
-    return ParamReader(gesture).read(std::move(params));
-  }
-
-  static void check_bounds(const ConfigNode& gesture, const ConfigNode& entry, const Parameter& p,
-                           double angle) {
-    constexpr double kSlack = 1e-6;
-    if (angle >= p.lower - kSlack && angle <= p.upper + kSlack) return;
-    throw ConfigError(fmt::format(
-        "{}: gesture '{}' turns '{}' to {:.6g} deg, but the model allows {:.6g} to {:.6g}",
-        entry.where(), gesture.scalar(), p.name, angle / kDegree, p.lower / kDegree,
-        p.upper / kDegree));
   }
 
   void apply_pose(const ConfigNode& pose, Keys& keys) const {
@@ -183,21 +133,120 @@ class ScriptReader {
     }
   }
 
-  std::string known_gestures() const {
-    std::vector<std::string> names = {"rest"};
-    for (const std::string& name : gestures_.keys()) names.push_back(name);
-    return joined(names);
+  void apply_holds(const ConfigNode& holds, Keys& keys) const {
+    if (!holds.is_map()) {
+      throw ConfigError(holds.where() + ": expected a map of models to the model that holds them");
+    }
+    for (const std::string& name : holds.keys()) {
+      const ConfigNode holder = holds.get(name);
+      if (!holder.is_scalar()) throw ConfigError(holder.where() + ": expected the name of a model");
+      keys.holds[model(name, holder)] = model(holder.scalar(), holder);
+    }
   }
 
-  const ConfigNode& gestures_;
+  const Gestures& gestures_;
   const Scene& scene_;
+  double frame_rate_;
 };
 
-double time_of(const KeyframeParams& keyframe, const ConfigNode& node, double frame_rate) {
-  if (keyframe.time.has_value() == keyframe.frame.has_value()) {
-    throw ConfigError(node.where() + ": a keyframe needs either `time` (seconds) or `frame`");
+std::vector<Keys> read_keyframes(const ConfigNode& keyframes, const KeyframeReader& reader) {
+  if (!keyframes.is_list() || keyframes.size() == 0) {
+    throw ConfigError(keyframes.where() + ": expected a list of at least one keyframe");
   }
-  return keyframe.time ? *keyframe.time : *keyframe.frame / frame_rate;
+  std::vector<Keys> all;
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    Keys keys = reader.read(keyframes.at(i));
+    if (!all.empty() && keys.time <= all.back().time) {
+      throw ConfigError(
+          fmt::format("{}: this keyframe is at {:.6g} s, the one before it at {:.6g} s; "
+                      "times must ascend",
+                      keys.node.where(), keys.time, all.back().time));
+    }
+    all.push_back(std::move(keys));
+  }
+  return all;
+}
+
+/// A model's place: its hold, if any, and its pose keys from keyframe to keyframe.
+class WayReader {
+ public:
+  WayReader(const Scene& scene, const std::vector<Keys>& all, Motion& motion)
+      : scene_(scene), all_(all), motion_(motion) {}
+
+  void read(std::size_t model) {
+    begun_ = nullptr;
+    for (const Keys& keys : all_) {
+      if (begun_) end_hold(model, keys);
+      add_pose(model, keys);
+      const auto hold = keys.holds.find(model);
+      if (hold == keys.holds.end()) continue;
+      check_holder(model, hold->second, keys);
+      begun_ = &keys;
+    }
+    if (begun_)
+      motion_.add_hold(model, begun_->holds.at(model), begun_->time,
+                       std::numeric_limits<double>::infinity());
+  }
+
+ private:
+  const std::string& name(std::size_t model) const { return scene_.items()[model].name; }
+  bool released(std::size_t model, const Keys& keys) const {
+    return std::find(keys.releases.begin(), keys.releases.end(), model) != keys.releases.end();
+  }
+
+  void end_hold(std::size_t model, const Keys& keys) {
+    const int offset = scene_.items()[model].offset;
+    if (keys.numbers.contains(offset) || keys.rotations.contains(model)) {
+      throw ConfigError(
+          fmt::format("{}: '{}' is held by '{}' here, which says where it is; give its pose later",
+                      keys.node.where(), name(model), name(begun_->holds.at(model))));
+    }
+    if (!released(model, keys)) return;
+    motion_.add_hold(model, begun_->holds.at(model), begun_->time, keys.time);
+    begun_ = nullptr;
+  }
+
+  void add_pose(std::size_t model, const Keys& keys) {
+    const int offset = scene_.items()[model].offset;
+    for (int i = offset; i < offset + kPoseLength; ++i) {
+      const auto number = keys.numbers.find(i);
+      if (number != keys.numbers.end()) motion_.add_number(i, keys.time, number->second);
+    }
+    const auto rotation = keys.rotations.find(model);
+    if (rotation != keys.rotations.end()) {
+      motion_.add_rotation(model, keys.time, rotation->second);
+    }
+  }
+
+  void check_holder(std::size_t model, std::size_t holder, const Keys& keys) const {
+    if (begun_)
+      throw ConfigError(fmt::format("{}: '{}' is held already; `release: [{}]` first",
+                                    keys.node.where(), name(model), name(model)));
+    for (const Keys& other : all_) {
+      if (holder != model && !other.holds.contains(holder)) continue;
+      throw ConfigError(fmt::format(
+          "{}: '{}' cannot hold '{}': what holds must not be held itself, now or at another time",
+          keys.node.where(), name(holder), name(model)));
+    }
+  }
+
+  const Scene& scene_;
+  const std::vector<Keys>& all_;
+  Motion& motion_;
+  const Keys* begun_ = nullptr;  // where the hold that lasts began
+};
+
+void check_releases(const Scene& scene, const std::vector<Keys>& all) {
+  std::vector<bool> held(scene.items().size());
+  for (const Keys& keys : all) {
+    for (const std::size_t model : keys.releases) {
+      if (!held[model])
+        throw ConfigError(fmt::format("{}: '{}' is not held here and cannot be released",
+                                      keys.node.where(), scene.items()[model].name));
+      held[model] = false;
+    }
+    for (const auto& [model, holder] : keys.holds) held[model] = true;
+  }
 }
 
 void check_positions(const ConfigNode& keyframes, const Scene& scene, const Motion& motion) {
@@ -210,34 +259,34 @@ void check_positions(const ConfigNode& keyframes, const Scene& scene, const Moti
   }
 }
 
+Motion make_motion(const Scene& scene, const std::vector<Keys>& all) {
+  Motion motion(scene);
+  for (const Scene::Item& item : scene.items()) {
+    for (const Keys& keys : all) {
+      for (int i = item.offset + kPoseLength; i < item.offset + item.model->dimension(); ++i) {
+        const auto number = keys.numbers.find(i);
+        if (number != keys.numbers.end()) motion.add_number(i, keys.time, number->second);
+      }
+    }
+  }
+  check_releases(scene, all);
+  std::vector<bool> ever_held(scene.items().size());
+  for (const Keys& keys : all)
+    for (const auto& [model, holder] : keys.holds) ever_held[model] = true;
+  WayReader ways(scene, all, motion);
+  for (const bool held : {false, true})  // holders first
+    for (std::size_t m = 0; m < ever_held.size(); ++m)
+      if (ever_held[m] == held) ways.read(m);
+  return motion;
+}
+
 }  // namespace
 
-Script read_script(const ConfigNode& keyframes, const ConfigNode& gestures, const Scene& scene,
+Script read_script(const ConfigNode& keyframes, const Gestures& gestures, const Scene& scene,
                    double frame_rate) {
-  if (!keyframes.is_list() || keyframes.size() == 0) {
-    throw ConfigError(keyframes.where() + ": expected a list of at least one keyframe");
-  }
-  const ScriptReader reader(gestures, scene);
-  Script script{Motion(scene), -1};
-  for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    const ConfigNode node = keyframes.at(i);
-    const auto keyframe = ParamReader(node).read<KeyframeParams>();
-    const double time = time_of(keyframe, node, frame_rate);
-    if (time <= script.duration) {
-      throw ConfigError(
-          fmt::format("{}: this keyframe is at {:.6g} s, the one before it at {:.6g} s; "
-                      "times must ascend",
-                      node.where(), time, script.duration));
-    }
-    script.duration = time;
-    const Keys keys = reader.read(keyframe);
-    for (const auto& [parameter, value] : keys.numbers) {
-      script.motion.add_number(parameter, time, value);
-    }
-    for (const auto& [model, rotation] : keys.rotations) {
-      script.motion.add_rotation(model, time, rotation);
-    }
-  }
+  const std::vector<Keys> all =
+      read_keyframes(keyframes, KeyframeReader(gestures, scene, frame_rate));
+  Script script{make_motion(scene, all), all.back().time};
   check_positions(keyframes, scene, script.motion);
   return script;
 }

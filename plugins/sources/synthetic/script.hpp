@@ -1,5 +1,6 @@
 #pragma once
 
+#include "gestures.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/scene.hpp"
 #include "motion.hpp"
@@ -11,20 +12,21 @@ struct Script {
   double duration = 0;  ///< time of the last keyframe, seconds
 };
 
-/// Reads `keyframes:` and the `gestures:` they name.
+/// Reads `keyframes:` and the gestures they name.
 ///
 ///   gestures:
-///     fist: {"*_flexion_2": 95, thumb_abduction: 10}   # angles in degrees, `*` is any text; the
-///                                                      # angles not named are at rest
+///     fist: {"*_flexion_2": 95, thumb_abduction: 10}   # see Gestures
 ///   keyframes:
 ///     - {time: 0, gesture: rest, pose: {hand: {position_mm: [0, 60, 450]}}}
-///     - {frame: 40, gesture: {hand: fist}}
+///     - {frame: 40, gesture: {hand: fist}, hold: {box: hand}}
+///     - {frame: 80, release: [box]}
 ///
 /// `pose` is what read_pose() reads; `gesture` is one for all models with joints, or one per model.
 /// Position, rotation and every angle have their own keys: what a keyframe does not mention moves
-/// on from the keyframe before to the one after it that do. Throws ConfigError with
-/// file:line:column.
-Script read_script(const ConfigNode& keyframes, const ConfigNode& gestures, const Scene& scene,
+/// on from the keyframe before to the one after it that do. `hold` names models and who holds them:
+/// from then until their `release` they move rigidly with the holder (Motion::add_hold). Throws
+/// ConfigError with file:line:column.
+Script read_script(const ConfigNode& keyframes, const Gestures& gestures, const Scene& scene,
                    double frame_rate);
 
 }  // namespace hypotrack::synthetic

@@ -81,7 +81,8 @@ class Synthetic final : public Source {
         cameras_(params.calibration ? load_cameras(*params.calibration, context.config().where())
                                     : make_cameras(params.cameras, context.config().where())),
         frame_rate_(params.frame_rate),
-        script_(read_script(params.keyframes, params.gestures, scene_, params.frame_rate)),
+        script_(read_script(params.keyframes, Gestures(params.gestures, params.gesture_file),
+                            scene_, params.frame_rate)),
         style_(style_of(params.light)),
         sensor_(params.sensor, cameras_.size(), context.config().where()),
         backgrounds_(draw_backgrounds(params.background, cameras_)),
