@@ -9,6 +9,7 @@
 #include <string>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/renderer.hpp"
 #include "test_models.hpp"
@@ -235,6 +236,76 @@ TEST(Synthetic, can_be_repeated_from_what_it_resolved_to) {
   EXPECT_TRUE(same(frame->views[1].color, frames[0].views[1].color)) << resolved;
 }
 
+const char* const kHold = R"(
+keyframes:
+  - frame: 0
+    pose:
+      hand: {position_mm: [-20, 60, 420], rotation_deg: [0, 170, 0]}
+      box: {position_mm: [0, 0, 450], rotation_deg: [0, 20, 0]}
+  - {frame: 2, hold: {box: hand}}
+  - {frame: 5, pose: {hand: {position_mm: [40, 30, 500], rotation_deg: [30, 150, 0]}}}
+  - {frame: 7, release: [box]}
+  - frame: 10
+    pose:
+      hand: {position_mm: [-20, 60, 420], rotation_deg: [0, 170, 0]}
+      box: {position_mm: [50, 0, 450]}
+)";
+
+Eigen::Isometry3d place(const Scene& scene, const Frame& frame, std::size_t model) {
+  return world_from_model(scene.part(scene.items()[model], frame.truth->state));
+}
+
+TEST(Synthetic, moves_a_held_model_with_its_holder_and_leaves_it_where_it_is_released) {
+  Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kHold);
+  const std::vector<Frame> frames = loaded.frames();
+  const auto hand = [&](std::size_t f) { return place(loaded.scene, frames[f], 0); };
+  const auto box = [&](std::size_t f) { return place(loaded.scene, frames[f], 1); };
+  EXPECT_TRUE(box(1).isApprox(box(0), 1e-12));
+  EXPECT_FALSE(hand(1).isApprox(hand(0), 1e-3));
+  const Eigen::Isometry3d grip = hand(2).inverse() * box(0);
+  for (std::size_t f = 2; f <= 7; ++f) {
+    EXPECT_TRUE(box(f).isApprox(hand(f) * grip, 1e-9)) << f;
+  }
+  EXPECT_GT((box(7).translation() - box(0).translation()).norm(), 0.02);
+  EXPECT_FALSE(box(9).isApprox(hand(9) * grip, 1e-3));
+  EXPECT_LT((box(10).translation() - Eigen::Vector3d(0.05, 0, 0.45)).norm(), 1e-12);
+  EXPECT_TRUE(box(10).linear().isApprox(box(7).linear(), 1e-9)) << "no key turned it";
+  for (std::size_t f = 1; f < frames.size(); ++f) {
+    const auto q = [&](std::size_t k) { return frames[k].truth->state.segment<4>(30); };
+    EXPECT_GT(q(f).dot(q(f - 1)), 0.9) << f;
+  }
+}
+
+TEST(Synthetic, holds_to_the_end_without_a_release) {
+  std::string yaml = kHold;
+  yaml.resize(yaml.find("  - {frame: 7"));
+  Loaded loaded(std::string(kCameras) + kQuiet + kPlain + yaml + "frames: 9\n");
+  const std::vector<Frame> frames = loaded.frames();
+  const Eigen::Isometry3d grip =
+      place(loaded.scene, frames[2], 0).inverse() * place(loaded.scene, frames[2], 1);
+  const Frame& last = frames.back();
+  EXPECT_TRUE(place(loaded.scene, last, 1).isApprox(place(loaded.scene, last, 0) * grip, 1e-9));
+}
+
+TEST(Synthetic, takes_gestures_from_a_file_after_its_own) {
+  const TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "gestures.yaml";
+  std::ofstream(file) << "fist: {index_flexion_1: 80}\nhook: {\"*_flexion_2\": 40}\n";
+  const std::string start =
+      "{time: 0, gesture: hook, pose: {hand: {position_mm: [0, 0, 400]}, "
+      "box: {position_mm: [0, 0, 500]}}}";
+  const std::string yaml = std::string(kCameras) + kQuiet + "gesture_file: " + file.string() +
+                           "\ngestures: {fist: {index_flexion_1: 50}}\nkeyframes:\n- " + start +
+                           "\n- {frame: 1, gesture: fist}\n";
+  Loaded loaded(yaml);
+  const std::vector<Frame> frames = loaded.frames();
+  const auto value = [&](std::size_t f, const std::string& name) {
+    return frames[f].truth->state[parameter(loaded.scene, name)] / kDegree;
+  };
+  EXPECT_NEAR(value(0, "hand.index_flexion_2"), 40, 1e-9);
+  EXPECT_NEAR(value(1, "hand.index_flexion_1"), 50, 1e-9) << "the scene's own comes first";
+}
+
 std::string message_of(const std::string& yaml) {
   try {
     load(kCameras + yaml);
@@ -271,6 +342,24 @@ TEST(Synthetic, explains_what_is_wrong_with_a_script) {
   EXPECT_THAT(message_of("keyframes:\n- " + start +
                          "\n- {time: 1, pose: {hand: {angles_deg: {index_flexion_1: 500}}}}\n"),
               AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("500")));
+}
+
+TEST(Synthetic, explains_what_is_wrong_with_a_hold) {
+  const std::string start =
+      "keyframes:\n- {time: 0, pose: {hand: {position_mm: [0, 0, 400]}, "
+      "box: {position_mm: [0, 0, 500]}}}\n";
+  EXPECT_THAT(message_of(start + "- {time: 1, hold: {bax: hand}}\n"),
+              AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("'bax' is no model")));
+  EXPECT_THAT(message_of(start + "- {time: 1, release: [box]}\n"),
+              AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("'box' is not held here")));
+  EXPECT_THAT(message_of(start + "- {time: 1, hold: {box: hand}}\n"
+                                 "- {time: 2, pose: {box: {position_mm: [0, 0, 400]}}}\n"),
+              AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("'box' is held by 'hand' here")));
+  EXPECT_THAT(message_of(start + "- {time: 1, hold: {box: hand}}\n"
+                                 "- {time: 2, hold: {box: hand}}\n"),
+              AllOf(HasSubstr("scene.yaml:6:"), HasSubstr("'box' is held already")));
+  EXPECT_THAT(message_of(start + "- {time: 1, hold: {box: hand, hand: box}}\n"),
+              AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("must not be held itself")));
 }
 
 TEST(Synthetic, explains_what_is_wrong_with_cameras_background_and_sensor) {
