@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -186,6 +187,60 @@ TEST(Synthetic, changes_the_colours_of_one_camera) {
   const Frame frame = load(yaml).frames()[0];
   EXPECT_EQ(frame.views[0].color.at<cv::Vec3b>(1, 1), cv::Vec3b(30, 20, 10));
   EXPECT_EQ(frame.views[1].color.at<cv::Vec3b>(1, 1), cv::Vec3b(49, 34, 19));
+}
+
+TEST(Synthetic, gives_the_depth_of_models_and_background_where_it_is_asked_for) {
+  const std::string wall = "background: {kind: procedural, distance_mm: 1400, clutter: 0}\n";
+  Loaded loaded(std::string(kCameras) + kMotion + wall + "frames: 1\ndepth: true\n");
+  const std::vector<Camera> cameras = loaded.source->cameras();
+  const Frame frame = loaded.frames()[0];
+  Renderer renderer(loaded.scene);
+  for (std::size_t v = 0; v < 2; ++v) {
+    const View& view = frame.views[v];
+    ASSERT_EQ(view.depth.type(), CV_32FC1);
+    const RenderedView expected = renderer.render(frame.truth->state, cameras[v], {});
+    cv::Mat model = cv::Mat::zeros(view.depth.size(), CV_32F);
+    view.depth.copyTo(model, view.mask);
+    EXPECT_TRUE(same(model, expected.depth));
+    cv::Mat behind(view.depth.size(), CV_32F, cv::Scalar(1.4));
+    view.depth.copyTo(behind, view.mask == 0);
+    EXPECT_LT(cv::norm(behind, cv::Mat(behind.size(), CV_32F, cv::Scalar(1.4)), cv::NORM_INF),
+              1e-3);
+  }
+  const std::string plain = std::string(kCameras) + kMotion + kPlain + "frames: 1\n";
+  EXPECT_TRUE(load(plain).frames()[0].views[0].depth.empty());
+  const View without_wall = load(plain + "depth: true\n").frames()[0].views[0];
+  EXPECT_TRUE(same(without_wall.depth > 0, without_wall.mask)) << "a colour has no depth";
+}
+
+TEST(Synthetic, makes_depth_noisy_with_the_square_of_the_distance_and_rounds_it) {
+  for (const double distance : {1.0, 2.0}) {
+    const std::string yaml = std::string(kCameras) + kMotion + "frames: 2\ndepth: true\n" +
+                             "background: {kind: procedural, clutter: 0, distance_mm: " +
+                             std::to_string(1000 * distance) +
+                             "}\nsensor: {depth_noise_mm: 5, depth_step_mm: 0.5}\n";
+    const std::vector<Frame> frames = load(yaml).frames();
+    const cv::Mat wall = frames[0].views[0].depth(cv::Rect(0, 0, 60, 200));
+    cv::Scalar mean, deviation;
+    cv::meanStdDev(wall, mean, deviation);
+    EXPECT_NEAR(mean[0], distance, 1e-3);
+    EXPECT_NEAR(deviation[0], 0.005 * distance * distance, 0.0003 * distance * distance);
+    for (int x = 0; x < wall.cols; ++x) {
+      const double steps = wall.at<float>(7, x) / 0.0005;
+      EXPECT_NEAR(steps, std::round(steps), 1e-3);
+    }
+    EXPECT_TRUE(same(frames[0].views[1].depth, load(yaml).frames()[0].views[1].depth));
+    EXPECT_FALSE(same(frames[0].views[0].depth, frames[1].views[0].depth));
+  }
+}
+
+TEST(Synthetic, is_a_depth_camera_with_one_view) {
+  Loaded loaded("cameras: {count: 1, width: 160, height: 100, focal_px: 90}\ndepth: true\n" +
+                std::string(kMotion) + "frames: 1\n");
+  const Frame frame = loaded.frames()[0];
+  ASSERT_EQ(frame.views.size(), 1U);
+  EXPECT_EQ(frame.views[0].depth.size(), cv::Size(160, 100));
+  EXPECT_EQ(cv::countNonZero(frame.views[0].depth), 160 * 100);
 }
 
 TEST(Synthetic, takes_pictures_through_a_lens) {

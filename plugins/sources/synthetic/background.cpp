@@ -160,13 +160,16 @@ std::vector<Mesh> image_meshes(const BackgroundParams& params, Eigen::AlignedBox
 
 }  // namespace
 
-std::vector<cv::Mat> draw_backgrounds(const BackgroundParams& params,
-                                      const std::vector<Camera>& cameras) {
-  std::vector<cv::Mat> images;
+std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
+                                           const std::vector<Camera>& cameras) {
+  std::vector<RenderedView> views;
   if (params.kind == BackgroundKind::color) {
     const cv::Scalar bgr(params.color.z(), params.color.y(), params.color.x());
-    for (const Camera& c : cameras) images.emplace_back(c.height, c.width, CV_8UC3, bgr);
-    return images;
+    for (const Camera& c : cameras) {
+      const cv::Size size(c.width, c.height);
+      views.push_back({cv::Mat(size, CV_8UC3, bgr), cv::Mat::zeros(size, CV_32FC1), {}});
+    }
+    return views;
   }
   const Eigen::AlignedBox2d wall = seen_wall(cameras, params.distance);
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
@@ -177,10 +180,8 @@ std::vector<cv::Mat> draw_backgrounds(const BackgroundParams& params,
   }
   const Scene scene(std::move(models));
   Renderer renderer(scene);
-  for (const Camera& c : cameras) {
-    images.push_back(renderer.render(scene.rest_state(), c, {}).color);
-  }
-  return images;
+  for (const Camera& c : cameras) views.push_back(renderer.render(scene.rest_state(), c, {}));
+  return views;
 }
 
 }  // namespace hypotrack::synthetic

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
+#include "hypotrack/renderer.hpp"
 #include "params.hpp"
 
 namespace hypotrack::synthetic {
 
-/// What every camera sees behind the models: 8-bit BGR, one image per camera. A wall and its
-/// clutter are surfaces in the world, so the views agree. Throws DataError if the picture cannot be
-/// read or the wall is not in front of the cameras.
-std::vector<cv::Mat> draw_backgrounds(const BackgroundParams& params,
-                                      const std::vector<Camera>& cameras);
+/// What every camera sees behind the models, one view per camera. A wall and its clutter are
+/// surfaces in the world, so the views agree; a mere colour has no depth. Throws DataError if the
+/// picture cannot be read or the wall is not in front of the cameras.
+std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
+                                           const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack::synthetic

@@ -88,6 +88,8 @@ struct SensorParams {
   double blur_sigma = 0;
   std::vector<double> gain;
   std::vector<double> offset;
+  double depth_noise = 0;
+  double depth_step = 0;
   int seed = 1;
   void visit(ParamVisitor& v) {
     v("noise_sigma", noise_sigma,
@@ -100,6 +102,20 @@ struct SensorParams {
        .min = -255,
        .max = 255,
        .unit = "of 255"});
+    v("depth_noise_mm", depth_noise,
+      {.help =
+           "sigma of the depth noise at 1 m; it grows with the square of the distance, as where "
+           "depth is triangulated",
+       .min = 0,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("depth_step_mm", depth_step,
+      {.help = "depth comes in multiples of this; 0: as it is",
+       .min = 0,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
     v("seed", seed, {.help = "of the noise", .min = 0});
   }
 };
@@ -115,6 +131,7 @@ struct SyntheticParams {
   BackgroundParams background;
   LightParams light;
   SensorParams sensor;
+  bool depth = false;
   void visit(ParamVisitor& v) {
     v("cameras", cameras, {.help = "what takes the pictures"});
     v("calibration", calibration, {.help = "cameras from a file, instead of `cameras`"});
@@ -131,6 +148,9 @@ struct SyntheticParams {
     v("background", background, {.help = "what is behind the models"});
     v("light", light, {.help = "how the models are lit"});
     v("sensor", sensor, {.help = "what the cameras add to a picture"});
+    v("depth", depth,
+      {.help = "every view also gets the depth of the models and of the background's surfaces (a "
+               "background of the kind color has none)"});
   }
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "background.hpp"
+#include "depth_sensor.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/renderer.hpp"
 #include "motion.hpp"
@@ -85,6 +86,8 @@ class Synthetic final : public Source {
                             scene_, params.frame_rate)),
         style_(style_of(params.light)),
         sensor_(params.sensor, cameras_.size(), context.config().where()),
+        depth_sensor_(params.sensor),
+        depth_(params.depth),
         backgrounds_(draw_backgrounds(params.background, cameras_)),
         renderer_(scene_) {
     constexpr double kRoundOff = 1e-6;
@@ -106,9 +109,15 @@ class Synthetic final : public Source {
     frame.truth->state = script_.motion.state(frame.time);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       RenderedView rendered =
-          renderer_.render(frame.truth->state, cameras_[i], style_, backgrounds_[i]);
+          renderer_.render(frame.truth->state, cameras_[i], style_, backgrounds_[i].color);
       sensor_.apply(rendered.color, frame.index, i);
-      frame.views.push_back({std::move(rendered.color), rendered.label > 0});
+      View view{.color = std::move(rendered.color), .mask = rendered.label > 0};
+      if (depth_) {
+        view.depth = std::move(rendered.depth);
+        backgrounds_[i].depth.copyTo(view.depth, view.mask == 0);
+        depth_sensor_.apply(view.depth, frame.index, i);
+      }
+      frame.views.push_back(std::move(view));
     }
     return frame;
   }
@@ -120,7 +129,9 @@ class Synthetic final : public Source {
   const Script script_;
   const RenderStyle style_;
   const Sensor sensor_;
-  const std::vector<cv::Mat> backgrounds_;
+  const DepthSensor depth_sensor_;
+  const bool depth_;
+  const std::vector<RenderedView> backgrounds_;
   Renderer renderer_;
   int frames_ = 0;
   int next_ = 0;
