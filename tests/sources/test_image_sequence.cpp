@@ -223,6 +223,64 @@ TEST_F(ImageSequence, ReadsMasks) {
               ThrowsMessage<ConfigError>(HasSubstr("only one of left_mask and right_mask")));
 }
 
+TEST_F(ImageSequence, ReadsDepthInMetresBesideColour) {
+  for (int i = 0; i < 3; ++i) {
+    write_pair(i);
+    cv::Mat depth(48, 64, CV_16U, cv::Scalar(4000));  // eighths of a millimetre: 0.5 m
+    depth.row(0) = 0;
+    cv::imwrite(file(cv::format("d_%04d.png", i)).string(), depth);
+  }
+  const auto source = make(numbered("left_depth: d_%04d.png\ndepth_units_mm: 0.125\n"));
+  const auto frame = source->next();
+  ASSERT_EQ(frame->problem, "");
+  ASSERT_EQ(frame->views.size(), 2u);
+  ASSERT_EQ(frame->views[0].depth.type(), CV_32FC1);
+  EXPECT_EQ(frame->views[0].depth.at<float>(1, 2), 0.5f);
+  EXPECT_EQ(frame->views[0].depth.at<float>(0, 2), 0);
+  EXPECT_TRUE(frame->views[1].depth.empty());
+  EXPECT_EQ(cv::norm(frame->views[1].color, picture(0, 1), cv::NORM_INF), 0);
+}
+
+TEST_F(ImageSequence, ReadsDepthWithoutColour) {
+  calibrate(64, 48, 1);
+  for (int i = 0; i < 6; ++i) {
+    cv::imwrite(file(cv::format("%d.png", 10 * i)).string(),
+                cv::Mat(48, 64, CV_16U, cv::Scalar(500 + i)));
+  }
+  cv::imwrite(file("20.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(50)));
+  cv::imwrite(file("30.png").string(), cv::Mat(48, 64, CV_16UC3, cv::Scalar(50, 50, 50)));
+  cv::imwrite(file("40.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
+  const auto source =
+      make("type: image_sequence\nleft_depth: \"*.png\"\ncalibration: {file: rig.yml}\n");
+  for (int i = 0; i < 2; ++i) {
+    const auto frame = source->next();
+    ASSERT_EQ(frame->views.size(), 1u);
+    EXPECT_TRUE(frame->views[0].color.empty());
+    EXPECT_NEAR(frame->views[0].depth.at<float>(20, 20), 0.5 + 0.001 * i, 1e-6);
+  }
+  EXPECT_THAT(source->next()->problem,
+              HasSubstr("20.png: has 8-bit pixels of 1 channel; depth is 16 bits and one channel"));
+  EXPECT_THAT(source->next()->problem, HasSubstr("30.png: has 16-bit pixels of 3 channels"));
+  EXPECT_THAT(source->next()->problem, HasSubstr("40.png: is 32x24 pixels; expected 64x48"));
+  EXPECT_EQ(source->next()->problem, "");
+}
+
+TEST_F(ImageSequence, SaysWhichPicturesAreMissingFromTheScene) {
+  write_pair(0);
+  EXPECT_THAT(making("type: image_sequence\ncalibration: {file: rig.yml}\n"),
+              ThrowsMessage<ConfigError>(
+                  AllOf(HasSubstr("scene.yaml:1"), HasSubstr("neither left nor left_depth"))));
+  EXPECT_THAT(making("type: image_sequence\nleft: left_%04d.png\nright_mask: left_%04d.png\n"
+                     "calibration: {file: rig.yml}\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("right_mask is given without images")));
+  EXPECT_THAT(making(numbered("right_depth: right_%04d.png\n")),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("no image can be read"),
+                                             HasSubstr("right_0000.png: has 8-bit pixels"))));
+  cv::imwrite(file("d_0000.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
+  EXPECT_THAT(making(numbered("left_depth: d_%04d.png\n")),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("d_0000.png"), HasSubstr("32x24"))));
+}
+
 TEST_F(ImageSequence, KnowsTheAnswerWhereTablesGiveIt) {
   for (int i = 0; i < 3; ++i) write_pair(i);
   Eigen::VectorXd state = scene_.rest_state();

@@ -1,15 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hypotrack/calibration.hpp"
+#include "hypotrack/image_file.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/truth.hpp"
 #include "pattern.hpp"
-#include "read_image.hpp"
 
 namespace hypotrack {
 
@@ -18,6 +19,9 @@ struct ImageSequenceParams {
   std::filesystem::path right;
   std::filesystem::path left_mask;
   std::filesystem::path right_mask;
+  std::filesystem::path left_depth;
+  std::filesystem::path right_depth;
+  double depth_unit = kMillimetre;
   CalibrationSettings calibration;
   std::optional<int> start;
   int step = 1;
@@ -29,11 +33,20 @@ struct ImageSequenceParams {
   void visit(ParamVisitor& v) {
     v("left", left,
       {.help = "images of the first camera: left_%04d.png (numbers; gaps are reported), left_*.png "
-               "(sorted, 9 before 10) or one file",
-       .required = true});
-    v("right", right, {.help = "images of the second camera; without it there is one view"});
+               "(sorted, 9 before 10) or one file; not needed where there is left_depth"});
+    v("right", right,
+      {.help = "images of the second camera; without it and right_depth there is one view"});
     v("left_mask", left_mask, {.help = "foreground of the first camera: not zero is foreground"});
     v("right_mask", right_mask, {.help = "foreground of the second camera"});
+    v("left_depth", left_depth,
+      {.help = "depth along the axis of the first camera: 16-bit PNG, 0 is not measured"});
+    v("right_depth", right_depth, {.help = "depth of the second camera"});
+    v("depth_units_mm", depth_unit,
+      {.help = "depth that one unit of left_depth and right_depth means",
+       .min = 1e-4,
+       .max = 1e3,
+       .unit = "mm",
+       .to_si = kMillimetre});
     v("calibration", calibration, {.help = "the cameras"});
     v("start", start,
       {.help = "number (with %d) or position (with *) of the first frame; default: the first found",
@@ -47,29 +60,60 @@ struct ImageSequenceParams {
   }
 };
 
-/// Pictures on disk, one per view and frame. Tables of the answer (`truth_states`,
-/// `truth_landmarks`) are CSV as described in hypotrack/tables.hpp; a row belongs to the image
-/// whose number in the file name is the row's frame (with * instead of a number: the position in
-/// the sorted list), unless `truth_offset` shifts it.
+enum class Content { color, mask, depth };
+
+/// One of the pictures that make up a frame.
+struct Layer {
+  std::size_t view;
+  Content content;
+  std::filesystem::path pattern;
+};
+
+/// The layers that are given. Throws ConfigError, naming `where`, if they make no views.
+std::vector<Layer> layers_of(const ImageSequenceParams& params, const std::string& where) {
+  const bool second = !params.right.empty() || !params.right_depth.empty();
+  if (params.left.empty() && params.left_depth.empty()) {
+    throw ConfigError(where +
+                      ": neither left nor left_depth is given; expected the images of the "
+                      "first camera in `left` (colour), `left_depth` or both");
+  }
+  if (second && params.left_mask.empty() != params.right_mask.empty()) {
+    throw ConfigError(where +
+                      ": only one of left_mask and right_mask is given; expected both or none");
+  }
+  if (!second && !params.right_mask.empty()) {
+    throw ConfigError(where +
+                      ": right_mask is given without images of the second camera; expected "
+                      "`right` or `right_depth`, too");
+  }
+  std::vector<Layer> layers;
+  const auto add = [&](std::size_t view, Content content, const std::filesystem::path& pattern) {
+    if (!pattern.empty()) layers.push_back({view, content, pattern});
+  };
+  add(0, Content::color, params.left);
+  add(1, Content::color, params.right);
+  add(0, Content::mask, params.left_mask);
+  add(1, Content::mask, params.right_mask);
+  add(0, Content::depth, params.left_depth);
+  add(1, Content::depth, params.right_depth);
+  return layers;
+}
+
+/// Pictures on disk, one per view and frame: colour, depth or both. Tables of the answer
+/// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp; a row belongs
+/// to the image whose number in the file name is the row's frame (with * instead of a number: the
+/// position in the sorted list), unless `truth_offset` shifts it.
 class ImageSequence : public Source {
  public:
   using Params = ImageSequenceParams;
 
-  ImageSequence(const Params& params, PluginContext& context) : params_(params) {
-    std::vector<std::filesystem::path> patterns = {params.left};
-    if (!params.right.empty()) patterns.push_back(params.right);
-    std::vector<std::filesystem::path> masks = patterns;
-    masks[0] = params.left_mask;
-    if (masks.size() > 1) masks[1] = params.right_mask;
-    views_ = patterns.size();
-    has_masks_ = !params.left_mask.empty();
-    if (has_masks_ != !params.right_mask.empty() && views_ == 2) {
-      throw ConfigError(
-          fmt::format("{}: only one of left_mask and right_mask is given; expected "
-                      "both or none",
-                      context.config().where()));
+  ImageSequence(const Params& params, PluginContext& context)
+      : params_(params), layers_(layers_of(params, context.config().where())) {
+    std::vector<std::filesystem::path> patterns;
+    for (const Layer& layer : layers_) {
+      patterns.push_back(layer.pattern);
+      views_ = std::max(views_, layer.view + 1);
     }
-    if (has_masks_) patterns.insert(patterns.end(), masks.begin(), masks.end());
     Images images = find_images(patterns, {params.start, params.step, params.count});
     lists_ = std::move(images.views);
     first_ = images.first;
@@ -80,7 +124,7 @@ class ImageSequence : public Source {
           "one camera per view",
           params.calibration.file.string(), cameras_.size(), views_, views_ == 2 ? ", right" : ""));
     }
-    take_image_sizes();
+    for (std::size_t i = 0; i < layers_.size(); ++i) take_image_size(i);
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
     }
@@ -103,57 +147,63 @@ class ImageSequence : public Source {
     frame.index = static_cast<int>(index);
     frame.time = frame.index / frame_rate();
     frame.truth = truth_.at(first_ + frame.index * params_.step);
-    for (std::size_t v = 0; v < views_ && frame.problem.empty(); ++v) {
-      frame.views.push_back(read_view(v, index, frame.problem));
+    frame.views.resize(views_);
+    for (std::size_t i = 0; i < layers_.size() && frame.problem.empty(); ++i) {
+      ReadImage picture = read_layer(i, index);
+      if (picture.problem.empty()) {
+        picture.problem = size_problem(lists_[i][index], picture.image, cameras_[layers_[i].view]);
+      }
+      frame.problem = picture.problem;
+      image_of(frame.views[layers_[i].view], layers_[i].content) = picture.image;
     }
     if (!frame.problem.empty()) frame.views.clear();
     return frame;
   }
 
-  View read_view(std::size_t v, std::size_t index, std::string& problem) const {
-    const std::filesystem::path& file = lists_[v][index];
-    ReadImage color = read_color(file, params_.bits);
-    problem = color.problem;
-    if (problem.empty()) problem = size_problem(file, color.image, cameras_[v]);
-    View view{color.image, {}};
-    if (has_masks_ && problem.empty()) {
-      const std::filesystem::path& mask_file = lists_[views_ + v][index];
-      ReadImage mask = read_mask(mask_file);
-      problem = mask.problem;
-      if (problem.empty()) problem = size_problem(mask_file, mask.image, cameras_[v]);
-      view.mask = mask.image;
+  ReadImage read_layer(std::size_t layer, std::size_t index) const {
+    const std::filesystem::path& file = lists_[layer][index];
+    switch (layers_[layer].content) {
+      case Content::color:
+        return read_color(file, params_.bits);
+      case Content::mask:
+        return read_mask(file);
+      case Content::depth:
+        return read_depth(file, params_.depth_unit);
     }
-    return view;
+    return {};
   }
 
-  static std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,
-                                  const Camera& camera) {
-    if (image.cols == camera.width && image.rows == camera.height) return {};
-    return fmt::format("{}: is {}x{} pixels; expected {}x{} as its camera", file.string(),
-                       image.cols, image.rows, camera.width, camera.height);
+  static cv::Mat& image_of(View& view, Content content) {
+    switch (content) {
+      case Content::mask:
+        return view.mask;
+      case Content::depth:
+        return view.depth;
+      default:
+        return view.color;
+    }
   }
 
-  /// Compares the calibration with the first readable image of every view. A recording of another
+  /// Compares the calibration with the first readable image of a layer. A recording of another
   /// resolution is a mistake of the scene; a single frame of another size is damage.
-  void take_image_sizes() {
-    for (std::size_t v = 0; v < views_; ++v) {
-      std::string first_problem;
-      bool found = false;
-      for (std::size_t i = 0; i < lists_[v].size() && !found; ++i) {
-        const ReadImage read = read_color(lists_[v][i], params_.bits);
-        if (first_problem.empty()) first_problem = read.problem;
-        if (!read.problem.empty()) continue;
-        fit_image_size(cameras_[v], read.image.cols, read.image.rows, lists_[v][i].string());
-        found = true;
-      }
-      if (!found) throw DataError(fmt::format("no image can be read: {}", first_problem));
+  void take_image_size(std::size_t layer) {
+    if (layers_[layer].content == Content::mask) return;
+    std::string first_problem;
+    for (std::size_t i = 0; i < lists_[layer].size(); ++i) {
+      const ReadImage read = read_layer(layer, i);
+      if (first_problem.empty()) first_problem = read.problem;
+      if (!read.problem.empty()) continue;
+      fit_image_size(cameras_[layers_[layer].view], read.image.cols, read.image.rows,
+                     lists_[layer][i].string());
+      return;
     }
+    throw DataError(fmt::format("no image can be read: {}", first_problem));
   }
 
   Params params_;
-  std::size_t views_ = 0;
-  bool has_masks_ = false;
-  std::vector<ImageList> lists_;  ///< images of every view, then masks of every view
+  std::vector<Layer> layers_;
+  std::size_t views_ = 1;
+  std::vector<ImageList> lists_;  ///< images of every layer
   int first_ = 0;                 ///< number of the first image
   std::vector<Camera> cameras_;
   TruthTables truth_;
@@ -162,4 +212,5 @@ class ImageSequence : public Source {
 
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::ImageSequence, "Images on disk, one file per view and frame", "")
+HYPOTRACK_PLUGIN(hypotrack::ImageSequence,
+                 "Images on disk, one file per view and frame: colour, depth or both", "")

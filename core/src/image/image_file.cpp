@@ -1,4 +1,4 @@
-#include "read_image.hpp"
+#include "hypotrack/image_file.hpp"
 
 #include <fmt/format.h>
 
@@ -94,6 +94,29 @@ ReadImage read_mask(const std::filesystem::path& file) {
   any |= channels[2] != 0;
   read.image = any;
   return read;
+}
+
+ReadImage read_depth(const std::filesystem::path& file, double unit) {
+  ReadImage read = decode(file);
+  if (!read.problem.empty()) return read;
+  if (read.image.type() != CV_16UC1) {
+    constexpr std::array<const char*, 8> kPixels = {"8-bit",         "8-bit signed",   "16-bit",
+                                                    "16-bit signed", "32-bit integer", "float",
+                                                    "double",        "half float"};
+    return {{},
+            fmt::format("{}: has {} pixels of {} channel{}; depth is 16 bits and one channel",
+                        file.string(), kPixels[static_cast<std::size_t>(read.image.depth())],
+                        read.image.channels(), read.image.channels() == 1 ? "" : "s")};
+  }
+  read.image.convertTo(read.image, CV_32F, unit);
+  return read;
+}
+
+std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,
+                         const Camera& camera) {
+  if (image.cols == camera.width && image.rows == camera.height) return {};
+  return fmt::format("{}: is {}x{} pixels; expected {}x{} as its camera", file.string(), image.cols,
+                     image.rows, camera.width, camera.height);
 }
 
 }  // namespace hypotrack
