@@ -1,0 +1,119 @@
+#include "image_list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::rgbd {
+namespace {
+
+constexpr std::uintmax_t kLargestList = std::uintmax_t{64} << 20;
+constexpr std::string_view kBlank = " \t\r,";
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::string name = file.string();
+  if (!std::filesystem::exists(file, error)) {
+    throw DataError(name +
+                    ": there is no such list; expected a TUM RGB-D recording with a time "
+                    "and a file name per line in it");
+  }
+  if (!std::filesystem::is_regular_file(file, error)) throw DataError(name + ": is no file");
+  if (std::filesystem::file_size(file, error) > kLargestList || error) {
+    throw DataError(name + ": is larger than 64 MiB; expected a list of file names");
+  }
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in.good() && !in.eof()) throw DataError(name + ": cannot be read; check its permissions");
+  if (text.find('\0') != std::string::npos) {
+    throw DataError(name + ": is no text; expected a time and a file name per line");
+  }
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // what Windows begins UTF-8 with
+  return text;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
+}
+
+/// For messages: no control characters, and not a whole binary file.
+std::string shown(std::string_view line) {
+  std::string text(line.substr(0, 60));
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 32; }, '?');
+  return text + (line.size() > 60 ? "..." : "");
+}
+
+TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
+                     const std::string& where) {
+  TimedImage image;
+  const char* end = line.data() + line.size();
+  const auto [stop, failure] = std::from_chars(line.data(), end, image.time);
+  const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
+  const std::string_view name = trimmed(rest);
+  const bool apart = !rest.empty() && kBlank.find(rest.front()) != std::string_view::npos;
+  if (failure != std::errc{} || !std::isfinite(image.time) || !apart || name.empty()) {
+    throw DataError(fmt::format(
+        "{}: '{}' is not understood; expected a time in seconds and a file name, such as "
+        "1305031102.175304 rgb/1305031102.175304.png",
+        where, shown(line)));
+  }
+  image.file = folder / std::string(name);
+  return image;
+}
+
+}  // namespace
+
+std::vector<TimedImage> read_image_list(const std::filesystem::path& list) {
+  const std::string text = read_text(list);
+  std::vector<TimedImage> images;
+  int number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = trimmed(std::string_view(text).substr(begin, end - begin));
+    begin = end + 1;
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const std::string where = fmt::format("{}:{}", list.string(), number);
+    images.push_back(read_line(line, list.parent_path(), where));
+    if (images.size() > 1 && images.back().time <= images[images.size() - 2].time) {
+      throw DataError(fmt::format("{}: the time {} follows {}; expected times that ascend", where,
+                                  images.back().time, images[images.size() - 2].time));
+    }
+  }
+  if (images.empty()) throw DataError(list.string() + ": names no image; expected one per line");
+  return images;
+}
+
+std::size_t nearest(std::span<const TimedImage> images, double time) {
+  const auto after =
+      std::lower_bound(images.begin(), images.end(), time,
+                       [](const TimedImage& image, double value) { return image.time < value; });
+  const auto index = static_cast<std::size_t>(after - images.begin());
+  if (index == 0) return 0;
+  if (index == images.size()) return index - 1;
+  return time - images[index - 1].time <= images[index].time - time ? index - 1 : index;
+}
+
+std::vector<std::optional<std::size_t>> associate(std::span<const TimedImage> a,
+                                                  std::span<const TimedImage> b,
+                                                  double max_difference) {
+  std::vector<std::optional<std::size_t>> partners(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const std::size_t j = nearest(b, a[i].time);
+    const bool near_enough = std::abs(a[i].time - b[j].time) <= max_difference;
+    if (near_enough && nearest(a, b[j].time) == i) partners[i] = j;
+  }
+  return partners;
+}
+
+}  // namespace hypotrack::rgbd
