@@ -14,6 +14,7 @@
 namespace hypotrack {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -160,6 +161,9 @@ TEST_F(Tables, ConvertRenameAndDropLandmarks) {
               ThrowsMessage<DataError>(HasSubstr("did you mean 'hand.index_tip'?")));
   EXPECT_THAT(reading({"palm=index_mcp", "finger2="}),
               ThrowsMessage<DataError>(HasSubstr("the landmark 'hand.index_mcp' is there twice")));
+  EXPECT_THAT(reading({"palm=", "fingr2=index_tip"}),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("no landmark 'fingr2' that the renaming"),
+                                             HasSubstr("did you mean 'finger2'?"))));
   EXPECT_THAT(reading({"palm"}), ThrowsMessage<DataError>(HasSubstr("'palm' is not understood")));
   write("index_mcp_x,index_mcp_y\n1,2\n");
   EXPECT_THAT(reading({}),

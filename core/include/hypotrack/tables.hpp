@@ -52,8 +52,8 @@ struct LandmarkTableOptions {
 };
 
 /// Reads landmarks. Empty cells and `nan` are unknown, and so are landmarks without columns. Throws
-/// DataError where read_states does, and on names that are not among `landmark_names` (rename
-/// them).
+/// DataError where read_states does, on names that are not among `landmark_names` (rename them), and
+/// on renamings of what the table does not have.
 HYPOTRACK_API std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
                                                       std::span<const std::string> landmark_names,
                                                       const LandmarkTableOptions& options = {});

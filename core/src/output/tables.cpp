@@ -99,10 +99,23 @@ Renames read_renames(std::span<const std::string> entries, const std::string& fi
   return renames;
 }
 
+/// A renaming of what the table does not have is a slip of the pen.
+void check_renames(const Renames& renames, const CsvTable& table, const std::string& file) {
+  std::vector<std::string> bases;
+  for (const std::string_view column : table.columns())
+    if (column.ends_with("_x")) bases.emplace_back(column.substr(0, column.size() - 2));
+  for (const auto& [name, landmark] : renames) {
+    if (std::find(bases.begin(), bases.end(), name) != bases.end()) continue;
+    throw DataError(fmt::format("{}: has no landmark '{}' that the renaming '{}={}' could mean{}",
+                                file, name, name, landmark, detail::did_you_mean(name, bases)));
+  }
+}
+
 std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
                                  std::span<const std::string> names,
                                  const LandmarkTableOptions& options) {
   const Renames renames = read_renames(options.rename, file);
+  check_renames(renames, table, file);
   const std::vector<std::string> offered(names.begin(), names.end());
   std::vector<Triple> triples;
   std::vector<bool> taken(names.size());
