@@ -5,7 +5,7 @@
 
 #include "hypotrack/config.hpp"
 #include "hypotrack/optimizer.hpp"
-#include "output/metrics.hpp"
+#include "metrics/landmark_errors.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack::test {
@@ -90,8 +90,9 @@ LandmarkFit fit_landmarks(const Scene& scene, const Eigen::Matrix3Xd& truth,
     if (result.cost > 0.9999 * last) break;
     last = result.cost;
   }
-  fit.mean_distance =
-      mean_landmark_error(scene, scaled_landmarks(scene, fit.state, fit.scale), truth);
+  fit.mean_distance = frame_error(landmark_layout(scene.landmark_names()),
+                                  scaled_landmarks(scene, fit.state, fit.scale), truth)
+                          .mean;
   return fit;
 }
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "landmark_fit.hpp"
-#include "output/metrics.hpp"
+#include "metrics/landmark_errors.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
 
@@ -27,8 +27,9 @@ struct Stb {
   Eigen::VectorXd fitted;  ///< the pose of the scene
 
   double distance(const Eigen::VectorXd& state) const {
-    return mean_landmark_error(*session.scene, session.scene->landmarks(state),
-                               frame.truth->landmarks);
+    return frame_error(landmark_layout(session.scene->landmark_names()),
+                       session.scene->landmarks(state), frame.truth->landmarks)
+        .mean;
   }
 };
 
