@@ -13,25 +13,31 @@ constexpr int kBarWidth = 30;
 constexpr std::chrono::milliseconds kTerminalPeriod{100};
 constexpr std::chrono::seconds kLinePeriod{5};
 
-std::string minutes(double seconds) {
-  const int s = static_cast<int>(seconds + 0.5);
-  return fmt::format("{}:{:02}", s / 60, s % 60);
+std::string duration(double seconds) {
+  const auto s = static_cast<long>(seconds + 0.5);
+  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
+  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
 }  // namespace
 
-Progress::Progress(std::optional<int> total)
-    : total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::optional<int> total, Unit unit)
+    : total_(total), unit_(unit), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-  if (done_ == 0) return;
+  if (done_ == 0 || (!terminal_ && shown_done_ == done_)) return;
   fmt::print(stderr, "{}{}{}\n", terminal_ ? "\r" : "", line(last_note_),
              terminal_ ? "\x1b[K" : "");
 }
 
+std::string Progress::speed(double per_second) const {
+  if (unit_ == Unit::frames) return fmt::format("frames, {:.1f} fps", per_second);
+  return fmt::format("runs, {:.1f} per minute", 60 * per_second);
+}
+
 std::string Progress::line(const std::string& note) const {
   const double elapsed = std::chrono::duration<double>(Clock::now() - begin_).count();
-  const double fps = elapsed > 0 ? done_ / elapsed : 0;
+  const double per_second = elapsed > 0 ? done_ / elapsed : 0;
   std::string text;
   if (total_ && *total_ > 0) {
     if (terminal_) {
@@ -39,17 +45,18 @@ std::string Progress::line(const std::string& note) const {
       text = "[" + std::string(static_cast<std::size_t>(filled), '#') +
              std::string(static_cast<std::size_t>(kBarWidth - filled), '.') + "] ";
     }
-    text += fmt::format("{}/{} frames, {:.1f} fps", done_, *total_, fps);
-    if (done_ < *total_ && fps > 0) text += ", " + minutes((*total_ - done_) / fps) + " left";
+    text += fmt::format("{}/{} {}", done_, *total_, speed(per_second));
+    if (done_ < *total_ && per_second > 0)
+      text += ", " + duration((*total_ - done_) / per_second) + " left";
   } else {
-    text = fmt::format("{} frames, {:.1f} fps", done_, fps);
+    text = fmt::format("{} {}", done_, speed(per_second));
   }
   return note.empty() ? text : text + ", " + note;
 }
 
 void Progress::say(const std::string& text) {
   fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
-  shown_ = {};  // the next frame shows the bar again
+  shown_ = {};  // the next step shows the bar again
 }
 
 void Progress::advance(const std::string& note) {
@@ -60,6 +67,7 @@ void Progress::advance(const std::string& note) {
                              : (now - shown_ > kLinePeriod && now - begin_ > kLinePeriod);
   if (!due) return;
   shown_ = now;
+  shown_done_ = done_;
   if (terminal_)
     fmt::print(stderr, "\r{}\x1b[K", line(note));
   else

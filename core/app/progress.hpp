@@ -6,17 +6,19 @@
 
 namespace hypotrack::app {
 
-/// Progress on stderr: a bar with frames per second and time left on a terminal, a plain line every
-/// few seconds otherwise.
+/// Progress on stderr: a bar with the speed and the time left on a terminal, a plain line every few
+/// seconds otherwise.
 class Progress {
  public:
-  /// `total` is the number of frames, where it is known.
-  explicit Progress(std::optional<int> total);
+  enum class Unit { frames, runs };
+
+  /// `total` is the number of frames or runs, where it is known.
+  explicit Progress(std::optional<int> total, Unit unit = Unit::frames);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more frame is done; `note` is shown behind the numbers.
+  /// One more frame or run is done; `note` is shown behind the numbers.
   void advance(const std::string& note);
 
   /// A line of its own, clear of the bar.
@@ -25,9 +27,12 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   std::string line(const std::string& note) const;
+  std::string speed(double per_second) const;
   std::optional<int> total_;
+  Unit unit_;
   bool terminal_;
   int done_ = 0;
+  int shown_done_ = 0;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point shown_{};
   std::string last_note_;

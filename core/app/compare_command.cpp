@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <memory>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+#include "study/check_cells.hpp"
+#include "study/execute.hpp"
+#include "study/plan.hpp"
+#include "study/study_file.hpp"
+#include "study/study_folder.hpp"
+#include "study/tables.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+/// Exit code of a study that is complete, but for runs that failed.
+constexpr int kFailedRunsExitCode = 3;
+constexpr std::size_t kMostFailuresShown = 10;
+
+struct CompareOptions {
+  std::filesystem::path study, out;
+  std::optional<std::string> variant;
+  int jobs = 0, threads = 0;
+  std::string shard = "1/1";
+  bool retry_failed = false;
+};
+
+/// The cores that this process may use, which a cluster may have limited.
+int core_count() {
+  cpu_set_t cores;
+  if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return std::max(1, CPU_COUNT(&cores));
+  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+std::optional<std::size_t> parse_count(std::string_view text) {
+  std::size_t count = 0;
+  const char* const end = text.data() + text.size();
+  const auto [at, error] = std::from_chars(text.data(), end, count);
+  if (error != std::errc() || at != end || count == 0) return std::nullopt;
+  return count;
+}
+
+study::Shard parse_shard(std::string_view text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const auto index = parse_count(text.substr(0, slash));
+  const auto count =
+      slash < text.size() ? parse_count(text.substr(slash + 1)) : std::optional<std::size_t>();
+  if (!index || !count || *index > *count)
+    throw ConfigError(
+        fmt::format("--shard {}: expected i/n with i from 1 to n, for example 1/4 to 4/4", text));
+  return {*index - 1, *count};
+}
+
+study::Launch launch_of(const CompareOptions& options, const CommonOptions& common) {
+  study::Launch launch;
+  launch.program = std::filesystem::read_symlink("/proc/self/exe");
+  for (const auto& folder : common.plugin_path)
+    launch.plugin_path.push_back(std::filesystem::absolute(folder));
+  const int cores = core_count();
+  launch.jobs = options.jobs > 0 ? options.jobs : cores;
+  launch.threads = options.threads > 0 ? options.threads : std::max(1, cores / launch.jobs);
+  return launch;
+}
+
+/// Shows the progress and ends the work on Ctrl-C.
+class Console : public study::Watcher {
+ public:
+  Console(const study::Plan& plan, std::size_t runs, const InterruptGuard& interrupt)
+      : plan_(plan),
+        interrupt_(interrupt),
+        progress_(static_cast<int>(runs), Progress::Unit::runs) {}
+
+  bool stop() override { return interrupt_.interrupted(); }
+
+  void on_run(const study::PlannedRun& run, const std::string& failure) override {
+    if (!failure.empty()) {
+      ++failed_;
+      progress_.say(fmt::format("failed: {}, seed {}: {}", plan_.describe(plan_.cells[run.cell]),
+                                run.seed, failure));
+    }
+    progress_.advance(failed_ > 0 ? fmt::format("{} failed", failed_) : "");
+  }
+
+ private:
+  const study::Plan& plan_;
+  const InterruptGuard& interrupt_;
+  Progress progress_;
+  int failed_ = 0;
+};
+
+/// Runs of the shard that are yet to be made.
+std::vector<std::size_t> runs_to_make(const study::StudyFolder& folder, const study::Plan& plan,
+                                      const CompareOptions& options) {
+  std::vector<std::size_t> runs = study::runs_of(plan, parse_shard(options.shard));
+  std::erase_if(runs, [&](std::size_t run) {
+    const study::RunState state = folder.state(plan.runs[run]);
+    return state == study::RunState::ok ||
+           (state == study::RunState::failed && !options.retry_failed);
+  });
+  return runs;
+}
+
+/// The cells to look at before anything runs: all of a new study, later those with runs to make.
+std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const study::Plan& plan,
+                                        const std::vector<std::size_t>& runs) {
+  std::vector<std::size_t> cells(plan.cells.size());
+  std::iota(cells.begin(), cells.end(), std::size_t{0});
+  if (!folder.begun()) return cells;
+  std::set<std::size_t> needed;
+  for (const std::size_t run : runs) needed.insert(plan.runs[run].cell);
+  return {needed.begin(), needed.end()};
+}
+
+/// Says what there is and returns the exit code.
+int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool complete) {
+  const std::size_t failed = tally.failures.size();
+  fmt::print("{} of {} runs are there, {} failed; tables in {}\n", tally.ok + failed, tally.planned,
+             failed, folder.path().string());
+  for (std::size_t i = 0; i < std::min(failed, kMostFailuresShown); ++i)
+    fmt::print(stderr, "hypotrack: failed: {}\n", tally.failures[i]);
+  if (failed > kMostFailuresShown)
+    fmt::print(stderr, "hypotrack: and {} more, see results.csv\n", failed - kMostFailuresShown);
+  if (!complete) {
+    fmt::print(stderr, "hypotrack: interrupted; the same command goes on from here\n");
+    return kInterruptedExitCode;
+  }
+  if (failed > 0) fmt::print(stderr, "hypotrack: --retry-failed makes the failed runs again\n");
+  return failed > 0 ? kFailedRunsExitCode : 0;
+}
+
+int compare(const CompareOptions& options, const CommonOptions& common) {
+  const study::Plan plan = study::make_plan(study::load_study(options.study, options.variant));
+  const study::StudyFolder folder(options.out, plan);
+  const std::vector<std::size_t> runs = runs_to_make(folder, plan, options);
+  const study::Launch launch = launch_of(options, common);
+  const InterruptGuard interrupt;
+  const std::vector<std::size_t> cells = cells_to_check(folder, plan, runs);
+  fmt::print(stderr, "{}: {} runs in {} cells, {} to make here; {} at a time, {} thread{} each\n",
+             plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
+             launch.threads, launch.threads == 1 ? "" : "s");
+  study::check_cells(plan, cells, launch, [&] { return !interrupt.interrupted(); });
+  if (interrupt.interrupted()) {
+    fmt::print(stderr, "hypotrack: interrupted before the first run\n");
+    return kInterruptedExitCode;
+  }
+  folder.begin();
+  bool complete = false;
+  {
+    Console console(plan, runs.size(), interrupt);
+    complete = study::execute(folder, plan, runs, launch, console);
+  }
+  return conclude(study::write_tables(folder, plan), folder, complete);
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<CompareOptions>();
+  CLI::App* command =
+      app.add_subcommand("compare", "Run a study: scenes, settings and seeds, and tabulate it");
+  command->add_option("study", options->study, "Study file (YAML)")->required();
+  command->add_option("--out", options->out, "Folder for runs and tables")->required();
+  command->add_option("--variant", options->variant, "Variant of the study, for example quick");
+  command->add_option("--jobs", options->jobs, "Runs at a time (default: one per core)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", options->threads, "Threads of each run (default: cores / jobs)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--shard", options->shard,
+                      "Make a part of the runs: i/n, for one of n machines that share the folder");
+  command->add_flag("--retry-failed", options->retry_failed, "Make failed runs again");
+  command->callback([=, &common, &exit_code] { exit_code = compare(*options, common); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::study {
+
+/// One change to a scene, as `--set` takes it.
+struct Change {
+  std::string key;    ///< dotted path
+  std::string value;  ///< YAML on one line
+  std::string where;  ///< in the study: `study.yaml:12:5`
+  std::string assignment() const { return key + "=" + value; }
+};
+
+/// A scene of a study: a scene file and what the study changes in it.
+struct StudyScene {
+  std::string name;
+  std::filesystem::path file;  ///< absolute
+  std::string label;
+  std::vector<Change> changes;
+  std::string where;
+};
+
+/// One value of an axis: a number or word under the axis's key, or a named case.
+struct Choice {
+  std::string label;
+  bool is_number = false;
+  std::vector<Change> changes;
+};
+
+/// One direction of the grid.
+struct Axis {
+  std::string name;
+  bool is_key = true;  ///< the name is a key of a scene; otherwise the choices are named cases
+  std::vector<Choice> choices;
+};
+
+enum class PlotKind { curve, success, heatmap, bars };
+HYPOTRACK_API std::span<const std::string_view> enum_names(PlotKind);
+
+/// One item of `plots:`, drawn by `hypotrack report`. `x`, `color` and `facet` are axes, `scene` or
+/// `seed`; `y` and `value` are metrics.
+struct Plot {
+  PlotKind kind = PlotKind::curve;
+  std::string x, y, value, color, facet, title, x_label, y_label;
+  HYPOTRACK_API void visit(ParamVisitor& v);
+};
+
+/// A study: every scene at every point of the grid with every seed.
+struct Study {
+  std::string title, about;
+  std::vector<StudyScene> scenes;
+  std::vector<Axis> axes;
+  std::vector<std::int64_t> seeds;
+  std::optional<int> frames;  ///< of each run; the whole source if empty
+  bool overlay = false;       ///< whether runs write overlay.mp4
+  std::vector<Plot> plots;
+  std::filesystem::path directory;  ///< absolute; what relative paths in changes refer to
+};
+
+/// Reads a study file and applies one of its variants. Throws ConfigError with file, line and
+/// column.
+HYPOTRACK_API Study load_study(const std::filesystem::path& file,
+                               const std::optional<std::string>& variant = std::nullopt);
+
+/// The study as a study file without variants; load_study of it gives the same study.
+HYPOTRACK_API std::string to_yaml(const Study& study);
+
+}  // namespace hypotrack::study

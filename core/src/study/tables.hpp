@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "study/plan.hpp"
+#include "study/study_folder.hpp"
+
+namespace hypotrack::study {
+
+/// What is in a study's folder.
+struct Tally {
+  std::size_t planned = 0, ok = 0;
+  std::vector<std::string> failures;  ///< `sh_stereo, optimizer.particles 32, seed 3: message`
+};
+
+/// Writes results.csv (a row per run), cells.csv (a row per cell: mean and standard deviation over
+/// the seeds) and timing.csv from whatever runs are there, each file whole or not at all. The first
+/// two are the same bytes for the same runs. Throws OutputError or DataError.
+HYPOTRACK_API Tally write_tables(const StudyFolder& folder, const Plan& plan);
+
+}  // namespace hypotrack::study

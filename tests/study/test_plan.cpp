@@ -1,0 +1,120 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "hypotrack/error.hpp"
+#include "expect_error.hpp"
+#include "study_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using study::Plan;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsSubsetOf;
+using testing::SizeIs;
+
+std::vector<std::string> ids(const Plan& plan) {
+  std::vector<std::string> ids;
+  for (const study::PlannedRun& run : plan.runs) ids.push_back(run.id);
+  return ids;
+}
+
+class PlanTest : public StudyTest {
+ protected:
+  /// The ids of the small study with one piece replaced.
+  std::vector<std::string> ids_with(const std::string& piece, const std::string& by) const {
+    std::string text = small_study();
+    return ids(plan(text.replace(text.find(piece), piece.size(), by)));
+  }
+};
+
+TEST_F(PlanTest, EverySceneMeetsEveryPointOfTheGridWithEverySeed) {
+  const Plan plan = this->plan(small_study());
+  ASSERT_THAT(plan.cells, SizeIs(8));
+  EXPECT_THAT(plan.runs, SizeIs(16));
+  EXPECT_EQ(plan.describe(plan.cells[0]), "box, optimizer.particles 8, method pso");
+  EXPECT_EQ(plan.describe(plan.cells[1]), "box, optimizer.particles 8, method random");
+  EXPECT_EQ(plan.describe(plan.cells[7]), "hand, optimizer.particles 16, method random");
+  const auto all = ids(plan);
+  EXPECT_THAT(std::set<std::string>(all.begin(), all.end()), SizeIs(16));
+  EXPECT_THAT(all[0], testing::MatchesRegex("box_s1_[0-9a-f]{16}"));
+}
+
+TEST_F(PlanTest, ChangesApplyInTheOrderStudySceneAxes) {
+  const Plan plan = this->plan(small_study());
+  std::vector<std::string> changes;
+  for (const auto& change : plan.changes_of(plan.cells[1])) changes.push_back(change.assignment());
+  EXPECT_THAT(changes, ElementsAre("tile.padding=0.1", "tile.size=32", "optimizer.particles=8",
+                                   "optimizer={type: random_search}", "search.angle_deg=20"));
+}
+
+TEST_F(PlanTest, AStudyWithoutAGridHasACellPerScene) {
+  const Plan plan =
+      this->plan("title: t\nscenes: {box: {file: box.yaml}, hand: {file: hand.yaml}}");
+  EXPECT_THAT(plan.cells, SizeIs(2));
+  EXPECT_THAT(plan.runs, SizeIs(2));
+}
+
+TEST_F(PlanTest, AStudyThatGrowsKeepsTheIdsOfItsRuns) {
+  const auto before = ids(plan(small_study()));
+  EXPECT_THAT(before, IsSubsetOf(ids_with("seeds: 2", "seeds: 5")));
+  EXPECT_THAT(before, IsSubsetOf(ids_with("[8, 16]", "[8, 16, 32]")));
+  EXPECT_THAT(before, IsSubsetOf(ids_with("  hand:", "  box2: {file: box.yaml}\n  hand:")));
+  EXPECT_EQ(before, ids_with("title: Small", "title: Other"));
+  EXPECT_EQ(before, ids_with("frames: 5", "frames: 5\noverlay: true"));
+}
+
+TEST_F(PlanTest, WhateverDecidesTheResultChangesTheId) {
+  const auto before = ids(plan(small_study()));
+  const auto differ = [&](const std::vector<std::string>& now) {
+    return std::none_of(now.begin(), now.end(), [&](const std::string& id) {
+      return std::find(before.begin(), before.end(), id) != before.end();
+    });
+  };
+  EXPECT_TRUE(differ(ids_with("frames: 5", "frames: 6")));
+  EXPECT_TRUE(differ(ids_with("tile.padding: 0.1", "tile.padding: 0.2")));
+  EXPECT_TRUE(differ(ids_with("[8, 16]", "[9, 17]")));
+  write("box.yaml", "models: [another]\n");
+  write("hand.yaml", "models: [another]\n");
+  EXPECT_TRUE(differ(ids(plan(small_study()))));
+}
+
+TEST_F(PlanTest, IdsDoNotDependOnWhereTheStudyLies) {
+  const auto before = ids(plan(small_study()));
+  std::filesystem::create_directory(path("elsewhere"));
+  for (const char* name : {"box.yaml", "hand.yaml", "study.yaml"})
+    std::filesystem::copy(path(name), path(std::string("elsewhere/") + name));
+  EXPECT_EQ(ids(make_plan(study::load_study(path("elsewhere/study.yaml")))), before);
+}
+
+TEST_F(PlanTest, ShardsShareOutTheRunsAndTheCells) {
+  const Plan plan = this->plan(small_study());
+  std::vector<std::size_t> all;
+  for (std::size_t shard = 0; shard < 3; ++shard) {
+    const auto part = runs_of(plan, {shard, 3});
+    EXPECT_THAT(part.size(), testing::AllOf(testing::Ge(4U), testing::Le(6U)));
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  std::sort(all.begin(), all.end());
+  std::vector<std::size_t> expected(plan.runs.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) expected[i] = i;
+  EXPECT_EQ(all, expected);
+  // With as many shards as cells, no shard gets one cell with all its seeds.
+  const auto part = runs_of(plan, {0, 8});
+  ASSERT_THAT(part, SizeIs(2));
+  EXPECT_NE(plan.runs[part[0]].cell, plan.runs[part[1]].cell);
+}
+
+TEST_F(PlanTest, AStudyOfTooManyRunsIsRefused) {
+  std::string text = small_study();
+  text.replace(text.find("seeds: 2"), 8, "seeds: 10000");
+  text.replace(text.find("[8, 16]"), 7, "[1, 2, 3, 4, 5, 6, 7, 8]");
+  EXPECT_THAT(message_of<ConfigError>([&] { plan(text); }),
+              HasSubstr("the study 'Small' has more than 100000 runs"));
+}
+
+}  // namespace
+}  // namespace hypotrack::test

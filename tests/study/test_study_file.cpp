@@ -1,0 +1,133 @@
+#include <gmock/gmock.h>
+
+#include "hypotrack/error.hpp"
+#include "expect_error.hpp"
+#include "study_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using study::Axis;
+using study::Change;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::vector<std::string> assignments(const std::vector<Change>& changes) {
+  std::vector<std::string> texts;
+  for (const Change& change : changes) texts.push_back(change.assignment());
+  return texts;
+}
+
+std::vector<std::string> labels(const Axis& axis) {
+  std::vector<std::string> texts;
+  for (const study::Choice& choice : axis.choices) texts.push_back(choice.label);
+  return texts;
+}
+
+class StudyFileTest : public StudyTest {
+ protected:
+  /// What is said about the small study with one piece replaced.
+  std::string complaint(const std::string& piece, const std::string& by,
+                        const std::optional<std::string>& variant = std::nullopt) const {
+    std::string text = small_study();
+    const auto at = text.find(piece);
+    EXPECT_NE(at, std::string::npos) << piece;
+    return message_of<ConfigError>([&] { load(text.replace(at, piece.size(), by), variant); });
+  }
+};
+
+TEST_F(StudyFileTest, ScenesHaveTheStudysChangesThenTheirOwn) {
+  const study::Study study = load(small_study());
+  ASSERT_EQ(study.scenes.size(), 2U);
+  EXPECT_EQ(study.scenes[0].file, path("box.yaml"));
+  EXPECT_EQ(study.scenes[0].label, "A box");
+  EXPECT_EQ(study.scenes[1].label, "hand");
+  EXPECT_THAT(assignments(study.scenes[0].changes),
+              ElementsAre("tile.padding=0.1", "tile.size=32"));
+  EXPECT_THAT(
+      assignments(study.scenes[1].changes),
+      ElementsAre("tile.size=64", "tile.padding=0.1", "objective={type: stereo_color, window: 3}"));
+}
+
+TEST_F(StudyFileTest, AxesAreValuesOfAKeyOrNamedCases) {
+  const study::Study study = load(small_study());
+  ASSERT_EQ(study.axes.size(), 2U);
+  EXPECT_TRUE(study.axes[0].is_key);
+  EXPECT_TRUE(study.axes[0].choices[0].is_number);
+  EXPECT_THAT(labels(study.axes[0]), ElementsAre("8", "16"));
+  EXPECT_FALSE(study.axes[1].is_key);
+  EXPECT_THAT(labels(study.axes[1]), ElementsAre("pso", "random"));
+  EXPECT_THAT(assignments(study.axes[1].choices[1].changes),
+              ElementsAre("optimizer={type: random_search}", "search.angle_deg=20"));
+}
+
+TEST_F(StudyFileTest, SeedsAreACountOrAList) {
+  EXPECT_THAT(load(small_study()).seeds, ElementsAre(1, 2));
+  EXPECT_THAT(load(small_study(), "quick").seeds, ElementsAre(7));
+}
+
+TEST_F(StudyFileTest, AVariantReplacesWhatItNames) {
+  const study::Study quick = load(small_study(), "quick");
+  EXPECT_EQ(quick.frames, 3);
+  EXPECT_THAT(labels(quick.axes[0]), ElementsAre("4"));
+  EXPECT_THAT(labels(quick.axes[1]), ElementsAre("pso", "random"));
+  const study::Study one = load(small_study(), "one");
+  ASSERT_EQ(one.scenes.size(), 1U);
+  EXPECT_EQ(one.frames, 5);
+  EXPECT_THAT(
+      assignments(one.scenes[0].changes),
+      ElementsAre("tile.padding=0.1", "objective={type: stereo_color, window: 3}", "tile.size=16"));
+}
+
+TEST_F(StudyFileTest, TheResolvedStudyIsAStudyFileOfTheSameStudy) {
+  const study::Study study = load(small_study(), "one");
+  const std::string text = to_yaml(study);
+  write("resolved.yaml", text);
+  EXPECT_EQ(to_yaml(study::load_study(path("resolved.yaml"))), text);
+  EXPECT_THAT(text, Not(HasSubstr("variants")));
+}
+
+TEST_F(StudyFileTest, MistakesAreNamedWithTheirPlaceAndTheNearestName) {
+  EXPECT_THAT(complaint("frames: 5", "frame: 5"),
+              AllOf(HasSubstr("study.yaml:13:1"), HasSubstr("did you mean 'frames'")));
+  EXPECT_THAT(complaint("frames: 5", "frames: 0"), HasSubstr("study.yaml:13:9"));
+  EXPECT_THAT(complaint("seeds: 2", "seeds: [1, 1]"), HasSubstr("the seed 1 is there twice"));
+  EXPECT_THAT(complaint("seeds: 2", "seeds: many"), HasSubstr("an integer from 1 to 10000"));
+  EXPECT_THAT(complaint("file: box.yaml", "file: bax.yaml"),
+              AllOf(HasSubstr("study.yaml:4:15"), HasSubstr("there is no scene file")));
+  EXPECT_THAT(complaint("  box:", "  \"a box\":"), HasSubstr("the name of a scene is a word"));
+}
+
+TEST_F(StudyFileTest, AxesThatCannotBeAreRefused) {
+  EXPECT_THAT(complaint("[8, 16]", "[8, 8]"), HasSubstr("'8' is there twice"));
+  EXPECT_THAT(complaint("[8, 16]", "[]"), HasSubstr("at least one value"));
+  EXPECT_THAT(complaint("[8, 16]", "8"), HasSubstr("a list of values, or a map of named cases"));
+  EXPECT_THAT(complaint("[8, 16]", "[{a: 1}]"), HasSubstr("give values with a structure names"));
+  EXPECT_THAT(complaint("[8, 16]", "{a: {b: 1}}"), HasSubstr("named cases need an axis"));
+  EXPECT_THAT(complaint("optimizer.particles: [8", "seed: [8"),
+              HasSubstr("the tables have a column 'seed'"));
+  EXPECT_THAT(complaint("optimizer.particles: [8", "optimizer..particles: [8"),
+              HasSubstr("is no key of a scene"));
+}
+
+TEST_F(StudyFileTest, EveryVariantIsReadWhicheverIsAskedFor) {
+  EXPECT_THAT(complaint("frames: 3", "farmes: 3"), HasSubstr("did you mean 'frames'"));
+  EXPECT_THAT(complaint("grid: {optimizer.particles: [4]}", "grid: {optimizer.particle: [4]}"),
+              AllOf(HasSubstr("is no axis of the study"), HasSubstr("'optimizer.particles'")));
+  EXPECT_THAT(complaint("scenes: [hand]", "scenes: [hans]"), HasSubstr("did you mean 'hand'"));
+  EXPECT_THAT(complaint("title: Small", "title: Small", "quik"),
+              AllOf(HasSubstr("has no variant 'quik'"), HasSubstr("did you mean 'quick'")));
+}
+
+TEST_F(StudyFileTest, PlotsAreDrawnOverWhatVaries) {
+  EXPECT_THAT(complaint("x: optimizer.particles", "x: optimizer.partikles"),
+              AllOf(HasSubstr("is nothing that varies"), HasSubstr("'optimizer.particles'")));
+  EXPECT_THAT(complaint("kind: curve", "kind: curv"), HasSubstr("did you mean 'curve'"));
+  EXPECT_THAT(complaint("y: mean_error_mm, ", ""), HasSubstr("required key is missing"));
+  EXPECT_THAT(complaint("kind: curve", "kind: heatmap"), HasSubstr("is nothing that varies"));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
