@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "finger_scale.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "hypotrack/plugin.hpp"
 #include "names.hpp"
@@ -21,6 +22,7 @@ struct HandParams {
   std::filesystem::path mesh;
   std::filesystem::path rig;
   double scale = 1;
+  std::vector<double> finger_scale;
   std::filesystem::path texture;
   std::optional<double> cut;
 
@@ -28,6 +30,11 @@ struct HandParams {
     v("mesh", mesh, {.help = "skinned hand, glTF or GLB; default: hypotrack's own"});
     v("rig", rig, {.help = "rig file of the mesh, or the name of a ready rig"});
     v("scale", scale, {.help = "makes the hand larger or smaller", .min = 0.1, .max = 10});
+    v("finger_scale", finger_scale,
+      {.help = "factor on the lengths of the fingers: one for all, or thumb, index, middle, ring, "
+               "little",
+       .min = 0.5,
+       .max = 2});
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
     v("cut_mm", cut,
       {.help = "cuts the arm off this far proximal of the wrist; default: the rig's",
@@ -91,6 +98,7 @@ ModelData make_hand(const HandParams& params, const ConfigNode& config) {
   const std::string where = fmt::format("{} (for {})", rig_file.string(), mesh.filename().string());
   const ImportedMesh imported = import_mesh(mesh, {.scale = rig.scale, .texture = params.texture});
   ModelData data = rig_hand(imported, rig, where);
+  scale_fingers(data, params.finger_scale, config.where());
   check_size(data, where);
   return data;
 }
