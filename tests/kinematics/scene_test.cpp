@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
@@ -87,6 +88,17 @@ TEST(Scene, NormalizesTheZeroQuaternionToTheIdentity) {
   scene.normalize(state);
   EXPECT_EQ(state.segment<4>(3), Eigen::Vector4d(1, 0, 0, 0));
   EXPECT_EQ(state.segment<4>(30), Eigen::Vector4d(1, 0, 0, 0));
+}
+
+TEST(Scene, NormalizingTwiceIsNormalizingOnce) {
+  const Scene scene = hand_and_box();
+  std::mt19937_64 random(3);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Eigen::VectorXd once = test::random_state(scene, random);
+    Eigen::VectorXd twice = once;
+    scene.normalize(twice);
+    EXPECT_EQ(twice, once);
+  }
 }
 
 TEST(Scene, RefusesWhatIsNoScene) {
