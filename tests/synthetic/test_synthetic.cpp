@@ -2,18 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <fstream>
-#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
-#include "hypotrack/plugin.hpp"
 #include "hypotrack/renderer.hpp"
-#include "test_models.hpp"
+#include "synthetic_fixture.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -21,59 +17,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-Scene hand_and_box() {
-  std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
-  models.emplace_back("hand", std::make_shared<Model>(make_test_hand()));
-  models.emplace_back("box", std::make_shared<Model>(make_test_box()));
-  return Scene(std::move(models));
-}
-
-const char* const kCameras =
-    "cameras: {width: 320, height: 200, focal_px: 175, baseline_mm: 120}\n";
-const char* const kQuiet = "sensor: {noise_sigma: 0}\n";
-const char* const kPlain = "background: {kind: color, color: [10, 20, 30]}\n";
-const char* const kMotion = R"(
-gestures:
-  fist: {"*_flexion_*": 50, thumb_abduction: 10}
-keyframes:
-  - time: 0
-    gesture: rest
-    pose:
-      hand: {position_mm: [-20, 60, 420], rotation_deg: [0, 170, 0]}
-      box: {position_mm: [100, 0, 500]}
-  - {frame: 5, gesture: {hand: fist}}
-  - {frame: 10, pose: {hand: {position_mm: [30, 50, 450], angles_deg: {index_flexion_1: 15}}}}
-)";
-
-struct Loaded {
-  explicit Loaded(const std::string& yaml)
-      : scene(hand_and_box()),
-        source(plugins.make<Source>(ConfigNode::parse("type: synthetic\n" + yaml, "scene.yaml"),
-                                    &scene)) {}
-  std::vector<Frame> frames() {
-    std::vector<Frame> all;
-    while (std::optional<Frame> frame = source->next()) all.push_back(std::move(*frame));
-    return all;
-  }
-  PluginLoader plugins;
-  Scene scene;
-  std::unique_ptr<Source> source;
-};
-
-Loaded load(const std::string& yaml) { return Loaded(yaml); }
-
-bool same(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && a.type() == b.type() &&
-         std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
-}
-
-int parameter(const Scene& scene, const std::string& name) {
-  for (int i = 0; i < scene.dimension(); ++i) {
-    if (scene.parameters()[static_cast<std::size_t>(i)].name == name) return i;
-  }
-  throw std::out_of_range(name);
-}
 
 TEST(Synthetic, yields_the_frames_up_to_the_last_keyframe_with_truth_and_mask) {
   Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kMotion);
@@ -191,7 +134,8 @@ TEST(Synthetic, changes_the_colours_of_one_camera) {
 
 TEST(Synthetic, gives_the_depth_of_models_and_background_where_it_is_asked_for) {
   const std::string wall = "background: {kind: procedural, distance_mm: 1400, clutter: 0}\n";
-  Loaded loaded(std::string(kCameras) + kMotion + wall + "frames: 1\ndepth: true\n");
+  Loaded loaded(std::string(kCameras) + kMotion + wall +
+                "frames: 1\ndepth: true\nsensor: {depth_step_mm: 0}\n");
   const std::vector<Camera> cameras = loaded.source->cameras();
   const Frame frame = loaded.frames()[0];
   Renderer renderer(loaded.scene);
@@ -359,15 +303,6 @@ TEST(Synthetic, takes_gestures_from_a_file_after_its_own) {
   };
   EXPECT_NEAR(value(0, "hand.index_flexion_2"), 40, 1e-9);
   EXPECT_NEAR(value(1, "hand.index_flexion_1"), 50, 1e-9) << "the scene's own comes first";
-}
-
-std::string message_of(const std::string& yaml) {
-  try {
-    load(kCameras + yaml);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Synthetic, explains_what_is_wrong_with_a_script) {

@@ -7,21 +7,16 @@
 #include <cmath>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/renderer.hpp"
+#include "surfaces.hpp"
 
 namespace hypotrack::synthetic {
 namespace {
-
-void bind_to_one_bone(Mesh& mesh) {
-  mesh.bone_indices = Eigen::Matrix4Xi::Zero(4, mesh.vertices.cols());
-  mesh.bone_weights = Eigen::Matrix4Xf::Zero(4, mesh.vertices.cols());
-  mesh.bone_weights.row(0).setOnes();
-}
 
 /// The part of the plane z = distance that the cameras may see; lenses bend outwards, hence the
 /// margin.
@@ -49,77 +44,6 @@ Eigen::AlignedBox2d seen_wall(const std::vector<Camera>& cameras, double distanc
                     distance / kMillimetre));
   }
   return wall;
-}
-
-/// A rectangle in the plane z = `distance` whose texture is upright for the cameras.
-Mesh make_wall(const Eigen::AlignedBox2d& box, double distance, cv::Mat texture) {
-  Mesh mesh;
-  const auto [x0, y0] = std::pair(box.min().x(), box.min().y());
-  const auto [x1, y1] = std::pair(box.max().x(), box.max().y());
-  Eigen::Matrix<double, 3, 4> corners;
-  corners << x0, x0, x1, x1, y0, y1, y1, y0, distance, distance, distance, distance;
-  mesh.vertices = corners.cast<float>();
-  mesh.triangles.resize(3, 2);
-  mesh.triangles << 0, 0, 1, 2, 2, 3;
-  mesh.uv.resize(2, 4);
-  mesh.uv << 0, 0, 1, 1, 1, 0, 0, 1;
-  mesh.uv_triangles = mesh.triangles;
-  mesh.texture = std::move(texture);
-  bind_to_one_bone(mesh);
-  return mesh;
-}
-
-/// Smooth noise of all scales in three channels about a colour, 8-bit BGR: every octave is half as
-/// coarse and weaker than the one before it.
-cv::Mat make_pattern(cv::RNG& random, int size) {
-  constexpr int kCoarsest = 4;
-  constexpr double kFirst = 38, kDecay = 0.72, kTint = 0.4;
-  const double middle = random.uniform(75., 165.);
-  const auto level = [&] { return middle + random.uniform(-35., 35.); };
-  cv::Mat sum(kCoarsest, kCoarsest, CV_32FC3, cv::Scalar(level(), level(), level()));
-  for (double amplitude = kFirst;; amplitude *= kDecay) {
-    cv::Mat tint(sum.size(), CV_32FC3), light(sum.size(), CV_32FC1), gray;
-    random.fill(tint, cv::RNG::UNIFORM, -kTint * amplitude, kTint * amplitude);
-    random.fill(light, cv::RNG::UNIFORM, -amplitude, amplitude);
-    cv::cvtColor(light, gray, cv::COLOR_GRAY2BGR);
-    sum += tint + gray;
-    if (sum.cols >= size) break;
-    cv::resize(sum, sum, {}, 2, 2, cv::INTER_CUBIC);
-  }
-  cv::Mat pattern;
-  sum.convertTo(pattern, CV_8UC3);
-  return pattern;
-}
-
-/// A box about `center`, turned, all six faces with the same texture.
-Mesh make_clutter_box(cv::RNG& random, const Eigen::Vector3d& center) {
-  const auto uniform = [&](double low, double high) { return random.uniform(low, high); };
-  const Eigen::Vector3d half(uniform(0.03, 0.14), uniform(0.03, 0.14), uniform(0.03, 0.10));
-  const double turn_x = uniform(-0.7, 0.7), turn_y = uniform(-0.7, 0.7),
-               turn_z = uniform(-1.5, 1.5);
-  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(turn_z, Eigen::Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(turn_y, Eigen::Vector3d::UnitY()) *
-                                Eigen::AngleAxisd(turn_x, Eigen::Vector3d::UnitX()))
-                                   .toRotationMatrix();
-  Mesh mesh;
-  mesh.vertices.resize(3, 8);
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Vector3d corner(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    mesh.vertices.col(i) = (center + turn * half.cwiseProduct(corner)).cast<float>();
-  }
-  mesh.triangles.resize(3, 12);
-  mesh.triangles.transpose() << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7,
-      3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5;
-  mesh.uv.resize(2, 4);
-  mesh.uv << 0, 1, 1, 0, 0, 0, 1, 1;
-  mesh.uv_triangles.resize(3, 12);
-  for (int i = 0; i < 12; i += 2) {
-    mesh.uv_triangles.col(i) << 0, 1, 2;
-    mesh.uv_triangles.col(i + 1) << 0, 2, 3;
-  }
-  mesh.texture = make_pattern(random, 256);
-  bind_to_one_bone(mesh);
-  return mesh;
 }
 
 std::vector<Mesh> procedural_meshes(const BackgroundParams& params,
@@ -158,6 +82,30 @@ std::vector<Mesh> image_meshes(const BackgroundParams& params, Eigen::AlignedBox
   return {make_wall({center - half, center + half}, params.distance, image)};
 }
 
+/// Boards before the wall that are dark and flat: a switched-off screen, an open door.
+void add_dark_regions(const BackgroundParams& params, const Eigen::AlignedBox2d& wall,
+                      std::vector<Mesh>& meshes) {
+  cv::RNG random(static_cast<std::uint64_t>(params.seed) * 6961 + 29);
+  for (int i = 0; i < params.dark_regions; ++i) {
+    const double share = random.uniform(0.90, 0.98);  // of the wall's distance
+    const Eigen::Vector2d place(random.uniform(0.1, 0.9), random.uniform(0.1, 0.9));
+    const Eigen::Vector2d size(random.uniform(0.15, 0.4), random.uniform(0.25, 0.7));
+    const Eigen::Vector2d center = wall.min() + place.cwiseProduct(wall.sizes());
+    const Eigen::Vector2d half = 0.5 * size.cwiseProduct(wall.sizes());
+    Mesh board = make_wall({share * (center - half), share * (center + half)},
+                           share * params.distance, cv::Mat());
+    board.color.setConstant(static_cast<float>(random.uniform(8., 20.) / 255));
+    meshes.push_back(std::move(board));
+  }
+}
+
+std::vector<Mesh> surfaces_of(const BackgroundParams& params, const Eigen::AlignedBox2d& wall) {
+  std::vector<Mesh> meshes = params.kind == BackgroundKind::image ? image_meshes(params, wall)
+                                                                  : procedural_meshes(params, wall);
+  add_dark_regions(params, wall, meshes);
+  return meshes;
+}
+
 }  // namespace
 
 std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
@@ -173,8 +121,7 @@ std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
   }
   const Eigen::AlignedBox2d wall = seen_wall(cameras, params.distance);
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
-  for (Mesh& mesh : params.kind == BackgroundKind::image ? image_meshes(params, wall)
-                                                         : procedural_meshes(params, wall)) {
+  for (Mesh& mesh : surfaces_of(params, wall)) {
     models.emplace_back(fmt::format("background_{}", models.size()),
                         std::make_shared<Model>(rigid_model(std::move(mesh))));
   }

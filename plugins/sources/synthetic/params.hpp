@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "forearm.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/renderer.hpp"
@@ -48,6 +49,7 @@ struct BackgroundParams {
   std::filesystem::path file;
   double distance = 1.5;
   int clutter = 8;
+  int dark_regions = 0;
   int seed = 1;
   void visit(ParamVisitor& v) {
     v("kind", kind,
@@ -61,7 +63,11 @@ struct BackgroundParams {
        .unit = "mm",
        .to_si = kMillimetre});
     v("clutter", clutter, {.help = "boxes of the kind procedural", .min = 0, .max = 200});
-    v("seed", seed, {.help = "of the kind procedural", .min = 0});
+    v("dark_regions", dark_regions,
+      {.help = "dark flat boards before the wall of the kinds image and procedural",
+       .min = 0,
+       .max = 40});
+    v("seed", seed, {.help = "of clutter, dark regions and the pattern", .min = 0});
   }
 };
 
@@ -89,7 +95,7 @@ struct SensorParams {
   std::vector<double> gain;
   std::vector<double> offset;
   double depth_noise = 0;
-  double depth_step = 0;
+  double depth_step = 0.1 * kMillimetre;
   int seed = 1;
   void visit(ParamVisitor& v) {
     v("noise_sigma", noise_sigma,
@@ -111,7 +117,7 @@ struct SensorParams {
        .unit = "mm",
        .to_si = kMillimetre});
     v("depth_step_mm", depth_step,
-      {.help = "depth comes in multiples of this; 0: as it is",
+      {.help = "depth comes in multiples of this, as recordings store it; 0: as it is",
        .min = 0,
        .max = 1000,
        .unit = "mm",
@@ -128,6 +134,8 @@ struct SyntheticParams {
   ConfigNode gestures;
   std::filesystem::path gesture_file;
   ConfigNode keyframes;
+  ConfigNode render_models;
+  ForearmParams forearm;
   BackgroundParams background;
   LightParams light;
   SensorParams sensor;
@@ -145,6 +153,9 @@ struct SyntheticParams {
     v("keyframes", keyframes,
       {.help = "list of {time or frame, gesture, pose} that the motion passes through",
        .required = true});
+    v("render_models", render_models,
+      {.help = "map of models of the scene to {type, ...}: what the pictures show in their place"});
+    v("forearm", forearm, {.help = "what the pictures show below a hand's wrist"});
     v("background", background, {.help = "what is behind the models"});
     v("light", light, {.help = "how the models are lit"});
     v("sensor", sensor, {.help = "what the cameras add to a picture"});

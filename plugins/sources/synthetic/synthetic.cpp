@@ -15,6 +15,7 @@
 #include "params.hpp"
 #include "script.hpp"
 #include "sensor.hpp"
+#include "stage.hpp"
 
 namespace hypotrack::synthetic {
 namespace {
@@ -72,7 +73,8 @@ RenderStyle style_of(const LightParams& light) {
   return style;
 }
 
-/// Pictures of the scene's own models on a scripted motion, with the answer.
+/// Pictures of the scene's models, or of others that move alike, on a scripted motion, with the
+/// answer.
 class Synthetic final : public Source {
  public:
   using Params = SyntheticParams;
@@ -89,7 +91,8 @@ class Synthetic final : public Source {
         depth_sensor_(params.sensor),
         depth_(params.depth),
         backgrounds_(draw_backgrounds(params.background, cameras_)),
-        renderer_(scene_) {
+        stage_(scene_, params.render_models, params.forearm, context),
+        renderer_(stage_.scene()) {
     constexpr double kRoundOff = 1e-6;
     frames_ = params.frames > 0
                   ? params.frames
@@ -107,14 +110,15 @@ class Synthetic final : public Source {
     frame.time = frame.index / frame_rate_;
     frame.truth.emplace();
     frame.truth->state = script_.motion.state(frame.time);
+    const Eigen::VectorXd state = stage_.state(frame.truth->state);
+    frame.truth->landmarks = stage_.landmarks(state);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      RenderedView rendered =
-          renderer_.render(frame.truth->state, cameras_[i], style_, backgrounds_[i].color);
+      RenderedView rendered = renderer_.render(state, cameras_[i], style_, backgrounds_[i].color);
       sensor_.apply(rendered.color, frame.index, i);
-      View view{.color = std::move(rendered.color), .mask = rendered.label > 0};
+      View view{.color = std::move(rendered.color), .mask = stage_.mask(rendered.label)};
       if (depth_) {
         view.depth = std::move(rendered.depth);
-        backgrounds_[i].depth.copyTo(view.depth, view.mask == 0);
+        backgrounds_[i].depth.copyTo(view.depth, rendered.label == 0);
         depth_sensor_.apply(view.depth, frame.index, i);
       }
       frame.views.push_back(std::move(view));
@@ -132,6 +136,7 @@ class Synthetic final : public Source {
   const DepthSensor depth_sensor_;
   const bool depth_;
   const std::vector<RenderedView> backgrounds_;
+  const Stage stage_;
   Renderer renderer_;
   int frames_ = 0;
   int next_ = 0;
@@ -141,5 +146,4 @@ class Synthetic final : public Source {
 }  // namespace hypotrack::synthetic
 
 HYPOTRACK_PLUGIN(hypotrack::synthetic::Synthetic,
-                 "renders a scripted motion of the scene's own models, with ground truth",
-                 "truth mask")
+                 "renders a scripted motion of the scene's models, with ground truth", "truth mask")

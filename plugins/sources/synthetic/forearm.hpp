@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/model.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::synthetic {
+
+enum class ForearmKind { none, bare, sleeve };
+inline std::span<const std::string_view> enum_names(ForearmKind) {
+  static constexpr std::array<std::string_view, 3> kNames = {"none", "bare", "sleeve"};
+  return kNames;
+}
+
+struct ForearmParams {
+  ForearmKind kind = ForearmKind::none;
+  std::vector<double> color;
+  double length = 0.35;
+  void visit(ParamVisitor& v) {
+    v("kind", kind, {.help = "none, a bare arm, or an arm in a sleeve"});
+    v("color", color,
+      {.help = "red, green, blue; default: of the skin at the wrist, a black sleeve",
+       .min = 0,
+       .max = 255});
+    v("length_mm", length,
+      {.help = "behind the wrist", .min = 20, .max = 2000, .unit = "mm", .to_si = kMillimetre});
+  }
+};
+
+/// A tapered elliptic tube that goes on where a hand's mesh ends, in the frame of the bone at its
+/// wrist (hand axes: y distal). A rigid model; as wide as the mesh is there. Throws ConfigError
+/// unless `color` has no number or three.
+ModelData make_forearm(const ModelData& hand, int wrist_bone, const ForearmParams& params);
+
+}  // namespace hypotrack::synthetic

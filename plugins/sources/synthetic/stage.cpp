@@ -1,0 +1,152 @@
+#include "stage.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack::synthetic {
+namespace {
+
+using Models = std::vector<std::pair<std::string, std::shared_ptr<const Model>>>;
+
+/// The tracked models, or what is drawn for them.
+Models models_to_draw(const Scene& tracked, const ConfigNode& render_models,
+                      PluginContext& context) {
+  Models models;
+  std::vector<std::string> names;
+  for (const Scene::Item& item : tracked.items()) {
+    const ConfigNode other = render_models.get(item.name);
+    models.emplace_back(item.name, other.defined()
+                                       ? std::shared_ptr<const Model>(context.make<Model>(other))
+                                       : item.model);
+    names.push_back(item.name);
+  }
+  for (const std::string& name : render_models.keys()) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw ConfigError(fmt::format("{}: '{}' is no model of this scene; its models are: {}",
+                                  render_models.get(name).where(), name, fmt::join(names, ", ")));
+  }
+  return models;
+}
+
+/// The bone at a hand's wrist; nothing for a model that is no hand.
+std::optional<int> wrist_bone(const Model& model) {
+  for (const Landmark& landmark : model.data().landmarks) {
+    if (landmark.name == "wrist") return landmark.bone;
+  }
+  return std::nullopt;
+}
+
+int place_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+}
+
+std::vector<std::string> parameter_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Parameter& p : scene.parameters()) names.push_back(p.name);
+  return names;
+}
+
+}  // namespace
+
+Stage::Stage(const Scene& tracked, const ConfigNode& render_models, const ForearmParams& forearm,
+             PluginContext& context)
+    : models_(tracked.items().size()),
+      others_(render_models.defined() && render_models.size() > 0) {
+  if (render_models.defined() && !render_models.is_map()) {
+    throw ConfigError(render_models.where() + ": expected a map of names of models to {type, ...}");
+  }
+  Models models = models_to_draw(tracked, render_models, context);
+  if (forearm.kind != ForearmKind::none) {
+    for (std::size_t m = 0; m < models_; ++m) {
+      const std::optional<int> bone = wrist_bone(*models[m].second);
+      if (!bone) continue;
+      forearms_.push_back({m, *bone, 0});
+      models.emplace_back(
+          models[m].first + ".forearm",
+          std::make_shared<Model>(make_forearm(models[m].second->data(), *bone, forearm)));
+    }
+    if (forearms_.empty()) {
+      throw ConfigError(context.config().where() +
+                        ": a forearm needs a hand, a model with a landmark `wrist`; use `forearm: "
+                        "{kind: none}`");
+    }
+  }
+  scene_ = std::make_unique<Scene>(std::move(models));
+  for (std::size_t i = 0; i < forearms_.size(); ++i) {
+    forearms_[i].offset = scene_->items()[models_ + i].offset;
+  }
+  match_parameters(tracked, render_models);
+  match_landmarks(tracked);
+}
+
+void Stage::match_parameters(const Scene& tracked, const ConfigNode& render_models) {
+  const std::vector<std::string> known = parameter_names(tracked);
+  for (std::size_t m = 0; m < models_; ++m) {
+    const Scene::Item& item = scene_->items()[m];
+    for (const Parameter& p : item.model->data().parameters) {
+      const int place = place_of(known, item.name + "." + p.name);
+      if (place >= 0) {
+        parameters_.push_back(place);
+        continue;
+      }
+      throw ConfigError(fmt::format(
+          "{}: this model has the parameter '{}', which the tracked '{}' does not "
+          "have; expected a model with the same parameters, so that both can move alike",
+          render_models.get(item.name).where(), p.name, item.name));
+    }
+  }
+}
+
+void Stage::match_landmarks(const Scene& tracked) {
+  for (const std::string& name : tracked.landmark_names()) {
+    landmarks_.push_back(place_of(scene_->landmark_names(), name));
+  }
+}
+
+Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
+  Eigen::VectorXd state(scene_->dimension());
+  for (std::size_t i = 0; i < parameters_.size(); ++i) {
+    state[static_cast<Eigen::Index>(i)] = tracked[parameters_[i]];
+  }
+  for (const Forearm& forearm : forearms_) {
+    const Scene::Item& hand = scene_->items()[forearm.hand];
+    const Eigen::Isometry3d pose = world_from_bones(
+        hand.model->data(), scene_->part(hand, state))[static_cast<std::size_t>(forearm.bone)];
+    const Eigen::Quaterniond q(pose.linear());
+    state.segment<7>(forearm.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
+  }
+  return state;
+}
+
+Eigen::Matrix3Xd Stage::landmarks(const Eigen::VectorXd& state) const {
+  if (!others_) return {};
+  const Eigen::Matrix3Xd drawn = scene_->landmarks(state);
+  Eigen::Matrix3Xd landmarks(3, static_cast<Eigen::Index>(landmarks_.size()));
+  for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+    auto landmark = landmarks.col(static_cast<Eigen::Index>(i));
+    if (landmarks_[i] < 0) {
+      landmark.setConstant(std::numeric_limits<double>::quiet_NaN());
+    } else {
+      landmark = drawn.col(landmarks_[i]);
+    }
+  }
+  return landmarks;
+}
+
+cv::Mat Stage::mask(const cv::Mat& label) const {
+  cv::Mat mask = label > 0;
+  if (!forearms_.empty()) mask.setTo(0, label > static_cast<double>(models_));
+  return mask;
+}
+
+}  // namespace hypotrack::synthetic
