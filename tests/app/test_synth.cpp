@@ -69,10 +69,62 @@ TEST_F(SynthTest, AFailureLeavesNothing) {
   EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
 }
 
-TEST_F(SynthTest, OneCameraIsNoRecording) {
-  expect_refusal(record(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,")),
-                 {"a recording has two cameras"});
-  EXPECT_THAT(names_in(folder()), ElementsAre("scene.yaml"));
+TEST_F(SynthTest, OneCameraIsARecordingTooAndARecordingCanBeRecorded) {
+  const Outcome recorded =
+      record(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,"));
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  const auto names = names_in(path("out"));
+  EXPECT_THAT(names, Contains("left_mask_000004.png"));
+  EXPECT_THAT(names, testing::Not(Contains(testing::StartsWith("right"))));
+  const Outcome again =
+      run_program({"synth", path("out/scene.yaml").string(), "--out", path("again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  ASSERT_EQ(names_in(path("again")), names);
+  for (const std::string& name : names) {
+    if (name.ends_with(".png") || name.starts_with("truth")) {
+      EXPECT_EQ(read_text(path("again") / name), read_text(path("out") / name)) << name;
+    }
+  }
+}
+
+TEST_F(SynthTest, TrackingTheDepthOfARecordingIsTrackingTheDepthOfTheSource) {
+  std::string text = replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,");
+  text = replaced(text, "  keyframes:", "  depth: true\n  keyframes:");
+  text = replaced(text, "stereo_color", "rgbd_depth");
+  ASSERT_EQ(record(text).exit_code, 0);
+  EXPECT_THAT(names_in(path("out")), Contains("left_depth_000004.png"));
+  const Outcome direct = run_program({"run", scene(text), "--out", path("direct").string()});
+  ASSERT_EQ(direct.exit_code, 0) << direct.err;
+  const Outcome tracked =
+      run_program({"run", path("out/scene.yaml").string(), "--out", path("from_disk").string()});
+  ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
+  EXPECT_EQ(track_without_times(path("from_disk")), track_without_times(path("direct")));
+}
+
+TEST_F(SynthTest, SourceYamlMakesTheSameRecording) {
+  ASSERT_EQ(record(box_scene(), {"--frames", "2"}).exit_code, 0);
+  const Outcome again = run_program({"synth", path("out/source.yaml").string(), "--out",
+                                     path("again").string(), "--frames", "2"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const std::string& name : names_in(path("out"))) {
+    EXPECT_EQ(read_text(path("again") / name), read_text(path("out") / name)) << name;
+  }
+}
+
+TEST_F(SynthTest, WhatWasDrawnIsWhatErrorsAreMeasuredAgainst) {
+  const std::string text =
+      replaced(box_scene(), "  keyframes:",
+               "  render_models: {box: {type: rigid_box, size_mm: [99, 66, 44]}}\n  keyframes:");
+  ASSERT_EQ(record(text).exit_code, 0);
+  ASSERT_EQ(run_program({"run", scene(text), "--out", path("direct").string()}).exit_code, 0);
+  ASSERT_EQ(
+      run_program({"run", path("out/scene.yaml").string(), "--out", path("from_disk").string()})
+          .exit_code,
+      0);
+  ASSERT_EQ(run_program({"run", scene(box_scene()), "--out", path("plain").string()}).exit_code, 0);
+  EXPECT_EQ(track_without_times(path("from_disk")), track_without_times(path("direct")));
+  EXPECT_EQ(read_text(path("from_disk/errors.csv")), read_text(path("direct/errors.csv")));
+  EXPECT_NE(read_text(path("plain/errors.csv")), read_text(path("direct/errors.csv")));
 }
 
 }  // namespace

@@ -2,16 +2,31 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 #include <system_error>
 #include <utility>
 
 #include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/params.hpp"
 #include "output/text_file.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {
+namespace {
+
+constexpr double kDepthUnitMm = 0.1;
+
+/// 16-bit image in this unit, 0: not measured or farther than 6.5535 m.
+cv::Mat stored_depth(const cv::Mat& depth) {
+  cv::Mat stored;
+  const double unit = kDepthUnitMm * kMillimetre;
+  depth.convertTo(stored, CV_16U, 1 / unit);
+  stored.setTo(0, depth >= 65535.5 * unit);
+  return stored;
+}
+
+}  // namespace
 
 RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
                                  std::string scene_yaml, std::filesystem::path directory)
@@ -21,9 +36,9 @@ RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras
       scene_yaml_(std::move(scene_yaml)),
       directory_(std::filesystem::absolute(std::move(directory)).lexically_normal()) {
   if (!directory_.has_filename()) directory_ = directory_.parent_path();
-  if (cameras_.size() != 2)
+  if (cameras_.empty() || cameras_.size() > 2)
     throw DataError(
-        fmt::format("a recording has two cameras, this source has {}", cameras_.size()));
+        fmt::format("a recording has one or two cameras, this source has {}", cameras_.size()));
   std::error_code error;
   if (std::filesystem::exists(directory_, error) &&
       !(std::filesystem::is_directory(directory_) && std::filesystem::is_empty(directory_)))
@@ -39,33 +54,27 @@ RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras
 }
 
 RecordingWriter::~RecordingWriter() {
+  images_.reset();  // writes into the folder
   std::error_code ignored;
   if (!part_.empty()) std::filesystem::remove_all(part_, ignored);
 }
 
-void RecordingWriter::write_image(const std::string& name, int index, const cv::Mat& image) const {
-  const auto file = part_ / fmt::format("{}_{:06}.png", name, index);
-  bool written = false;
-  try {
-    written = cv::imwrite(file.string(), image, {cv::IMWRITE_PNG_COMPRESSION, 3});
-  } catch (const cv::Exception&) {
-  }
-  if (!written)
-    throw OutputError(fmt::format(
-        "{}: the image cannot be written; check that there is space, or name another folder with "
-        "--out",
-        file.string()));
+void RecordingWriter::write_image(const std::string& name, int index, cv::Mat image) {
+  names_.insert(name);
+  images_->write(part_ / fmt::format("{}_{:06}.png", name, index), std::move(image));
 }
 
 void RecordingWriter::add(const Frame& frame) {
   if (first_ < 0) first_ = frame.index;
   last_ = frame.index;
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
+    const View& view = frame.views[i];
     const std::string side = i == 0 ? "left" : "right";
-    write_image(side, frame.index, frame.views[i].color);
-    if (frame.views[i].mask.empty()) continue;
-    write_image(side + "_mask", frame.index, frame.views[i].mask);
-    masks_ = true;
+    if (!view.color.empty()) write_image(side, frame.index, view.color);
+    if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask);
+    if (!view.depth.empty()) {
+      write_image(side + "_depth", frame.index, stored_depth(view.depth));
+    }
   }
   if (!frame.truth) return;
   if (frame.truth->state.size() > 0)
@@ -85,11 +94,9 @@ void RecordingWriter::write_scene() const {
   calibration.set_string("file", "calibration.yaml");
   detail::YamlDocument source;
   source.set_string("type", "image_sequence");
-  source.set_string("left", "left_%06d.png");
-  source.set_string("right", "right_%06d.png");
-  if (masks_) {
-    source.set_string("left_mask", "left_mask_%06d.png");
-    source.set_string("right_mask", "right_mask_%06d.png");
+  for (const std::string& name : names_) source.set_string(name, name + "_%06d.png");
+  if (names_.contains("left_depth")) {
+    source.set_plain("depth_units_mm", fmt::format("{}", kDepthUnitMm));
   }
   source.set_plain("start", std::to_string(first_));
   source.set_plain("count", std::to_string(last_ - first_ + 1));
@@ -104,7 +111,9 @@ void RecordingWriter::write_scene() const {
 
 void RecordingWriter::finish() {
   if (first_ < 0) throw OutputError("the source gave no frame; there is nothing to record");
+  images_->wait();
   TextFile(part_ / "calibration.yaml").write(calibration_yaml(cameras_));
+  TextFile(part_ / "source.yaml").write(scene_yaml_);
   write_truth();
   write_scene();
   std::error_code error;

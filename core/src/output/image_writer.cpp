@@ -1,0 +1,95 @@
+#include "output/image_writer.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr int kMostWaiting = 24;  // pictures of 1280 x 720: 64 MiB
+
+/// OpenCV predicts a pixel from its neighbour unless a compression level is given; then libpng tries
+/// every predictor on every row, which takes twice the time for 3 to 9 percent. What is left of a
+/// picture hardly repeats itself, so it is coded by frequency alone. Masks and depths consist of runs,
+/// which is what OpenCV looks for of its own accord.
+std::vector<int> compression(const cv::Mat& image) {
+  if (image.type() != CV_8UC3) return {};
+  return {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
+}
+
+void write_png(const std::filesystem::path& file, const cv::Mat& image) {
+  bool written = false;
+  try {
+    written = cv::imwrite(file.string(), image, compression(image));
+  } catch (const cv::Exception&) {
+  }
+  if (written) return;
+  throw OutputError(fmt::format(
+      "{}: the image cannot be written; check that there is space, or name another folder with "
+      "--out",
+      file.string()));
+}
+
+}  // namespace
+
+struct ImageWriter::Impl {
+  void write_now(const std::filesystem::path& file, const cv::Mat& image) {
+    if (stopped) return;
+    try {
+      write_png(file, image);
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      if (!error) error = std::current_exception();
+      stopped = true;
+    }
+  }
+
+  void rethrow() {
+    if (!stopped) return;
+    const std::lock_guard lock(mutex);
+    std::rethrow_exception(error);
+  }
+
+  std::atomic<int> waiting = 0;
+  std::atomic<bool> stopped = false;
+  std::mutex mutex;
+  std::exception_ptr error;  // the first; guarded by the mutex
+  oneapi::tbb::task_group tasks;
+};
+
+ImageWriter::ImageWriter() : impl_(std::make_unique<Impl>()) {}
+
+ImageWriter::~ImageWriter() {
+  impl_->stopped = true;
+  impl_->tasks.wait();
+}
+
+void ImageWriter::write(std::filesystem::path file, cv::Mat image) {
+  impl_->rethrow();
+  if (impl_->waiting >= kMostWaiting) {
+    impl_->write_now(file, image);
+    impl_->rethrow();
+    return;
+  }
+  ++impl_->waiting;
+  impl_->tasks.run([impl = impl_.get(), file = std::move(file), image = std::move(image)] {
+    impl->write_now(file, image);
+    --impl->waiting;
+  });
+}
+
+void ImageWriter::wait() {
+  impl_->tasks.wait();
+  impl_->rethrow();
+}
+
+}  // namespace hypotrack
