@@ -169,6 +169,20 @@ TEST_F(RunTest, WithoutOutResultsAreInAFolderOfTheWorkingDirectory) {
   EXPECT_TRUE(std::filesystem::exists(path("out/track.csv")));
 }
 
+TEST_F(RunTest, TracksWithOneDepthCamera) {
+  const Outcome outcome =
+      run(box_scene(), {"--set", "source.cameras.count=1", "--set", "source.depth=true", "--set",
+                        "objective={type: rgbd_depth}", "--set", "output.overlay=true"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+  EXPECT_TRUE(std::filesystem::exists(path("out/overlay.mp4")));
+}
+
+TEST_F(RunTest, StereoColorSaysThatItNeedsTwoCameras) {
+  expect_refused(box_scene(), {"has 1 view; expected two calibrated views"},
+                 {"--set", "source.cameras.count=1", "--set", "source.depth=true"});
+}
+
 TEST_F(RunTest, SetChangesKeysOfTheScene) {
   const Outcome outcome = run(
       box_scene(), {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}",
