@@ -25,6 +25,7 @@ void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_evaluate_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_plugins_command(CLI::App& app, CommonOptions& common, int& exit_code);
 
 }  // namespace hypotrack::app

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   add_synth_command(app, common, exit_code);
   add_evaluate_command(app, exit_code);
   add_compare_command(app, common, exit_code);
+  add_report_command(app, common, exit_code);
   add_plugins_command(app, common, exit_code);
   try {
     app.parse(argc, argv);

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "report/report.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct ReportCommand {
+  ReportOptions report;
+  bool images = false;
+  bool no_images = false;
+};
+
+int report(const ReportCommand& command, const CommonOptions& common) {
+  ReportOptions options = command.report;
+  if (command.images) options.plot_files = PlotFiles::required;
+  if (command.no_images) options.plot_files = PlotFiles::none;
+  PluginLoader plugins(common.plugin_path);
+  const ReportSummary summary = write_report(options, plugins);
+  if (!summary.skipped.empty()) fmt::print(stderr, "hypotrack: {}\n", summary.skipped);
+  fmt::print("{} run{} ({} failed), {} with a 3D replay, {:.1f} MB: {}\n", summary.runs,
+             summary.runs == 1 ? "" : "s", summary.failed, summary.replays,
+             1e-6 * static_cast<double>(summary.bytes), summary.page.string());
+  fmt::print("plots and tables in {}\n", summary.files.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<ReportCommand>();
+  CLI::App* command = app.add_subcommand("report", "Write one HTML file about a study or a run");
+  command->add_option("directory", options->report.directory, "Folder of a study or of a run")
+      ->required();
+  command->add_option("--out", options->report.out,
+                      "HTML file [DIRECTORY/report.html]; a folder of the same name without .html "
+                      "gets plots and tables");
+  command->add_option("--replays", options->report.replays, "Runs with a 3D replay, at most")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
+  CLI::Option* images = command->add_flag(
+      "--images", options->images,
+      "Fail if the plots cannot have files of their own (SVG, PNG), which need nodejs and "
+      "rsvg-convert");
+  command->add_flag("--no-images", options->no_images, "Leave the files of the plots out")
+      ->excludes(images);
+  command->callback([=, &common, &exit_code] { exit_code = report(*options, common); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// Collects the 3D replays of runs for the page. Meshes and motions that several runs share (the
+/// truth of a data set, the same model) are kept once.
+class HYPOTRACK_API ReplayCollector {
+ public:
+  explicit ReplayCollector(PluginLoader& plugins) : plugins_(&plugins) {}
+
+  /// The replay of a run folder, from the models that its run.yaml names, its track.csv and its
+  /// truth (states, or else landmarks):
+  ///   {frames: [...], models: [{name, shape, tracked, truth}, ...],
+  ///    truth_points: {count, p} or absent}
+  /// where `shape`, `tracked` and `truth` number the entries of shapes() and motions(). Throws
+  /// DataError, ConfigError or PluginError.
+  nlohmann::ordered_json add(const std::filesystem::path& run);
+
+  /// [{box, vertices, triangles, bones, weights, landmarks: [{name, bone, p}], edges}, ...] with
+  /// positions at the bind pose; without vertices for a model that poses itself.
+  const nlohmann::ordered_json& shapes() const { return shapes_; }
+  /// [{bones, q, t}, ...]: per frame and bone the rotation (quaternion x y z w, 16-bit signed,
+  /// 32767 is 1; all zero: unknown) and the translation that carry the bind pose to the world; or
+  /// {points, p}: per frame and landmark its position.
+  const nlohmann::ordered_json& motions() const { return motions_; }
+
+ private:
+  struct OpenScene {
+    std::unique_ptr<Scene> scene;
+    std::vector<int> shapes;
+  };
+  const OpenScene& open(const std::filesystem::path& run);
+  int add_once(nlohmann::ordered_json& list, std::map<std::string, int>& known,
+               nlohmann::ordered_json entry);
+  int add_motion(const Scene& scene, const Scene::Item& item,
+                 const std::vector<const Eigen::VectorXd*>& states);
+
+  PluginLoader* plugins_;
+  std::map<std::string, OpenScene> scenes_;  ///< by the text of run.yaml's models
+  nlohmann::ordered_json shapes_ = nlohmann::ordered_json::array();
+  nlohmann::ordered_json motions_ = nlohmann::ordered_json::array();
+  std::map<std::string, int> known_shapes_, known_motions_;
+};
+
+/// A replay shows every k-th frame of a run with more frames than this.
+inline constexpr std::size_t kMostReplayFrames = 1000;
+
+}  // namespace hypotrack

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+
+namespace hypotrack {
+
+/// One setting that a study varies.
+struct StudyAxis {
+  std::string key;                       ///< as in the study's grid: `optimizer.particles`
+  std::string label = {};                ///< for people: `particles`
+  std::vector<std::string> values = {};  ///< in the grid's order
+  bool numeric = false;                  ///< all values are numbers
+};
+
+struct StudyScene {
+  std::string name;
+  std::string label;
+};
+
+/// A plot that a study asks for. Empty: not given.
+struct PlotRequest {
+  std::string kind = {};  ///< curve, success, heatmap or bars
+  std::string x = {}, y = {}, value = {}, color = {}, facet = {};
+  std::string title = {}, x_label = {}, y_label = {};
+};
+
+/// How the share of frames below an error grows with the error.
+struct SuccessCurve {
+  std::vector<double> threshold_mm;
+  std::vector<double> share;
+};
+
+/// One run: its place in the study and what it came to.
+struct HYPOTRACK_API StudyRun {
+  std::string id;
+  std::filesystem::path directory;
+  std::string scene;
+  std::map<std::string, std::string> settings;  ///< axis key to value
+  long seed = 0;
+  bool failed = false;
+  std::string message;                      ///< of a failure
+  std::map<std::string, double> metrics;    ///< numbers of metrics.json; NaN where null
+  std::map<std::string, double> timing;     ///< fps, evaluations_per_second of summary.json
+  std::map<std::string, double> models_mm;  ///< mean error per model
+  std::vector<std::pair<std::string, double>> landmarks_mm;  ///< mean error per landmark
+  SuccessCurve success;
+
+  /// A metric or timing by its name; NaN if the run has none.
+  double number(const std::string& name) const;
+  /// The run's value on an axis; the scene's name for `scene`, the seed for `seed`.
+  std::string on_axis(std::string_view key) const;
+};
+
+/// What a report is about: a study, or a single run as a study of one.
+struct HYPOTRACK_API StudyData {
+  bool is_study = false;
+  std::string title;
+  std::string about;
+  std::vector<StudyScene> scenes;
+  std::vector<StudyAxis> axes;
+  std::vector<PlotRequest> plots;
+  std::vector<StudyRun> runs;  ///< by scene, then axis by axis, then seed
+  std::size_t planned = 0;     ///< runs of the complete study
+
+  const StudyAxis* axis(std::string_view key) const;
+  /// Label of an axis, `scene` or `seed`.
+  std::string axis_label(std::string_view key) const;
+  /// Label of a value: scenes have one of their own.
+  std::string value_label(std::string_view key, const std::string& value) const;
+  /// Values on an axis (or `scene`) in the study's order.
+  std::vector<std::string> values_of(std::string_view key) const;
+};
+
+/// Reads a study folder (study.yaml, runs/*) or a run folder (track.csv, run.yaml). Throws
+/// DataError if `directory` is neither or a file in it is damaged, ConfigError on a study.yaml that
+/// cannot be read.
+HYPOTRACK_API StudyData read_study(const std::filesystem::path& directory);
+
+/// Numbers in one form, so that 0.10 and 0.1 are the same value; other texts as they are.
+HYPOTRACK_API std::string canonical_value(const std::string& text);
+/// Whether a text is a finite number, and which.
+bool parse_number(std::string_view text, double& number);
+
+}  // namespace hypotrack

@@ -1,0 +1,81 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "output/text_file.hpp"
+#include "report/json_file.hpp"
+#include "report/table_data.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// A cell of a CSV table (RFC 4180): quoted where it holds a comma, a quote or a line break.
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
+  return out + '"';
+}
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return quoted(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+std::string table_csv(const Json& table) {
+  std::string text;
+  for (const Json& key : table["keys"]) text += cell(key) + ",";
+  text += "runs,failed";
+  for (const Json& column : table["columns"]) {
+    const std::string key = column["key"];
+    for (const char* suffix : {"mean", "sd", "p_against_best", "best"})
+      text += "," + quoted(fmt::format("{}_{}", key, suffix));
+  }
+  text += "\n";
+  for (const Json& row : table["rows"]) {
+    for (const Json& key : row["keys"]) text += cell(key) + ",";
+    text += cell(row["runs"]) + "," + cell(row["failed"]);
+    for (const Json& entry : row["cells"])
+      text += fmt::format(",{},{},{},{}", cell(entry["mean"]), cell(entry["sd"]), cell(entry["p"]),
+                          entry["best"].get<bool>() ? 1 : 0);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string runs_csv(const StudyData& study) {
+  std::vector<std::string> metrics;
+  for (const StudyRun& run : study.runs)
+    if (run.metrics.size() > metrics.size()) {
+      metrics.clear();
+      for (const auto& [key, value] : run.metrics) metrics.push_back(key);
+    }
+  std::string text = "run,scene,";
+  for (const StudyAxis& axis : study.axes) text += quoted(axis.key) + ",";
+  text += "seed,status,message";
+  for (const std::string& metric : metrics) text += "," + quoted(metric);
+  text += "\n";
+  for (const StudyRun& run : study.runs) {
+    text += quoted(run.id) + "," + quoted(run.scene) + ",";
+    for (const StudyAxis& axis : study.axes) text += quoted(run.on_axis(axis.key)) + ",";
+    text += fmt::format("{},{},{}", run.seed, run.failed ? "failed" : "ok", quoted(run.message));
+    for (const std::string& metric : metrics) {
+      const double value = run.number(metric);
+      text += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_table_files(const StudyData& study, const Json& tables,
+                       const std::filesystem::path& directory) {
+  for (const Json& table : tables)
+    TextFile(directory / (table["id"].get<std::string>() + ".csv")).write(table_csv(table));
+  TextFile(directory / "runs.csv").write(runs_csv(study));
+}
+
+}  // namespace hypotrack
