@@ -147,7 +147,10 @@ TEST(RenderModels, are_refused_where_they_cannot_move_alike) {
       AllOf(HasSubstr("scene.yaml"), HasSubstr("'foot' is no model"), HasSubstr("hand, box")));
   EXPECT_THAT(message_of(motion + "render_models: {box: {type: hand}}\n"),
               AllOf(HasSubstr("scene.yaml"), HasSubstr("'thumb_abduction'"),
-                    HasSubstr("which the tracked 'box' does not have")));
+                    HasSubstr("the tracked 'box' has not")));
+  EXPECT_THAT(message_of(motion + "render_models: {hand: {type: rigid_box}}\n"),
+              AllOf(HasSubstr("scene.yaml"), HasSubstr("the tracked 'hand' has"),
+                    HasSubstr("'thumb_abduction' and this model has not")));
   EXPECT_THAT(message_of(motion + "render_models: box\n"), HasSubstr("expected a map"));
   EXPECT_THAT(message_of(motion + "forearm: {kind: bare, color: [1, 2]}\n"),
               HasSubstr("forearm.color has 2 numbers, expected three"));

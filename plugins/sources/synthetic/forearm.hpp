@@ -19,7 +19,7 @@ inline std::span<const std::string_view> enum_names(ForearmKind) {
 struct ForearmParams {
   ForearmKind kind = ForearmKind::none;
   std::vector<double> color;
-  double length = 0.35;
+  double length = 350 * kMillimetre;
   void visit(ParamVisitor& v) {
     v("kind", kind, {.help = "none, a bare arm, or an arm in a sleeve"});
     v("color", color,

@@ -50,9 +50,9 @@ int place_of(const std::vector<std::string>& names, const std::string& name) {
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-std::vector<std::string> parameter_names(const Scene& scene) {
+std::vector<std::string> parameter_names(const Model& model) {
   std::vector<std::string> names;
-  for (const Parameter& p : scene.parameters()) names.push_back(p.name);
+  for (const Parameter& p : model.data().parameters) names.push_back(p.name);
   return names;
 }
 
@@ -90,19 +90,25 @@ Stage::Stage(const Scene& tracked, const ConfigNode& render_models, const Forear
 }
 
 void Stage::match_parameters(const Scene& tracked, const ConfigNode& render_models) {
-  const std::vector<std::string> known = parameter_names(tracked);
   for (std::size_t m = 0; m < models_; ++m) {
-    const Scene::Item& item = scene_->items()[m];
-    for (const Parameter& p : item.model->data().parameters) {
-      const int place = place_of(known, item.name + "." + p.name);
-      if (place >= 0) {
-        parameters_.push_back(place);
-        continue;
-      }
-      throw ConfigError(fmt::format(
-          "{}: this model has the parameter '{}', which the tracked '{}' does not "
-          "have; expected a model with the same parameters, so that both can move alike",
-          render_models.get(item.name).where(), p.name, item.name));
+    const Scene::Item& drawn = scene_->items()[m];
+    const Scene::Item& own = tracked.items()[m];
+    const std::vector<std::string> here = parameter_names(*drawn.model);
+    const std::vector<std::string> there = parameter_names(*own.model);
+    for (const std::string& name : here) {
+      parameters_.push_back(own.offset + place_of(there, name));
+      if (place_of(there, name) >= 0) continue;
+      throw ConfigError(
+          fmt::format("{}: this model has the parameter '{}' and the tracked '{}' has "
+                      "not; both must have the same parameters to move alike",
+                      render_models.get(own.name).where(), name, own.name));
+    }
+    for (const std::string& name : there) {
+      if (place_of(here, name) >= 0) continue;
+      throw ConfigError(
+          fmt::format("{}: the tracked '{}' has the parameter '{}' and this model has "
+                      "not; both must have the same parameters to move alike",
+                      render_models.get(own.name).where(), own.name, name));
     }
   }
 }
