@@ -98,10 +98,8 @@ TEST(StatisticsTest, SmallestProbabilitiesAreReached) {
   EXPECT_EQ(smallest_signed_rank_p(1), 1);
 }
 
-TEST(StatisticsTest, MeanAndDeviationAreThoseOfASample) {
-  EXPECT_EQ(mean_of(Numbers{2, 4, 4, 4, 5, 5, 7, 9}), 5);
+TEST(StatisticsTest, DeviationIsThatOfASample) {
   EXPECT_NEAR(sample_deviation(Numbers{2, 4, 4, 4, 5, 5, 7, 9}), std::sqrt(32 / 7.0), 1e-12);
-  EXPECT_TRUE(std::isnan(mean_of({})));
   EXPECT_TRUE(std::isnan(sample_deviation(Numbers{1})));
 }
 

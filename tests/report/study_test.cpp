@@ -174,11 +174,30 @@ TEST_F(StudyTest, PlotsOfWhatIsNotThereAreRefused) {
     return message_of<DataError>([&] { plot_data(study({.plots = "  - " + plot + "\n"})); });
   };
   EXPECT_THAT(refused("{kind: pie}"), HasSubstr("'pie' is no kind of plot; expected curve"));
-  EXPECT_THAT(refused("{kind: curve, x: optimizer.swarm, y: mean_error_mm}"),
-              HasSubstr("'optimizer.swarm', which the study does not vary; expected one of: scene, "
-                        "optimizer.particles, optimizer.generations"));
+  EXPECT_THAT(
+      refused("{kind: curve, x: optimizer.swarm, y: mean_error_mm}"),
+      HasSubstr("'optimizer.swarm', which the study does not vary; expected one of: scene, seed, "
+                "optimizer.particles, optimizer.generations"));
   EXPECT_THAT(refused("{kind: curve, x: scene, y: error}"),
               HasSubstr("'error', which no run has in its metrics.json"));
+}
+
+TEST_F(StudyTest, SeedsCanBeAnAxis) {
+  const StudyData data = study({.plots = "  - {kind: curve, x: seed, y: mean_error_mm, color: "
+                                         "optimizer.particles, facet: scene}\n"});
+  const auto plot = plot_data(data)[0];
+  EXPECT_EQ(plot["x"]["values"], (nlohmann::ordered_json{1, 2, 3}));
+  EXPECT_EQ(plot["note"], "Averaged over generations.");
+}
+
+TEST_F(StudyTest, PlotsOfErrorsAreEmptyWhereNoTruthIsKnown) {
+  test::StudyFixture fixture;
+  fixture.run.truth_states = fixture.run.truth_landmarks = false;
+  const StudyData data = study(fixture);
+  EXPECT_EQ(data.runs[0].number("frames"), 12);
+  for (const auto& plot : plot_data(data))
+    for (const auto& facet : plot["facets"]) EXPECT_THAT(facet["rows"], IsEmpty());
+  EXPECT_EQ(table_data(data)[0]["columns"][0]["key"], "fps");
 }
 
 TEST_F(StudyTest, AStudyWithoutPlotsGetsSomeThatFitItsAxes) {

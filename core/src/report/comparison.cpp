@@ -1,5 +1,6 @@
 #include "report/comparison.hpp"
 
+#include "metrics/statistics.hpp"
 #include "report/statistics.hpp"
 
 namespace hypotrack {
@@ -33,7 +34,7 @@ std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
                                         MetricInfo::Better better) {
   std::vector<Comparison> all;
   for (const Sample& sample : samples)
-    all.push_back({.mean = mean_of(sample.values),
+    all.push_back({.mean = mean(sample.values),
                    .sd = sample_deviation(sample.values),
                    .count = sample.values.size(),
                    .best = false,

@@ -23,6 +23,8 @@ const std::vector<MetricInfo>& known_metrics() {
       {"success_40mm", "below 40 mm", "%", 100, 1, Better::higher},
       {"success_50mm", "below 50 mm", "%", 100, 1, Better::higher},
       {"frames", "frames", "", 1, 0, Better::neither},
+      {"missing_frames", "frames missing", "", 1, 1, Better::neither},
+      {"uncertain_frames", "frames uncertain", "", 1, 1, Better::neither},
       {"lost_frames", "lost frames", "", 1, 1, Better::lower},
       {"lost_share", "frames lost", "%", 100, 1, Better::lower},
       {"time_to_loss_s", "time to loss", "s", 1, 2, Better::neither},

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "hypotrack/error.hpp"
+#include "metrics/statistics.hpp"
 #include "report/json_file.hpp"
 #include "report/metric_info.hpp"
 #include "report/statistics.hpp"
@@ -17,13 +18,14 @@ namespace {
 
 using Runs = std::vector<const StudyRun*>;
 
+constexpr const char* kMeanError = "mean_error_mm";
+
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 /// Numeric values as numbers, so that an axis can be to scale.
 Json value_json(const StudyData& study, std::string_view key, const std::string& value) {
-  const StudyAxis* axis = study.axis(key);
   double number = 0;
-  if (axis && axis->numeric && parse_number(value, number)) return number;
+  if (study.is_numeric(key) && parse_number(value, number)) return number;
   return study.value_label(key, value);
 }
 
@@ -31,8 +33,7 @@ Json dimension(const StudyData& study, const std::string& key, const std::string
   if (key.empty()) return nullptr;
   Json json;
   json["label"] = label.empty() ? study.axis_label(key) : label;
-  const StudyAxis* axis = study.axis(key);
-  json["numeric"] = axis && axis->numeric;
+  json["numeric"] = study.is_numeric(key);
   json["values"] = Json::array();
   for (const std::string& value : study.values_of(key))
     json["values"].push_back(value_json(study, key, value));
@@ -60,11 +61,9 @@ void for_each_value(const StudyData& study, const Runs& runs, const std::string&
 
 /// Adds mean, sd and n to a row; false if there is no number at all.
 bool add_statistics(Json& row, const std::vector<double>& numbers) {
-  std::vector<double> finite;
-  std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(finite),
-               [](double value) { return std::isfinite(value); });
+  const std::vector<double> finite = without_nan(numbers);
   if (finite.empty()) return false;
-  row["mean"] = mean_of(finite);
+  row["mean"] = mean(finite);
   row["sd"] = number_or_null(sample_deviation(finite));
   row["n"] = finite.size();
   return true;
@@ -123,8 +122,8 @@ class Rows {
 /// Throws unless `key` is something that the study varies.
 void require_axis(const StudyData& study, const PlotRequest& request, const char* role,
                   const std::string& key) {
-  if (key == "scene" || study.axis(key)) return;
-  std::string known = "scene";
+  if (key == "scene" || key == "seed" || study.axis(key)) return;
+  std::string known = "scene, seed";
   for (const StudyAxis& axis : study.axes) known += ", " + axis.key;
   throw DataError(
       fmt::format("study.yaml: a {} plot has {}: '{}', which the study does not vary; expected one "
@@ -136,9 +135,9 @@ void require_metric(const StudyData& study, const PlotRequest& request, const st
   bool measured = false;
   for (const StudyRun& run : study.runs) {
     if (run.metrics.contains(key) || run.timing.contains(key)) return;
-    measured = measured || !run.metrics.empty();
+    measured = measured || run.metrics.contains(kMeanError);
   }
-  if (!measured) return;  // every run failed: the plot is empty and the failures say why
+  if (!measured) return;  // no truth, or every run failed: the plot is empty and says so
   throw DataError(fmt::format(
       "study.yaml: a {} plot is of '{}', which no run has in its metrics.json; `mean_error_mm` is "
       "what most want",
@@ -173,7 +172,8 @@ std::string averaged_over(const StudyData& study, const PlotRequest& request) {
   };
   add("scene");
   for (const StudyAxis& axis : study.axes) add(axis.key);
-  return names.empty() ? "" : "Averaged over " + names + " as well as seeds.";
+  const bool seeds = request.x != "seed" && request.color != "seed" && request.facet != "seed";
+  return names.empty() ? "" : "Averaged over " + names + (seeds ? " as well as seeds." : ".");
 }
 
 std::string default_title(const StudyData& study, const PlotRequest& request,
@@ -229,7 +229,7 @@ std::vector<PlotRequest> default_plots(const StudyData& study) {
   std::vector<const StudyAxis*> varied;
   for (const StudyAxis& axis : study.axes)
     if (axis.values.size() > 1) varied.push_back(&axis);
-  const std::string metric = "mean_error_mm";
+  const std::string metric = kMeanError;
   const std::string facet = study.scenes.size() > 1 ? "scene" : "";
   const std::string first = varied.empty() ? "" : varied[0]->key;
   const std::string second = varied.size() < 2 ? "" : varied[1]->key;

@@ -65,7 +65,9 @@ void read_results(const fs::path& directory, StudyRun& run) {
   const Json json = read_json_object(summary);
   for (const char* key : {"fps", "evaluations_per_second"})
     run.timing[key] = number_in(json, key, summary);
-  if (!run.metrics.contains("frames")) run.metrics["frames"] = number_in(json, "frames", summary);
+  for (const char* key : {"frames", "lost_frames", "uncertain_frames", "missing_frames"})
+    if (!run.metrics.contains(key) && json.contains(key))
+      run.metrics[key] = number_in(json, key, summary);
 }
 
 StudyRun read_study_run(const fs::path& directory) {

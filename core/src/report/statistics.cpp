@@ -8,6 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "metrics/statistics.hpp"
+
 namespace hypotrack {
 namespace {
 
@@ -72,16 +74,11 @@ std::vector<double> subset_counts(const std::vector<std::size_t>& ranks, std::si
 
 }  // namespace
 
-double mean_of(std::span<const double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 double sample_deviation(std::span<const double> values) {
   if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double mean = mean_of(values);
+  const double middle = mean(values);
   double sum = 0;
-  for (const double value : values) sum += (value - mean) * (value - mean);
+  for (const double value : values) sum += (value - middle) * (value - middle);
   return std::sqrt(sum / static_cast<double>(values.size() - 1));
 }
 

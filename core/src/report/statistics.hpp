@@ -7,8 +7,6 @@
 
 namespace hypotrack {
 
-/// Mean of numbers; NaN for none.
-HYPOTRACK_API double mean_of(std::span<const double> values);
 /// Standard deviation of a sample (n - 1 in the denominator); NaN for fewer than two.
 HYPOTRACK_API double sample_deviation(std::span<const double> values);
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace hypotrack {
 
@@ -49,8 +50,19 @@ std::string StudyData::value_label(std::string_view key, const std::string& valu
   return value;
 }
 
+bool StudyData::is_numeric(std::string_view key) const {
+  const StudyAxis* found = axis(key);
+  return key == "seed" || (found && found->numeric);
+}
+
 std::vector<std::string> StudyData::values_of(std::string_view key) const {
   std::vector<std::string> values;
+  if (key == "seed") {
+    std::set<long> seeds;
+    for (const StudyRun& run : runs) seeds.insert(run.seed);
+    for (const long seed : seeds) values.push_back(fmt::format("{}", seed));
+    return values;
+  }
   if (key == "scene") {
     for (const StudyScene& scene : scenes) values.push_back(scene.name);
   } else if (const StudyAxis* found = axis(key)) {

@@ -73,7 +73,9 @@ struct HYPOTRACK_API StudyData {
   std::string axis_label(std::string_view key) const;
   /// Label of a value: scenes have one of their own.
   std::string value_label(std::string_view key, const std::string& value) const;
-  /// Values on an axis (or `scene`) in the study's order.
+  /// Whether the values on an axis are numbers; `seed` is such an axis.
+  bool is_numeric(std::string_view key) const;
+  /// Values on an axis (or `scene`, `seed`) in the study's order.
   std::vector<std::string> values_of(std::string_view key) const;
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
 
 #include "report/comparison.hpp"
 #include "report/json_file.hpp"
@@ -97,12 +96,17 @@ std::vector<MetricInfo> columns_of(const StudyData& study) {
   return columns;
 }
 
+Json key_labels(const StudyData& study) {
+  Json labels = Json::array();
+  for (const StudyAxis& axis : study.axes) labels.push_back(axis.label);
+  return labels;
+}
+
 Json row_json(const Cell& cell) {
-  Json row{{"keys", cell.settings}, {"runs", cell.runs.size()}, {"failed", cell.failed}};
-  row["ids"] = Json::array();
-  for (const StudyRun* run : cell.runs) row["ids"].push_back(run->id);
-  row["cells"] = Json::array();
-  return row;
+  return {{"keys", cell.settings},
+          {"runs", cell.runs.size()},
+          {"failed", cell.failed},
+          {"cells", Json::array()}};
 }
 
 std::size_t most_seeds(const std::vector<Cell>& cells) {
@@ -125,8 +129,7 @@ Json scene_table(const StudyData& study, const StudyScene& scene, std::size_t in
              {"title", scene.label}};
   table["note"] =
       note_on_tests(most_seeds(cells), cells.empty() ? 0 : cells.size() - 1, "a column");
-  for (const StudyAxis& axis : study.axes) table["keys"].push_back(axis.label);
-  if (study.axes.empty()) table["keys"] = Json::array();
+  table["keys"] = key_labels(study);
   table["columns"] = Json::array();
   table["rows"] = Json::array();
   for (const Cell& cell : cells) table["rows"].push_back(row_json(cell));
@@ -141,48 +144,57 @@ Json scene_table(const StudyData& study, const StudyScene& scene, std::size_t in
   return table;
 }
 
+/// The runs of every scene that share settings.
+struct SharedSettings {
+  std::vector<std::string> settings;
+  std::vector<Runs> runs;  ///< one per scene
+};
+
+/// The settings of all scenes, in the order of the runs.
+std::vector<SharedSettings> shared_settings(const StudyData& study) {
+  std::vector<SharedSettings> all;
+  for (std::size_t s = 0; s < study.scenes.size(); ++s)
+    for (const Cell& cell : cells_of(study, study.scenes[s].name)) {
+      auto it = std::find_if(all.begin(), all.end(), [&](const SharedSettings& shared) {
+        return shared.settings == cell.settings;
+      });
+      if (it == all.end())
+        it = all.insert(
+            all.end(), {.settings = cell.settings, .runs = std::vector<Runs>(study.scenes.size())});
+      it->runs[s] = cell.runs;
+    }
+  return all;
+}
+
 /// The scenes side by side: a row per setting that more than one scene has.
 Json scenes_table(const StudyData& study) {
   const MetricInfo metric = metric_info("mean_error_mm");
   Json table{{"id", "table-scenes"}, {"title", "Scenes compared: " + metric.label_with_unit()}};
-  table["note"] = "";
-  table["keys"] = Json::array();
-  for (const StudyAxis& axis : study.axes) table["keys"].push_back(axis.label);
+  table["keys"] = key_labels(study);
   table["columns"] = Json::array();
-  std::map<std::vector<std::string>, std::vector<Runs>> by_settings;
-  std::vector<std::vector<std::string>> order;
-  for (std::size_t s = 0; s < study.scenes.size(); ++s) {
-    MetricInfo column = metric;
-    column.key = study.scenes[s].name;
-    column.label = study.scenes[s].label;
-    column.unit.clear();
-    table["columns"].push_back(column_json(column));
-    for (const Cell& cell : cells_of(study, study.scenes[s].name)) {
-      auto& row = by_settings[cell.settings];
-      if (row.empty()) order.push_back(cell.settings);
-      row.resize(study.scenes.size());
-      row[s] = cell.runs;
-    }
-  }
-  std::size_t seeds = 0, most = 0;
+  for (const StudyScene& scene : study.scenes)
+    table["columns"].push_back(
+        {{"key", scene.name}, {"label", scene.label}, {"digits", metric.digits}});
   table["rows"] = Json::array();
-  for (const auto& settings : order) {
+  std::size_t seeds = 0, comparisons = 0;
+  for (const SharedSettings& shared : shared_settings(study)) {
     std::vector<Sample> samples;
-    Json row{{"keys", settings}, {"runs", 0}, {"failed", 0}, {"cells", Json::array()}};
-    for (const Runs& runs : by_settings[settings]) {
-      samples.push_back(sample_of(runs, metric));
-      row["runs"] = row["runs"].get<std::size_t>() + runs.size();
-      seeds = std::max(seeds, runs.size());
+    std::size_t runs = 0;
+    for (const Runs& of_scene : shared.runs) {
+      samples.push_back(sample_of(of_scene, metric));
+      runs += of_scene.size();
+      seeds = std::max(seeds, of_scene.size());
     }
     const auto filled = std::count_if(samples.begin(), samples.end(),
                                       [](const Sample& s) { return !s.values.empty(); });
     if (filled < 2) continue;
-    most = std::max(most, static_cast<std::size_t>(filled) - 1);
+    comparisons = std::max(comparisons, static_cast<std::size_t>(filled) - 1);
+    Json row{{"keys", shared.settings}, {"runs", runs}, {"failed", 0}, {"cells", Json::array()}};
     for (const Comparison& c : compare_samples(samples, metric.better))
       row["cells"].push_back(to_json(c));
     table["rows"].push_back(std::move(row));
   }
-  table["note"] = note_on_tests(seeds, most, "a row");
+  table["note"] = note_on_tests(seeds, comparisons, "a row");
   return table;
 }
 

@@ -23,11 +23,16 @@ std::string cell(const Json& value) {
   return quoted(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+/// Speed is left out: it differs from time to time, and the tables of a study should not.
+bool is_repeatable(const Json& column) { return column["key"] != "fps"; }
+
 std::string table_csv(const Json& table) {
+  const Json& columns = table["columns"];
   std::string text;
   for (const Json& key : table["keys"]) text += cell(key) + ",";
   text += "runs,failed";
-  for (const Json& column : table["columns"]) {
+  for (const Json& column : columns) {
+    if (!is_repeatable(column)) continue;
     const std::string key = column["key"];
     for (const char* suffix : {"mean", "sd", "p_against_best", "best"})
       text += "," + quoted(fmt::format("{}_{}", key, suffix));
@@ -36,9 +41,12 @@ std::string table_csv(const Json& table) {
   for (const Json& row : table["rows"]) {
     for (const Json& key : row["keys"]) text += cell(key) + ",";
     text += cell(row["runs"]) + "," + cell(row["failed"]);
-    for (const Json& entry : row["cells"])
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!is_repeatable(columns[i])) continue;
+      const Json& entry = row["cells"][i];
       text += fmt::format(",{},{},{},{}", cell(entry["mean"]), cell(entry["sd"]), cell(entry["p"]),
                           entry["best"].get<bool>() ? 1 : 0);
+    }
     text += "\n";
   }
   return text;

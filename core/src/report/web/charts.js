@@ -16,10 +16,11 @@ hypotrack.chart = function (plot) {
   var figure = hypotrack.element('figure', {class: 'chart', id: plot.id}, [
     hypotrack.element('figcaption', {}, [hypotrack.element('h3', {text: plot.title})]), holder,
   ]);
-  if (plot.note) figure.appendChild(hypotrack.element('p', {class: 'note', text: plot.note}));
-  var rows = (plot.facets || [{rows: [1]}]).some(function (facet) { return facet.rows.length; });
-  if (rows) hypotrack.charts.push({plot: plot, holder: holder, width: 0, view: null});
-  else holder.appendChild(hypotrack.element('p', {class: 'note', text: 'No run has numbers for this plot.'}));
+  if (plot.note) figure.appendChild(hypotrack.note(plot.note));
+  if (hypotrack.hasRows(plot))
+    hypotrack.charts.push({plot: plot, holder: holder, width: 0, view: null});
+  else
+    holder.appendChild(hypotrack.note('No run has numbers for this plot.'));
   return figure;
 };
 

@@ -17,7 +17,12 @@ hypotrack.element = function (name, attributes, children) {
 };
 
 hypotrack.section = function (title, children) {
-  return hypotrack.element('section', {}, [hypotrack.element('h2', {text: title})].concat(children));
+  var heading = hypotrack.element('h2', {text: title});
+  return hypotrack.element('section', {}, [heading].concat(children));
+};
+
+hypotrack.note = function (text) {
+  return text ? hypotrack.element('p', {class: 'note', text: text}) : null;
 };
 
 /** A list of values with their names. */

@@ -5,9 +5,9 @@ hypotrack.counts = function (page) {
   var failed = page.runs.filter(function (run) { return run.failed; }).length;
   var seeds = {};
   page.runs.forEach(function (run) { seeds[run.seed] = true; });
-  var done = page.runs.length === page.planned ? String(page.runs.length)
-                                               : page.runs.length + ' of ' + page.planned + ' planned';
-  var facts = [['runs', done], ['failed', String(failed)], ['seeds', String(Object.keys(seeds).length)]];
+  var done = String(page.runs.length);
+  if (page.runs.length !== page.planned) done += ' of ' + page.planned + ' planned';
+  var facts = [['runs', done], ['failed', failed], ['seeds', Object.keys(seeds).length]];
   var frames = page.runs.filter(function (run) { return !run.failed && run.metrics.frames; })
       .map(function (run) { return run.metrics.frames; });
   if (frames.length) {
@@ -26,26 +26,37 @@ hypotrack.bestSettings = function (page) {
     table.rows.forEach(function (row) {
       var cell = row.cells[column];
       if (!cell.best && !(table.rows.length === 1 && cell.mean !== null)) return;
-      var settings = row.keys.map(function (key, i) { return table.keys[i] + ' ' + key; }).join(', ');
-      facts.push([table.title + (settings ? ', best: ' + settings : ''),
-                  cell.mean.toFixed(2) + (cell.sd === null ? '' : ' ± ' + cell.sd.toFixed(2)) + ' mm']);
+      var settings = row.keys.map(function (key, i) { return table.keys[i] + ' ' + key; });
+      var spread = cell.sd === null ? '' : ' ± ' + cell.sd.toFixed(2);
+      facts.push([table.title + (settings.length ? ', best: ' + settings.join(', ') : ''),
+                  cell.mean.toFixed(2) + spread + ' mm']);
     });
   });
   return facts;
 };
 
+/** Each message once, with the runs that ended with it. */
 hypotrack.failures = function (page) {
-  var failed = page.runs.filter(function (run) { return run.failed; });
-  if (!failed.length) return null;
-  return hypotrack.section('Failures', [
-    hypotrack.element('ul', {class: 'failures'}, failed.map(function (run) {
-      return hypotrack.element('li', {}, [
-        hypotrack.element('strong', {text: run.id}),
-        hypotrack.element('span', {text: ' ' + hypotrack.settingsText(page, run) + ', seed ' + run.seed}),
-        hypotrack.element('pre', {text: run.message}),
-      ]);
-    })),
-  ]);
+  var byMessage = new Map();
+  page.runs.filter(function (run) { return run.failed; }).forEach(function (run) {
+    if (!byMessage.has(run.message)) byMessage.set(run.message, []);
+    byMessage.get(run.message).push(run);
+  });
+  if (!byMessage.size) return null;
+  var items = Array.from(byMessage, function (entry) {
+    var runs = entry[1].map(function (run) {
+      return hypotrack.element('li', {text:
+          hypotrack.settingsText(page, run) + ' · seed ' + run.seed + ' (' + run.id + ')'});
+    });
+    return hypotrack.element('li', {}, [
+      hypotrack.element('pre', {text: entry[0]}),
+      hypotrack.element('details', {}, [
+        hypotrack.element('summary', {text: runs.length + (runs.length === 1 ? ' run' : ' runs')}),
+        hypotrack.element('ul', {}, runs),
+      ]),
+    ]);
+  });
+  return hypotrack.section('Failures', [hypotrack.element('ul', {class: 'failures'}, items)]);
 };
 
 /** The list of runs with a box to look for some of them. */
@@ -55,30 +66,35 @@ hypotrack.runsSection = function (page) {
   var holder = hypotrack.element('div');
   function show(words) {
     var found = runs.filter(function (run) {
-      var text = (run.id + ' ' + hypotrack.settingsText(page, run) + ' seed ' + run.seed).toLowerCase();
-      return words.every(function (word) { return text.indexOf(word) >= 0; });
+      var text = run.id + ' ' + hypotrack.settingsText(page, run) + ' seed ' + run.seed;
+      return words.every(function (word) { return text.toLowerCase().indexOf(word) >= 0; });
     });
     holder.textContent = '';
     holder.appendChild(hypotrack.runsTable(page, found));
   }
-  var search = hypotrack.element('input', {type: 'search', id: 'find', placeholder: 'scene, setting, seed …', on: {
-    input: function () { show(search.value.toLowerCase().split(/\s+/).filter(Boolean)); }}});
+  var search = hypotrack.element('input', {
+    type: 'search', id: 'find', placeholder: 'scene, setting, seed …',
+    on: {input: function () { show(search.value.toLowerCase().split(/\s+/).filter(Boolean)); }},
+  });
   show([]);
   return hypotrack.section('Runs', [
     hypotrack.element('p', {class: 'find'}, [
       hypotrack.element('label', {for: 'find', text: 'Find '}), search]),
     holder,
-    page.left_out ? hypotrack.element('p', {class: 'note', text: page.left_out}) : null,
+    hypotrack.note(page.left_out),
   ]);
 };
 
 hypotrack.overview = function (page) {
+  function list(title, entries, show) {
+    return entries.length ? hypotrack.section(title, entries.map(show)) : null;
+  }
   return hypotrack.element('div', {class: 'overview'}, [
     hypotrack.element('h1', {tabindex: '-1', text: page.title}),
     page.about ? hypotrack.element('p', {class: 'about', text: page.about}) : null,
     hypotrack.facts(hypotrack.counts(page).concat(hypotrack.bestSettings(page))),
-    page.plots.length ? hypotrack.section('Plots', page.plots.map(hypotrack.chart)) : null,
-    page.tables.length ? hypotrack.section('Tables', page.tables.map(hypotrack.comparisonTable)) : null,
+    list('Plots', page.plots, hypotrack.chart),
+    list('Tables', page.tables, hypotrack.comparisonTable),
     hypotrack.failures(page),
     hypotrack.runsSection(page),
   ]);

@@ -1,159 +1,6 @@
 'use strict';
-/* Vega specifications of the plots that C++ describes (plot_data.hpp). Runs in the page and, for the
-   files beside it, in Node.js. */
-
-hypotrack.themes = {
-  light: {
-    background: '#ffffff', text: '#1d2430', muted: '#566074', grid: '#e3e7ee', shade: '#d64545',
-    series: ['#1668b8', '#c8440a', '#12805a', '#8b44ac', '#96700a', '#c2185b', '#00798a', '#5d4037'],
-    ordered: [0, 0.82],
-  },
-  dark: {
-    background: '#161b24', text: '#e6eaf2', muted: '#a3adbf', grid: '#2c3442', shade: '#ff6b6b',
-    series: ['#6db3f2', '#ff9a5c', '#5fd39b', '#cf9bea', '#f2c14e', '#ff7fa8', '#4dd0e1', '#bcaaa4'],
-    ordered: [0.25, 1],
-  },
-};
-
-hypotrack.shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down'];
-
-/** Whether the values of an axis grow by factors rather than by steps. */
-hypotrack.isGeometric = function (values) {
-  if (values.length < 3 || values[0] <= 0) return false;
-  var ratios = [], steps = [];
-  for (var i = 1; i < values.length; i++) {
-    ratios.push(values[i] / values[i - 1]);
-    steps.push(values[i] - values[i - 1]);
-  }
-  var spread = function (list) { return Math.max.apply(null, list) / Math.min.apply(null, list); };
-  return Math.min.apply(null, ratios) > 1 && spread(ratios) < spread(steps);
-};
-
-hypotrack.plotConfig = function (theme) {
-  var font = 'system-ui, "Segoe UI", Roboto, "DejaVu Sans", Arial, sans-serif';
-  return {
-    axis: {
-      labelColor: theme.text, titleColor: theme.text, domainColor: theme.muted, labelFont: font,
-      tickColor: theme.muted, gridColor: theme.grid, labelFontSize: 12, titleFontSize: 12,
-      titleFontWeight: 500, titleFont: font, titlePadding: 8, labelOverlap: true,
-    },
-    legend: {
-      labelColor: theme.text, titleColor: theme.text, labelFontSize: 12, titleFontSize: 12,
-      titleFontWeight: 500, labelFont: font, titleFont: font, symbolStrokeWidth: 2,
-    },
-    title: {color: theme.text, font: font, fontSize: 13, fontWeight: 600, anchor: 'start'},
-    text: {font: font, fill: theme.text},
-  };
-};
-
-/** Sizes of the panels, one per facet, in `width` pixels. */
-hypotrack.panels = function (plot, width) {
-  var facets = plot.facets.length;
-  var columns = Math.max(1, Math.min(facets, Math.floor(width / 330)));
-  var panel = Math.max(170, Math.min(560, Math.floor((width - 16) / columns - 76)));
-  return {columns: columns, width: panel,
-          height: Math.round(Math.max(190, Math.min(300, 0.62 * panel)))};
-};
-
-hypotrack.rangeOf = function (plot, read) {
-  var lowest = Infinity, highest = -Infinity;
-  plot.facets.forEach(function (facet) {
-    facet.rows.forEach(function (row) {
-      read(row).forEach(function (value) {
-        lowest = Math.min(lowest, value);
-        highest = Math.max(highest, value);
-      });
-    });
-  });
-  return lowest <= highest ? [lowest, highest] : [0, 1];
-};
-
-hypotrack.band = function (row) {
-  return [row.mean - (row.sd || 0), row.mean + (row.sd || 0)];
-};
-
-hypotrack.tip = function (plot, row) {
-  var digits = plot.value ? plot.value.digits : 1;
-  var text = '';
-  if (plot.color) text += plot.color.label + ' ' + row.color + '; ';
-  text += plot.x.label + ' ' + row.x;
-  if (row.y !== undefined) text += '; ' + plot.y.label + ' ' + row.y;
-  text += ': ' + row.mean.toFixed(digits);
-  if (row.sd !== null && row.sd !== undefined) text += ' ± ' + row.sd.toFixed(digits);
-  return text + ' ' + (plot.value ? plot.value.label : plot.y.label) +
-         ' (' + row.n + (row.n === 1 ? ' run)' : ' runs)');
-};
-
-/** The rows of each facet as data sets, with the bounds of the band and a text to hover. */
-hypotrack.plotTables = function (plot) {
-  return plot.facets.map(function (facet, i) {
-    return {name: 'facet' + i, values: facet.rows.map(function (row) {
-      var band = hypotrack.band(row);
-      return Object.assign({color: ''}, row,
-                           {lo: band[0], hi: band[1], tip: hypotrack.tip(plot, row)});
-    })};
-  });
-};
-
-hypotrack.colorScales = function (plot, theme) {
-  var values = plot.color ? plot.color.values : [''];
-  var ordered = plot.color && plot.color.numeric && values.length > 2;
-  var range = ordered ? {scheme: 'viridis', count: values.length, extent: theme.ordered} : theme.series;
-  return [{name: 'color', type: 'ordinal', domain: values, range: range},
-          {name: 'shape', type: 'ordinal', domain: values, range: hypotrack.shapes}];
-};
-
-/** A specification with a panel per facet; `content(name of the data)` gives its axes and marks. */
-hypotrack.facetSpec = function (plot, options, size, scales, content) {
-  var theme = options.theme;
-  var spec = {
-    description: plot.title, background: theme.background, padding: 8,
-    autosize: {type: 'pad', resize: true}, config: hypotrack.plotConfig(theme),
-    data: hypotrack.plotTables(plot), scales: scales,
-    layout: {columns: size.columns, padding: {column: 20, row: 24}, bounds: 'full', align: 'all'},
-    marks: plot.facets.map(function (facet, i) {
-      return Object.assign({
-        type: 'group',
-        encode: {update: {width: {value: size.width}, height: {value: size.height}}},
-        // Of the panel, for its axes' grid lines.
-        signals: [{name: 'width', value: size.width}, {name: 'height', value: size.height}],
-      }, facet.label ? {title: {text: facet.label, limit: size.width}} : {}, content('facet' + i));
-    }),
-  };
-  if (plot.color && plot.color.values.length > 1) {
-    spec.legends = [{
-      fill: 'color', shape: 'shape', orient: 'top', direction: 'horizontal',
-      title: plot.color.label, columns: Math.max(1, Math.floor(options.width / 110)),
-    }];
-  }
-  return spec;
-};
-
-hypotrack.axes = function (plot, values, ticks) {
-  return [
-    Object.assign({orient: 'bottom', scale: 'x', title: plot.x.label, grid: false},
-                  values ? {values: values} : {tickCount: ticks}),
-    {orient: 'left', scale: 'y', title: plot.y.label, grid: true, tickCount: 6},
-  ];
-};
-
-/** Lines of the mean with bands of one standard deviation. */
-hypotrack.lineMarks = function (data, points) {
-  var x = {scale: 'x', field: 'x'}, color = {scale: 'color', field: 'color'};
-  var inner = [
-    {type: 'area', from: {data: 'series'}, encode: {update: {
-      x: x, y: {scale: 'y', field: 'lo'}, y2: {scale: 'y', field: 'hi'},
-      fill: color, fillOpacity: {value: 0.18}}}},
-    {type: 'line', from: {data: 'series'}, encode: {update: {
-      x: x, y: {scale: 'y', field: 'mean'}, stroke: color, strokeWidth: {value: 2}}}},
-    {type: 'symbol', from: {data: 'series'}, encode: {update: {
-      x: x, y: {scale: 'y', field: 'mean'}, fill: color, size: {value: points ? 50 : 60},
-      shape: {scale: 'shape', field: 'color'}, opacity: {value: points ? 1 : 0},
-      tooltip: {field: 'tip'}}}},
-  ];
-  return [{type: 'group', from: {facet: {data: data, name: 'series', groupby: 'color'}},
-           marks: inner}];
-};
+/* Vega specifications of the plots that C++ describes (plot_data.hpp). Runs in the page and, for
+   the files beside it, in Node.js. */
 
 hypotrack.curveSpec = function (plot, options) {
   var size = hypotrack.panels(plot, options.width), values = plot.x.values;
@@ -208,7 +55,8 @@ hypotrack.barMarks = function (data, band, theme) {
 /** Upright bars, or lying ones where the names would not fit below. */
 hypotrack.barsSpec = function (plot, options) {
   var names = plot.x.values, colors = plot.color ? plot.color.values : [''];
-  var size = hypotrack.panels(plot, options.width), bounds = hypotrack.rangeOf(plot, hypotrack.band);
+  var size = hypotrack.panels(plot, options.width);
+  var bounds = hypotrack.rangeOf(plot, hypotrack.band);
   var flat = 7 * names.join('  ').length > size.width;
   if (flat) {
     size.width -= Math.min(100, 5 * Math.max.apply(null, names.map(function (name) {
@@ -265,8 +113,8 @@ hypotrack.heatmapSpec = function (plot, options) {
   return spec;
 };
 
-/** Values over the frames of a run: {title, x: {label, values}, y: {label}, series: [{name, values}],
-    shaded: [[from, to], ...], zero}. */
+/** Values over the frames of a run: {title, x: {label, values}, y: {label},
+    series: [{name, values}], shaded: [[from, to], ...], zero}. */
 hypotrack.timelineSpec = function (plot, options) {
   var theme = options.theme, width = Math.max(220, options.width - 90);
   var rows = [];
@@ -309,6 +157,12 @@ hypotrack.timelineSpec = function (plot, options) {
     spec.legends = [{stroke: 'color', symbolType: 'stroke', orient: 'top', direction: 'horizontal',
                      columns: Math.max(1, Math.floor(width / 110))}];
   return spec;
+};
+
+/** Whether there is anything to draw. */
+hypotrack.hasRows = function (plot) {
+  return plot.kind === 'timeline' ||
+         plot.facets.some(function (facet) { return facet.rows.length > 0; });
 };
 
 hypotrack.plotSpec = function (plot, options) {

@@ -4,7 +4,7 @@ var fs = require('fs');
 var path = require('path');
 var vm = require('vm');
 
-['vega.js', 'decode.js', 'plots.js', 'run_plots.js'].forEach(function (name) {
+['vega.js', 'decode.js', 'plot_parts.js', 'plots.js', 'run_plots.js'].forEach(function (name) {
   var file = path.join(__dirname, name);
   vm.runInThisContext(fs.readFileSync(file, 'utf8'), {filename: file});
 });
@@ -12,7 +12,7 @@ var vm = require('vm');
 async function main(dataFile, folder) {
   var page = JSON.parse(fs.readFileSync(dataFile, 'utf8'));
   var plots = page.kind === 'run' ? hypotrack.runPlots(page.runs[0]) : page.plots;
-  for (var plot of plots) {
+  for (var plot of plots.filter(hypotrack.hasRows)) {
     var spec = hypotrack.plotSpec(plot, {width: 960, theme: hypotrack.themes.light});
     if (plot.title) spec.title = {text: plot.title, fontSize: 16, offset: 12};
     var view = new vega.View(vega.parse(spec), {renderer: 'none'});

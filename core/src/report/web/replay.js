@@ -10,7 +10,8 @@ hypotrack.decodeShape = function (shape) {
   geometry.setAttribute('position', new THREE.BufferAttribute(
       new Float32Array(hypotrack.numbers(shape.vertices)), 3));
   geometry.setAttribute('skinIndex', new THREE.BufferAttribute(hypotrack.words(shape.bones), 4));
-  geometry.setAttribute('skinWeight', new THREE.BufferAttribute(hypotrack.bytes(shape.weights), 4, true));
+  geometry.setAttribute('skinWeight', new THREE.BufferAttribute(
+      hypotrack.bytes(shape.weights), 4, true));
   geometry.setIndex(new THREE.BufferAttribute(indices, 1));
   geometry.computeVertexNormals();
   return {geometry: geometry, landmarks: shape.landmarks, edges: shape.edges};
@@ -77,7 +78,8 @@ hypotrack.skeletonBody = function (count, edges, positions, color) {
   var object = new THREE.Group();
   object.add(new THREE.Points(points, new THREE.PointsMaterial(
       {color: color, size: 6, sizeAttenuation: false, depthTest: false})));
-  object.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: color, depthTest: false})));
+  object.add(new THREE.LineSegments(lines, new THREE.LineBasicMaterial(
+      {color: color, depthTest: false})));
   object.children.forEach(function (child) { child.frustumCulled = false; child.renderOrder = 2; });
   function fill(geometry, places) {
     places.forEach(function (place, i) {
@@ -89,7 +91,8 @@ hypotrack.skeletonBody = function (count, edges, positions, color) {
     var known = function (place) { return !isNaN(place.x); };
     var places = positions(frame), ends = [];
     edges.forEach(function (edge) {
-      if (known(places[edge[0]]) && known(places[edge[1]])) ends.push(places[edge[0]], places[edge[1]]);
+      var both = [places[edge[0]], places[edge[1]]];
+      if (both.every(known)) ends = ends.concat(both);
     });
     var shown = places.filter(known);
     fill(points, shown);
@@ -150,7 +153,7 @@ hypotrack.stage = function (page, replay) {
   var style = getComputedStyle(document.documentElement);
   var colors = {tracked: style.getPropertyValue('--tracked').trim(),
                 truth: style.getPropertyValue('--truth').trim()};
-  var renderer = new THREE.WebGLRenderer({canvas: canvas, context: context, antialias: true, alpha: true});
+  var renderer = new THREE.WebGLRenderer({canvas: canvas, context: context, alpha: true});
   renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
   var scene = new THREE.Scene(), camera = new THREE.PerspectiveCamera(35, 1, 0.005, 50);
   var world = new THREE.Group();

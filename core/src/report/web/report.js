@@ -24,8 +24,8 @@
     main.textContent = '';
     main.appendChild(shown.element);
     var heading = main.querySelector('h1');
-    document.title = heading.textContent === page.title ? page.title
-                                                        : heading.textContent + ' – ' + page.title;
+    var title = heading.textContent;
+    document.title = title === page.title ? title : title + ' – ' + page.title;
     hypotrack.drawCharts(true);
     if (focus) {
       window.scrollTo(0, 0);

@@ -3,8 +3,8 @@
 
 hypotrack.runFacts = function (page, run) {
   var order = ['mean_error_mm', 'median_error_mm', 'p95_error_mm', 'max_error_mm', 'auc_20_50',
-               'success_10mm', 'success_20mm', 'lost_share', 'time_to_loss_s', 'jitter_mm', 'frames',
-               'fps', 'evaluations_per_second'];
+               'success_10mm', 'success_20mm', 'lost_share', 'time_to_loss_s', 'jitter_mm',
+               'frames', 'fps', 'evaluations_per_second'];
   var facts = [];
   order.forEach(function (key) {
     if (page.metrics[key] && run.metrics[key] !== undefined && run.metrics[key] !== null)
@@ -26,13 +26,18 @@ hypotrack.worstMoments = function (run, replay) {
     hypotrack.element('div', {class: 'worst'}, run.worst.map(function (picture) {
       var place = frames.indexOf(picture.frame);
       var text = 'Frame ' + picture.frame;
-      if (errors && place >= 0 && !isNaN(errors[place])) text += ': ' + errors[place].toFixed(1) + ' mm';
+      if (errors && place >= 0 && !isNaN(errors[place]))
+        text += ': ' + errors[place].toFixed(1) + ' mm';
+      function showIn3D() {
+        replay.seek(picture.frame);
+        replay.element.scrollIntoView({block: 'center'});
+      }
       return hypotrack.element('figure', {}, [
-        hypotrack.element('img', {src: picture.src, alt: text + '; solution and truth drawn over the image'}),
+        hypotrack.element('img', {src: picture.src,
+                                  alt: text + '; solution and truth drawn over the image'}),
         hypotrack.element('figcaption', {text: text}),
-        replay ? hypotrack.element('button', {type: 'button', text: 'Show in 3D', on: {
-          click: function () { replay.seek(picture.frame); replay.element.scrollIntoView({block: 'center'}); },
-        }}) : null,
+        replay ? hypotrack.element('button', {type: 'button', text: 'Show in 3D',
+                                              on: {click: showIn3D}}) : null,
       ]);
     })),
   ]);
@@ -60,15 +65,16 @@ hypotrack.runPage = function (page, run) {
     stop: function () { if (replay) replay.stop(); },
     element: hypotrack.element('div', {class: 'run'}, [
       page.runs.length > 1 ? hypotrack.neighbours(page, run) : null,
-      hypotrack.element('h1', {tabindex: '-1', text: page.kind === 'study' ? run.id : page.title}),
-      what ? hypotrack.element('p', {class: 'about', text: what + ' · seed ' + run.seed}) : null,
+      hypotrack.element('h1', {tabindex: '-1', text: page.kind === 'study' ?
+          what + ' · seed ' + run.seed : page.title}),
+      page.kind === 'study' ? hypotrack.element('p', {class: 'about', text: run.id}) : null,
       hypotrack.facts(hypotrack.runFacts(page, run)),
       hypotrack.section('Replay', [
-        replay ? replay.element : hypotrack.element('p', {class: 'note', text:
-          'This run has no replay in this report. ' + page.left_out})]),
+        replay ? replay.element
+               : hypotrack.note('This run has no replay in this report. ' + page.left_out)]),
       hypotrack.worstMoments(run, replay),
       hypotrack.section('Frame by frame', hypotrack.runPlots(run).map(hypotrack.chart).concat([
-        spans.length ? hypotrack.element('p', {class: 'note', text: lost}) : null])),
+        hypotrack.note(spans.length ? lost : '')])),
     ]),
   };
 };

@@ -26,7 +26,8 @@ hypotrack.sortableTable = function (headings, rows, caption) {
     }));
   }
   fill(rows);
-  return hypotrack.element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption}, [
+  var region = {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption};
+  return hypotrack.element('div', region, [
     hypotrack.element('table', {}, [
       hypotrack.element('caption', {class: 'hidden', text: caption}),
       hypotrack.element('thead', {}, [hypotrack.element('tr', {}, heads)]), body,
@@ -42,7 +43,7 @@ hypotrack.compareKeys = function (a, b) {
   return String(a).localeCompare(String(b));
 };
 
-/** `12.3 ± 0.4`, the best in bold, with a sign where the seeds do not separate it from the best. */
+/** `12.3 ± 0.4`, the best in bold, with a sign where seeds do not separate it from the best. */
 hypotrack.comparisonCell = function (cell, digits) {
   if (!cell || cell.mean === null) return hypotrack.element('td', {class: 'number', text: '–'});
   var text = cell.mean.toFixed(digits);
@@ -50,7 +51,8 @@ hypotrack.comparisonCell = function (cell, digits) {
     hypotrack.element(cell.best ? 'strong' : 'span', {text: text}),
   ]);
   if (cell.sd !== null)
-    td.appendChild(hypotrack.element('span', {class: 'sd', text: ' ± ' + cell.sd.toFixed(digits)}));
+    td.appendChild(hypotrack.element('span', {class: 'sd',
+                                              text: ' ± ' + cell.sd.toFixed(digits)}));
   if (cell.best) td.appendChild(hypotrack.element('span', {class: 'hidden', text: ' best'}));
   if (cell.same) td.appendChild(hypotrack.element('span', {class: 'same', text: ' ≈'}));
   if (cell.p !== null) td.title = 'difference from the best: p = ' + cell.p.toPrecision(2);
@@ -63,7 +65,9 @@ hypotrack.comparisonTable = function (table) {
   var headings = table.keys.concat(['runs']).concat(failures ? ['failed'] : [])
       .concat(table.columns.map(function (column) { return column.label; }));
   var rows = table.rows.map(function (row) {
-    var cells = row.keys.map(function (key) { return hypotrack.element('th', {scope: 'row', text: key}); });
+    var cells = row.keys.map(function (key) {
+      return hypotrack.element('th', {scope: 'row', text: key});
+    });
     [row.runs].concat(failures ? [row.failed] : []).forEach(function (count) {
       cells.push(hypotrack.element('td', {class: 'number', text: count}));
     });
@@ -77,23 +81,26 @@ hypotrack.comparisonTable = function (table) {
   return hypotrack.element('div', {class: 'table', id: table.id}, [
     hypotrack.element('h3', {text: table.title}),
     hypotrack.sortableTable(headings, rows, table.title),
-    table.note ? hypotrack.element('p', {class: 'note', text: table.note}) : null,
+    hypotrack.note(table.note),
   ]);
 };
 
 hypotrack.runsTable = function (page, runs) {
   var columns = ['mean_error_mm', 'p95_error_mm', 'auc_20_50', 'lost_share', 'fps']
       .filter(function (key) { return page.metrics[key]; });
-  var headings = ['run'].concat(page.runs.some(function (run) { return run.scene; }) ? ['scene'] : [])
+  var scenes = page.runs.some(function (run) { return run.scene; });
+  var headings = ['run'].concat(scenes ? ['scene'] : [])
       .concat(page.axes.map(function (axis) { return axis.label; })).concat(['seed', 'replay'])
       .concat(columns.map(function (key) {
         var metric = page.metrics[key];
         return metric.unit ? metric.label + ' (' + metric.unit + ')' : metric.label;
       }));
   var rows = runs.map(function (run) {
-    var texts = (headings[1] === 'scene' ? [run.scene] : []).concat(run.settings);
-    var link = hypotrack.element('a', {href: hypotrack.runAddress(run), text: run.id});
-    var cells = [hypotrack.element('th', {scope: 'row', class: 'id'}, [link])];
+    var texts = (scenes ? [run.scene] : []).concat(run.settings);
+    var number = page.runs.indexOf(run) + 1;
+    var link = hypotrack.element('a', {href: hypotrack.runAddress(run), text: number,
+                                       title: run.id});
+    var cells = [hypotrack.element('th', {scope: 'row'}, [link])];
     var numbers = columns.map(function (key) {
       var value = run.metrics[key];
       return value === null || value === undefined ? null : page.metrics[key].factor * value;
@@ -105,7 +112,7 @@ hypotrack.runsTable = function (page, runs) {
       cells.push(hypotrack.element('td', {class: 'number', text:
         value === null ? '–' : value.toFixed(page.metrics[columns[i]].digits)}));
     });
-    return {cells: cells, keys: [run.id].concat(texts, [run.seed, run.replay ? 0 : 1], numbers)};
+    return {cells: cells, keys: [number].concat(texts, [run.seed, run.replay ? 0 : 1], numbers)};
   });
   return hypotrack.sortableTable(headings, rows, 'Runs');
 };
