@@ -44,6 +44,7 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     return kInterruptedExitCode;
   }
   writer.finish();
+  fmt::print("{}", motion_text(writer.motion()));
   fmt::print("recording in {}\n", options.out.string());
   if (!interrupt.interrupted()) return 0;
   fmt::print(stderr, "hypotrack: interrupted; the recording ends early\n");

@@ -21,8 +21,9 @@ TEST_F(SynthTest, TrackingTheRecordingIsTrackingTheSource) {
   const auto names = names_in(path("out"));
   for (const char* name :
        {"calibration.yaml", "left_000000.png", "left_mask_000000.png", "right_000004.png",
-        "scene.yaml", "truth_landmarks.csv", "truth_states.csv"})
+        "motion.json", "scene.yaml", "truth_landmarks.csv", "truth_states.csv"})
     EXPECT_THAT(names, Contains(name));
+  EXPECT_THAT(recorded.out, testing::HasSubstr("peak speed of "));
   ASSERT_EQ(
       run_program({"run", path("scene.yaml").string(), "--out", path("direct").string()}).exit_code,
       0);

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "landmark_fit.hpp"
+#include "hypotrack/landmark_fit.hpp"
 #include "metrics/landmark_errors.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
@@ -43,6 +43,14 @@ Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
   out.frame = out.session.source->next().value();
   out.fitted = initial_state(out.session, out.frame);
   return out;
+}
+
+/// The hand and its size fitted to the labels.
+LandmarkFit fit_with_scale(const Stb& stb, const Eigen::VectorXd& start) {
+  const Scene& scene = *stb.session.scene;
+  const Scene::Item& hand = scene.items().front();
+  return fit_landmarks(*hand.model, stb.frame.truth->landmarks, scene.part(hand, start),
+                       {.scale = true});
 }
 
 /// The brightness of the right image brought to the left one's.
@@ -104,8 +112,7 @@ TEST(StbPair, TheHandFitsTheLabelsAndTheSceneStartsThere) {
   start.segment<4>(3) << q.w(), q.x(), q.y(), q.z();
   ASSERT_GT(stb.distance(start), 0.010);
 
-  const auto fit =
-      test::fit_landmarks(*stb.session.scene, stb.frame.truth->landmarks, start, 1.1, plugins);
+  const LandmarkFit fit = fit_with_scale(stb, start);
   fmt::print("fit to the labels: {:.2f} mm from {:.1f} mm; the scene's pose: {:.2f} mm\n",
              1e3 * fit.mean_distance, 1e3 * stb.distance(start), 1e3 * stb.distance(stb.fitted));
   EXPECT_LT(fit.mean_distance, 0.004);
@@ -122,8 +129,7 @@ TEST(StbPair, TheWebxrHandFitsTheLabelsToo) {
   PluginLoader plugins;
   const Stb stb = open_stb(plugins, {"models.0.of.mesh=" + mesh, "models.0.of.rig=webxr",
                                      "models.0.of.scale=1", "init.pose.hand.angles_deg={}"});
-  const auto fit =
-      test::fit_landmarks(*stb.session.scene, stb.frame.truth->landmarks, stb.fitted, 1, plugins);
+  const LandmarkFit fit = fit_with_scale(stb, stb.fitted);
   fmt::print("WebXR hand: {:.2f} mm at scale {:.3f}\n", 1e3 * fit.mean_distance, fit.scale);
   EXPECT_LT(fit.mean_distance, 0.005);
   EXPECT_NEAR(fit.scale, 0.936, 0.01);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <opencv2/core.hpp>
 
 #include "hypotrack/plugin.hpp"
@@ -77,6 +78,37 @@ TEST(RealRecordings, OfTwoWebcamsAreReadToTheirEnd) {
     ++frames;
   }
   EXPECT_EQ(frames, 8);
+}
+
+TEST(RealRecordings, OfADepthCameraWithoutColourAreMetres) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  const auto sequences = test::shared_data() / "rgbd/hand_recognition_SR305/datasets/custom";
+  const test::TemporaryDirectory folder;
+  std::ofstream(folder.path() / "sr305.yaml")
+      << "%YAML:1.0\n---\ncameras:\n  - {image_width: 640, image_height: 480, model: none, K: "
+         "[476.007, 0, 313.683, 0, 476.007, 242.755, 0, 0, 1]}\n";
+  PluginLoader plugins;
+  int frames = 0;
+  for (const char* sequence : {"20210326-230536", "20210326-231615"}) {
+    const std::string yaml =
+        "type: image_sequence\nleft_depth: " + (sequences / sequence / "*.png").string() +
+        "\ndepth_units_mm: 0.125\ncalibration: {file: sr305.yaml}\n";
+    const auto source =
+        plugins.make<Source>(ConfigNode::parse(yaml, "scene.yaml", folder.path()), nullptr);
+    while (const auto frame = source->next()) {
+      ASSERT_EQ(frame->problem, "");
+      ASSERT_EQ(frame->views.size(), 1u);
+      const cv::Mat& depth = frame->views[0].depth;
+      // A person at arm's length from the camera; a unit off would be a factor of 8.
+      double nearest = 0, farthest = 0;
+      cv::minMaxLoc(depth, &nearest, &farthest, nullptr, nullptr, depth > 0);
+      EXPECT_GT(nearest, 0.3);
+      EXPECT_LT(farthest, 1.2);
+      EXPECT_GT(cv::countNonZero(depth), 50000);
+      ++frames;
+    }
+  }
+  EXPECT_EQ(frames, 19);
 }
 
 }  // namespace

@@ -83,8 +83,16 @@ void RecordingWriter::add(const Frame& frame) {
     landmarks_.push_back({frame.index, frame.time, *std::move(landmarks)});
 }
 
+std::vector<ModelSpeeds> RecordingWriter::motion() const {
+  if (states_.empty()) return {};
+  return motion_speeds(*scene_, states_);
+}
+
 void RecordingWriter::write_truth() const {
-  if (!states_.empty()) write_states(part_ / "truth_states.csv", *scene_, states_);
+  if (!states_.empty()) {
+    write_states(part_ / "truth_states.csv", *scene_, states_);
+    write_whole(part_ / "motion.json", motion_json(motion()));
+  }
   if (!landmarks_.empty())
     write_landmarks(part_ / "truth_landmarks.csv", scene_->landmark_names(), landmarks_);
 }

@@ -11,6 +11,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
+#include "metrics/motion_speeds.hpp"
 #include "output/image_writer.hpp"
 
 namespace hypotrack {
@@ -18,9 +19,9 @@ namespace hypotrack {
 /// Writes a source of one camera or two as a folder that the `image_sequence` source reads:
 /// left_000000.png, right_000000.png, masks (left_mask_000000.png) and depths
 /// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some,
-/// calibration.yaml, truth_states.csv and truth_landmarks.csv where the truth is known, scene.yaml,
-/// which tracks it, and source.yaml, the scene that was recorded. The folder appears under its name
-/// when everything is in it.
+/// calibration.yaml, truth_states.csv (with motion.json, its speeds) and truth_landmarks.csv where
+/// the truth is known, scene.yaml, which tracks it, and source.yaml, the scene that was recorded.
+/// The folder appears under its name when everything is in it.
 class HYPOTRACK_API RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (Session::resolved), whose source is replaced. Throws
@@ -38,6 +39,8 @@ class HYPOTRACK_API RecordingWriter {
   /// Throws OutputError; also if no frame was added.
   void finish();
   bool empty() const { return first_ < 0; }
+  /// Of the true states so far (motion.json); empty where they are unknown.
+  std::vector<ModelSpeeds> motion() const;
 
  private:
   void write_image(const std::string& name, int index, cv::Mat image);

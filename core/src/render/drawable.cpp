@@ -8,8 +8,6 @@
 namespace hypotrack {
 namespace {
 
-constexpr float kAnisotropy = 8.0F;
-
 template <class Matrix>
 void upload(GLenum target, const gl::Buffer& buffer, const Matrix& data, GLenum usage) {
   glBindBuffer(target, buffer);
@@ -38,15 +36,12 @@ gl::Texture make_texture(const cv::Mat& image) {
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, fitted.cols, fitted.rows, 0, GL_BGR, GL_UNSIGNED_BYTE,
                fitted.data);
   glGenerateMipmap(GL_TEXTURE_2D);
+  // No anisotropic filter: with multisampling Mesa's llvmpipe (22.3) never comes back from it where a
+  // face is seen almost edge on.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-    GLfloat most = 1;
-    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-    glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, kAnisotropy));
-  }
   return texture;
 }
 

@@ -12,6 +12,7 @@
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/renderer.hpp"
+#include "joint_motion.hpp"
 
 namespace hypotrack::synthetic {
 
@@ -134,6 +135,7 @@ struct SyntheticParams {
   ConfigNode gestures;
   std::filesystem::path gesture_file;
   ConfigNode keyframes;
+  JointFileParams joint_file;
   ConfigNode render_models;
   ForearmParams forearm;
   BackgroundParams background;
@@ -151,8 +153,9 @@ struct SyntheticParams {
       {.help = "named hand postures: maps of joint angles to degrees; * in a name is any text"});
     v("gesture_file", gesture_file, {.help = "YAML file of more gestures, as `gestures` has them"});
     v("keyframes", keyframes,
-      {.help = "list of {time or frame, gesture, pose} that the motion passes through",
-       .required = true});
+      {.help =
+           "list of {time or frame, gesture, pose, hold, release} that the motion passes through"});
+    v("joint_file", joint_file, {.help = "instead of keyframes: a real motion to follow"});
     v("render_models", render_models,
       {.help = "map of models of the scene to {type, ...}: what the pictures show in their place"});
     v("forearm", forearm, {.help = "what the pictures show below a hand's wrist"});

@@ -62,6 +62,18 @@ std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std:
   return cameras;
 }
 
+Script read_motion(const SyntheticParams& params, const Scene& scene, const std::string& where) {
+  if (params.keyframes.defined() == !params.joint_file.file.empty()) {
+    throw ConfigError(where +
+                      ": give the motion by either `keyframes` or `joint_file: {file: ...}`");
+  }
+  if (!params.keyframes.defined()) {
+    return read_joint_file(params.joint_file, scene, params.frame_rate);
+  }
+  return read_script(params.keyframes, Gestures(params.gestures, params.gesture_file), scene,
+                     params.frame_rate);
+}
+
 RenderStyle style_of(const LightParams& light) {
   RenderStyle style;
   style.ambient = light.ambient;
@@ -84,8 +96,7 @@ class Synthetic final : public Source {
         cameras_(params.calibration ? load_cameras(*params.calibration, context.config().where())
                                     : make_cameras(params.cameras, context.config().where())),
         frame_rate_(params.frame_rate),
-        script_(read_script(params.keyframes, Gestures(params.gestures, params.gesture_file),
-                            scene_, params.frame_rate)),
+        script_(read_motion(params, scene_, context.config().where())),
         style_(style_of(params.light)),
         sensor_(params.sensor, cameras_.size(), context.config().where()),
         depth_sensor_(params.sensor),

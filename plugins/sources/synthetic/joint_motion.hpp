@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hypotrack/calibration.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+#include "script.hpp"
+
+namespace hypotrack::synthetic {
+
+/// `joint_file:` a table of landmarks (tables.hpp) whose motion the models take on.
+struct JointFileParams {
+  std::filesystem::path file;
+  LengthUnit units = LengthUnit::m;
+  std::vector<std::string> rename;
+  int first = 0;
+  int count = 0;
+  void visit(ParamVisitor& v) {
+    v("file", file, {.help = "CSV of landmarks over time, in world axes: <landmark>_x, _y, _z"});
+    v("units", units, {.help = "of the file: m, cm or mm"});
+    v("rename", rename,
+      {.help = "`name=landmark` gives a name of the file to a landmark of the scene, `name=` drops "
+               "it"});
+    v("first", first, {.help = "frame of the file to begin with", .min = 0});
+    v("count", count, {.help = "frames to take; 0: up to the end", .min = 0});
+  }
+};
+
+/// Fits the models to every row of the file (fit_landmarks, from the row before), and says on
+/// stderr how well. A row that knows less than half of a model's landmarks, or is missing, is
+/// passed over: the motion interpolates. Throws DataError, naming the file, where read_landmarks
+/// does and for a model of which no row knows enough.
+Script read_joint_file(const JointFileParams& params, const Scene& scene, double frame_rate);
+
+}  // namespace hypotrack::synthetic

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <map>
+#include <vector>
+
+#include "gestures.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack::synthetic {
+
+/// Numbers of the pose that every model's parameters begin with.
+constexpr int kPoseLength = 7;
+
+/// What one keyframe says.
+struct Keys {
+  ConfigNode node;
+  double time = 0;
+  std::map<int, double> numbers;                        // by parameter of the scene
+  std::map<std::size_t, Eigen::Quaterniond> rotations;  // by model
+  std::map<std::size_t, std::size_t> holds;             // holder by held model
+  std::vector<std::size_t> releases;
+};
+
+/// Reads the list of keyframes (script.hpp), one by one. Throws ConfigError with file:line:column.
+std::vector<Keys> read_keyframes(const ConfigNode& keyframes, const Gestures& gestures,
+                                 const Scene& scene, double frame_rate);
+
+}  // namespace hypotrack::synthetic

@@ -1,0 +1,133 @@
+// The motions of configs/datasets: as long as the paper's, no faster than its search can follow, in
+// view, and without bodies that pass through each other.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dataset.hpp"
+#include "hypotrack/camera.hpp"
+#include "hypotrack/params.hpp"
+#include "metrics/motion_speeds.hpp"
+#include "penetration.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+// Skin and flesh give way by some millimetres where a hand presses on something.
+constexpr double kPressed = 2e-3;         // on another hand or a box
+constexpr double kPressedFingers = 4e-3;  // of one hand, on each other
+constexpr int kStep = 3;                  // frames
+
+class Motion : public testing::TestWithParam<std::pair<const char*, int>> {};
+
+TEST_P(Motion, has_the_length_of_the_papers) {
+  EXPECT_EQ(load_dataset(GetParam().first).states.size(), GetParam().second);
+}
+
+TEST_P(Motion, is_as_fast_as_people_and_no_faster_than_a_search_around_the_last_pose_can_follow) {
+  const Dataset dataset = load_dataset(GetParam().first);
+  for (const ModelSpeeds& speeds : motion_speeds(dataset.scene, dataset.states)) {
+    EXPECT_LT(speeds.translation.peak, 6.6e-3) << motion_text({&speeds, 1});
+    EXPECT_LT(speeds.rotation.peak, 2.2 * kDegree) << motion_text({&speeds, 1});
+    EXPECT_LT(speeds.joints.peak, 7 * kDegree) << motion_text({&speeds, 1});
+    EXPECT_GT(speeds.translation.peak, 4e-3) << motion_text({&speeds, 1});
+  }
+}
+
+TEST_P(Motion, stays_within_the_models_bounds_and_both_views) {
+  const Dataset dataset = load_dataset(GetParam().first);
+  constexpr double kFocal = 700, kBaseline = 0.12, kMargin = 10;
+  for (const StateRow& row : dataset.states) {
+    ASSERT_NO_THROW(dataset.scene.check(row.state, fmt::format("frame {}", row.frame)));
+    const Eigen::Matrix3Xd points = dataset.scene.landmarks(row.state);
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+      const Eigen::Vector3d p = points.col(i);
+      ASSERT_GT(p.z(), 0.25) << row.frame;
+      for (const double x : {p.x(), p.x() - kBaseline})
+        ASSERT_LT(std::abs(kFocal * x / p.z()), 640 - kMargin) << "frame " << row.frame;
+      ASSERT_LT(std::abs(kFocal * p.y() / p.z()), 360 - kMargin) << "frame " << row.frame;
+    }
+  }
+}
+
+TEST_P(Motion, puts_no_finger_through_another) {
+  const Dataset dataset = load_dataset(GetParam().first);
+  for (std::size_t m = 0; m < dataset.scene.items().size(); ++m) {
+    const ModelData& model = dataset.scene.items()[m].model->data();
+    if (model.parameters.size() == 7) continue;
+    const std::vector<HandPart> parts = hand_parts(model);
+    for (int f = 0; f < GetParam().second; f += kStep)
+      EXPECT_LT(self_penetration(parts, vertices(dataset, m, f)), kPressedFingers)
+          << dataset.scene.items()[m].name << " in frame " << f;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Datasets, Motion,
+                         testing::Values(std::pair("sh", 638), std::pair("ho", 545),
+                                         std::pair("th", 705)),
+                         [](const auto& test) { return std::string(test.param.first); });
+
+/// How deep two models lie in each other.
+double penetration_between(const Dataset& dataset, int frame) {
+  const Eigen::Matrix3Xf a = vertices(dataset, 0, frame), b = vertices(dataset, 1, frame);
+  const auto& items = dataset.scene.items();
+  return std::max(penetration(a, b, items[1].model->data().mesh.triangles),
+                  penetration(b, a, items[0].model->data().mesh.triangles));
+}
+
+double clearance_between(const Dataset& dataset, int frame) {
+  return clearance(vertices(dataset, 0, frame), vertices(dataset, 1, frame),
+                   dataset.scene.items()[1].model->data().mesh.triangles);
+}
+
+TEST(HandAndObject, the_hand_is_never_inside_the_box_and_touches_it_while_it_holds_it) {
+  const Dataset dataset = load_dataset("ho");
+  for (int f = 0; f < 545; f += kStep)
+    EXPECT_LT(penetration_between(dataset, f), kPressed) << "frame " << f;
+  for (const int f : {60, 112, 190, 256, 346, 446, 500, 544})
+    EXPECT_LT(clearance_between(dataset, f), 1e-3) << "frame " << f;
+  for (const int f : {0, 390}) EXPECT_GT(clearance_between(dataset, f), 10e-3) << "frame " << f;
+}
+
+TEST(HandAndObject, the_box_moves_only_with_the_hand) {
+  const Dataset dataset = load_dataset("ho");
+  const int offset = dataset.scene.items()[1].offset;
+  const auto box = [&](int frame) -> Eigen::Vector3d {
+    return dataset.states[static_cast<std::size_t>(frame)].state.segment<3>(offset);
+  };
+  EXPECT_LT((box(60) - box(0)).norm(), 1e-9);
+  EXPECT_LT((box(446) - box(352)).norm(), 1e-9);
+  EXPECT_GT((box(190) - box(60)).norm(), 0.1);
+  EXPECT_GT((box(544) - box(446)).norm(), 0.1);
+}
+
+TEST(TwoHands, never_pass_through_each_other) {
+  const Dataset dataset = load_dataset("th");
+  for (int f = 0; f < 705; f += kStep)
+    EXPECT_LT(penetration_between(dataset, f), kPressed) << "frame " << f;
+}
+
+TEST(TwoHands, touch_with_fingertips_palms_a_finger_and_a_fist) {
+  const Dataset dataset = load_dataset("th");
+  for (const int f : {340, 415, 430, 526, 618})
+    EXPECT_LT(clearance_between(dataset, f), 1.5e-3) << "frame " << f;
+}
+
+TEST(TwoHands, hide_each_other) {
+  const Dataset dataset = load_dataset("th");
+  // In the middle of each crossing the palms lie behind each other as the camera sees them.
+  for (const int f : {102, 236}) {
+    const Eigen::Matrix3Xd points =
+        dataset.scene.landmarks(dataset.states[static_cast<std::size_t>(f)].state);
+    const Eigen::Vector3d right = points.leftCols(21).rowwise().mean();
+    const Eigen::Vector3d left = points.rightCols(21).rowwise().mean();
+    EXPECT_LT((700 * right / right.z() - 700 * left / left.z()).norm(), 80) << f;
+    EXPECT_GT(std::abs(right.z() - left.z()), 0.08) << f;
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack::test

@@ -1,0 +1,91 @@
+#include "metrics/motion_speeds.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "hypotrack/params.hpp"
+#include "test_models.hpp"
+
+namespace hypotrack {
+namespace {
+
+Scene hand_and_box() {
+  std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
+  models.emplace_back("hand", std::make_shared<Model>(test::make_test_hand()));
+  models.emplace_back("box", std::make_shared<Model>(test::make_test_box()));
+  return Scene(std::move(models));
+}
+
+constexpr int kBox = 27;
+
+/// The hand rests and moves on by 3 mm along x per frame; in frame 2 it moves by 5 mm, turns by 4
+/// degrees, and joint number 8 turns by 6. The box turns by 10 degrees in frame 3.
+std::vector<StateRow> some_states(const Scene& scene) {
+  std::vector<StateRow> rows(4, StateRow{0, 0, scene.rest_state()});
+  const double x[] = {0, 0.003, 0.008, 0.011};
+  for (int i = 0; i < 4; ++i) {
+    rows[static_cast<std::size_t>(i)].frame = i;
+    rows[static_cast<std::size_t>(i)].state[0] = x[i];
+  }
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(4 * kDegree, Eigen::Vector3d::UnitY()));
+  for (std::size_t i = 2; i < 4; ++i) {
+    rows[i].state[7 + 8] += 6 * kDegree;
+    rows[i].state.segment<4>(3) << turn.w(), turn.x(), turn.y(), turn.z();
+  }
+  rows[3].state.segment<4>(3) *= -1;  // the same rotation
+  const Eigen::Quaterniond box(Eigen::AngleAxisd(10 * kDegree, Eigen::Vector3d::UnitX()));
+  rows[3].state.segment<4>(kBox + 3) << box.w(), box.x(), box.y(), box.z();
+  return rows;
+}
+
+TEST(MotionSpeeds, finds_the_peaks_and_means_of_every_model) {
+  const Scene scene = hand_and_box();
+  const auto speeds = motion_speeds(scene, some_states(scene));
+  ASSERT_EQ(speeds.size(), 2U);
+  const ModelSpeeds& hand = speeds[0];
+  EXPECT_EQ(hand.model, "hand");
+  EXPECT_NEAR(hand.translation.peak, 0.005, 1e-12);
+  EXPECT_NEAR(hand.translation.mean, 0.011 / 3, 1e-12);
+  EXPECT_EQ(hand.translation.frame, 2);
+  EXPECT_NEAR(hand.rotation.peak, 4 * kDegree, 1e-7) << "a quaternion's sign turns nothing";
+  EXPECT_EQ(hand.rotation.frame, 2);
+  EXPECT_NEAR(hand.joints.peak, 6 * kDegree, 1e-12);
+  EXPECT_NEAR(hand.joints.mean, 2 * kDegree, 1e-12);
+  EXPECT_EQ(hand.fastest_joint, scene.items()[0].model->data().parameters[7 + 8].name);
+  EXPECT_NEAR(speeds[1].rotation.peak, 10 * kDegree, 1e-7);
+  EXPECT_EQ(speeds[1].rotation.frame, 3);
+  EXPECT_EQ(speeds[1].translation.peak, 0);
+  EXPECT_EQ(speeds[1].fastest_joint, "");
+}
+
+TEST(MotionSpeeds, does_not_count_over_missing_frames) {
+  const Scene scene = hand_and_box();
+  auto states = some_states(scene);
+  states.erase(states.begin() + 2);
+  const auto speeds = motion_speeds(scene, states);
+  EXPECT_NEAR(speeds[0].translation.peak, 0.003, 1e-12);
+  EXPECT_NEAR(speeds[0].translation.mean, 0.003, 1e-12);
+  EXPECT_EQ(speeds[0].rotation.peak, 0);
+  EXPECT_EQ(motion_speeds(scene, std::span(states).first(1))[0].translation.mean, 0);
+}
+
+TEST(MotionSpeeds, says_them_in_millimetres_and_degrees) {
+  const Scene scene = hand_and_box();
+  const auto speeds = motion_speeds(scene, some_states(scene));
+  const auto json = nlohmann::json::parse(motion_json(speeds))["models"];
+  EXPECT_NEAR(json["hand"]["translation_mm_per_frame"]["peak"], 5, 1e-9);
+  EXPECT_EQ(json["hand"]["joint_deg_per_frame"]["joint"], speeds[0].fastest_joint);
+  EXPECT_NEAR(json["box"]["rotation_deg_per_frame"]["peak"], 10, 1e-5);
+  EXPECT_FALSE(json["box"].contains("joint_deg_per_frame"));
+  EXPECT_THAT(motion_text(speeds),
+              testing::AllOf(testing::HasSubstr("hand: 5.0 mm (frame 2), 4.00 deg (frame 2), "
+                                                "joints 6.0 deg (" +
+                                                speeds[0].fastest_joint),
+                             testing::HasSubstr("box: 0.0 mm (frame 0), 10.00 deg (frame 3) per")));
+}
+
+}  // namespace
+}  // namespace hypotrack
