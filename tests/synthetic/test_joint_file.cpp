@@ -108,6 +108,26 @@ TEST(JointFile, gaps_are_bridged) {
   }
 }
 
+TEST(JointFile, is_smoothed_if_asked) {
+  JointFile joints;
+  for (std::size_t i = 0; i < joints.rows.size(); ++i)
+    joints.rows[i].landmarks.row(1).array() += i % 2 == 0 ? 4.0 : -4.0;
+  joints.rows[6].landmarks.col(20).setConstant(kUnknown);
+  const auto jitter = [&](const std::string& more) {
+    testing::internal::CaptureStderr();
+    const auto source = joints.source(more);
+    testing::internal::GetCapturedStderr();
+    double sum = 0;
+    for (std::size_t i = 0; i < 10; ++i) {
+      const Frame frame = *source->next();
+      sum += std::abs(frame.truth->state[1] - joints.states[i].state[1]) / 10;
+    }
+    return sum;
+  };
+  EXPECT_GT(jitter(""), 3e-3);
+  EXPECT_LT(jitter(", smooth_frames: 1.5"), 1.2e-3);
+}
+
 TEST(JointFile, gives_a_part_of_itself) {
   JointFile joints;
   testing::internal::CaptureStderr();

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -31,6 +32,29 @@ std::vector<LandmarkRow> read_rows(const JointFileParams& params, const Scene& s
     throw DataError(fmt::format("{}: the file has no row of frame {} or later",
                                 params.file.string(), params.first));
   return rows;
+}
+
+/// Every known landmark as the weighted mean of itself around its frame.
+std::vector<LandmarkRow> smoothed(const std::vector<LandmarkRow>& rows, double sigma) {
+  if (sigma <= 0) return rows;
+  std::vector<LandmarkRow> out = rows;
+  for (LandmarkRow& row : out) {
+    Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, row.landmarks.cols());
+    Eigen::VectorXd weights = Eigen::VectorXd::Zero(row.landmarks.cols());
+    for (const LandmarkRow& other : rows) {
+      const double apart = (other.frame - row.frame) / sigma;
+      if (std::abs(apart) > 4) continue;
+      const double weight = std::exp(-0.5 * apart * apart);
+      for (Eigen::Index i = 0; i < sum.cols(); ++i) {
+        if (!other.landmarks.col(i).allFinite()) continue;
+        sum.col(i) += weight * other.landmarks.col(i);
+        weights[i] += weight;
+      }
+    }
+    for (Eigen::Index i = 0; i < sum.cols(); ++i)
+      if (row.landmarks.col(i).allFinite()) row.landmarks.col(i) = sum.col(i) / weights[i];
+  }
+  return out;
 }
 
 /// What the fits of one model amount to.
@@ -122,7 +146,7 @@ class ModelFit {
 }  // namespace
 
 Script read_joint_file(const JointFileParams& params, const Scene& scene, double frame_rate) {
-  const std::vector<LandmarkRow> rows = read_rows(params, scene);
+  const std::vector<LandmarkRow> rows = smoothed(read_rows(params, scene), params.smooth);
   const int first_frame = rows.front().frame;
   Script script{Motion(scene), (rows.back().frame - first_frame) / frame_rate};
   Eigen::Index first = 0;

@@ -18,6 +18,7 @@ struct JointFileParams {
   std::vector<std::string> rename;
   int first = 0;
   int count = 0;
+  double smooth = 0;
   void visit(ParamVisitor& v) {
     v("file", file, {.help = "CSV of landmarks over time, in world axes: <landmark>_x, _y, _z"});
     v("units", units, {.help = "of the file: m, cm or mm"});
@@ -26,6 +27,11 @@ struct JointFileParams {
                "it"});
     v("first", first, {.help = "frame of the file to begin with", .min = 0});
     v("count", count, {.help = "frames to take; 0: up to the end", .min = 0});
+    v("smooth_frames", smooth,
+      {.help = "sigma of a Gaussian over time that takes jitter out of the landmarks",
+       .min = 0,
+       .max = 100,
+       .unit = "frames"});
   }
 };
 
