@@ -20,6 +20,7 @@
 #include "study/check_cells.hpp"
 #include "study/execute.hpp"
 #include "study/plan.hpp"
+#include "study/recordings.hpp"
 #include "study/study_file.hpp"
 #include "study/study_folder.hpp"
 #include "study/tables.hpp"
@@ -29,7 +30,6 @@ namespace {
 
 /// Exit code of a study that is complete, but for runs that failed.
 constexpr int kFailedRunsExitCode = 3;
-constexpr std::size_t kMostFailuresShown = 10;
 
 struct CompareOptions {
   std::filesystem::path study, out;
@@ -114,31 +114,34 @@ std::vector<std::size_t> runs_to_make(const study::StudyFolder& folder, const st
   return runs;
 }
 
+std::vector<std::size_t> cells_of(const study::Plan& plan, const std::vector<std::size_t>& runs) {
+  std::set<std::size_t> cells;
+  for (const std::size_t run : runs) cells.insert(plan.runs[run].cell);
+  return {cells.begin(), cells.end()};
+}
+
 /// The cells to look at before anything runs: all of a new study, later those with runs to make.
 std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const study::Plan& plan,
                                         const std::vector<std::size_t>& runs) {
   std::vector<std::size_t> cells(plan.cells.size());
   std::iota(cells.begin(), cells.end(), std::size_t{0});
   if (!folder.begun()) return cells;
-  std::set<std::size_t> needed;
-  for (const std::size_t run : runs) needed.insert(plan.runs[run].cell);
-  return {needed.begin(), needed.end()};
+  return cells_of(plan, runs);
 }
 
 /// Says what there is and returns the exit code.
 int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool complete) {
-  const std::size_t failed = tally.failures.size();
+  const std::size_t failed = tally.failed;
   fmt::print("{} of {} runs are there, {} failed; tables in {}\n", tally.ok + failed, tally.planned,
              failed, folder.path().string());
-  for (std::size_t i = 0; i < std::min(failed, kMostFailuresShown); ++i)
-    fmt::print(stderr, "hypotrack: failed: {}\n", tally.failures[i]);
-  if (failed > kMostFailuresShown)
-    fmt::print(stderr, "hypotrack: and {} more, see results.csv\n", failed - kMostFailuresShown);
   if (!complete) {
     fmt::print(stderr, "hypotrack: interrupted; the same command goes on from here\n");
     return kInterruptedExitCode;
   }
-  if (failed > 0) fmt::print(stderr, "hypotrack: --retry-failed makes the failed runs again\n");
+  if (failed > 0)
+    fmt::print(stderr,
+               "hypotrack: {} run{} failed, results.csv says why; --retry-failed makes {} again\n",
+               failed, failed == 1 ? "" : "s", failed == 1 ? "it" : "them");
   return failed > 0 ? kFailedRunsExitCode : 0;
 }
 
@@ -158,6 +161,9 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
     return kInterruptedExitCode;
   }
   folder.begin();
+  if (plan.study.recordings)
+    study::make_recordings(folder, plan, cells_of(plan, runs), launch,
+                           [&] { return !interrupt.interrupted(); });
   bool complete = false;
   {
     Console console(plan, runs.size(), interrupt);

@@ -51,6 +51,23 @@ TEST_F(Overrides, CreateWhatIsMissing) {
   EXPECT_EQ(root.get("tracker").get("crop").path(), "tracker.crop");
 }
 
+TEST_F(Overrides, PutWhatTheSceneHasIntoSomethingElse) {
+  const ConfigNode root = load({R"(optimizer={type: repeated, of: "@optimizer"})",
+                                R"(models=["@models.1", {type: cup}, {type: "@@at"}])"});
+  EXPECT_EQ(root.get("optimizer").to_yaml(), "type: repeated\nof:\n  type: pso\n");
+  EXPECT_EQ(root.get("optimizer").get("of").get("type").path(), "optimizer.of.type");
+  EXPECT_THAT(root.get("optimizer").get("of").where(), EndsWith("scene.yaml:4:12"));
+  EXPECT_EQ(root.get("models").at(0).get("type").scalar(), "box");
+  EXPECT_EQ(root.get("models").at(2).get("type").scalar(), "@at");
+}
+
+TEST_F(Overrides, ReferToWhatIsThere) {
+  EXPECT_THAT(error(R"(optimizer={type: repeated, of: "@optimiser"})"),
+              ::testing::HasSubstr("'@optimiser' stands for what the scene has at 'optimiser', and "
+                                   "there is nothing"));
+  EXPECT_THAT(error(R"(seed="@models.7")"), ::testing::HasSubstr("there is nothing"));
+}
+
 TEST_F(Overrides, AppendToLists) {
   const ConfigNode root = load({"models.2.type=cup"});
   EXPECT_EQ(root.get("models").size(), 3u);

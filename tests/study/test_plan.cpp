@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <set>
 
-#include "hypotrack/error.hpp"
 #include "expect_error.hpp"
+#include "hypotrack/error.hpp"
+#include "study/recordings.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {
@@ -77,6 +78,7 @@ TEST_F(PlanTest, WhateverDecidesTheResultChangesTheId) {
   EXPECT_TRUE(differ(ids_with("frames: 5", "frames: 6")));
   EXPECT_TRUE(differ(ids_with("tile.padding: 0.1", "tile.padding: 0.2")));
   EXPECT_TRUE(differ(ids_with("[8, 16]", "[9, 17]")));
+  EXPECT_TRUE(differ(ids_with("frames: 5", "frames: 5\nrecordings: true")));
   write("box.yaml", "models: [another]\n");
   write("hand.yaml", "models: [another]\n");
   EXPECT_TRUE(differ(ids(plan(small_study()))));
@@ -88,6 +90,16 @@ TEST_F(PlanTest, IdsDoNotDependOnWhereTheStudyLies) {
   for (const char* name : {"box.yaml", "hand.yaml", "study.yaml"})
     std::filesystem::copy(path(name), path(std::string("elsewhere/") + name));
   EXPECT_EQ(ids(make_plan(study::load_study(path("elsewhere/study.yaml")))), before);
+}
+
+TEST_F(PlanTest, CellsShareTheRecordingOfTheSameModelsAndSource) {
+  std::string text = small_study();
+  text.replace(text.find("random: {"), 9, "random: {source.frames: 7, ");
+  const Plan plan = this->plan(text);
+  std::set<std::string> recordings;
+  for (const study::Cell& cell : plan.cells) recordings.insert(recording_id(plan, cell));
+  EXPECT_THAT(recordings, SizeIs(4));  // two scenes, with and without the change of the source
+  EXPECT_EQ(recording_id(plan, plan.cells[0]), recording_id(plan, plan.cells[2]));
 }
 
 TEST_F(PlanTest, ShardsShareOutTheRunsAndTheCells) {

@@ -11,7 +11,6 @@ namespace hypotrack::test {
 namespace {
 
 using study::statistics_of;
-using testing::HasSubstr;
 
 TEST(StatisticsTest, OfNothingOneAndMany) {
   EXPECT_EQ(statistics_of({}).count, 0U);
@@ -66,7 +65,7 @@ TEST_F(TablesTest, AreSortedBySceneAxesAndSeedWhateverTheOrderOfTheRuns) {
   const study::Tally tally = write_tables();
   EXPECT_EQ(tally.planned, 4U);
   EXPECT_EQ(tally.ok, 3U);
-  EXPECT_THAT(tally.failures, testing::ElementsAre(HasSubstr("particles 16, seed 1: no, \"never")));
+  EXPECT_EQ(tally.failed, 1U);
   EXPECT_EQ(table("results.csv"),
             "scene,optimizer.particles,seed,status,message,frames,mean_error_mm,time_to_loss_s\n"
             "box,16,1,failed,\"no, \"\"never\"\" again\",,,\n"

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "config/yaml_reader.hpp"
+#include "config/yaml_writer.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail {
@@ -58,6 +60,37 @@ std::unique_ptr<YamlNode>& slot(YamlNode& node, const std::string& step, std::st
   return node.entries.back().value;
 }
 
+/// What the scene has at a path.
+const YamlNode& node_at(const YamlNode& root, std::string_view path, const std::string& say) {
+  const YamlNode* node = &root;
+  for (const std::string& step : split_path(path)) {
+    const auto index = as_index(step);
+    const YamlNode::Entry* entry = node->find(step);
+    if (node->kind == YamlNode::Kind::kList && index && *index < node->entries.size())
+      entry = &node->entries[*index];
+    if (!entry) {
+      throw ConfigError(fmt::format(
+          "{}: '@{}' stands for what the scene has at '{}', and there is nothing; a text that "
+          "begins with @ is written with two",
+          say, path, path));
+    }
+    node = entry->value.get();
+  }
+  return *node;
+}
+
+/// Replaces texts `@path` in a value by what the scene has there, and `@@text` by `@text`.
+void resolve_references(std::unique_ptr<YamlNode>& value, const YamlNode& root,
+                        const std::string& say) {
+  for (auto& entry : value->entries) {
+    resolve_references(entry.value, root, say);
+    entry.value->parent = value.get();
+  }
+  if (value->kind != YamlNode::Kind::kScalar || !value->text.starts_with('@')) return;
+  value->text.erase(0, 1);
+  if (!value->text.starts_with('@')) value = clone(node_at(root, value->text, say));
+}
+
 }  // namespace
 
 std::vector<std::string> split_path(std::string_view path) {
@@ -101,7 +134,9 @@ void apply_override(YamlNode& root, const std::string& assignment) {
   origin->name = say;
   origin->directory = std::filesystem::current_path();
   origin->is_override = true;
-  assign(root, path, read_yaml(std::string_view(assignment).substr(equals + 1), origin), say);
+  auto value = read_yaml(std::string_view(assignment).substr(equals + 1), origin);
+  resolve_references(value, root, say);
+  assign(root, path, std::move(value), say);
 }
 
 }  // namespace hypotrack::detail

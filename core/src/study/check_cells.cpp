@@ -63,20 +63,6 @@ std::string report(const Plan& plan, const std::map<std::size_t, std::string>& p
 
 }  // namespace
 
-std::vector<std::string> scene_arguments(const Plan& plan, const Cell& cell, const Launch& launch) {
-  std::vector<std::string> arguments;
-  for (const auto& folder : launch.plugin_path)
-    arguments.insert(arguments.end(), {"--plugin-path", folder.string()});
-  arguments.push_back(plan.scene_of(cell).file.string());
-  const auto set = [&](const std::string& assignment) {
-    arguments.insert(arguments.end(), {"--set", assignment});
-  };
-  set(fmt::format("evaluate.threads={}", launch.threads));
-  set(fmt::format("output.overlay={}", plan.study.overlay));
-  for (const Change& change : plan.changes_of(cell)) set(change.assignment());
-  return arguments;
-}
-
 void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const Launch& launch,
                  const std::function<bool()>& again) {
   const Scratch scratch;
@@ -88,7 +74,8 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
       const std::size_t cell = cells[next++];
       Command command{launch.program,    {"validate"},   plan.study.directory,
                       scratch.log(cell), launch.threads, -1};
-      const auto more = scene_arguments(plan, plan.cells[cell], launch);
+      const auto more = scene_arguments(plan.scene_of(plan.cells[cell]).file,
+                                        plan.changes_of(plan.cells[cell]), plan, launch);
       command.arguments.insert(command.arguments.end(), more.begin(), more.end());
       pool.start(cell, command);
       continue;

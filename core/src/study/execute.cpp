@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "study/process_pool.hpp"
+#include "study/recordings.hpp"
 
 namespace hypotrack::study {
 namespace {
@@ -83,7 +84,7 @@ void Execution::start(std::size_t index, RunFolder folder) {
   const PlannedRun& run = plan_.runs[index];
   Command command{launch_.program, {"run"},         plan_.study.directory,
                   folder.log(),    launch_.threads, folder.lock_descriptor()};
-  const auto scene = scene_arguments(plan_, plan_.cells[run.cell], launch_);
+  const auto scene = run_scene_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
   command.arguments.insert(command.arguments.end(), scene.begin(), scene.end());
   command.arguments.insert(command.arguments.end(), {"--out", folder.working().string(), "--seed",
                                                      fmt::format("{}", run.seed)});

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
-#include "study/check_cells.hpp"
+#include "study/launch.hpp"
 #include "study/plan.hpp"
 #include "study/study_folder.hpp"
 

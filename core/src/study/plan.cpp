@@ -4,29 +4,15 @@
 
 #include <fstream>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "study/hash.hpp"
 
 namespace hypotrack::study {
 namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
-
-/// FNV-1a with 64 bits (Fowler, Noll, Vo) over texts that stay apart from each other.
-class Hash {
- public:
-  void add(std::string_view text) {
-    for (const unsigned char c : fmt::format("{}:", text.size())) add_byte(c);
-    for (const unsigned char c : text) add_byte(c);
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  void add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
 
 std::string read_scene_text(const StudyScene& scene) {
   std::ifstream in(scene.file, std::ios::binary);
@@ -61,16 +47,16 @@ std::vector<Cell> make_cells(const Study& study) {
   return cells;
 }
 
-std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed,
-                   const std::string& scene_text) {
+std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
   Hash hash;
-  hash.add(scene_text);
+  hash.add(plan.scene_texts[cell.scene]);
   for (const Change& change : plan.changes_of(cell)) hash.add(change.assignment());
   for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
     hash.add(plan.study.axes[axis].name);
     hash.add(plan.choice_of(cell, axis).label);
   }
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
+  if (plan.study.recordings) hash.add("recordings");  // may round depths
   return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, seed, hash.value());
 }
 
@@ -96,11 +82,11 @@ Plan make_plan(Study study) {
   Plan plan;
   plan.cells = make_cells(study);
   plan.study = std::move(study);
-  std::vector<std::string> texts;
-  for (const StudyScene& scene : plan.study.scenes) texts.push_back(read_scene_text(scene));
+  for (const StudyScene& scene : plan.study.scenes)
+    plan.scene_texts.push_back(read_scene_text(scene));
   for (const std::int64_t seed : plan.study.seeds)
     for (std::size_t i = 0; i < plan.cells.size(); ++i)
-      plan.runs.push_back({i, seed, run_id(plan, plan.cells[i], seed, texts[plan.cells[i].scene])});
+      plan.runs.push_back({i, seed, run_id(plan, plan.cells[i], seed)});
   return plan;
 }
 

@@ -31,6 +31,7 @@ struct PlannedRun {
 /// (further seeds, values, scenes) and keeps the runs it has.
 struct Plan {
   Study study;
+  std::vector<std::string> scene_texts;  ///< content of each scene's file
   std::vector<Cell> cells;
   std::vector<PlannedRun> runs;
 

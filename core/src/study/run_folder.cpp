@@ -78,7 +78,7 @@ RunFolder::~RunFolder() {
   if (!working_.empty()) std::filesystem::remove_all(working_, ignored);
 }
 
-void RunFolder::put_into_place() {
+void RunFolder::rename() {
   std::error_code error;
   std::filesystem::remove_all(final_, error);  // a failure that was tried again
   std::filesystem::rename(working_, final_, error);
@@ -87,8 +87,12 @@ void RunFolder::put_into_place() {
                                   final_.string(), error.message()));
 }
 
-void RunFolder::finish(const Plan& plan, const PlannedRun& run, const RunCost& cost) {
+void RunFolder::put_into_place() {
   std::filesystem::remove(log());
+  rename();
+}
+
+void RunFolder::finish(const Plan& plan, const PlannedRun& run, const RunCost& cost) {
   write_cell(working_, plan, run);
   nlohmann::ordered_json timing;
   timing["seconds"] = cost.seconds;
@@ -105,7 +109,7 @@ void RunFolder::fail(const Plan& plan, const PlannedRun& run, const RunFailure& 
   json["message"] = without(failure.message, working_.string(), "the run's folder");
   json["exit_code"] = failure.exit_code;
   write_json(working_ / kFailureFile, json);
-  put_into_place();
+  rename();
 }
 
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {

@@ -23,8 +23,8 @@ struct RunCost {
   int threads = 0;
 };
 
-/// A run that this process makes: it holds the run's lock and a folder to work in, which becomes
-/// the run's folder when all of it is there and goes away otherwise.
+/// A run, or a recording, that this process makes: it holds its lock and a folder to work in, which
+/// becomes the run's folder when all of it is there and goes away otherwise.
 class HYPOTRACK_API RunFolder {
  public:
   /// `final` is where the folder will be.
@@ -40,6 +40,8 @@ class HYPOTRACK_API RunFolder {
   /// To be inherited by the process that writes into working().
   int lock_descriptor() const { return lock_.descriptor(); }
 
+  /// Gives the folder its name, without the log. Throws OutputError.
+  void put_into_place();
   /// Puts the finished run into place. Throws OutputError.
   void finish(const Plan& plan, const PlannedRun& run, const RunCost& cost);
   /// Puts a note of the failure into place, with the log; results that the run left go. Throws
@@ -47,7 +49,7 @@ class HYPOTRACK_API RunFolder {
   void fail(const Plan& plan, const PlannedRun& run, const RunFailure& failure);
 
  private:
-  void put_into_place();
+  void rename();
   FileLock lock_;
   std::filesystem::path working_, final_;
 };

@@ -29,7 +29,7 @@ struct StudyKeys {
   std::string title, about;
   ConfigNode scenes, set, grid, seeds, variants;
   std::optional<int> frames;
-  bool overlay = false;
+  bool overlay = false, recordings = false;
   std::vector<Plot> plots;
   std::filesystem::path directory;
   void visit(ParamVisitor& v) {
@@ -43,6 +43,8 @@ struct StudyKeys {
     v("seeds", seeds, {.help = "a number N for the seeds 1 to N, or a list of seeds"});
     v("frames", frames, {.help = "at most so many frames of each source", .min = 1});
     v("overlay", overlay, {.help = "whether every run writes overlay.mp4"});
+    v("recordings", recordings,
+      {.help = "whether every source is recorded once, and all runs read the recording"});
     v("plots", plots, {.help = "list of {kind, x, y, value, color, facet, title, ...}"});
     v("variants", variants, {.help = "{NAME: {seeds, frames, scenes, set, grid, overlay}}"});
     v("directory", directory,
@@ -231,6 +233,7 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.seeds = keys.seeds.defined() ? read_seeds(keys.seeds) : std::vector<std::int64_t>{1};
   study.frames = keys.frames;
   study.overlay = keys.overlay;
+  study.recordings = keys.recordings;
   study.plots = keys.plots;
   study.directory = keys.directory.empty() ? root.directory() : keys.directory;
   check_plots(study, root.get("plots"));

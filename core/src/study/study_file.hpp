@@ -63,6 +63,7 @@ struct Study {
   std::vector<std::int64_t> seeds;
   std::optional<int> frames;  ///< of each run; the whole source if empty
   bool overlay = false;       ///< whether runs write overlay.mp4
+  bool recordings = false;    ///< whether sources are recorded once, for all runs to read
   std::vector<Plot> plots;
   std::filesystem::path directory;  ///< absolute; what relative paths in changes refer to
 };

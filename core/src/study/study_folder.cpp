@@ -120,11 +120,24 @@ RunState StudyFolder::state(const PlannedRun& run) const {
   return std::filesystem::exists(run_path(run) / "failure.json") ? RunState::failed : RunState::ok;
 }
 
-std::optional<RunFolder> StudyFolder::claim(const PlannedRun& run) const {
-  auto lock = FileLock::try_take(working() / (run.id + kLockSuffix));
+std::optional<RunFolder> StudyFolder::claim(const std::string& id,
+                                            const std::filesystem::path& final) const {
+  auto lock = FileLock::try_take(working() / (id + kLockSuffix));
   if (!lock) return std::nullopt;
-  return std::optional<RunFolder>(std::in_place, *std::move(lock), working() / run.id,
-                                  run_path(run));
+  return std::optional<RunFolder>(std::in_place, *std::move(lock), working() / id, final);
+}
+
+std::optional<RunFolder> StudyFolder::claim(const PlannedRun& run) const {
+  return claim(run.id, run_path(run));
+}
+
+std::filesystem::path StudyFolder::recording_path(const std::string& id) const {
+  return folder_ / "recordings" / id;
+}
+
+std::optional<RunFolder> StudyFolder::claim_recording(const std::string& id) const {
+  make_folder(folder_ / "recordings");
+  return claim(id, recording_path(id));
 }
 
 FileLock StudyFolder::lock() const {

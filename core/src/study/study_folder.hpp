@@ -19,7 +19,8 @@ enum class RunState { missing, ok, failed };
 ///   study.yaml      the study, variant applied
 ///   plan.txt        the ids of all runs
 ///   runs/<id>/      finished runs; a failed one has failure.json instead of results
-///   .working/<id>/  a run being made, and its lock beside it
+///   recordings/<id>/recording/  sources that the runs share, where the study wants that
+///   .working/<id>/  a run or recording being made, and its lock beside it
 ///
 /// Any number of processes may work on one folder.
 class HYPOTRACK_API StudyFolder {
@@ -39,11 +40,15 @@ class HYPOTRACK_API StudyFolder {
   /// Takes a run in hand; nothing if another process has it. Look at state() again afterwards: it
   /// may have been finished in between.
   std::optional<RunFolder> claim(const PlannedRun& run) const;
+  /// The same for recordings.
+  std::filesystem::path recording_path(const std::string& id) const;
+  std::optional<RunFolder> claim_recording(const std::string& id) const;
   /// Waits for, and holds, the right to write the tables.
   FileLock lock() const;
 
  private:
   void check_same_study() const;
+  std::optional<RunFolder> claim(const std::string& id, const std::filesystem::path& final) const;
   void remove_leftovers() const;
   std::filesystem::path working() const { return folder_ / ".working"; }
 

@@ -66,8 +66,8 @@ std::string to_yaml(const Study& study) {
   text += scenes_text(study) + grid_text(study);
   text += fmt::format("seeds: [{}]\n", fmt::join(study.seeds, ", "));
   if (study.frames) text += fmt::format("frames: {}\n", *study.frames);
-  text += fmt::format("overlay: {}\ndirectory: {}\n", study.overlay,
-                      yaml_scalar(study.directory.string()));
+  text += fmt::format("overlay: {}\nrecordings: {}\ndirectory: {}\n", study.overlay,
+                      study.recordings, yaml_scalar(study.directory.string()));
   if (!study.plots.empty()) text += "plots:\n";
   for (const Plot& plot : study.plots) text += plot_text(plot);
   return text;

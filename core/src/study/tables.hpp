@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <vector>
 
 #include "hypotrack/export.hpp"
 #include "study/plan.hpp"
@@ -12,8 +10,7 @@ namespace hypotrack::study {
 
 /// What is in a study's folder.
 struct Tally {
-  std::size_t planned = 0, ok = 0;
-  std::vector<std::string> failures;  ///< `sh_stereo, optimizer.particles 32, seed 3: message`
+  std::size_t planned = 0, ok = 0, failed = 0;
 };
 
 /// Writes results.csv (a row per run), cells.csv (a row per cell: mean and standard deviation over

@@ -1,0 +1,139 @@
+#include <csignal>
+
+#include "compare_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+class CompareFailureTest : public CompareTest {
+ protected:
+  /// The study with a plugin in it that fails in the second frame.
+  static std::string failing(const std::string& how) {
+    return replaced(study(), "  optimizer.particles: [4, 8]\n",
+                    "  method:\n"
+                    "    good: {optimizer: {type: pso, particles: 4, generations: 2}}\n"
+                    "    bad: {optimizer: {type: failing, frames: 1, how: " +
+                        how + "}}\n");
+  }
+
+  Outcome compare_failing(const std::string& how, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"--plugin-path",
+                                       (build_dir() / "tests/plugin_fixtures/app").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return compare(failing(how), "out", arguments);
+  }
+
+  /// A study that must be refused before anything is written.
+  void expect_study_refused(const std::string& text, const std::vector<std::string>& pieces) const {
+    const Outcome outcome = compare(text);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    for (const std::string& piece : pieces) EXPECT_THAT(outcome.err, HasSubstr(piece));
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+  }
+};
+
+TEST_F(CompareFailureTest, AFailedRunIsARowAndNotTheEnd) {
+  const Outcome outcome = compare_failing("exception");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("failed: box, method bad, seed 1:"));
+  EXPECT_THAT(outcome.out, HasSubstr("4 of 4 runs are there, 2 failed"));
+  const auto results = lines_of(table("results.csv"));
+  ASSERT_THAT(results, SizeIs(5));
+  EXPECT_THAT(results[1], testing::StartsWith("box,good,1,ok,,"));
+  EXPECT_THAT(results[3],
+              AllOf(testing::StartsWith("box,bad,1,failed,"), HasSubstr("the search is broken")));
+  EXPECT_THAT(lines_of(table("cells.csv"))[2], testing::StartsWith("box,bad,2,2,"));
+}
+
+TEST_F(CompareFailureTest, ACrashIsARowToo) {
+  const Outcome outcome = compare_failing("segfault");
+  EXPECT_EQ(outcome.exit_code, 3);
+  const auto results = lines_of(table("results.csv"));
+  ASSERT_THAT(results, SizeIs(5));
+#ifndef __SANITIZE_ADDRESS__  // which turns the signal into an exit code
+  EXPECT_THAT(results[3], HasSubstr("ended by signal 11 (Segmentation fault)"));
+#endif
+}
+
+TEST_F(CompareFailureTest, FailedRunsStayUnlessAskedForAgain) {
+  ASSERT_EQ(compare_failing("exception").exit_code, 3);
+  const Outcome again = compare_failing("exception");
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_THAT(again.err, HasSubstr("0 to make here"));
+  const Outcome retried = compare_failing("exception", {"--retry-failed"});
+  EXPECT_EQ(retried.exit_code, 3);
+  EXPECT_THAT(retried.err, HasSubstr("2 to make here"));
+  EXPECT_THAT(lines_of(table("results.csv")), SizeIs(5));
+}
+
+TEST_F(CompareFailureTest, ABadKeyIsFoundBeforeAnythingRuns) {
+  expect_study_refused(replaced(study(), "optimizer.particles:", "optimizer.particle:"),
+                       {"study.yaml:5:24: box, optimizer.particle 4: ", "did you mean 'particles'",
+                        "2 of the study's 2 cells cannot be run", "nothing was run"});
+}
+
+TEST_F(CompareFailureTest, ABadValueIsNamedWithItsPlaceInTheStudy) {
+  expect_study_refused(replaced(study(), "[4, 8]", "[4, 0]"),
+                       {"study.yaml:5:28: box, optimizer.particles 0: ", "at least 1"});
+}
+
+TEST_F(CompareFailureTest, AMissingPluginIsFoundBeforeAnythingRuns) {
+  expect_study_refused(replaced(study(), "box.yaml}", "box.yaml, set: {objective.type: stereo}}"),
+                       {"study.yaml:3:", "there is no objective 'stereo'"});
+}
+
+TEST_F(CompareFailureTest, ABrokenSceneFileIsNamed) {
+  scene(replaced(box_scene(), "tile:", "tiel:"), "box.yaml");
+  expect_study_refused(study(), {"study.yaml:3:3: box, ", "did you mean 'tile'", "box.yaml:"});
+}
+
+TEST_F(CompareFailureTest, AMissingDatasetIsFoundBeforeAnythingRuns) {
+  ASSERT_EQ(run_program({"synth", path("box.yaml").string(), "--out", path("recording").string()})
+                .exit_code,
+            0);
+  const std::string text = replaced(study(), "box.yaml", "recording/scene.yaml");
+  for (const auto& name : names_in(path("recording")))
+    if (name.ends_with(".png")) std::filesystem::remove(path("recording") / name);
+  expect_study_refused(text, {"study.yaml:3:3: box, ", "left_"});
+}
+
+TEST_F(CompareFailureTest, ADatasetOfAnotherResolutionIsFoundBeforeAnythingRuns) {
+  ASSERT_EQ(run_program({"synth", path("box.yaml").string(), "--out", path("recording").string()})
+                .exit_code,
+            0);
+  ASSERT_EQ(run_program({"synth", path("box.yaml").string(), "--out", path("small").string(),
+                         "--set", "source.cameras.width=80", "--set", "source.cameras.height=60"})
+                .exit_code,
+            0);
+  std::filesystem::copy(path("small/calibration.yaml"), path("recording/calibration.yaml"),
+                        std::filesystem::copy_options::overwrite_existing);
+  expect_study_refused(replaced(study(), "box.yaml", "recording/scene.yaml"),
+                       {"study.yaml:3:3: box, ", "160", "80"});
+}
+
+TEST_F(CompareFailureTest, AFolderOfSomethingElseIsRefused) {
+  std::filesystem::create_directory(path("out"));
+  write_text(path("out/thesis.tex"), "a year's work");
+  const Outcome outcome = compare(study());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("is not empty and holds no study"));
+  EXPECT_THAT(names_in(path("out")), ElementsAre("thesis.tex"));
+}
+
+TEST_F(CompareFailureTest, AShardIsAPartOfAWhole) {
+  for (const char* shard : {"0/2", "3/2", "1", "1/", "a/b"}) {
+    const Outcome outcome = compare(study(), "out", {"--shard", shard});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.err, HasSubstr("expected i/n with i from 1 to n"));
+    EXPECT_FALSE(std::filesystem::exists(path("out")));
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack::test
