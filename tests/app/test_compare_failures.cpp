@@ -8,7 +8,6 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::SizeIs;
 
 class CompareFailureTest : public CompareTest {
@@ -80,7 +79,7 @@ TEST_F(CompareFailureTest, ABadKeyIsFoundBeforeAnythingRuns) {
 
 TEST_F(CompareFailureTest, ABadValueIsNamedWithItsPlaceInTheStudy) {
   expect_study_refused(replaced(study(), "[4, 8]", "[4, 0]"),
-                       {"study.yaml:5:28: box, optimizer.particles 0: ", "at least 1"});
+                       {"study.yaml:5:28: box, optimizer.particles 0: ", "expected an integer from 1"});
 }
 
 TEST_F(CompareFailureTest, AMissingPluginIsFoundBeforeAnythingRuns) {

@@ -72,11 +72,10 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
   while (again() && (next < cells.size() || pool.size() > 0)) {
     if (next < cells.size() && pool.size() < static_cast<std::size_t>(launch.jobs)) {
       const std::size_t cell = cells[next++];
-      Command command{launch.program,    {"validate"},   plan.study.directory,
-                      scratch.log(cell), launch.threads, -1};
-      const auto more = scene_arguments(plan.scene_of(plan.cells[cell]).file,
-                                        plan.changes_of(plan.cells[cell]), plan, launch);
-      command.arguments.insert(command.arguments.end(), more.begin(), more.end());
+      Command command{launch.program, {}, plan.study.directory, scratch.log(cell),
+                      launch.threads, -1};
+      command.arguments = scene_arguments("validate", plan.scene_of(plan.cells[cell]).file,
+                                          plan.changes_of(plan.cells[cell]), plan, launch);
       pool.start(cell, command);
       continue;
     }

@@ -82,10 +82,9 @@ bool Execution::start_next() {
 
 void Execution::start(std::size_t index, RunFolder folder) {
   const PlannedRun& run = plan_.runs[index];
-  Command command{launch_.program, {"run"},         plan_.study.directory,
-                  folder.log(),    launch_.threads, folder.lock_descriptor()};
-  const auto scene = run_scene_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
-  command.arguments.insert(command.arguments.end(), scene.begin(), scene.end());
+  Command command{launch_.program,         {}, plan_.study.directory, folder.log(), launch_.threads,
+                  folder.lock_descriptor()};
+  command.arguments = run_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
   command.arguments.insert(command.arguments.end(), {"--out", folder.working().string(), "--seed",
                                                      fmt::format("{}", run.seed)});
   if (plan_.study.frames)

@@ -16,9 +16,10 @@ struct Launch {
   int threads = 1;                                 ///< of each
 };
 
-/// The arguments that name a scene and change it: first what the study sets for all runs (threads,
-/// overlay), then the changes.
-std::vector<std::string> scene_arguments(const std::filesystem::path& scene,
+/// The arguments of a subcommand that takes a scene: the scene, and what changes it: first what the
+/// study sets for all runs (threads, overlay), then the changes.
+std::vector<std::string> scene_arguments(const std::string& subcommand,
+                                         const std::filesystem::path& scene,
                                          const std::vector<Change>& changes, const Plan& plan,
                                          const Launch& launch);
 

@@ -37,11 +37,10 @@ using Wanted = std::map<std::string, std::size_t>;
 
 Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
                       const RunFolder& folder) {
-  Command command{launch.program, {"synth"},      plan.study.directory,
-                  folder.log(),   launch.threads, folder.lock_descriptor()};
-  const auto more =
-      scene_arguments(plan.scene_of(cell).file, select(plan.changes_of(cell), true), plan, launch);
-  command.arguments.insert(command.arguments.end(), more.begin(), more.end());
+  Command command{launch.program,          {}, plan.study.directory, folder.log(), launch.threads,
+                  folder.lock_descriptor()};
+  command.arguments = scene_arguments("synth", plan.scene_of(cell).file,
+                                      select(plan.changes_of(cell), true), plan, launch);
   command.arguments.insert(command.arguments.end(),
                            {"--out", (folder.working() / "recording").string()});
   if (plan.study.frames)
@@ -115,13 +114,13 @@ void make_recordings(const StudyFolder& folder, const Plan& plan,
   Recorder(folder, plan, launch).work(std::move(wanted), again);
 }
 
-std::vector<std::string> run_scene_arguments(const StudyFolder& folder, const Plan& plan,
-                                             const Cell& cell, const Launch& launch) {
+std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
+                                       const Cell& cell, const Launch& launch) {
   const std::vector<Change> changes = plan.changes_of(cell);
   if (!plan.study.recordings)
-    return scene_arguments(plan.scene_of(cell).file, changes, plan, launch);
+    return scene_arguments("run", plan.scene_of(cell).file, changes, plan, launch);
   const auto scene = folder.recording_path(recording_id(plan, cell)) / "recording" / "scene.yaml";
-  return scene_arguments(scene, select(changes, false), plan, launch);
+  return scene_arguments("run", scene, select(changes, false), plan, launch);
 }
 
 }  // namespace hypotrack::study

@@ -27,9 +27,9 @@ HYPOTRACK_API void make_recordings(const StudyFolder& folder, const Plan& plan,
                                    const std::vector<std::size_t>& cells, const Launch& launch,
                                    const std::function<bool()>& again);
 
-/// The scene that a cell's runs track, as arguments of `hypotrack run`: its own, or that of its
-/// recording, which has what the study changes in models and source already.
-std::vector<std::string> run_scene_arguments(const StudyFolder& folder, const Plan& plan,
-                                             const Cell& cell, const Launch& launch);
+/// The first arguments of `hypotrack run` for a cell: `run`, the cell's own scene or that of its
+/// recording, which has what the study changes in models and source already, and the changes.
+std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
+                                       const Cell& cell, const Launch& launch);
 
 }  // namespace hypotrack::study

@@ -121,8 +121,18 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
 std::string failure_message(const std::filesystem::path& log, int exit_code, int signal) {
   std::ifstream in(log);
   std::string message;
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(kMessagePrefix)) message = line.substr(kMessagePrefix.size());
+  bool goes_on = false;  // the further lines of a message are indented
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t text = line.find_first_not_of(' ');
+    if (line.starts_with(kMessagePrefix)) {
+      message = line.substr(kMessagePrefix.size());
+      goes_on = true;
+    } else if (goes_on && text > 0 && text != std::string::npos) {
+      message += " " + line.substr(text);
+    } else {
+      goes_on = false;
+    }
+  }
   if (signal != 0) return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
   return message.empty() ? fmt::format("ended with exit code {}", exit_code) : message;
 }
