@@ -70,8 +70,10 @@ hypotrack.rangeOf = function (plot, read) {
   return lowest <= highest ? [lowest, highest] : [0, 1];
 };
 
+/** One standard deviation around the mean; of what is never negative it stays above zero. */
 hypotrack.band = function (row) {
-  return [row.mean - (row.sd || 0), row.mean + (row.sd || 0)];
+  var low = row.mean - (row.sd || 0);
+  return [row.mean < 0 ? low : Math.max(0, low), row.mean + (row.sd || 0)];
 };
 
 hypotrack.tip = function (plot, row) {
@@ -132,11 +134,23 @@ hypotrack.facetSpec = function (plot, options, size, scales, content) {
   return spec;
 };
 
-hypotrack.axes = function (plot, values, ticks) {
+/** The numbers 1, 2 and 5 times a power of ten between two bounds: marks of a logarithmic axis. */
+hypotrack.logTicks = function (bounds) {
+  var ticks = [];
+  for (var power = Math.floor(Math.log10(bounds[0])); Math.pow(10, power) <= bounds[1]; power++)
+    [1, 2, 5].forEach(function (digit) {
+      var tick = Number(digit + 'e' + power);
+      if (tick >= bounds[0] && tick <= bounds[1]) ticks.push(tick);
+    });
+  return ticks;
+};
+
+hypotrack.axes = function (plot, values, ticks, yValues) {
   return [
     Object.assign({orient: 'bottom', scale: 'x', title: plot.x.label, grid: false},
                   values ? {values: values} : {tickCount: ticks}),
-    {orient: 'left', scale: 'y', title: plot.y.label, grid: true, tickCount: 6},
+    Object.assign({orient: 'left', scale: 'y', title: plot.y.label, grid: true},
+                  yValues ? {values: yValues, format: '~r'} : {tickCount: 6}),
   ];
 };
 

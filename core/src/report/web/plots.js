@@ -2,20 +2,30 @@
 /* Vega specifications of the plots that C++ describes (plot_data.hpp). Runs in the page and, for
    the files beside it, in Node.js. */
 
+/** The scale of a curve's values: logarithmic where one mean is many times another, so that the
+    small ones can be told apart. */
+hypotrack.curveScale = function (plot, size) {
+  var band = hypotrack.rangeOf(plot, hypotrack.band);
+  var means = hypotrack.rangeOf(plot, function (row) { return [row.mean]; });
+  var scale = {name: 'y', range: [size.height, 0], zero: false};
+  if (means[0] > 0 && means[1] > 6 * means[0])
+    return Object.assign(scale, {type: 'log', clamp: true, domain: [means[0] / 1.5, band[1]]});
+  return Object.assign(scale, {type: 'linear', domain: band, nice: true});
+};
+
 hypotrack.curveSpec = function (plot, options) {
   var size = hypotrack.panels(plot, options.width), values = plot.x.values;
-  var bounds = hypotrack.rangeOf(plot, hypotrack.band);
   var x = {name: 'x', domain: [values[0], values[values.length - 1]], range: [0, size.width]};
   if (!plot.x.numeric || values.length < 2)
     Object.assign(x, {type: 'point', domain: values, padding: 0.5});
   else if (hypotrack.isGeometric(values)) Object.assign(x, {type: 'log', base: 2});
   else Object.assign(x, {type: 'linear', zero: false,
                          domain: [Math.min.apply(null, values), Math.max.apply(null, values)]});
-  var y = {name: 'y', type: 'linear', domain: bounds, nice: true, zero: false,
-           range: [size.height, 0]};
+  var y = hypotrack.curveScale(plot, size);
   return hypotrack.facetSpec(plot, options, size,
       [x, y].concat(hypotrack.colorScales(plot, options.theme)), function (data) {
-        return {axes: hypotrack.axes(plot, values.length <= 12 ? values : null, 8),
+        return {axes: hypotrack.axes(plot, values.length <= 12 ? values : null, 8,
+                                     y.type === 'log' ? hypotrack.logTicks(y.domain) : null),
                 marks: hypotrack.lineMarks(data, true)};
       });
 };
