@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "geometry/tiles.hpp"
 #include "hypotrack/error.hpp"
 #include "session/session.hpp"
 #include "track/tracker.hpp"
@@ -17,16 +16,15 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   Session session = open_session(options.scene, options.set, plugins);
   const auto first = session.source->next();
   if (!first) throw DataError("the source has no frame");
-  if (!first->problem.empty())
-    fmt::print(stderr, "frame {} cannot be used: {}\n", first->index, first->problem);
-  else
-    TileMaker(*session.scene, session.parts.cameras, session.parts.tile)
-        .make(*first, initial_state(session, *first));  // the first search has something to look at
+  const bool usable = first->problem.empty();
+  if (!usable) fmt::print(stderr, "frame {} cannot be used: {}\n", first->index, first->problem);
   const int parameters = session.scene->dimension();
   const std::size_t models = session.scene->items().size();
   const std::size_t cameras = session.parts.cameras.size();
-  const Tracker tracker(*session.scene, std::move(session.parts), session.scene->rest_state(),
-                        session.seed);
+  Tracker tracker(*session.scene, std::move(session.parts),
+                  usable ? initial_state(session, *first) : session.scene->rest_state(),
+                  session.seed);
+  if (usable) tracker.check(*first);
   if (print)
     fmt::print("{}", session.resolved);
   else

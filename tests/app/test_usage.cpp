@@ -72,6 +72,12 @@ TEST_F(UsageTest, ValidatePrintsASceneThatIsValidAndPrintsTheSame) {
   EXPECT_EQ(second.out, first.out);
 }
 
+TEST_F(UsageTest, ValidateFindsAFrameThatTheObjectiveCannotWorkWith) {
+  const Outcome outcome = run_program(
+      {"validate", scene(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,"))});
+  expect_refusal(outcome, {"stereo_color", "two"});
+}
+
 TEST_F(UsageTest, ValidateFindsAStartThatNothingCanBeSearchedFrom) {
   const Outcome outcome =
       run_program({"validate", scene(replaced(box_scene(), "init: {from: truth}",

@@ -79,6 +79,11 @@ Solution Tracker::track(const Frame& frame) {
   return solution;
 }
 
+void Tracker::check(const Frame& frame) {
+  const Observation observation = tiles_.make(frame, state_);
+  evaluator_.prepare(observation);
+}
+
 OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior) {
   const Observation observation = tiles_.make(frame, prior);
   evaluator_.prepare(observation);

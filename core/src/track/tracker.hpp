@@ -53,6 +53,10 @@ class HYPOTRACK_API Tracker {
 
   Solution track(const Frame& frame);
 
+  /// Takes the frame in as track() does and does not search. Throws what stands in the way: a start
+  /// that the cameras do not see, a frame that an objective cannot work with.
+  void check(const Frame& frame);
+
   /// What evaluates hypotheses, for the run's protocol.
   std::string backend() const { return evaluator_.backend(); }
 
