@@ -15,10 +15,11 @@ namespace {
 constexpr int kSize = 128;
 constexpr double kFocal = 320, kBaseline = 0.12, kDistance = 0.5;
 
-// Noise at two scales, as skin has it: blotches and fine grain.
+// Noise at two scales, as skin has it: blotches and grain. The grain is about two pixels wide as
+// drawn; finer one would be averaged away where a finger is foreshortened.
 cv::Mat3b noise(int size, cv::RNG& rng, const cv::Scalar& mean, double contrast) {
   cv::Mat3f sum(size, size, cv::Vec3f(0, 0, 0));
-  for (const int cell : {2, 8}) {
+  for (const int cell : {4, 8}) {
     cv::Mat3f coarse(size / cell, size / cell), fine;
     rng.fill(coarse, cv::RNG::NORMAL, 0, contrast);
     cv::resize(coarse, fine, sum.size(), 0, 0, cv::INTER_CUBIC);
