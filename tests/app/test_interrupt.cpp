@@ -52,10 +52,12 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
-  EXPECT_THAT(names_in(path("out")),
-              testing::IsSupersetOf({"errors.csv", "joints.csv", "metrics.json", "overlay.mp4",
-                                     "run.yaml", "summary.json", "track.csv", "truth_states.csv"}));
-  EXPECT_THAT(names_in(path("out")), Each(testing::Not(StartsWith(".part."))));
+  auto names = names_in(path("out"));
+  // How many pictures of the worst frames there are depends on how far the run came.
+  EXPECT_GT(std::erase_if(names, [](const auto& name) { return name.starts_with("worst_"); }), 0);
+  EXPECT_THAT(names,
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "overlay.mp4", "run.yaml",
+                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv"));
   expect_whole_lines(path("out/track.csv"));
   expect_whole_lines(path("out/joints.csv"));
   const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));

@@ -38,9 +38,8 @@ namespace hypotrack::rgbd_depth {
 ///   outside of the image      either                0                0             0
 ///
 /// Where this departs from the papers:
-/// - a hole of the sensor within the foreground adds nothing to D, where |0 - r_d| would add d_M
-/// for
-///   a hypothesis that is right;
+/// - a hole of the sensor within the foreground adds nothing to D; |0 - r_d| would add d_M to a
+///   hypothesis that is right;
 /// - the sums run over all views with depth together, so that the scale of the cost does not depend
 ///   on their number;
 /// - foreground by depth lies within range_mm before and behind the last solution's surfaces, in
