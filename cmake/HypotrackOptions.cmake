@@ -1,8 +1,9 @@
 # Flags for the project's own targets; an installed package carries none of them but the standard.
 add_library(hypotrack_options INTERFACE)
 target_compile_options(hypotrack_options INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual
-  $<$<BOOL:${HYPOTRACK_WERROR}>:-Werror>)
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  $<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Wall,-Wextra>
+  $<$<BOOL:${HYPOTRACK_WERROR}>:$<$<COMPILE_LANGUAGE:CXX>:-Werror>$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Werror --Werror=all-warnings>>)
 if(HYPOTRACK_SANITIZE)
   target_compile_options(hypotrack_options INTERFACE
     -fsanitize=${HYPOTRACK_SANITIZE} -fno-omit-frame-pointer)

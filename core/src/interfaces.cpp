@@ -1,5 +1,7 @@
 // Out-of-line destructors anchor vtables and type information in libhypotrack.so, so that exceptions
 // and dynamic casts work across plugin libraries.
+#include "hypotrack/cuda/device_cost.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -16,6 +18,9 @@ DeviceError::~DeviceError() = default;
 OutputError::~OutputError() = default;
 
 Objective::~Objective() = default;
+std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
+cuda::DeviceObjective::~DeviceObjective() = default;
+cuda::DeviceCost::~DeviceCost() = default;
 CostFunction::~CostFunction() = default;
 Optimizer::~Optimizer() = default;
 Source::~Source() = default;

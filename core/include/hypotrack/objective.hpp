@@ -1,11 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack {
+
+namespace cuda {
+class DeviceObjective;
+}
 
 /// Depth of one hypothesis as one view sees it.
 struct DepthTile {
@@ -42,6 +47,10 @@ class HYPOTRACK_API Objective {
   /// Cost of a hypothesis: lower is better, +infinity is infeasible, NaN is a bug. Called from
   /// several threads at once; equal inputs give equal results.
   virtual double cost(const RenderedHypothesis& hypothesis) const = 0;
+
+  /// The same objective for the GPU (hypotrack/cuda/device_objective.hpp), null if it has none or
+  /// was built without CUDA: then scenes with it are evaluated on the CPU. Outlived by this one.
+  virtual std::unique_ptr<cuda::DeviceObjective> on_device() const;
 };
 
 }  // namespace hypotrack

@@ -9,6 +9,10 @@
 
 namespace hypotrack {
 
+namespace cuda {
+class DeviceCost;
+}
+
 /// What an optimizer minimises. One search point is a column of D numbers; what they mean (and how
 /// rotations are parametrised) is the region's business, not the optimizer's.
 class HYPOTRACK_API CostFunction {
@@ -20,6 +24,9 @@ class HYPOTRACK_API CostFunction {
   /// parallel: hand over as many points at once as the method allows.
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
+  /// The same costs for searches that stay on the GPU (hypotrack/cuda/device_cost.hpp); null if the
+  /// scene is not evaluated there.
+  virtual cuda::DeviceCost* device() { return nullptr; }
 };
 
 /// Where to look. All vectors have length D.

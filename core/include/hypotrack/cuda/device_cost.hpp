@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/export.hpp"
+
+namespace hypotrack::cuda {
+
+/// A cost function whose points and costs stay on the device; CostFunction::device() gives it.
+class HYPOTRACK_API DeviceCost {
+ public:
+  virtual ~DeviceCost();
+
+  /// Where everything is enqueued. The frame's features are already on their way there.
+  virtual Stream stream() const = 0;
+
+  /// Makes room for batches of up to `count` points; before enqueue(), and not while capturing.
+  /// Throws DeviceError if the memory is not to be had.
+  virtual void reserve(std::int64_t count) = 0;
+
+  /// Enqueues the costs (count doubles) of points (dimension x count doubles, one after the other),
+  /// both in device memory. Only launches kernels: a whole search can be captured into a graph.
+  virtual void enqueue(const double* points, std::int64_t count, double* costs) = 0;
+
+  /// A graph captured from enqueue() may be launched again as long as this number stays the same,
+  /// frame after frame.
+  virtual std::uint64_t revision() const = 0;
+};
+
+}  // namespace hypotrack::cuda
