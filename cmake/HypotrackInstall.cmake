@@ -8,6 +8,10 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/core/include/hypotrack
 install(EXPORT hypotrack NAMESPACE hypotrack:: FILE hypotrack-targets.cmake
   DESTINATION ${package_dir})
 
+set(built_for)
+if(HYPOTRACK_HAS_CUDA)
+  set(built_for ${CMAKE_CUDA_ARCHITECTURES})
+endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hypotrack-config.cmake.in
   ${PROJECT_BINARY_DIR}/hypotrack-config.cmake INSTALL_DESTINATION ${package_dir}
   PATH_VARS CMAKE_INSTALL_BINDIR)
@@ -17,6 +21,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/hypotrack-config-version.
 install(FILES
   ${PROJECT_BINARY_DIR}/hypotrack-config.cmake
   ${PROJECT_BINARY_DIR}/hypotrack-config-version.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/HypotrackCuda.cmake
   ${CMAKE_CURRENT_LIST_DIR}/HypotrackPlugin.cmake
   DESTINATION ${package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR})

@@ -1,4 +1,5 @@
-# hypotrack_add_plugin(KIND NAME SOURCES... [VERSION 1.2.3] [LICENCE Apache-2.0] [LIBRARIES ...]
+# hypotrack_add_plugin(KIND NAME SOURCES... [CUDA_SOURCES ...] [NO_CUDA_SOURCES ...]
+#                      [VERSION 1.2.3] [LICENCE Apache-2.0] [LIBRARIES ...]
 #                      [CONTRACT_CONFIG parameters.yaml])
 #
 # Builds libhypotrack_<KIND>_<NAME>.so, which a scene names with `type: NAME`. KIND is model,
@@ -6,8 +7,23 @@
 # and is installed; outside, it goes to the build folder: put that on --plugin-path or
 # HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it, with the
 # parameters in CONTRACT_CONFIG (what stands in the plugin's place in a scene) or the defaults.
-function(hypotrack_add_plugin kind name)
-  cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG" "LIBRARIES" ${ARGN})
+#
+# CUDA_SOURCES, and .cu files among SOURCES, need a CUDA toolkit; where there is none,
+# NO_CUDA_SOURCES are built in their place. HYPOTRACK_CUDA=ON demands a toolkit, OFF does without.
+# The architectures are those of hypotrack itself unless CMAKE_CUDA_ARCHITECTURES says otherwise.
+# Call it at file scope, not in a function: it enables the language.
+macro(hypotrack_add_plugin kind name)
+  set(hypotrack_cuda_files ${ARGN})
+  list(FILTER hypotrack_cuda_files INCLUDE REGEX "^CUDA_SOURCES$|\\.cu$")
+  if(hypotrack_cuda_files)
+    hypotrack_find_cuda()
+  endif()
+  hypotrack_add_plugin_library(${kind} ${name} ${ARGN})
+endmacro()
+
+function(hypotrack_add_plugin_library kind name)
+  cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG"
+    "LIBRARIES;CUDA_SOURCES;NO_CUDA_SOURCES" ${ARGN})
   if(NOT kind MATCHES "^(model|objective|optimizer|source)$")
     message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected model, "
       "objective, optimizer or source")
@@ -26,7 +42,14 @@ function(hypotrack_add_plugin kind name)
   endif()
 
   set(target hypotrack_${kind}_${name})
+  set(cuda_sources ${ARG_UNPARSED_ARGUMENTS})
+  list(FILTER cuda_sources INCLUDE REGEX "\\.cu$")
+  list(FILTER ARG_UNPARSED_ARGUMENTS EXCLUDE REGEX "\\.cu$")
+  list(APPEND cuda_sources ${ARG_CUDA_SOURCES})
   add_library(${target} MODULE ${ARG_UNPARSED_ARGUMENTS})
+  if(cuda_sources)
+    hypotrack_cuda_sources(${target} ${cuda_sources} NO_CUDA_SOURCES ${ARG_NO_CUDA_SOURCES})
+  endif()
   target_link_libraries(${target} PRIVATE hypotrack::hypotrack ${ARG_LIBRARIES})
   target_compile_definitions(${target} PRIVATE
     HYPOTRACK_PLUGIN_KIND=${kind} HYPOTRACK_PLUGIN_NAME=${name}

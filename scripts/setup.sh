@@ -27,7 +27,8 @@ install_missing_packages() {
 # build PRESET: configures and builds with one of CMakePresets.json. ccache is used where it is.
 build() {
   local launcher=()
-  command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  command -v ccache >/dev/null &&
+    launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_CUDA_COMPILER_LAUNCHER=ccache)
   cmake --preset "$1" "${launcher[@]}"
   cmake --build --preset "$1"
 }
