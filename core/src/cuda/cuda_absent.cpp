@@ -1,5 +1,6 @@
 // Stands in for the GPU backend in a build without a CUDA toolkit.
 #include "cuda/device.hpp"
+#include "evaluate/evaluation.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::cuda {
@@ -12,5 +13,16 @@ Device::Device(int index) : index_(index) {
 }
 Device::~Device() = default;
 void Device::use() const {}
+
+std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
+                              const EvaluateSettings&) {
+  return why_no_device();
+}
+
+std::unique_ptr<Evaluation> make_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
+                                            const EvaluateSettings& settings) {
+  const Device device(settings.device);
+  return nullptr;
+}
 
 }  // namespace hypotrack::cuda

@@ -2,21 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "evaluate/hypothesis_renderer.hpp"
+#include "evaluate/evaluation.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
 namespace {
-
-bool any_draws(const std::vector<ObjectiveTerm>& terms) {
-  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& term) {
-    return term.weight != 0 && term.objective->needs_rendering();
-  });
-}
 
 std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -40,32 +33,11 @@ struct Evaluator::Impl {
   Impl(const Scene& s, std::vector<ObjectiveTerm> t, const EvaluateSettings& settings)
       : scene(s),
         terms(checked(std::move(t))),
-        renderer(make_hypothesis_renderer(scene, settings, any_draws(terms))) {}
-
-  double cost(Eigen::Index index, const RenderedHypothesis& hypothesis) const {
-    double sum = 0;
-    for (const ObjectiveTerm& term : terms) {
-      if (term.weight == 0) continue;  // also keeps 0 * infinity out
-      const bool draws = term.objective->needs_rendering();
-      const double cost =
-          term.objective->cost(draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
-      sum += term.weight * cost;
-      if (std::isnan(cost)) fail(term, index, "returned NaN");
-      if (std::isnan(sum)) fail(term, index, "adds an infinity to its opposite");
-    }
-    return sum;
-  }
-
-  [[noreturn]] static void fail(const ObjectiveTerm& term, Eigen::Index index, const char* what) {
-    throw Error(
-        fmt::format("evaluate: objective {} {} for hypothesis {} of the batch; this is a bug in "
-                    "the objective: costs are numbers or +infinity",
-                    term.name, what, index));
-  }
+        evaluation(make_evaluation(scene, terms, settings)) {}
 
   const Scene& scene;
   std::vector<ObjectiveTerm> terms;
-  std::unique_ptr<HypothesisRenderer> renderer;
+  std::unique_ptr<Evaluation> evaluation;
   Eigen::MatrixXd normalized;
   bool prepared = false;
 };
@@ -78,8 +50,7 @@ Evaluator::~Evaluator() = default;
 
 void Evaluator::prepare(const Observation& observation) {
   impl_->prepared = false;
-  for (const ObjectiveTerm& term : impl_->terms) term.objective->prepare(observation);
-  impl_->renderer->prepare(observation);
+  impl_->evaluation->prepare(observation);
   impl_->prepared = true;
 }
 
@@ -96,12 +67,14 @@ void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
     impl_->scene.normalize(impl_->normalized.col(i));
   }
-  impl_->renderer->render(impl_->normalized,
-                          [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
-                            costs[index] = impl_->cost(index, hypothesis);
-                          });
+  impl_->evaluation->evaluate(impl_->normalized, costs);
 }
 
-std::string Evaluator::backend() const { return impl_->renderer->description(); }
+cuda::DeviceCost* Evaluator::device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) {
+  if (!impl_->prepared) throw Error("evaluate: no frame has been prepared");
+  return impl_->evaluation->device_cost(prior, rotation_vectors);
+}
+
+std::string Evaluator::backend() const { return impl_->evaluation->description(); }
 
 }  // namespace hypotrack

@@ -8,23 +8,29 @@
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
+#include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
 
-enum class Backend { automatic, cpu, egl };
+enum class Backend { automatic, cpu, egl, cuda };
 HYPOTRACK_API std::span<const std::string_view> enum_names(Backend);
 
 /// `evaluate:` of a scene.
 struct EvaluateSettings {
   Backend backend = Backend::automatic;
   int threads = 0;
+  int device = 0;
   void visit(ParamVisitor& v) {
     v("backend", backend,
-      {.help = "what draws hypotheses: cpu, egl (OpenGL, the paper's way; slow, a cross-check), or "
-               "automatic: the fastest this build and machine have"});
+      {.help =
+           "what draws hypotheses: cpu; cuda (an NVIDIA GPU: poses, draws and scores there); egl "
+           "(OpenGL, the paper's way; slow, a cross-check); or automatic: cuda where this build, "
+           "machine and scene allow it, otherwise cpu"});
     v("threads", threads, {.help = "CPU threads; 0: one per core", .min = 0, .max = 1024});
+    v("device", device,
+      {.help = "number of the NVIDIA GPU, where there are several", .min = 0, .max = 1024});
   }
 };
 
@@ -54,6 +60,11 @@ class HYPOTRACK_API Evaluator {
   /// farther than 1 km or a million pixels off. A model whose mesh is closed and wound outwards is
   /// drawn without the faces turned away from the camera.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
+
+  /// Costs of search points that stay on the GPU, for the prepared frame; null on other backends.
+  /// Points are states or, with `rotation_vectors`, states in which every model's quaternion is
+  /// replaced by a rotation vector (3 numbers) applied to that of `prior` (SearchSpace).
+  cuda::DeviceCost* device_cost(const Eigen::VectorXd& prior, bool rotation_vectors);
 
   /// What draws: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.
   std::string backend() const;

@@ -1,34 +1,15 @@
 #include "evaluate/scene_plan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <numeric>
 
 #include "evaluate/mesh_topology.hpp"
+#include "evaluate/vertex_order.hpp"
 #include "hypotrack/kinematics.hpp"
 
 namespace hypotrack {
 namespace {
-
-// Bones that hold a vertex, in rising order; neighbours in this order share blocks.
-std::array<int, 4> holding_bones(const Mesh& mesh, int vertex) {
-  std::array<int, 4> bones{-1, -1, -1, -1};
-  for (std::size_t k = 0; k < 4; ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    if (mesh.bone_weights(row, vertex) > 0) bones[k] = mesh.bone_indices(row, vertex);
-  }
-  std::sort(bones.begin(), bones.end());
-  return bones;
-}
-
-std::vector<int> order_by_bones(const Mesh& mesh) {
-  std::vector<int> order(static_cast<std::size_t>(mesh.vertices.cols()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return holding_bones(mesh, a) < holding_bones(mesh, b); });
-  return order;
-}
 
 std::uint32_t round_up(std::size_t count) {
   return static_cast<std::uint32_t>((count + kBlock - 1) / kBlock * kBlock);

@@ -58,6 +58,8 @@ class HYPOTRACK_API SearchSpace {
 
   /// Length of a search point.
   int dimension() const { return dimension_; }
+  /// Whether points have rotation vectors in place of quaternions.
+  bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
 
   /// The region around a prior state. Angles of the prior outside the models' bounds are moved onto
   /// them.

@@ -21,6 +21,9 @@ class StateCost final : public CostFunction {
                 Eigen::Ref<Eigen::VectorXd> costs) override {
     evaluator_.evaluate(space_.states(points, prior_), costs);
   }
+  cuda::DeviceCost* device() override {
+    return evaluator_.device_cost(prior_, space_.rotation_vectors());
+  }
 
  private:
   const SearchSpace& space_;

@@ -41,6 +41,7 @@ struct DeviceObservation {
   const Observation* header = nullptr;
   std::array<DeviceTile, kMaxViews> tiles;
   const FrameLayout* frame = nullptr;  ///< device memory
+  bool pair = false;                   ///< as in the FrameLayout
 };
 
 /// Depth tiles of hypotheses that somebody else has drawn.

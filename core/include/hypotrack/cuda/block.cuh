@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/cuda/layout.hpp"
+
+/// Small things that a block of threads does together.
+namespace hypotrack::cuda {
+
+inline constexpr unsigned kWholeWarp = 0xFFFFFFFFu;
+inline constexpr int kWarp = 32;
+
+__device__ __forceinline__ int warp_min(int x) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_min_sync(kWholeWarp, x);
+#else
+  for (int step = kWarp / 2; step > 0; step /= 2) x = min(x, __shfl_xor_sync(kWholeWarp, x, step));
+  return x;
+#endif
+}
+
+__device__ __forceinline__ float warp_sum(float x) {
+  for (int step = kWarp / 2; step > 0; step /= 2) x += __shfl_xor_sync(kWholeWarp, x, step);
+  return x;
+}
+
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct Box {
+  int x0, y0, x1, y1;
+  __device__ int width() const { return x1 - x0; }
+  __device__ int height() const { return y1 - y0; }
+  __device__ bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+/// The block's dynamic shared memory.
+__device__ __forceinline__ float* shared_floats() {
+  extern __shared__ float4 hypotrack_shared_memory[];
+  return reinterpret_cast<float*>(hypotrack_shared_memory);
+}
+
+/// An array of floats in shared memory (known to the compiler as such, which makes access cheaper)
+/// or in global memory.
+template <bool kShared>
+struct Floats {
+  float* global;  ///< unless kShared
+  int offset;     ///< of the first, from shared_floats() or `global`
+  __device__ __forceinline__ float* at(int index) const {
+    return (kShared ? shared_floats() : global) + offset + index;
+  }
+  __device__ __forceinline__ float& operator[](int index) const { return *at(index); }
+};
+
+/// Sets `count` floats to zero, a multiple of four from a multiple of four on; needs a barrier
+/// after it.
+template <bool kShared>
+__device__ __forceinline__ void clear(const Floats<kShared>& floats, int count) {
+  for (int i = 4 * static_cast<int>(threadIdx.x); i < count;
+       i += 4 * static_cast<int>(blockDim.x)) {
+    *reinterpret_cast<float4*>(floats.at(i)) = {0.0f, 0.0f, 0.0f, 0.0f};
+  }
+}
+
+/// A z-buffer of inverse depths over a box of a tile.
+template <bool kShared>
+struct DepthBuffer {
+  Floats<kShared> inverse_depth;
+  Box box;
+  __device__ __forceinline__ int index(int x, int y) const {
+    return (y - box.y0) * box.width() + (x - box.x0);
+  }
+  __device__ __forceinline__ float operator()(int x, int y) const {
+    const bool inside = x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1;
+    return inside ? inverse_depth[index(x, y)] : 0.0f;
+  }
+};
+
+/// Sums of all threads, the same in every run. `room` holds kCount floats per warp of the block;
+/// the sums are in `total` of thread 0.
+template <int kCount>
+__device__ __forceinline__ void block_sum(const float (&values)[kCount], float* room,
+                                          double (&total)[kCount]) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const int warp = static_cast<int>(threadIdx.x) / kWarp;
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
+  for (int i = 0; i < kCount; ++i) {
+    const float sum = warp_sum(values[i]);
+    if (lane == 0) room[warp * kCount + i] = sum;
+  }
+  __syncthreads();
+  if (warp != 0) return;
+  for (int i = 0; i < kCount; ++i) {
+    double sum = lane < warps ? room[lane * kCount + i] : 0.0;
+    for (int step = kWarp / 2; step > 0; step /= 2) {
+      sum += __shfl_xor_sync(kWholeWarp, sum, step);
+    }
+    total[i] = sum;
+  }
+}
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "hypotrack/cuda/device_objective.hpp"
+
+namespace hypotrack::cuda {
+
+/// How one hypothesis is spread over blocks of threads, and what lies where in a block's shared
+/// memory (offsets in floats, multiples of four).
+struct BlockPlan {
+  int threads = 0;
+  int bands = 1;  ///< blocks per hypothesis; each draws and scores a band of rows
+  int shared_bytes = 0;
+  bool vertices_in_shared = true;  ///< otherwise in `vertex_scratch`
+  int chunk = 0;                   ///< triangles that are culled at a time
+  int depth_capacity = 0;          ///< floats of the z-buffers
+  int state = 0, models = 0, bones = 0, vertices = 0, vertex_stride = 0, list = 0, sums = 0,
+      depth = 0;
+
+  float* vertex_scratch = nullptr;  ///< 3 * vertex_stride floats per block
+  float* depth_scratch = nullptr;   ///< depth_scratch_size floats per block, or null
+  int depth_scratch_size = 0;
+  double* partial_sums = nullptr;    ///< sums of every block, with several bands
+  std::uint32_t* tickets = nullptr;  ///< blocks of a hypothesis that are done; 0 between launches
+};
+
+/// What a plan is made for.
+struct PlanRequest {
+  SceneLayout scene;
+  DeviceLimits limits;
+  std::int64_t count = 0;  ///< hypotheses per batch
+  int tile_width = 0;      ///< of the widest view
+  int tile_height = 0;
+  int tiles_at_once = 1;  ///< z-buffers that must be there together
+  bool may_split = true;  ///< into bands
+  int sums = 0;
+};
+
+inline constexpr int kMostThreads = 1024;
+inline constexpr int kMostBands = 16;
+
+/// Room for a row of every z-buffer: with less a plan cannot work.
+inline int least_depth_capacity(int tiles_at_once, int tile_width) {
+  return tiles_at_once * tile_width + 4;
+}
+
+namespace detail {
+
+inline int rounded(int floats) { return (floats + 3) / 4 * 4; }
+
+// What the system takes of a multiprocessor's shared memory for every block, and what the kernels
+// declare statically.
+inline constexpr int kReservedBytes = 1024 + 256;
+
+/// The plan for a block that may use `bytes` of shared memory; depth_capacity is what is left.
+inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes) {
+  BlockPlan p;
+  p.threads = threads;
+  p.bands = bands;
+  p.chunk = std::min(r.scene.triangle_count, 4096);
+  p.vertex_stride = rounded(r.scene.vertex_count);
+  int end = 0;
+  const auto take = [&](int floats) {
+    const int begin = end;
+    end += rounded(floats);
+    return begin;
+  };
+  p.state = take(r.scene.dimension);
+  p.models = take(12 * r.scene.model_count);
+  p.bones = take(12 * r.scene.bone_count);
+  p.sums = take(r.sums * (kMostThreads / 32));
+  p.list = take(p.chunk);  // two entries of 16 bits per triangle
+  const int floats = bytes / 4;
+  // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
+  const int least_depth =
+      rounded(std::max(least_depth_capacity(r.tiles_at_once, r.tile_width), floats / 3));
+  p.vertices_in_shared = end + 3 * p.vertex_stride + least_depth <= floats;
+  p.vertices = p.vertices_in_shared ? take(3 * p.vertex_stride) : 0;
+  p.depth = end;
+  const int rows = (r.tile_height + bands - 1) / bands;
+  const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;
+  p.depth_capacity = static_cast<int>(
+      std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end) / 4 * 4));
+  p.shared_bytes = 4 * (end + p.depth_capacity);
+  return p;
+}
+
+}  // namespace detail
+
+/// Spreads a batch over the device: a few hypotheses are cut into bands so that every
+/// multiprocessor has one block; many are drawn whole, two blocks to a multiprocessor, so that one
+/// works while the other waits.
+inline BlockPlan plan_blocks(const PlanRequest& r) {
+  const auto slots = static_cast<std::int64_t>(r.limits.multiprocessors);
+  if (r.may_split && 2 * r.count <= slots) {
+    const int bands = static_cast<int>(std::min<std::int64_t>(slots / r.count, kMostBands));
+    return detail::lay_out(r, kMostThreads, bands,
+                           r.limits.shared_bytes_per_block - detail::kReservedBytes);
+  }
+  const int half = r.limits.shared_bytes_per_multiprocessor / 2 - detail::kReservedBytes;
+  const BlockPlan two = detail::lay_out(r, kMostThreads / 2, 1,
+                                        std::min(half, r.limits.shared_bytes_per_block - 256));
+  if (two.vertices_in_shared) return two;
+  return detail::lay_out(r, kMostThreads, 1,
+                         r.limits.shared_bytes_per_block - detail::kReservedBytes);
+}
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,403 @@
+#pragma once
+
+#include "hypotrack/cuda/block_plan.hpp"
+#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/cuda/pose.cuh"
+#include "hypotrack/cuda/raster.cuh"
+#include "hypotrack/cuda/runtime.cuh"
+
+/// The kernels behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
+/// hypothesis without leaving its multiprocessor.
+namespace hypotrack::cuda {
+
+/// Adds the pixels of `here` within its box to the sums.
+template <int kReference, bool kRectified, class Term, class Here, class There>
+__device__ __forceinline__ void score_stereo(const Term& term, const StereoMap& map, const Box& box,
+                                             const Here& here, const There& there,
+                                             float (&sums)[Term::kSums]) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
+  const int per_row = (box.width() + kWarp - 1) / kWarp;
+  for (int i = static_cast<int>(threadIdx.x) / kWarp; i < per_row * box.height(); i += warps) {
+    const int y = box.y0 + i / per_row, x = box.x0 + i % per_row * kWarp + lane;
+    if (x >= box.x1) continue;
+    const float w = here(x, y);
+    if (!Term::kVisitsUncovered && !(w > 0.0f)) continue;
+    term.template pixel<kReference>(stereo_pixel<kRectified>(map, term.tolerance, x, y, w, there),
+                                    sums);
+  }
+}
+
+/// Adds the pixels of one view to the sums.
+template <class Term, class Here>
+__device__ __forceinline__ void score_view(const Term& term, int view, const Box& box,
+                                           const Here& here, float (&sums)[Term::kSums]) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
+  const int per_row = (box.width() + kWarp - 1) / kWarp;
+  for (int i = static_cast<int>(threadIdx.x) / kWarp; i < per_row * box.height(); i += warps) {
+    const int y = box.y0 + i / per_row, x = box.x0 + i % per_row * kWarp + lane;
+    if (x >= box.x1) continue;
+    const float w = here(x, y);
+    if (!Term::kVisitsUncovered && !(w > 0.0f)) continue;
+    term.pixel(ViewPixel{view, x, y, w, w > 0.0f}, sums);
+  }
+}
+
+/// Everything that the threads of one block know about their hypothesis.
+template <class Term, bool kSharedVertices>
+class BlockEvaluation {
+ public:
+  __device__ BlockEvaluation(const SceneLayout& scene, const FrameLayout& frame,
+                             const BatchLayout& batch, const BlockPlan& plan, const Term& term,
+                             Bounds& bounds, int* counts)
+      : scene_(scene),
+        frame_(frame),
+        batch_(batch),
+        plan_(plan),
+        term_(term),
+        bounds_(bounds),
+        counts_(counts),
+        hypothesis_(blockIdx.x / static_cast<unsigned>(plan.bands)),
+        band_(static_cast<int>(blockIdx.x % static_cast<unsigned>(plan.bands))) {
+    float* scratch = nullptr;
+    if constexpr (!kSharedVertices) {
+      scratch = plan.vertex_scratch + std::int64_t{3} * plan.vertex_stride * blockIdx.x;
+    }
+    vertices_ = {{scratch, plan.vertices},
+                 {scratch, plan.vertices + plan.vertex_stride},
+                 {scratch, plan.vertices + 2 * plan.vertex_stride}};
+  }
+
+  /// What does not depend on the search: runs while the kernel before is still at work.
+  __device__ void begin() {
+#pragma unroll
+    for (int k = 0; k < kAhead; ++k) {
+      const int i = static_cast<int>(threadIdx.x + k * blockDim.x);
+      if (i < scene_.vertex_count) ahead_[k] = load_vertex(scene_, i);
+    }
+    clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
+    reset();
+  }
+
+  __device__ void run() {
+    float* shared = shared_floats();
+    if (threadIdx.x < kWarp) {
+      const double* point = batch_.points + hypothesis_ * point_size();
+      decode(scene_, frame_, batch_, point, shared + plan_.state, shared + plan_.models);
+      pose_bones(scene_, shared + plan_.state, shared + plan_.models, shared + plan_.bones);
+    }
+    __syncthreads();
+    if constexpr (!Term::kStereo) {
+      for (int v = 0; v < frame_.view_count; ++v) {
+        if (term_.views() >> v & 1) single_view(v);
+      }
+    } else if (frame_.pair) {
+      pair();
+    } else {
+      general_pair();
+    }
+    finish();
+  }
+
+ private:
+  static constexpr int kAhead = 2;
+
+  __device__ std::int64_t point_size() const {
+    return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
+  }
+
+  __device__ void reset() {
+    if (threadIdx.x == 0) bounds_.reset();
+    if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
+  }
+
+  /// Skins and projects all vertices into a view and, for a pair, the view beside it; then bounds_
+  /// holds for the whole block.
+  template <bool kPair>
+  __device__ void place_vertices(int view, bool fetched) {
+    const float* bones = shared_floats() + plan_.bones;
+    const ViewLayout& camera = frame_.views[view];
+    const Parallax parallax = pair_parallax();
+    ThreadBounds own;
+    const auto place = [&](int i, const LoadedVertex& loaded) {
+      const float3 v = project(skin(loaded, bones), camera, view == 0);
+      const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
+      const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
+      vertices_.x[i] = v.x;
+      vertices_.y[i] = v.y;
+      vertices_.w[i] = valid ? v.z : 0.0f;
+      if (valid) own.add(v.x, x2, v.y);
+    };
+    const int step = static_cast<int>(blockDim.x);
+    int i = static_cast<int>(threadIdx.x);
+    if (fetched) {
+#pragma unroll
+      for (int k = 0; k < kAhead; ++k, i += step) {
+        if (i < scene_.vertex_count) place(i, ahead_[k]);
+      }
+    }
+    for (; i < scene_.vertex_count; i += step) place(i, load_vertex(scene_, i));
+    own.join(bounds_, kPair);
+    __syncthreads();
+  }
+
+  __device__ Parallax pair_parallax() const {
+    return {frame_.maps[0].a[0][2], frame_.maps[0].b[0]};
+  }
+
+  /// Draws all triangles into z-buffers that are zero, between barriers.
+  template <bool kPair, bool kSharedDepth>
+  __device__ void draw(int view, const DepthBuffer<kSharedDepth>* buffers) {
+    const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
+                           2 * plan_.chunk, counts_};
+    const Parallax parallax = pair_parallax();
+    const ViewLayout* views = frame_.views + view;
+    for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
+      const int count = min(plan_.chunk, scene_.triangle_count - first);
+      if (first > 0) {
+        if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
+        __syncthreads();
+      }
+      cull<kPair>(scene_, vertices_, parallax, views, buffers[0].box.y0, buffers[0].box.y1, first,
+                  count, list);
+      __syncthreads();
+      fill<kPair>(scene_, vertices_, parallax, views, first, list, buffers);
+      __syncthreads();
+    }
+    if (threadIdx.x < 2) counts_[threadIdx.x] = 0;  // for the next call, after a barrier
+  }
+
+  /// The rows that this block is responsible for.
+  __device__ Span band(int y0, int y1) const {
+    const int rows = (max(y1 - y0, 0) + plan_.bands - 1) / plan_.bands;
+    return {min(y0 + band_ * rows, y1), min(y0 + (band_ + 1) * rows, y1)};
+  }
+
+  /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
+  /// memory: piece(y0, y1).
+  template <class Piece>
+  __device__ void in_pieces(const Span& rows, int width, const Piece& piece) {
+    if (width <= 0) return;
+    const int most = (plan_.depth_capacity - 4) / width;
+    for (int y0 = rows.first; y0 < rows.last; y0 += most) {
+      if (y0 > rows.first || depth_is_used_) {
+        __syncthreads();
+        clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
+        __syncthreads();
+      }
+      depth_is_used_ = true;
+      piece(y0, min(y0 + most, rows.last));
+    }
+  }
+
+  __device__ void single_view(int view) {
+    if (vertices_are_used_) {
+      __syncthreads();
+      reset();
+      __syncthreads();
+    }
+    place_vertices<false>(view, !vertices_are_used_);
+    vertices_are_used_ = true;
+    const ViewLayout& camera = frame_.views[view];
+    Box box = bounds_.box(camera.width, camera.height);
+    if (box.empty()) box = {0, 0, 0, 0};
+    if (Term::kVisitsUncovered) box = {0, 0, camera.width, camera.height};
+    in_pieces(band(box.y0, box.y1), box.width(), [&](int y0, int y1) {
+      const DepthBuffer<true> buffer{{nullptr, plan_.depth}, {box.x0, y0, box.x1, y1}};
+      draw<false>(view, &buffer);
+      score_view(term_, view, buffer.box, buffer, sums_);
+    });
+  }
+
+  __device__ void pair() {
+    place_vertices<true>(0, true);
+    const ViewLayout* v = frame_.views;
+    Box left = bounds_.box(v[0].width, v[0].height), right = bounds_.box2(v[1].width, v[1].height);
+    if (left.empty()) left.x1 = left.x0;
+    if (right.empty()) right.x1 = right.x0;
+    if (Term::kVisitsUncovered) {
+      left = {0, 0, v[0].width, v[0].height};
+      right = {0, 0, v[1].width, v[1].height};
+    }
+    in_pieces(band(left.y0, left.y1), left.width() + right.width(), [&](int y0, int y1) {
+      const int right_at = plan_.depth + left.width() * (y1 - y0);
+      const DepthBuffer<true> buffers[2] = {{{nullptr, plan_.depth}, {left.x0, y0, left.x1, y1}},
+                                            {{nullptr, right_at}, {right.x0, y0, right.x1, y1}}};
+      draw<true>(0, buffers);
+      score_both<true>(buffers);
+    });
+  }
+
+  template <bool kRectified, bool kSharedDepth>
+  __device__ void score_both(const DepthBuffer<kSharedDepth>* buffers) {
+    const int directions = term_.directions();
+    if (directions & 1) {
+      score_stereo<0, kRectified>(term_, frame_.maps[0], buffers[0].box, buffers[0], buffers[1],
+                                  sums_);
+    }
+    if (directions & 2) {
+      score_stereo<1, kRectified>(term_, frame_.maps[1], buffers[1].box, buffers[1], buffers[0],
+                                  sums_);
+    }
+  }
+
+  /// Two views that share nothing: both z-buffers are there at once, in global memory if need be.
+  __device__ void general_pair() {
+    const Box right = place_alone(1, false), left = place_alone(0, true);
+    const int left_size = padded(left.width() * left.height());
+    const int right_size = padded(right.width() * right.height());
+    if (left_size + right_size <= plan_.depth_capacity) {
+      draw_and_score(DepthBuffer<true>{{nullptr, plan_.depth}, left},
+                     DepthBuffer<true>{{nullptr, plan_.depth + left_size}, right});
+      return;
+    }
+    const Floats<false> depth{
+        plan_.depth_scratch + std::int64_t{plan_.depth_scratch_size} * blockIdx.x, 0};
+    clear(depth, left_size + right_size);
+    __syncthreads();
+    draw_and_score(DepthBuffer<false>{depth, left},
+                   DepthBuffer<false>{{depth.global, left_size}, right});
+  }
+
+  __device__ static int padded(int floats) { return (floats + 3) / 4 * 4; }
+
+  /// Places the vertices of a view and returns its box.
+  __device__ Box place_alone(int view, bool fetched) {
+    if (vertices_are_used_) {
+      __syncthreads();
+      reset();
+      __syncthreads();
+    }
+    vertices_are_used_ = true;
+    place_vertices<false>(view, fetched);
+    const ViewLayout& camera = frame_.views[view];
+    if (Term::kVisitsUncovered) return {0, 0, camera.width, camera.height};
+    const Box box = bounds_.box(camera.width, camera.height);
+    return box.empty() ? Box{0, 0, 0, 0} : box;
+  }
+
+  /// The vertices are those of view 0.
+  template <bool kSharedDepth>
+  __device__ void draw_and_score(const DepthBuffer<kSharedDepth>& left,
+                                 const DepthBuffer<kSharedDepth>& right) {
+    const DepthBuffer<kSharedDepth> buffers[2] = {left, right};
+    draw<false>(0, buffers);
+    place_alone(1, false);
+    draw<false>(1, buffers + 1);
+    score_both<false>(buffers);
+  }
+
+  __device__ void finish() {
+    double total[Term::kSums];
+    block_sum(sums_, shared_floats() + plan_.sums, total);
+    if (threadIdx.x != 0) return;
+    if (plan_.bands > 1 && !join_bands(total)) return;
+    const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.state);
+    double& out = batch_.costs[hypothesis_];
+    out = batch_.add ? out + cost : cost;
+  }
+
+  /// The last block of a hypothesis adds up all bands, in their order, and returns true.
+  __device__ bool join_bands(double (&total)[Term::kSums]) {
+    double* partial = plan_.partial_sums + hypothesis_ * plan_.bands * Term::kSums;
+    for (int i = 0; i < Term::kSums; ++i) __stcg(partial + band_ * Term::kSums + i, total[i]);
+    __threadfence();
+    const std::uint32_t done = atomicAdd(plan_.tickets + hypothesis_, 1u);
+    if (done + 1 != static_cast<std::uint32_t>(plan_.bands)) return false;
+    __threadfence();
+    plan_.tickets[hypothesis_] = 0;
+    for (int i = 0; i < Term::kSums; ++i) {
+      total[i] = 0.0;
+      for (int b = 0; b < plan_.bands; ++b) total[i] += __ldcg(partial + b * Term::kSums + i);
+    }
+    return true;
+  }
+
+  const SceneLayout& scene_;
+  const FrameLayout& frame_;
+  const BatchLayout& batch_;
+  const BlockPlan& plan_;
+  const Term& term_;
+  Bounds& bounds_;
+  int* counts_;
+  std::int64_t hypothesis_;
+  int band_;
+  Vertices<kSharedVertices> vertices_;
+  LoadedVertex ahead_[kAhead];
+  bool vertices_are_used_ = false;
+  bool depth_is_used_ = false;
+  float sums_[Term::kSums] = {};
+};
+
+template <class Term, bool kSharedVertices>
+__global__ void __launch_bounds__(kMostThreads)
+    evaluate_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
+                        const __grid_constant__ BatchLayout batch,
+                        const __grid_constant__ BlockPlan plan, const __grid_constant__ Term term) {
+  __shared__ Bounds bounds;
+  __shared__ int counts[2];
+  BlockEvaluation<Term, kSharedVertices> block(scene, *frame, batch, plan, term, bounds, counts);
+  block.begin();
+  wait_for_previous();
+  let_next_start();
+  block.run();
+}
+
+/// Depth that was drawn elsewhere, one layer of a texture per hypothesis and view.
+struct DrawnDepth {
+  cudaTextureObject_t texture;
+  int layer;
+  __device__ __forceinline__ float operator()(int x, int y) const {
+    return tex2DLayered<float>(texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
+                               layer);
+  }
+};
+
+/// A block scores one hypothesis that is drawn already.
+template <class Term>
+__global__ void __launch_bounds__(kMostThreads)
+    score_drawn_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
+                           const __grid_constant__ BatchLayout batch,
+                           const __grid_constant__ BlockPlan plan, DrawnBatch drawn,
+                           const __grid_constant__ Term term) {
+  float* state = shared_floats() + plan.state;
+  const int layer = static_cast<int>(blockIdx.x) * frame->view_count;
+  const std::int64_t hypothesis = drawn.first + static_cast<std::int64_t>(blockIdx.x);
+  const int size = scene.dimension - (batch.prior ? scene.model_count : 0);
+  if (threadIdx.x < kWarp) {
+    decode(scene, *frame, batch, batch.points + hypothesis * size, state,
+           shared_floats() + plan.models);
+  }
+  float sums[Term::kSums] = {};
+  const auto tile = [&](int v) { return Box{0, 0, frame->views[v].width, frame->views[v].height}; };
+  const auto depth = [&](int v) { return DrawnDepth{drawn.texture, layer + v}; };
+  if constexpr (Term::kStereo) {
+    const auto score = [&](auto rectified) {
+      constexpr bool kRectified = decltype(rectified)::value;
+      if (term.directions() & 1) {
+        score_stereo<0, kRectified>(term, frame->maps[0], tile(0), depth(0), depth(1), sums);
+      }
+      if (term.directions() & 2) {
+        score_stereo<1, kRectified>(term, frame->maps[1], tile(1), depth(1), depth(0), sums);
+      }
+    };
+    if (frame->pair) {
+      score(std::true_type());
+    } else {
+      score(std::false_type());
+    }
+  } else {
+    for (int v = 0; v < frame->view_count; ++v) {
+      if (term.views() >> v & 1) score_view(term, v, tile(v), depth(v), sums);
+    }
+  }
+  double total[Term::kSums];
+  block_sum(sums, shared_floats() + plan.sums, total);  // with a barrier after the decoding
+  if (threadIdx.x != 0) return;
+  const double cost = batch.weight * term.cost(total, state);
+  double& out = batch.costs[hypothesis];
+  out = batch.add ? out + cost : cost;
+}
+
+}  // namespace hypotrack::cuda

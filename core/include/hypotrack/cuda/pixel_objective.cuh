@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+
+#include "hypotrack/cuda/evaluate.cuh"
+
+namespace hypotrack::cuda {
+
+/// An objective that is a sum over pixels, on the device. A plugin writes a Term and derives from
+/// PixelObjective<Term> in a .cu file:
+///
+///   struct MyTerm {                                    // trivially copyable
+///     static constexpr bool kStereo = true;            // pixels of a reference view and what they
+///                                                      // see in the other; false: of each view
+///     static constexpr bool kVisitsUncovered = false;  // whether pixels that the hypothesis does
+///                                                      // not cover are visited, too
+///     static constexpr int kSums = 2;
+///     const float* feature;                            // device memory
+///     float tolerance;                                 // kStereo: depths that differ by this many
+///                                                      // metres or less are the same surface
+///     __device__ int directions() const;               // kStereo: bit v: view v is the reference
+///     template <int kReference>
+///     __device__ void pixel(const StereoPixel& p, float (&sums)[kSums]) const;
+///     // not kStereo, instead of these two:
+///     __device__ int views() const;                    // bit v: view v is looked at
+///     __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const;
+///     // once per hypothesis, `state` decoded and normalised:
+///     __device__ double cost(const double (&sums)[kSums], const float* state) const;
+///   };
+///
+/// Sums of one thread are single precision; those of threads are joined in a fixed order in double
+/// precision, so that equal hypotheses have equal costs. A Term whose bytes change makes searches
+/// that were captured into a graph be captured again: what changes with every frame belongs into
+/// device memory that a kernel of make_term() writes.
+template <class Term>
+class PixelObjective : public DeviceObjective {
+ public:
+  static_assert(std::is_trivially_copyable_v<Term>, "a Term is copied to the device as it is");
+
+  void prepare(const DeviceObservation& observation, Stream stream) final {
+    const Term term = make_term(observation, stream);
+    if (frame_ != observation.frame || std::memcmp(&term, &term_, sizeof term) != 0) ++revision_;
+    frame_ = observation.frame;
+    std::memcpy(&term_, &term, sizeof term);
+    int width = 0, height = 0;
+    for (const DeviceTile& tile : observation.tiles) {
+      width = std::max(width, tile.layout.width);
+      height = std::max(height, tile.layout.height);
+    }
+    const bool rectified = observation.pair;
+    if (width != width_ || height != height_ || rectified != rectified_) reserved_ = 0;
+    width_ = width;
+    height_ = height;
+    rectified_ = rectified;
+  }
+
+  void reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t count) final {
+    if (count == reserved_) return;
+    reserved_ = 0;
+    limits_ = limits;
+    BlockPlan plan = plan_blocks({.scene = scene,
+                                  .limits = limits,
+                                  .count = count,
+                                  .tile_width = width_,
+                                  .tile_height = height_,
+                                  .tiles_at_once = Term::kStereo ? 2 : 1,
+                                  .may_split = !Term::kStereo || rectified_,
+                                  .sums = Term::kSums});
+    if (plan.depth_capacity < least_depth_capacity(Term::kStereo ? 2 : 1, width_)) {
+      throw DeviceError("CUDA: tiles " + std::to_string(width_) +
+                        " pixels wide and this scene's bones do not fit into the device's shared "
+                        "memory; use smaller tiles, or backend: cpu");
+    }
+    const auto blocks = static_cast<std::size_t>(count) * static_cast<std::size_t>(plan.bands);
+    if (!plan.vertices_in_shared) {
+      vertex_scratch_.reserve(blocks * 3 * static_cast<std::size_t>(plan.vertex_stride));
+    }
+    const int both_tiles = 2 * detail::rounded(width_ * height_);
+    if (Term::kStereo && !rectified_ && both_tiles > plan.depth_capacity) {
+      plan.depth_scratch_size = both_tiles;
+      depth_scratch_.reserve(blocks * static_cast<std::size_t>(both_tiles));
+    }
+    if (plan.bands > 1) {
+      partial_sums_.reserve(blocks * Term::kSums);
+      if (tickets_.reserve(static_cast<std::size_t>(count))) {
+        check(cudaMemset(tickets_.data(), 0, tickets_.size() * sizeof(std::uint32_t)),
+              "clearing memory");
+        check(cudaDeviceSynchronize(), "clearing memory");
+      }
+    }
+    plan.vertex_scratch = vertex_scratch_.data();
+    plan.depth_scratch = depth_scratch_.data();
+    plan.partial_sums = partial_sums_.data();
+    plan.tickets = tickets_.data();
+    const auto kernel = plan.vertices_in_shared ? &evaluate_hypotheses<Term, true>
+                                                : &evaluate_hypotheses<Term, false>;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                               plan.shared_bytes),
+          "reserving shared memory");
+    plan_ = plan;
+    reserved_ = count;
+    ++revision_;
+  }
+
+  void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
+    const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
+    const auto kernel = plan_.vertices_in_shared ? &evaluate_hypotheses<Term, true>
+                                                 : &evaluate_hypotheses<Term, false>;
+    launch(kernel, dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
+           static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_), scene,
+           frame_, batch, plan_, term_);
+  }
+
+  void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
+                     Stream stream) final {
+    constexpr unsigned kThreads = 512;
+    const auto bytes = sizeof(float) * static_cast<std::size_t>(plan_.list);  // what lies before it
+    launch(&score_drawn_hypotheses<Term>, dim3(static_cast<unsigned>(drawn.count)), dim3(kThreads),
+           bytes, stream, false, scene, frame_, batch, plan_, drawn, term_);
+  }
+
+  std::uint64_t revision() const final { return revision_; }
+
+ protected:
+  /// Enqueues what makes features of a frame and returns the Term that looks at them. Throws
+  /// DataError if it cannot work with what it is given.
+  virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
+
+ private:
+  Term term_{};
+  const FrameLayout* frame_ = nullptr;
+  int width_ = 0, height_ = 0;
+  bool rectified_ = false;
+  DeviceLimits limits_;
+  std::int64_t reserved_ = 0;
+  std::uint64_t revision_ = 0;
+  BlockPlan plan_;
+  DeviceBuffer<float> vertex_scratch_, depth_scratch_;
+  DeviceBuffer<double> partial_sums_;
+  DeviceBuffer<std::uint32_t> tickets_;
+};
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "evaluate/evaluator.hpp"
+
+namespace hypotrack {
+
+/// How hypotheses become costs: the seam between the evaluator and its backends.
+class Evaluation {
+ public:
+  Evaluation() = default;
+  virtual ~Evaluation() = default;
+  Evaluation(const Evaluation&) = delete;
+  Evaluation& operator=(const Evaluation&) = delete;
+
+  /// Takes a frame in, for the terms as well. The observation outlives every use until the next
+  /// `prepare`.
+  virtual void prepare(const Observation& observation) = 0;
+
+  /// Weighted sums of the terms (N) for normalised states (DxN); what a term returns is not judged,
+  /// NaN included.
+  virtual void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) = 0;
+
+  /// For Evaluator::backend(): `cpu (AVX3, 2 threads)`.
+  virtual std::string description() const = 0;
+
+  /// Costs of search points on the device (see Evaluator::device_cost); null on the host.
+  virtual cuda::DeviceCost* device_cost(const Eigen::VectorXd&, bool) { return nullptr; }
+};
+
+/// The backend that the settings ask for. Throws DeviceError if it is not to be had; never a silent
+/// substitute. The scene outlives it.
+std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
+                                            const std::vector<ObjectiveTerm>& terms,
+                                            const EvaluateSettings& settings);
+
+/// Draws with a HypothesisRenderer and asks the terms on the CPU.
+std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
+                                                 const std::vector<ObjectiveTerm>& terms,
+                                                 const EvaluateSettings& settings);
+
+/// Throws Error: what a term did wrong (`returned NaN`) for a hypothesis.
+[[noreturn]] void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what);
+
+namespace cuda {
+
+/// Why these terms of this scene cannot be evaluated on the GPU of the settings; empty if they can.
+std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                              const EvaluateSettings& settings);
+
+/// Poses, draws and scores on the GPU. Throws DeviceError where why_not_evaluated() has a reason.
+std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
+                                            const std::vector<ObjectiveTerm>& terms,
+                                            const EvaluateSettings& settings);
+
+}  // namespace cuda
+}  // namespace hypotrack

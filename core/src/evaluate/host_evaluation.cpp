@@ -1,0 +1,63 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "evaluate/evaluation.hpp"
+#include "evaluate/hypothesis_renderer.hpp"
+
+namespace hypotrack {
+namespace {
+
+bool any_draws(const std::vector<ObjectiveTerm>& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& term) {
+    return term.weight != 0 && term.objective->needs_rendering();
+  });
+}
+
+class HostEvaluation final : public Evaluation {
+ public:
+  HostEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                 const EvaluateSettings& settings)
+      : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {}
+
+  void prepare(const Observation& observation) override {
+    for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
+    renderer_->prepare(observation);
+  }
+
+  void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
+    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      costs[index] = cost(index, hypothesis);
+    });
+  }
+
+  std::string description() const override { return renderer_->description(); }
+
+ private:
+  double cost(Eigen::Index index, const RenderedHypothesis& hypothesis) const {
+    double sum = 0;
+    for (const ObjectiveTerm& term : terms_) {
+      if (term.weight == 0) continue;  // also keeps 0 * infinity out
+      const bool draws = term.objective->needs_rendering();
+      const double cost =
+          term.objective->cost(draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
+      sum += term.weight * cost;
+      if (std::isnan(cost)) refuse_cost(term, index, "returned NaN");
+      if (std::isnan(sum)) refuse_cost(term, index, "adds an infinity to its opposite");
+    }
+    return sum;
+  }
+
+  std::vector<ObjectiveTerm> terms_;
+  std::unique_ptr<HypothesisRenderer> renderer_;
+};
+
+}  // namespace
+
+std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
+                                                 const std::vector<ObjectiveTerm>& terms,
+                                                 const EvaluateSettings& settings) {
+  return std::make_unique<HostEvaluation>(scene, terms, settings);
+}
+
+}  // namespace hypotrack
