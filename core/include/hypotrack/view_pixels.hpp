@@ -6,6 +6,7 @@
 
 #include "hypotrack/objective.hpp"
 #include "hypotrack/pixel.hpp"
+#include "hypotrack/unorm16.hpp"
 
 namespace hypotrack {
 
@@ -36,15 +37,6 @@ class PixelPlane {
   int height_ = 0;
   std::vector<T> data_;
 };
-
-/// Two numbers of 0 .. 1 (others are clamped) as 16-bit fractions in one word: simd-inl.hpp's
-/// unorm16_low() and unorm16_high() undo it. Exact for 8-bit values (k / 255).
-inline std::uint32_t pack_unorm16(float low, float high) {
-  const auto bits = [](float x) {
-    return static_cast<std::uint32_t>(pixel::min(pixel::max(x, 0.0f), 1.0f) * 65535.0f + 0.5f);
-  };
-  return bits(low) | bits(high) << 16;
-}
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.
 struct PixelBox {

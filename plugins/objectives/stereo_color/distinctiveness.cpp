@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 
+#include "distinctiveness-inl.hpp"
+
 namespace hypotrack::stereo_color {
 namespace {
-
-// Keeps the logarithm finite where the image is flat.
-constexpr float kLogGuard = 1e-12f;
 
 // The products gx gx, gx gy, gy gy of one row of gradients, with a zero column on either side.
 struct Products {
@@ -26,10 +24,10 @@ struct Products {
       const std::size_t i = row + x;
       float gx = 0, gy = 0;
       if (x > 0 && x + 1 < width && valid[i - 1] && valid[i + 1]) {
-        gx = 0.5f * (grey[i + 1] - grey[i - 1]);
+        gx = central_difference(grey[i - 1], grey[i + 1]);
       }
       if (inner && valid[i - width] && valid[i + width]) {
-        gy = 0.5f * (grey[i + width] - grey[i - width]);
+        gy = central_difference(grey[i - width], grey[i + width]);
       }
       xx[x + 1] = gx * gx;
       xy[x + 1] = gx * gy;
@@ -41,16 +39,11 @@ struct Products {
   }
 };
 
-float sum_3x3(const float* a, const float* b, const float* c) {
-  return (a[0] + a[1] + a[2]) + (b[0] + b[1] + b[2]) + (c[0] + c[1] + c[2]);
-}
-
 // The bucket of a non-negative float: exponent and three bits of mantissa, in the order of values.
 std::size_t bucket(float value) { return std::bit_cast<std::uint32_t>(value) >> 20; }
 
-// The middle one or two of non-negative values; the two are equal for an odd count. Exact; buckets
-// only leave few values to look at.
-std::array<float, 2> middle(const std::vector<float>& values) {
+// The middle one or two of non-negative values. Exact; buckets only leave few values to look at.
+Middle middle(const std::vector<float>& values) {
   std::array<std::size_t, 2048> counts{};
   for (const float v : values) ++counts[bucket(v)];
   const auto ranked = [&](std::size_t rank) {
@@ -90,20 +83,15 @@ Curvatures principal_curvatures(const std::vector<float>& grey,
       const float xx = sum_3x3(&above.xx[x], &here.xx[x], &below.xx[x]);
       const float xy = sum_3x3(&above.xy[x], &here.xy[x], &below.xy[x]);
       const float yy = sum_3x3(&above.yy[x], &here.yy[x], &below.yy[x]);
-      const float mean = 0.5f * (xx + yy);
-      const float half = 0.5f * (xx - yy);
-      const float radius = std::sqrt(half * half + xy * xy);
+      const Curvature c = curvature(xx, xy, yy);
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      out.major[i] = mean + radius;
-      out.minor[i] = std::max(mean - radius, 0.0f);  // rounding can make it negative
+      out.major[i] = c.major;
+      out.minor[i] = c.minor;
     }
   }
   return out;
 }
 
-// exp(d) and the ratio minor/major order the pixels as d and a do, so the medians are found on them
-// and the sigmoid of d needs neither logarithm nor exponential:
-//   1 / (1 + exp(m - d)) = exp(d) / (exp(d) + exp(m)).
 std::vector<float> distinctiveness(const Curvatures& curvatures,
                                    const std::vector<std::uint8_t>& valid, double w_t) {
   const std::size_t size = valid.size();
@@ -113,23 +101,16 @@ std::vector<float> distinctiveness(const Curvatures& curvatures,
   valid_ratio.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
     if (!valid[i]) continue;
-    const float major = curvatures.major[i], minor = curvatures.minor[i];
-    norm[i] = std::sqrt(major * major + minor * minor) + kLogGuard;
-    ratio[i] = major > 0 ? minor / major : 0.0f;
+    const Texture t = texture({curvatures.major[i], curvatures.minor[i]});
+    norm[i] = t.norm;
+    ratio[i] = t.ratio;
     valid_norm.push_back(norm[i]);
     valid_ratio.push_back(ratio[i]);
   }
   if (valid_norm.empty()) return c;
-  const auto [norm_low, norm_high] = middle(valid_norm);
-  const auto [ratio_low, ratio_high] = middle(valid_ratio);
-  const float exp_median_d = std::sqrt(norm_low) * std::sqrt(norm_high);
-  const float median_a = 0.5f * (std::atan(ratio_low) + std::atan(ratio_high));
+  const Medians m = medians(middle(valid_norm), middle(valid_ratio));
   for (std::size_t i = 0; i < size; ++i) {
-    if (!valid[i]) continue;
-    const float d_s = norm[i] / (norm[i] + exp_median_d);
-    const float a_s = 1.0f / (1.0f + std::exp(median_a - std::atan(ratio[i])));
-    const float product = d_s * a_s;
-    c[i] = product < static_cast<float>(w_t) ? 0.0f : product;
+    if (valid[i]) c[i] = distinctiveness({norm[i], ratio[i]}, m, static_cast<float>(w_t));
   }
   return c;
 }

@@ -1,42 +1,35 @@
 #include "features.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "color-inl.hpp"
 #include "distinctiveness.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {
 
-cv::Vec3f gray_color(const cv::Vec3b& bgr) {
-  return {(0.299f * bgr[2] + 0.587f * bgr[1] + 0.114f * bgr[0]) / 255.0f, 0.0f, 0.0f};
-}
-
-cv::Vec3f on_cone(const cv::Vec3f& hsv) {
-  const float angle = hsv[0] * std::numbers::pi_v<float> / 180.0f;
-  const float radius = 0.5f * hsv[1] * hsv[2];
-  return {0.5f + radius * std::cos(angle), 0.5f + radius * std::sin(angle), hsv[2]};
-}
+Bgr to_bgr(const cv::Vec3b& p) { return {p[0], p[1], p[2]}; }
+cv::Vec3f to_vec(const Channels& c) { return {c.c0, c.c1, c.c2}; }
 
 // The tile in a colour space, 32-bit float, channels in 0..1.
 cv::Mat3f convert(const cv::Mat3b& bgr, ColorSpace space) {
   cv::Mat3f out(bgr.size());
   if (space == ColorSpace::rgb) {
     std::transform(bgr.begin(), bgr.end(), out.begin(),
-                   [](const cv::Vec3b& p) { return cv::Vec3f(p[2], p[1], p[0]) / 255.0f; });
+                   [](const cv::Vec3b& p) { return to_vec(rgb_channels(to_bgr(p))); });
   } else if (space == ColorSpace::gray) {
-    std::transform(bgr.begin(), bgr.end(), out.begin(), gray_color);
+    std::transform(bgr.begin(), bgr.end(), out.begin(),
+                   [](const cv::Vec3b& p) { return cv::Vec3f(gray_level(to_bgr(p)), 0.0f, 0.0f); });
   } else {
     cv::Mat3f scaled;
     bgr.convertTo(scaled, CV_32F, 1.0 / 255.0);
     const bool lab = space == ColorSpace::lab;
     cv::cvtColor(scaled, out, lab ? cv::COLOR_BGR2Lab : cv::COLOR_BGR2HSV);
     std::transform(out.begin(), out.end(), out.begin(), [lab](const cv::Vec3f& p) {
-      if (!lab) return on_cone(p);
-      return cv::Vec3f(p[0] / 100.0f, (p[1] + 128.0f) / 255.0f, (p[2] + 128.0f) / 255.0f);
+      return to_vec(lab ? lab_channels(p[0], p[1], p[2]) : on_cone({p[0], p[1], p[2]}));
     });
   }
   return out;
@@ -53,7 +46,7 @@ std::vector<float> weights(const TileView& view, const Params& params) {
   } else {
     std::vector<float> grey(valid.size());
     std::transform(bgr.begin(), bgr.end(), grey.begin(),
-                   [](const cv::Vec3b& p) { return gray_color(p)[0]; });
+                   [](const cv::Vec3b& p) { return gray_level(to_bgr(p)); });
     c = distinctiveness(principal_curvatures(grey, valid, bgr.cols, bgr.rows), valid, params.w_t);
   }
   const bool masked = params.use_mask && !view.mask.empty();

@@ -4,14 +4,9 @@
 #include <string_view>
 
 #include "hypotrack/params.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::stereo_color {
-
-enum class ColorSpace { rgb, lab, hsv, gray };
-enum class Distinctiveness { principal_curvatures, none };
-enum class Aggregation { sum, mean_seen, mean_rendered, sum_per_sqrt };
-enum class Direction { left_to_right, right_to_left, both };
-enum class Lookup { nearest, bilinear };
 
 std::span<const std::string_view> enum_names(ColorSpace);
 std::span<const std::string_view> enum_names(Distinctiveness);
@@ -20,17 +15,7 @@ std::span<const std::string_view> enum_names(Direction);
 std::span<const std::string_view> enum_names(Lookup);
 
 /// Parameters of `type: stereo_color`; the defaults are the paper's.
-struct Params {
-  double beta = 100;
-  double w_t = 0.1;
-  double r = 3 * kMillimetre;
-  ColorSpace color_space = ColorSpace::rgb;
-  Distinctiveness distinctiveness = Distinctiveness::principal_curvatures;
-  Aggregation aggregation = Aggregation::sum;
-  Direction direction = Direction::left_to_right;
-  Lookup lookup = Lookup::nearest;
-  bool use_mask = true;
-
+struct Params : Settings {
   void visit(ParamVisitor& v) {
     v("beta", beta,
       {.help = "how fast similarity falls with colour distance (colours in 0..1)",

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cmath>
+
+#include "hypotrack/pixel.hpp"
+#include "settings.hpp"
+
+namespace hypotrack::stereo_color {
+
+/// The score of one direction, from the sum of the similarities of pixels seen in both views, their
+/// number, and the number of pixels rendered. Without any pixel it is 0.
+HYPOTRACK_PIXEL double aggregate(Aggregation aggregation, double sum, double seen,
+                                 double rendered) {
+  double n = 1.0;
+  if (aggregation == Aggregation::mean_seen) n = seen;
+  if (aggregation == Aggregation::mean_rendered) n = rendered;
+  if (aggregation == Aggregation::sum_per_sqrt) n = std::sqrt(rendered);
+  return n > 0.0 ? sum / n : 0.0;
+}
+
+}  // namespace hypotrack::stereo_color

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "hypotrack/pixel.hpp"
+
+/// Colours of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines them.
+namespace hypotrack::stereo_color {
+
+struct Channels {
+  float c0, c1, c2;
+};
+
+/// An 8-bit pixel.
+struct Bgr {
+  std::uint8_t b, g, r;
+};
+
+HYPOTRACK_PIXEL float gray_level(Bgr p) {
+  return (0.299f * static_cast<float>(p.r) + 0.587f * static_cast<float>(p.g) +
+          0.114f * static_cast<float>(p.b)) /
+         255.0f;
+}
+
+HYPOTRACK_PIXEL Channels rgb_channels(Bgr p) {
+  return {static_cast<float>(p.r) / 255.0f, static_cast<float>(p.g) / 255.0f,
+          static_cast<float>(p.b) / 255.0f};
+}
+
+/// Hue in degrees, saturation and value 0..1.
+struct Hsv {
+  float h, s, v;
+};
+
+/// As OpenCV's COLOR_BGR2HSV defines it for 32-bit float.
+HYPOTRACK_PIXEL Hsv to_hsv(const Channels& rgb) {
+  constexpr float kEpsilon = 1.1920929e-7f;
+  const float v = pixel::max(pixel::max(rgb.c0, rgb.c1), rgb.c2);
+  const float span = v - pixel::min(pixel::min(rgb.c0, rgb.c1), rgb.c2);
+  const float scale = 60.0f / (span + kEpsilon);
+  float h = 0.0f;
+  if (v == rgb.c0) {
+    h = (rgb.c1 - rgb.c2) * scale;
+  } else if (v == rgb.c1) {
+    h = (rgb.c2 - rgb.c0) * scale + 120.0f;
+  } else {
+    h = (rgb.c0 - rgb.c1) * scale + 240.0f;
+  }
+  return {h < 0.0f ? h + 360.0f : h, span / (v + kEpsilon), v};
+}
+
+HYPOTRACK_PIXEL Channels on_cone(const Hsv& p) {
+  const float angle = p.h * std::numbers::pi_v<float> / 180.0f;
+  const float radius = 0.5f * p.s * p.v;
+  return {0.5f + radius * std::cos(angle), 0.5f + radius * std::sin(angle), p.v};
+}
+
+/// L in 0..100, a and b about -128..127.
+HYPOTRACK_PIXEL Channels lab_channels(float l, float a, float b) {
+  return {l / 100.0f, (a + 128.0f) / 255.0f, (b + 128.0f) / 255.0f};
+}
+
+/// OpenCV's COLOR_BGR2Lab for 32-bit float interpolates between kLabNodes^3 colours, in 16ths of
+/// the way from one to the next: up to 2e-3 of the range beside the CIE's equations. So does
+/// to_lab(), with the same numbers: LabNode is the Lab of (r, g, b) / (kLabNodes - 1), at
+/// (r * kLabNodes + g) * kLabNodes + b, in units of 100 / 2^14 and 256 / 2^14 (from -128 on).
+inline constexpr int kLabNodes = 33;
+inline constexpr int kLabNodeCount = kLabNodes * kLabNodes * kLabNodes;
+inline constexpr float kLabUnit = 1.0f / 16384.0f;
+struct alignas(8) LabNode {
+  std::int16_t l, a, b, unused;
+};
+
+/// Where an 8-bit value lies between two nodes.
+struct LabStep {
+  int node, sixteenths;
+};
+HYPOTRACK_PIXEL LabStep lab_step(std::uint8_t value) {
+  const float scaled = static_cast<float>(value) * (1.0f / 255.0f) * 16384.0f;
+  const int fine = static_cast<int>(pixel::round(scaled));
+  return {fine >> 9, (fine >> 5) & 15};
+}
+
+HYPOTRACK_PIXEL Channels to_lab(Bgr p, const LabNode* nodes) {
+  const LabStep r = lab_step(p.r), g = lab_step(p.g), b = lab_step(p.b);
+  int sum_l = 2048, sum_a = 2048, sum_b = 2048;  // half of 16^3: rounds
+  for (int corner = 0; corner < 8; ++corner) {
+    const int dr = corner >> 2, dg = corner >> 1 & 1, db = corner & 1;
+    const int weight = (dr ? r.sixteenths : 16 - r.sixteenths) *
+                       (dg ? g.sixteenths : 16 - g.sixteenths) *
+                       (db ? b.sixteenths : 16 - b.sixteenths);
+    if (weight == 0) continue;  // also keeps the index of the last node's neighbour inside
+    const LabNode node = nodes[((r.node + dr) * kLabNodes + g.node + dg) * kLabNodes + b.node + db];
+    sum_l += weight * node.l;
+    sum_a += weight * node.a;
+    sum_b += weight * node.b;
+  }
+  const auto value = [](int sum) { return static_cast<float>(sum >> 12) * kLabUnit; };
+  return lab_channels(value(sum_l) * 100.0f, value(sum_a) * 256.0f - 128.0f,
+                      value(sum_b) * 256.0f - 128.0f);
+}
+
+}  // namespace hypotrack::stereo_color

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace hypotrack::stereo_color {
+
+enum class ColorSpace { rgb, lab, hsv, gray };
+enum class Distinctiveness { principal_curvatures, none };
+enum class Aggregation { sum, mean_seen, mean_rendered, sum_per_sqrt };
+enum class Direction { left_to_right, right_to_left, both };
+enum class Lookup { nearest, bilinear };
+
+/// The values of Params, for code that must not see Eigen.
+struct Settings {
+  double beta = 100;
+  double w_t = 0.1;
+  double r = 3e-3;  ///< m
+  ColorSpace color_space = ColorSpace::rgb;
+  Distinctiveness distinctiveness = Distinctiveness::principal_curvatures;
+  Aggregation aggregation = Aggregation::sum;
+  Direction direction = Direction::left_to_right;
+  Lookup lookup = Lookup::nearest;
+  bool use_mask = true;
+};
+
+}  // namespace hypotrack::stereo_color
