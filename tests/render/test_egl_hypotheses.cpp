@@ -135,8 +135,9 @@ TEST(EglHypotheses, have_the_depth_that_the_cpu_draws) {
 
 TEST(EglHypotheses, come_in_any_number) {
   const Scene scene = scene_of_hand_and_box();
-  // More tiles than one framebuffer holds.
+  // More tiles than are read back at once.
   expect_agreement(scene, observation_of(scene, 256), random_states(scene, 35));
+  expect_agreement(scene, observation_of(scene), random_states(scene, 0));
 }
 
 TEST(EglHypotheses, follow_the_frame) {
@@ -204,6 +205,28 @@ TEST(EglHypotheses, can_be_drawn_from_any_thread_and_pass_exceptions_on) {
   EXPECT_THROW(egl->render(states, [](auto, const auto&) { throw DataError("from the visit"); }),
                DataError);
   EXPECT_EQ(render(*egl, states), here) << "usable after an exception";
+}
+
+TEST(EglHypotheses, name_the_tiles_that_opengl_cannot_draw_to) {
+  const Scene scene = scene_of_hand_and_box();
+  const auto egl = make_egl_renderer(scene, 1);
+  const Observation small = observation_of(scene, 64), large = observation_of(scene, 1 << 17);
+  EXPECT_THAT([&] { egl->prepare(large); },
+              testing::ThrowsMessage<DeviceError>(testing::AllOf(
+                  testing::HasSubstr("131072x131072"), testing::HasSubstr("smaller tile.size"))));
+  egl->prepare(small);
+  EXPECT_EQ(render(*egl, random_states(scene, 1)).size(), 1U) << "usable after an exception";
+}
+
+TEST(EglHypotheses, leave_nothing_of_the_batch_before) {
+  const Scene scene = scene_of_hand_and_box();
+  const Observation observation = observation_of(scene);
+  const auto used = make_egl_renderer(scene, 1), fresh = make_egl_renderer(scene, 1);
+  used->prepare(observation);
+  fresh->prepare(observation);
+  const Eigen::MatrixXd states = random_states(scene, 12);
+  render(*used, states);
+  EXPECT_EQ(render(*used, states.rightCols(3)), render(*fresh, states.rightCols(3)));
 }
 
 TEST(EglHypotheses, are_what_the_settings_ask_for) {

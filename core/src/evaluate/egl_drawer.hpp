@@ -1,23 +1,20 @@
 #pragma once
 
-#include <hwy/aligned_allocator.h>
-
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 
-#include "hypotrack/objective.hpp"
+#include "evaluate/egl_layers.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
 
 /// Draws batches of hypotheses with OpenGL, as the paper did: skinning in the vertex shader,
-/// inverse depth in a floating-point colour attachment where the larger value wins, the tiles of a
-/// batch one below the other in one framebuffer.
+/// inverse depth in a texture array where the larger value wins, a layer per hypothesis and view.
 class EglDrawer {
  public:
-  /// The scene must outlive the drawer. Throws DeviceError if no context can be made.
+  /// The scene must outlive the drawer. Throws DeviceError if no context can be made, or it cannot
+  /// choose layers in the vertex shader.
   explicit EglDrawer(const Scene& scene);
   ~EglDrawer();
   EglDrawer(const EglDrawer&) = delete;
@@ -27,16 +24,17 @@ class EglDrawer {
   void prepare(const Observation& observation);
 
   int views() const;
-  /// The most hypotheses that one draw() takes.
-  Eigen::Index batch_size() const;
+  /// The most hypotheses of the frame that one draw() takes.
+  Eigen::Index largest_batch() const;
+  /// What a batch of hypotheses is drawn to.
+  LayerSize layers_for(Eigen::Index hypotheses) const;
 
-  /// Draws columns first .. first + count - 1 of `states` (normalised).
-  void draw(const Eigen::MatrixXd& states, Eigen::Index first, Eigen::Index count);
+  /// Draws the columns of `states` (normalised). View v of the i-th goes to layer
+  /// i * views() + v, its pixel (x, y) to texel (x, y); all other texels are 0.
+  void draw(const Eigen::Ref<const Eigen::MatrixXd>& states, const EglLayers& to);
 
-  /// Tile of the i-th hypothesis of the last batch, valid until the next draw() or prepare().
-  DepthTile tile(Eigen::Index i, int view) const;
-
-  const std::string& device() const;
+  /// Where the layers must be made.
+  const gl::Context& context() const;
 
  private:
   struct Impl;
