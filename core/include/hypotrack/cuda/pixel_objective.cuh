@@ -39,10 +39,11 @@ class PixelObjective : public DeviceObjective {
   static_assert(std::is_trivially_copyable_v<Term>, "a Term is copied to the device as it is");
 
   void prepare(const DeviceObservation& observation, Stream stream) final {
-    const Term term = make_term(observation, stream);
-    if (frame_ != observation.frame || std::memcmp(&term, &term_, sizeof term) != 0) ++revision_;
+    Term term = make_term(observation, stream);
+    if constexpr (!std::is_empty_v<Term>) __builtin_clear_padding(&term);
+    if (frame_ != observation.frame || differ(term, term_)) ++revision_;
     frame_ = observation.frame;
-    std::memcpy(&term_, &term, sizeof term);
+    term_ = term;
     int width = 0, height = 0;
     for (const DeviceTile& tile : observation.tiles) {
       width = std::max(width, tile.layout.width);
@@ -128,6 +129,14 @@ class PixelObjective : public DeviceObjective {
   virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
 
  private:
+  static bool differ(const Term& a, const Term& b) {
+    if constexpr (std::is_empty_v<Term>) {
+      return false;
+    } else {
+      return std::memcmp(&a, &b, sizeof a) != 0;
+    }
+  }
+
   Term term_{};
   const FrameLayout* frame_ = nullptr;
   int width_ = 0, height_ = 0;

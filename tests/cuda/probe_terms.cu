@@ -1,0 +1,64 @@
+#include "hypotrack/cuda/pixel_objective.cuh"
+#include "probe_terms.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using cuda::StereoPixel;
+using cuda::ViewPixel;
+
+struct CoveredTerm {
+  static constexpr bool kStereo = false;
+  static constexpr bool kVisitsUncovered = false;
+  static constexpr int kSums = 1;
+  __device__ int views() const { return -1; }
+  __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const {
+    sums[0] += 1.0f + static_cast<float>(p.x) / 500.0f + static_cast<float>(p.y) / 300.0f +
+               p.inverse_depth / 4.0f;
+  }
+  __device__ double cost(const double (&sums)[kSums], const float*) const { return sums[0]; }
+};
+
+template <bool kUncovered>
+struct SeenTerm {
+  static constexpr bool kStereo = true;
+  static constexpr bool kVisitsUncovered = kUncovered;
+  static constexpr int kSums = 2;
+  float tolerance;
+  __device__ int directions() const { return 3; }
+  template <int kReference>
+  __device__ void pixel(const StereoPixel& p, float (&sums)[kSums]) const {
+    if (p.seen) {
+      sums[kReference] += 1.0f + p.u / 500.0f + static_cast<float>(p.column) / 900.0f +
+                          static_cast<float>(p.row) / 700.0f;
+    }
+    if (p.occluded) sums[kReference] += 0.5f;
+    if (p.uncovered) sums[kReference] += 0.01f;
+  }
+  __device__ double cost(const double (&sums)[kSums], const float*) const {
+    return sums[0] + sums[1];
+  }
+};
+
+template <class Term>
+class Probe final : public cuda::PixelObjective<Term> {
+ public:
+  explicit Probe(const Term& term) : term_(term) {}
+
+ private:
+  Term make_term(const cuda::DeviceObservation&, cuda::Stream) override { return term_; }
+  Term term_;
+};
+
+}  // namespace
+
+std::unique_ptr<cuda::DeviceObjective> covered_probe_on_device() {
+  return std::make_unique<Probe<CoveredTerm>>(CoveredTerm{});
+}
+
+std::unique_ptr<cuda::DeviceObjective> seen_probe_on_device(bool uncovered) {
+  if (uncovered) return std::make_unique<Probe<SeenTerm<true>>>(SeenTerm<true>{kProbeTolerance});
+  return std::make_unique<Probe<SeenTerm<false>>>(SeenTerm<false>{kProbeTolerance});
+}
+
+}  // namespace hypotrack::test

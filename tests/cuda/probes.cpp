@@ -1,0 +1,89 @@
+#include "probes.hpp"
+
+#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "probe_terms.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+float depth_at(const DepthTile& tile, int x, int y) {
+  return tile.inverse_depth[y * tile.stride + x];
+}
+
+class CoveredProbe final : public Objective {
+ public:
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    double sum = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+          const float w = depth_at(tile, x, y);
+          if (w > 0) sum += 1 + x / 500.0 + y / 300.0 + w / 4.0;
+        }
+      }
+    }
+    return sum;
+  }
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+    return covered_probe_on_device();
+  }
+};
+
+class SeenProbe final : public Objective {
+ public:
+  explicit SeenProbe(bool uncovered) : uncovered_(uncovered) {}
+
+  void prepare(const Observation& observation) override {
+    rectified_ = observation.rectified;
+    maps_[0] = stereo_map(observation, 0, 1);
+    maps_[1] = stereo_map(observation, 1, 0);
+  }
+  double cost(const RenderedHypothesis& h) const override {
+    return one_way(h.views[0], h.views[1], maps_[0]) + one_way(h.views[1], h.views[0], maps_[1]);
+  }
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+    return seen_probe_on_device(uncovered_);
+  }
+
+ private:
+  double one_way(const DepthTile& here, const DepthTile& there, const StereoMap& map) const {
+    double sum = 0;
+    for (int y = 0; y < here.height; ++y) {
+      for (int x = 0; x < here.width; ++x) {
+        const float w = depth_at(here, x, y);
+        sum += w > 0 ? covered(x, y, w, there, map) : uncovered_ ? 0.01 : 0;
+      }
+    }
+    return sum;
+  }
+  double covered(int x, int y, float w, const DepthTile& there, const StereoMap& map) const {
+    return rectified_ ? covered<true>(x, y, w, there, map) : covered<false>(x, y, w, there, map);
+  }
+  template <bool kRectified>
+  static double covered(int x, int y, float w, const DepthTile& there, const StereoMap& map) {
+    const auto m =
+        scalar::map_pixel<kRectified, float>(map, static_cast<float>(x), static_cast<float>(y), w);
+    if (!scalar::lands_inside<kRectified>(map, m)) return 0.5;
+    const int column = static_cast<int>(std::nearbyint(m.u));
+    const int row = kRectified ? y : static_cast<int>(std::nearbyint(m.v));
+    if (!scalar::same_depth(m.inverse_depth, depth_at(there, column, row), kProbeTolerance)) {
+      return 0.5;
+    }
+    return 1 + m.u / 500.0 + column / 900.0 + row / 700.0;
+  }
+
+  bool uncovered_;
+  bool rectified_ = false;
+  StereoMap maps_[2]{};
+};
+
+}  // namespace
+
+std::shared_ptr<Objective> covered_probe() { return std::make_shared<CoveredProbe>(); }
+std::shared_ptr<Objective> seen_probe(bool uncovered) {
+  return std::make_shared<SeenProbe>(uncovered);
+}
+
+}  // namespace hypotrack::test
