@@ -49,8 +49,8 @@ cv::Mat random_depth(const Camera& camera, std::uint64_t seed) {
 
 TileView cut(const Camera& camera, const TileCamera& tile, const View& view) {
   const Resampler resampler(camera, Eigen::Matrix3d::Identity());
-  const ImageMap map = resampler.map(tile);
-  return resampler.cut(view, tile, map, plan_reduction(map.scale));
+  const double scale = scale_at_centre(resampler.lens(), tile);
+  return resampler.cut(view, tile, plan_cut(resampler.lens(), tile, resampler.image_size(), scale));
 }
 
 TEST(DepthTiles, AreThatOfTheNearestPixelAtAnyScale) {

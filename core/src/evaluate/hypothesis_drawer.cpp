@@ -1,22 +1,10 @@
 #include "evaluate/hypothesis_drawer.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "hypotrack/error.hpp"
-
 namespace hypotrack {
 namespace {
-
-// Larger parameters make no sense and would overflow single precision later.
-constexpr double kLargestParameter = 1e6;
-
-bool drawable(std::span<const double> parameters) {
-  return std::all_of(parameters.begin(), parameters.end(),
-                     [](double p) { return std::abs(p) <= kLargestParameter; });  // NaN: false
-}
 
 AlignedFloats zeros(std::size_t count) {
   auto floats = hwy::AllocateAligned<float>(count);
@@ -61,16 +49,7 @@ FrameProjection::FrameProjection(const Observation& observation) : pair(share_ro
   }
 }
 
-HypothesisDrawer::HypothesisDrawer(const ScenePlan& plan)
-    : plan_(&plan),
-      matrices_(zeros(std::max<std::size_t>(12 * static_cast<std::size_t>(plan.bone_count), 1))),
-      x_(zeros(plan.vertex_count)),
-      y_(zeros(plan.vertex_count)),
-      z_(zeros(plan.vertex_count)) {
-  for (const auto& model : plan.skinned) {
-    bones_.resize(std::max(bones_.size(), static_cast<std::size_t>(model.poser.bones())));
-  }
-}
+HypothesisDrawer::HypothesisDrawer(const ScenePlan& plan) : plan_(&plan), poser_(plan) {}
 
 void HypothesisDrawer::prepare(const FrameProjection& frame) {
   frame_ = &frame;
@@ -117,50 +96,13 @@ void HypothesisDrawer::clear() {
 }
 
 void HypothesisDrawer::pose(std::span<const double> state) {
-  for (const ScenePlan::Skinned& model : plan_->skinned) {
-    const auto parameters = state.subspan(static_cast<std::size_t>(model.offset),
-                                          static_cast<std::size_t>(model.dimension));
-    float* matrices = matrices_.get() + 12 * static_cast<std::size_t>(model.first_bone);
-    if (drawable(parameters)) {
-      model.poser.pose(parameters.data(), frame_->first_from_world, bones_, matrices);
-    } else {  // everything to the camera's centre, where nothing is drawn
-      std::fill_n(matrices, 12 * model.poser.bones(), 0.0f);
-    }
-  }
-  skin_blocks(plan_->blocks, matrices_.get(), x_.get(), y_.get(), z_.get());
-  for (const ScenePlan::Posed& model : plan_->posed) {
-    pose_itself(model, state.subspan(static_cast<std::size_t>(model.offset),
-                                     static_cast<std::size_t>(model.model->dimension())));
-  }
-}
-
-void HypothesisDrawer::pose_itself(const ScenePlan::Posed& posed,
-                                   std::span<const double> parameters) {
-  const Eigen::Index count = posed.model->data().mesh.vertices.cols();
-  if (!drawable(parameters)) {
-    std::fill_n(z_.get() + posed.first_vertex, count, 0.0f);
-    return;
-  }
-  posed.model->pose(parameters, posed_vertices_, posed_landmarks_);
-  if (posed_vertices_.cols() != count) {
-    throw PluginError(
-        fmt::format("a model that poses itself returned {} vertices, expected the {} of its mesh",
-                    posed_vertices_.cols(), count));
-  }
-  const Eigen::Isometry3f transform = frame_->first_from_world.cast<float>();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Vector3f vertex = transform * posed_vertices_.col(i);
-    const std::size_t at = posed.first_vertex + static_cast<std::size_t>(i);
-    x_[at] = vertex.x();
-    y_[at] = vertex.y();
-    z_[at] = vertex.z();
-  }
+  poser_.pose(state, frame_->first_from_world);
 }
 
 void HypothesisDrawer::project() {
   if (frame_->pair) {
     PixelRange ranges[2];
-    project_pair(x_.get(), y_.get(), z_.get(), plan_->vertex_count, frame_->views.data(),
+    project_pair(poser_.x(), poser_.y(), poser_.z(), plan_->vertex_count, frame_->views.data(),
                  records_[0].get(), ranges);
     set_bounds(0, ranges[0]);
     set_bounds(1, ranges[1]);
@@ -168,7 +110,7 @@ void HypothesisDrawer::project() {
   }
   for (std::size_t i = 0; i < frame_->views.size(); ++i) {
     PixelRange range;
-    project_view(x_.get(), y_.get(), z_.get(), plan_->vertex_count, frame_->views[i],
+    project_view(poser_.x(), poser_.y(), poser_.z(), plan_->vertex_count, frame_->views[i],
                  records_[i].get(), range);
     set_bounds(i, range);
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "evaluate/scene_plan.hpp"
+#include "evaluate/scene_poser.hpp"
 #include "evaluate/simd_kernels.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
@@ -43,17 +44,13 @@ class HYPOTRACK_API HypothesisDrawer {
   void fill();
 
  private:
-  void pose_itself(const ScenePlan::Posed& posed, std::span<const double> parameters);
   void set_bounds(std::size_t view, const PixelRange& range);
   VisibleTriangles empty_lists(std::size_t view);
   void cull_view(std::size_t view);
 
   const ScenePlan* plan_;
   const FrameProjection* frame_ = nullptr;
-  BonePoser::Workspace bones_;
-  AlignedFloats matrices_, x_, y_, z_;
-  Eigen::Matrix3Xf posed_vertices_;
-  Eigen::Matrix3Xd posed_landmarks_;
+  ScenePoser poser_;
   std::vector<AlignedFloats> records_;  // one per view, or one for a rectified pair
   std::vector<std::uint32_t> list_storage_;
   std::vector<VisibleTriangles> visible_;

@@ -44,7 +44,7 @@ void ScenePlan::add_skinned(const Scene::Item& item) {
     add_block(data, bone_count, order.data() + i, static_cast<int>(count));
   }
   add_triangles(data.mesh, new_index);
-  vertex_count += round_up(order.size());
+  add_part(item);
   bone_count += static_cast<int>(data.bones.size());
 }
 
@@ -83,7 +83,13 @@ void ScenePlan::add_posed(const Scene::Item& item) {
   std::vector<std::uint32_t> new_index(static_cast<std::size_t>(mesh.vertices.cols()));
   std::iota(new_index.begin(), new_index.end(), vertex_count);
   add_triangles(mesh, new_index);
-  vertex_count += round_up(new_index.size());
+  add_part(item);
+}
+
+void ScenePlan::add_part(const Scene::Item& item) {
+  const auto count = static_cast<std::size_t>(item.model->data().mesh.vertices.cols());
+  parts.push_back({&item, vertex_count, static_cast<std::uint32_t>(count)});
+  vertex_count += round_up(count);
 }
 
 void ScenePlan::add_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& new_index) {

@@ -32,12 +32,21 @@ struct HYPOTRACK_API ScenePlan {
     std::uint32_t first_vertex = 0;
   };
 
+  /// Where the vertices of a model lie; the block that its last one lies in belongs to it as well.
+  struct Part {
+    const Scene::Item* item = nullptr;
+    std::uint32_t first_vertex = 0;  ///< a multiple of kBlock
+    std::uint32_t vertex_count = 0;
+  };
+
+  /// The scene must outlive the plan.
   explicit ScenePlan(const Scene& scene);
   ScenePlan(const ScenePlan&) = delete;
   ScenePlan& operator=(const ScenePlan&) = delete;
 
   std::vector<Skinned> skinned;
   std::vector<Posed> posed;
+  std::vector<Part> parts;  ///< in the order of their vertices
   SkinBlocks blocks;
   int bone_count = 0;
   std::uint32_t vertex_count = 0;      ///< a multiple of kBlock
@@ -48,6 +57,7 @@ struct HYPOTRACK_API ScenePlan {
  private:
   void add_skinned(const Scene::Item& item);
   void add_posed(const Scene::Item& item);
+  void add_part(const Scene::Item& item);
   void add_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& new_index);
   void add_block(const ModelData& data, int first_bone, const int* vertices, int count);
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "geometry/distort.hpp"
 #include "geometry/distortion.hpp"
 #include "hypotrack/error.hpp"
 
@@ -95,7 +96,7 @@ double monotonic_radius(const Camera& camera) {
     const double r = std::tan(angle);
     double distorted = r;
     if (camera.distortion_model == DistortionModel::fisheye) {
-      distorted = r * fisheye_factor(k, r);
+      distorted = r * fisheye_factor(k.data(), r);
     } else if (camera.distortion_model == DistortionModel::brown) {
       const double r2 = r * r;
       const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
@@ -118,11 +119,11 @@ Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world) {
     if (camera.distortion_model == DistortionModel::brown) {
       double xd = 0;
       double yd = 0;
-      distort_brown(k, x, y, xd, yd);
+      distort_brown(k.data(), x, y, xd, yd);
       x = xd;
       y = yd;
     } else {
-      const double factor = fisheye_factor(k, std::hypot(x, y));
+      const double factor = fisheye_factor(k.data(), std::hypot(x, y));
       x *= factor;
       y *= factor;
     }

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <memory>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "geometry/resample.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
@@ -28,6 +28,12 @@ struct TileSettings {
   }
 };
 
+/// What cutting the tiles of a frame needs.
+struct TilePlan {
+  Observation header;         ///< everything but the pixels: its images are empty
+  std::vector<CutPlan> cuts;  ///< one per view
+};
+
 /// Cuts the piece around a hypothesis out of every view of a frame: undistorted, scaled to a square
 /// tile and, where two cameras are nearly parallel, rectified, all in one resampling.
 class HYPOTRACK_API TileMaker {
@@ -41,8 +47,18 @@ class HYPOTRACK_API TileMaker {
   /// Whether the pair is near enough to parallel to be rectified.
   bool rectifies() const;
 
-  /// Tiles around the scene posed in `state`. Throws DataError if the frame's views do not match
-  /// the cameras in number or size, or if the posed scene lies at or behind a camera.
+  /// One per camera.
+  std::span<const Resampler> resamplers() const;
+
+  /// Where the tiles around the scene posed in `state` lie; looks at no pixel. Throws DataError if
+  /// the frame's views do not match the cameras in number or size, or if the posed scene lies at or
+  /// behind a camera. Not from several threads at once.
+  TilePlan plan(const Frame& frame, const Eigen::VectorXd& state) const;
+
+  /// The tiles of a frame and its plan.
+  Observation cut(const Frame& frame, const TilePlan& plan) const;
+
+  /// Both in one.
   Observation make(const Frame& frame, const Eigen::VectorXd& state) const;
 
  private:

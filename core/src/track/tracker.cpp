@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include "hypotrack/kinematics.hpp"
-
 namespace hypotrack {
 namespace {
 
@@ -43,9 +41,9 @@ std::uint64_t frame_seed(std::uint64_t seed, int frame) {
 }  // namespace
 
 Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
-    : scene_(&scene),
-      parts_(std::move(parts)),
+    : parts_(std::move(parts)),
       tiles_(scene, parts_.cameras, parts_.tile),
+      visible_(scene, parts_.cameras),
       space_(scene, parts_.search),
       evaluator_(scene, parts_.objective, parts_.evaluate),
       monitor_(parts_.status),
@@ -69,7 +67,7 @@ Solution Tracker::track(const Frame& frame) {
     const OptimizerResult result = search(frame, prior);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     const Eigen::VectorXd found = space_.states(result.point, prior);
-    const double visible = visible_share(found);
+    const double visible = visible_.of(found);
     // Where nothing was feasible, or the answer has left every image, the last state is the better
     // place to search the next frame from.
     if (std::isfinite(result.cost) && visible > 0) state_ = found;
@@ -83,35 +81,17 @@ Solution Tracker::track(const Frame& frame) {
 }
 
 void Tracker::check(const Frame& frame) {
-  const Observation observation = tiles_.make(frame, state_);
+  const Observation observation = tiles_.cut(frame, tiles_.plan(frame, state_));
   evaluator_.prepare(observation);
 }
 
 OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior) {
-  const Observation observation = tiles_.make(frame, prior);
+  const TilePlan plan = tiles_.plan(frame, prior);
+  const Observation observation = tiles_.cut(frame, plan);
   evaluator_.prepare(observation);
   StateCost cost(space_, prior, evaluator_);
   return parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
                                     frame_seed(seed_, frame.index));
-}
-
-double Tracker::visible_share(const Eigen::VectorXd& state) const {
-  Eigen::Index visible = 0, all = 0;
-  for (const auto& item : scene_->items()) {
-    const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, scene_->part(item, state));
-    all += vertices.cols();
-    for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
-      bool in_all = true;
-      for (const Camera& camera : parts_.cameras) {
-        const Eigen::Vector2d p = project(camera, vertices.col(i).cast<double>());
-        if (!p.allFinite()) return 0;  // behind a camera: no tile can be cut around this state
-        in_all = in_all && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < camera.width - 0.5 &&
-                 p.y() < camera.height - 0.5;
-      }
-      visible += in_all;
-    }
-  }
-  return all == 0 ? 0 : static_cast<double>(visible) / static_cast<double>(all);
 }
 
 }  // namespace hypotrack

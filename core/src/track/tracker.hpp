@@ -14,6 +14,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "track/search_space.hpp"
 #include "track/status.hpp"
+#include "track/visible_share.hpp"
 
 namespace hypotrack {
 
@@ -62,12 +63,10 @@ class HYPOTRACK_API Tracker {
 
  private:
   OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior);
-  /// Share of the models' vertices that every image shows; 0 if any lies behind a camera.
-  double visible_share(const Eigen::VectorXd& state) const;
 
-  const Scene* scene_;
   TrackerParts parts_;
   TileMaker tiles_;
+  VisibleShare visible_;
   SearchSpace space_;
   Evaluator evaluator_;
   StatusMonitor monitor_;

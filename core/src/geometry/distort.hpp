@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+
+#include "hypotrack/pixel.hpp"
+
+/// Lens distortion as formulas, for the CPU and for CUDA: no Eigen, no OpenCV.
+namespace hypotrack {
+
+/// OpenCV's radial (rational) and tangential model on normalised image coordinates; see "Camera
+/// Calibration and 3D Reconstruction" in OpenCV's documentation. `k` holds 8 coefficients: k1 k2 p1
+/// p2 k3 k4 k5 k6. T is a scalar or an Eigen array.
+template <class T, class Scalar>
+HYPOTRACK_PIXEL void distort_brown(const Scalar* k, const T& x, const T& y, T& xd, T& yd) {
+  const Scalar one(1);
+  const Scalar two(2);
+  const T r2 = x * x + y * y;
+  const T xy2 = two * x * y;
+  const T radial =
+      (one + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / (one + r2 * (k[5] + r2 * (k[6] + r2 * k[7])));
+  xd = x * radial + k[2] * xy2 + k[3] * (r2 + two * x * x);
+  yd = y * radial + k[2] * (r2 + two * y * y) + k[3] * xy2;
+}
+
+/// OpenCV's fisheye model (Kannala and Brandt, 2006): the factor on normalised coordinates at
+/// distance r from the axis. `k` holds k1 k2 k3 k4.
+template <class Scalar>
+HYPOTRACK_PIXEL Scalar fisheye_factor(const Scalar* k, Scalar r) {
+  if (r < Scalar(1e-8)) return Scalar(1);
+  const Scalar t = std::atan(r);
+  const Scalar t2 = t * t;
+  return t * (Scalar(1) + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3])))) / r;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/distort.hpp"
+#include "hypotrack/pixel.hpp"
+
+/// Where a pixel of a tile lies in the camera's image: plain data and the one function that the CPU
+/// and CUDA share, without Eigen and OpenCV.
+namespace hypotrack {
+
+enum class Lens : std::int32_t { none, brown, fisheye };
+
+/// A camera's lens, and how the ideal camera that tiles are cut from is turned against it.
+struct LensMap {
+  float camera_from_ideal[9];  ///< rotation, row by row
+  float fx, fy, cx, cy;        ///< pixels
+  float distortion[8];
+  float largest_r2;  ///< what is farther off the axis (squared, on z = 1), the camera cannot see
+  Lens lens;
+};
+
+/// The intrinsics of a tile's camera.
+struct TileIntrinsics {
+  float fx, fy, cx, cy;
+};
+
+struct ImagePoint {
+  float x, y;
+};
+
+/// Both coordinates of what the camera cannot see: no image has them, and they fit the 16 bits of
+/// cv::remap.
+inline constexpr float kUnseen = -1e4f;
+
+/// Image coordinates of a position in the tile, in pixels.
+HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics& tile, float column,
+                                       float row) {
+  const float* r = map.camera_from_ideal;
+  const float u = (column - tile.cx) / tile.fx;
+  const float v = (row - tile.cy) / tile.fy;
+  const float z = r[6] * u + (r[7] * v + r[8]);
+  const float x = (r[0] * u + (r[1] * v + r[2])) / z;
+  const float y = (r[3] * u + (r[4] * v + r[5])) / z;
+  const float r2 = x * x + y * y;
+  float xd = x;
+  float yd = y;
+  if (map.lens == Lens::brown) {
+    distort_brown(map.distortion, x, y, xd, yd);
+  } else if (map.lens == Lens::fisheye) {
+    const float factor = fisheye_factor(map.distortion, std::sqrt(r2));
+    xd = x * factor;
+    yd = y * factor;
+  }
+  const bool seen = z > 0.0f && r2 < map.largest_r2;
+  return {seen ? xd * map.fx + map.cx : kUnseen, seen ? yd * map.fy + map.cy : kUnseen};
+}
+
+/// Whether a point lies on the image: a pixel reaches half a pixel around its centre.
+HYPOTRACK_PIXEL bool inside_image(ImagePoint p, int width, int height) {
+  return p.x >= -0.5f && p.x < static_cast<float>(width) - 0.5f && p.y >= -0.5f &&
+         p.y < static_cast<float>(height) - 0.5f;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,97 @@
+#include "track/visible_share.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+#include "hypotrack/kinematics.hpp"
+#include "test_models.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// A camera with a lens: 0 pinhole, 8 Brown's, -4 fisheye.
+Camera lens_camera(int coefficients, double x, double turn) {
+  Camera camera{640, 480, 500, 505, 321.5, 237.5, DistortionModel::none, {}, {}};
+  camera.camera_from_world.setIdentity();
+  camera.camera_from_world.rotate(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()));
+  camera.camera_from_world.translate(Eigen::Vector3d(-x, 0.01 * x, 0));
+  if (coefficients > 0) {
+    camera.distortion_model = DistortionModel::brown;
+    camera.distortion = {-0.28, 0.09, 0.0012, -0.0007, -0.012, 0.02, 0.011, -0.004};
+  } else if (coefficients < 0) {
+    camera.distortion_model = DistortionModel::fisheye;
+    camera.distortion = {-0.02, 0.011, -0.006, 0.0013};
+  }
+  return camera;
+}
+
+/// A hand and a box that fill no whole number of blocks.
+Scene hand_and_box() {
+  return Scene({{"box", std::make_shared<Model>(test::make_test_box())},
+                {"hand", std::make_shared<Model>(test::make_test_hand())}});
+}
+
+/// Every vertex by itself, in double precision.
+double reference(const Scene& scene, const std::vector<Camera>& cameras,
+                 const Eigen::VectorXd& state) {
+  double visible = 0;
+  double all = 0;
+  for (const auto& item : scene.items()) {
+    const Eigen::Matrix3Xf vertices = posed_vertices(*item.model, scene.part(item, state));
+    for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
+      bool in_all = true;
+      for (const Camera& camera : cameras) {
+        const Eigen::Vector2d p = project(camera, vertices.col(i).cast<double>());
+        if (!p.allFinite()) return 0;
+        in_all = in_all && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < camera.width - 0.5 &&
+                 p.y() < camera.height - 0.5;
+      }
+      visible += in_all;
+      ++all;
+    }
+  }
+  return visible / all;
+}
+
+TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
+  const Scene scene = hand_and_box();
+  std::mt19937_64 random(4);
+  int partly = 0;
+  for (const int lens : {0, 8, -4}) {
+    const std::vector<Camera> cameras = {lens_camera(lens, 0, 0.02), lens_camera(lens, 0.1, -0.1)};
+    VisibleShare share(scene, cameras);
+    for (int i = 0; i < 100; ++i) {
+      const Eigen::VectorXd state = test::random_state(scene, random, {0.05, 0, 0.5}, 0.35);
+      const double expected = reference(scene, cameras, state);
+      // A vertex within rounding of the border may fall on either side.
+      EXPECT_NEAR(share.of(state), expected, 1.5 / 1508) << lens;
+      partly += expected > 0.05 && expected < 0.95;
+    }
+  }
+  EXPECT_GT(partly, 30);
+}
+
+TEST(VisibleShare, IsNothingIfAnyVertexLiesBehindACamera) {
+  const Scene scene = hand_and_box();
+  const std::vector<Camera> cameras = {lens_camera(0, 0, 0)};
+  VisibleShare share(scene, cameras);
+  Eigen::VectorXd state = scene.rest_state();
+  for (const auto& item : scene.items()) state[item.offset + 2] = 0.5;
+  EXPECT_GT(share.of(state), 0.5);
+  state[2] = 0.01;  // the box reaches behind the camera, the hand does not
+  EXPECT_EQ(share.of(state), 0);
+}
+
+TEST(VisibleShare, IsOneWhereEverythingIsSeen) {
+  const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
+  const std::vector<Camera> cameras = {lens_camera(8, 0, 0), lens_camera(8, 0.1, 0)};
+  VisibleShare share(scene, cameras);
+  Eigen::VectorXd state = scene.rest_state();
+  state[2] = 0.6;
+  EXPECT_EQ(share.of(state), 1);
+}
+
+}  // namespace
+}  // namespace hypotrack
