@@ -50,6 +50,8 @@ function(hypotrack_add_plugin_library kind name)
   if(cuda_sources)
     hypotrack_cuda_sources(${target} ${cuda_sources} NO_CUDA_SOURCES ${ARG_NO_CUDA_SOURCES})
   endif()
+  # Highway's foreach_target includes a source by its name.
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE hypotrack::hypotrack ${ARG_LIBRARIES})
   target_compile_definitions(${target} PRIVATE
     HYPOTRACK_PLUGIN_KIND=${kind} HYPOTRACK_PLUGIN_NAME=${name}

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "device.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -172,6 +173,47 @@ INSTANTIATE_TEST_SUITE_P(All, ContractKept,
                          ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
                                            Case{"model", "", "", "", kItself},
                                            Case{"source", "", "", "", kFrames}));
+
+Outcome run_on_device(const std::string& fault) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "parameters.yaml";
+  std::ofstream(file) << "fault: " + fault + "\n";
+  return run("objective " + std::string(HYPOTRACK_BROKEN_PLUGINS) +
+             "/libhypotrack_objective_broken_device.so " + file.string());
+}
+
+class DeviceContract : public ::testing::TestWithParam<Case> {};
+
+TEST_P(DeviceContract, OneFaultFailsItsRow) {
+  SKIP_WITHOUT_DEVICE();
+  const Outcome outcome = run_on_device(GetParam().fault);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr(GetParam().row + ": FAILED\n"));
+  EXPECT_THAT(outcome.output, HasSubstr(GetParam().message));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Objective, DeviceContract,
+    ::testing::Values(Case{"objective", "another_cost", "costs on the device are those on the CPU",
+                           "a rectified pair: state 0 costs"},
+                      Case{"objective", "never_repeats", "costs on the device repeat to the bit",
+                           "a rectified pair: scoring twice gives two costs"},
+                      Case{"objective", "accepts_everything",
+                           "the device refuses what the CPU refuses",
+                           "a single view: accepted on the device, but not on the CPU"}),
+    [](const auto& each) { return each.param.fault; });
+
+TEST(ContractProgram, RowsForTheDevicePassOrSayWhatIsMissing) {
+  const std::string why = cuda::why_no_device();
+  const Outcome outcome = run_on_device("none");
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, Not(HasSubstr("FAILED")));
+  for (const std::string row :
+       {"the device refuses what the CPU refuses", "costs on the device are those on the CPU",
+        "costs on the device repeat to the bit"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(row + (why.empty() ? ": ok\n" : ": skipped\n    ")));
+  }
+}
 
 TEST(ContractProgram, AnotherKindIsNoticed) {
   const Outcome outcome = run("model " + library("optimizer"));

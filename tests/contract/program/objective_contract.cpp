@@ -2,6 +2,7 @@
 #include <cmath>
 #include <future>
 
+#include "device_contract.hpp"
 #include "drawn_tiles.hpp"
 #include "subject.hpp"
 
@@ -136,6 +137,7 @@ void check_objective(Report& report, const Subject& subject) {
     prepare_again(settings);
     each(check_numbers);
   });
+  check_on_device(report, subject);
 }
 
 }  // namespace hypotrack::contract

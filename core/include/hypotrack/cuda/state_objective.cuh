@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstring>
+#include <type_traits>
+
+#include "hypotrack/cuda/pose.cuh"
+#include "hypotrack/cuda/runtime.cuh"
+
+namespace hypotrack::cuda {
+
+/// Numbers of a search point.
+__host__ __device__ inline int point_size(const SceneLayout& scene, const BatchLayout& batch) {
+  return scene.dimension - (batch.prior ? scene.model_count : 0);
+}
+
+/// Decodes one search point with one warp: `state` gets the scene's normalised state.
+__device__ inline void decode_state(const SceneLayout& scene, const BatchLayout& batch,
+                                    const double* point, double* state) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const bool rotation_vectors = batch.prior != nullptr;
+  for (int m = 0; m < scene.model_count; ++m) {
+    const ModelLayout model = scene.models[m];
+    const double* p = point + point_offset(model, m, rotation_vectors);
+    double* s = state + model.offset;
+    for (int i = lane; i < model.dimension; i += kWarp) {
+      if (i < 3) s[i] = p[i];
+      if (i >= 7) s[i] = p[i - (rotation_vectors ? 1 : 0)];
+    }
+    if (lane == 0) {
+      const Quaternion q = decode_rotation(p, batch.prior, model.offset);
+      s[3] = q.w, s[4] = q.x, s[5] = q.y, s[6] = q.z;
+    }
+  }
+  __syncwarp();
+}
+
+/// One warp per hypothesis.
+template <class Term>
+__global__ void __launch_bounds__(kWarp)
+    score_states(const __grid_constant__ SceneLayout scene,
+                 const __grid_constant__ BatchLayout batch, const __grid_constant__ Term term) {
+  wait_for_previous();
+  let_next_start();
+  auto* state = reinterpret_cast<double*>(shared_floats());
+  const double* point = batch.points + std::int64_t{blockIdx.x} * point_size(scene, batch);
+  decode_state(scene, batch, point, state);
+  if (threadIdx.x != 0) return;
+  const double cost = batch.weight * term.cost(state, scene.dimension);
+  double& out = batch.costs[blockIdx.x];
+  out = batch.add ? out + cost : cost;
+}
+
+/// An objective that looks at the state only (joint limits, priors), on the device. Its Term can be
+/// the very struct that Objective::cost asks on the CPU:
+///
+///   struct MyTerm {  // trivially copyable
+///     float stiffness;
+///     HYPOTRACK_PIXEL double cost(const double* state, int dimension) const;
+///   };
+///
+/// `state` is the scene's, normalised. Objective::on_device() returns a StateObjective<MyTerm>. One
+/// whose Term depends on the frame overrides make_term(); as with PixelObjective, a Term whose
+/// bytes change makes captured searches be captured again.
+template <class Term>
+class StateObjective : public DeviceObjective {
+ public:
+  static_assert(std::is_trivially_copyable_v<Term>, "a Term is copied to the device as it is");
+
+  explicit StateObjective(const Term& term) : term_(term) {}
+
+  void prepare(const DeviceObservation& observation, Stream stream) final {
+    const Term term = make_term(observation, stream);
+    if (std::memcmp(&term, &term_, sizeof term) != 0) ++revision_;
+    std::memcpy(&term_, &term, sizeof term);
+  }
+  void reserve(const SceneLayout&, const DeviceLimits& limits, std::int64_t) final {
+    limits_ = limits;
+  }
+  void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
+    launch(&score_states<Term>, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp),
+           sizeof(double) * static_cast<std::size_t>(scene.dimension), stream,
+           overlaps_launches(limits_), scene, batch, term_);
+  }
+  void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
+                     Stream stream) final {
+    BatchLayout part = batch;
+    part.points += drawn.first * point_size(scene, batch);
+    part.costs += drawn.first;
+    part.count = drawn.count;
+    enqueue(scene, part, stream);
+  }
+  std::uint64_t revision() const final { return revision_; }
+
+ protected:
+  /// The Term for a frame; may enqueue what it needs in device memory. Throws DataError if it
+  /// cannot work with what it is given.
+  virtual Term make_term(const DeviceObservation& /*observation*/, Stream /*stream*/) {
+    return term_;
+  }
+
+ private:
+  Term term_;
+  DeviceLimits limits_;
+  std::uint64_t revision_ = 0;
+};
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,128 @@
+#include "device_contract.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "cuda/device.hpp"
+#include "drawn_tiles.hpp"
+#include "evaluate/evaluator.hpp"
+#include "test_models.hpp"
+
+namespace hypotrack::contract {
+namespace {
+
+constexpr int kStates = 32;
+constexpr double kTolerance = 1e-3;  // of the largest cost of an observation
+
+void require_device(const Subject& subject) {
+  if (const std::string why = cuda::why_no_device(); !why.empty()) throw Skipped(why);
+  if (!subject.make<Objective>()->on_device()) {
+    throw Skipped("it has no device capability, or was built without CUDA");
+  }
+}
+
+Evaluator make_evaluator(const Subject& subject, Backend backend) {
+  std::vector<ObjectiveTerm> terms(1);
+  terms[0].objective = subject.make<Objective>();
+  return Evaluator(*subject.scene, std::move(terms), {.backend = backend});
+}
+
+bool takes(Evaluator& evaluator, const Observation& observation) {
+  try {
+    evaluator.prepare(observation);
+    return true;
+  } catch (const DataError&) {
+    return false;
+  }
+}
+
+/// Random states near where the observations look, one per column.
+Eigen::MatrixXd make_states(const Scene& scene) {
+  std::mt19937_64 random(5);
+  Eigen::MatrixXd states(scene.dimension(), kStates);
+  for (auto state : states.colwise()) {
+    state = test::random_state(scene, random, {0, 0, 0.5}, 0.05);
+    scene.normalize(state);
+  }
+  return states;
+}
+
+Eigen::VectorXd costs_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+  Eigen::VectorXd costs(states.cols());
+  evaluator.evaluate(states, costs);
+  return costs;
+}
+
+/// The same, a batch for each.
+Eigen::VectorXd costs_one_by_one(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+  Eigen::VectorXd costs(states.cols());
+  for (Eigen::Index i = 0; i < states.cols(); ++i) {
+    evaluator.evaluate(states.col(i), costs.segment(i, 1));
+  }
+  return costs;
+}
+
+void require_near(const Eigen::VectorXd& found, const Eigen::VectorXd& expected,
+                  const std::string& where) {
+  double largest = 0;
+  for (const double cost : expected) {
+    if (std::isfinite(cost)) largest = std::max(largest, std::abs(cost));
+  }
+  for (Eigen::Index i = 0; i < expected.size(); ++i) {
+    const bool near =
+        found[i] == expected[i] || std::abs(found[i] - expected[i]) <= kTolerance * largest;
+    require(near, where + ": state " + std::to_string(i) + " costs " + std::to_string(found[i]) +
+                      " on the device, " + std::to_string(expected[i]) + " on the CPU");
+  }
+}
+
+void check_refusals(const Subject& subject) {
+  require_device(subject);
+  Evaluator cpu = make_evaluator(subject, Backend::cpu);
+  Evaluator device = make_evaluator(subject, Backend::cuda);
+  for (const NamedObservation& named : make_observations(*subject.scene)) {
+    const bool expected = takes(cpu, named.observation);
+    require(takes(device, named.observation) == expected, named.name + ": " +
+                                                              (expected ? "refused" : "accepted") +
+                                                              " on the device, but not on the CPU");
+  }
+}
+
+void check_agreement(const Subject& subject) {
+  require_device(subject);
+  Evaluator cpu = make_evaluator(subject, Backend::cpu);
+  Evaluator device = make_evaluator(subject, Backend::cuda);
+  const Eigen::MatrixXd states = make_states(*subject.scene);
+  for (const NamedObservation& named : make_observations(*subject.scene)) {
+    if (!takes(cpu, named.observation)) continue;
+    device.prepare(named.observation);
+    const Eigen::VectorXd expected = costs_of(cpu, states);
+    require_near(costs_of(device, states), expected, named.name);
+    require_near(costs_one_by_one(device, states), expected, named.name + ", one by one");
+  }
+}
+
+void check_repetition(const Subject& subject) {
+  require_device(subject);
+  Evaluator first = make_evaluator(subject, Backend::cuda);
+  Evaluator second = make_evaluator(subject, Backend::cuda);
+  const Eigen::MatrixXd states = make_states(*subject.scene);
+  for (const NamedObservation& named : make_observations(*subject.scene)) {
+    if (!takes(first, named.observation)) continue;
+    second.prepare(named.observation);
+    const Eigen::VectorXd costs = costs_of(first, states);
+    require(costs_of(first, states) == costs, named.name + ": scoring twice gives two costs");
+    require(costs_of(second, states) == costs, named.name + ": two objects give two costs");
+  }
+}
+
+}  // namespace
+
+void check_on_device(Report& report, const Subject& subject) {
+  report.row("the device refuses what the CPU refuses", [&] { check_refusals(subject); });
+  report.row("costs on the device are those on the CPU", [&] { check_agreement(subject); });
+  report.row("costs on the device repeat to the bit", [&] { check_repetition(subject); });
+}
+
+}  // namespace hypotrack::contract
