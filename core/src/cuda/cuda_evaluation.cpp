@@ -134,7 +134,7 @@ std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTer
     if (term.objective->on_device()) continue;
     return fmt::format("objective {} has no device capability", term.name);
   }
-  return {};
+  return why_not_this_device(settings.device);
 }
 
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,

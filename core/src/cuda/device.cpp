@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cuda/device_code.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"
 
@@ -39,8 +40,25 @@ std::string why_no_device(int index) {
   return {};
 }
 
+std::string why_not_this_device(int index) {
+  const cudaError_t status = cudaSetDevice(index);
+  if (status != cudaSuccess) {
+    (void)cudaGetLastError();
+    return fmt::format("GPU number {} does not answer: {}", index, cudaGetErrorString(status));
+  }
+  if (has_code_for_current_device()) return {};
+  cudaDeviceProp properties{};
+  check(cudaGetDeviceProperties(&properties, index), "asking for the device's properties");
+  return fmt::format(
+      "hypotrack was built for other GPUs than {} of compute capability {}.{} (set "
+      "CMAKE_CUDA_ARCHITECTURES={}{})",
+      properties.name, properties.major, properties.minor, properties.major, properties.minor);
+}
+
 Device::Device(int index) : index_(index) {
-  if (const std::string why = why_no_device(index); !why.empty()) {
+  std::string why = why_no_device(index);
+  if (why.empty()) why = why_not_this_device(index);
+  if (!why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why +
                       ". Write `backend: cpu`, or `automatic` to take what there is");
   }

@@ -12,10 +12,14 @@ namespace hypotrack::cuda {
 /// old, no such device. Empty if it can.
 HYPOTRACK_API std::string why_no_device(int index = 0);
 
+/// Why this GPU, for which why_no_device() has no reason, cannot be used all the same: it does not
+/// answer, or hypotrack was built for other ones. Empty if it can. Takes some of its memory.
+std::string why_not_this_device(int index);
+
 /// A GPU and the stream that everything of one evaluator is enqueued on.
 class HYPOTRACK_API Device {
  public:
-  /// Makes `index` the GPU of this thread. Throws DeviceError where why_no_device() has a reason.
+  /// Makes `index` the GPU of this thread. Throws DeviceError where one of the two has a reason.
   explicit Device(int index);
   ~Device();
   Device(const Device&) = delete;

@@ -3,6 +3,7 @@
 #include <cuda_runtime.h>
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -26,6 +27,9 @@ inline void check(cudaError_t status, const char* doing) {
                  std::to_string(total >> 20) + " MiB left";
     }
     message += ". Use fewer particles or smaller tiles";
+  }
+  if (status == cudaErrorNoKernelImageForDevice || status == cudaErrorInvalidDeviceFunction) {
+    message += ". Was it built for another GPU? Set CMAKE_CUDA_ARCHITECTURES";
   }
   throw DeviceError(message);
 }
@@ -99,6 +103,21 @@ inline bool overlaps_launches(const DeviceLimits& limits) {
   return limits.compute_capability >= 90;
 }
 
+/// Whether wait_for_previous() does something in the code of a kernel that the current device runs:
+/// not if that was made from code for devices before 9.0, whatever the device.
+inline bool waits_for_previous(const void* kernel) {
+  int device = 0;
+  check(cudaGetDevice(&device), "asking for the device");
+  thread_local std::map<std::pair<int, const void*>, bool> known;
+  const auto [it, is_new] = known.try_emplace({device, kernel}, false);
+  if (is_new) {
+    cudaFuncAttributes attributes = {};
+    check(cudaFuncGetAttributes(&attributes, kernel), "asking for a kernel's properties");
+    it->second = attributes.ptxVersion >= 90;
+  }
+  return it->second;
+}
+
 /// Enqueues a kernel. With `overlap` it may start before the kernel in front of it on the stream
 /// has ended, and must call wait_for_previous() before it touches what that one writes.
 template <class... Parameters, class... Arguments>
@@ -113,7 +132,7 @@ void launch(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::size_t sh
   attribute.id = cudaLaunchAttributeProgrammaticStreamSerialization;
   attribute.val.programmaticStreamSerializationAllowed = 1;
   config.attrs = &attribute;
-  config.numAttrs = overlap ? 1 : 0;
+  config.numAttrs = overlap && waits_for_previous(reinterpret_cast<const void*>(kernel)) ? 1 : 0;
   check(cudaLaunchKernelEx(&config, kernel, std::forward<Arguments>(arguments)...),
         "launching a kernel");
 }
