@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hypotrack/pixel.hpp"
+
 namespace hypotrack {
 
 // Random numbers that are a function of (seed, index) and of nothing else: no state, so that
-// threads and GPU blocks draw the same numbers in any order. Plain arithmetic, no other hypotrack
-// header: a CUDA kernel can include this file (constexpr functions).
+// threads and GPU blocks draw the same numbers in any order. Plain arithmetic: a CUDA kernel can
+// include this file (constexpr functions: compile with --expt-relaxed-constexpr).
 
 /// Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3"
 /// (SC 2011): a block of four 32-bit words for a counter and a key.
@@ -47,7 +49,7 @@ constexpr std::array<double, 4> uniform4(std::uint64_t seed, const RandomIndex& 
 
 /// A standard normal number by Box and Muller from the block's first two uniform numbers; at most
 /// 6.8 in magnitude. Another libm (a GPU's) agrees up to the rounding of log and cos.
-inline double normal(std::uint64_t seed, const RandomIndex& index) {
+HYPOTRACK_PIXEL double normal(std::uint64_t seed, const RandomIndex& index) {
   const std::array<double, 4> u = uniform4(seed, index);
   return std::sqrt(-2.0 * std::log(u[0])) * std::cos(2.0 * std::numbers::pi * u[1]);
 }

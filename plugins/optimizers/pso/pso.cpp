@@ -1,24 +1,13 @@
 #include "pso.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "hypotrack/error.hpp"
-#include "hypotrack/random.hpp"
 #include "hypotrack/search.hpp"
+#include "particle.hpp"
 
 namespace hypotrack {
 namespace {
-
-constexpr std::uint32_t kMoveStream = 0;
-constexpr std::uint32_t kInitialStream = 1;
-
-RandomIndex random_index(Eigen::Index dimension, Eigen::Index particle, std::uint32_t generation,
-                         std::uint32_t stream) {
-  return {static_cast<std::uint32_t>(dimension), static_cast<std::uint32_t>(particle), generation,
-          stream};
-}
 
 /// Positions, velocities and what each particle found, DxN.
 struct Swarm {
@@ -34,10 +23,10 @@ struct Swarm {
             Eigen::VectorXd::Constant(particles, std::numeric_limits<double>::infinity())) {
     for (Eigen::Index p = 1; p < particles; ++p) {
       for (Eigen::Index d = 0; d < position.rows(); ++d) {
-        position(d, p) +=
-            sigma * region.spread[d] * normal(seed, random_index(d, p, 0, kInitialStream));
+        position(d, p) = initial_position(
+            region.start[d], sigma * region.spread[d], {region.lower[d], region.upper[d]}, seed,
+            static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(p));
       }
-      position.col(p) = within_bounds(position.col(p), region);
     }
     own_best = position;
   }
@@ -46,13 +35,12 @@ struct Swarm {
             const Eigen::VectorXd& swarm_best, std::uint32_t generation, std::uint64_t seed) {
     for (Eigen::Index p = 0; p < position.cols(); ++p) {
       for (Eigen::Index d = 0; d < position.rows(); ++d) {
-        const auto r = uniform4(seed, random_index(d, p, generation, kMoveStream));
-        const double x = position(d, p);
-        const double v = constriction.velocity(velocity(d, p), own_best(d, p) - x,
-                                               swarm_best[d] - x, r[0], r[1]);
-        const double moved = std::clamp(x + v, region.lower[d], region.upper[d]);
-        velocity(d, p) = moved == x + v ? v : moved - x;
-        position(d, p) = moved;
+        const auto r = uniform4(seed, {static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(p),
+                                       generation, kMoveStream});
+        const Motion motion = moved({position(d, p), velocity(d, p)}, constriction, own_best(d, p),
+                                    swarm_best[d], r[0], r[1], {region.lower[d], region.upper[d]});
+        position(d, p) = motion.position;
+        velocity(d, p) = motion.velocity;
       }
     }
   }
@@ -69,16 +57,6 @@ struct Swarm {
 };
 
 }  // namespace
-
-Constriction Constriction::from(double cognitive, double social, const std::string& where) {
-  const double psi = cognitive + social;
-  if (!(psi > 4)) {
-    throw ConfigError(where + ": cognitive + social is " + std::to_string(psi) +
-                      ", expected above 4: the swarm is only constricted (and its search sure to "
-                      "settle) there; the defaults are 2.8 and 1.3");
-  }
-  return {cognitive, social, 2.0 / std::abs(2.0 - psi - std::sqrt(psi * psi - 4.0 * psi))};
-}
 
 Pso::Pso(const PsoParams& params, const std::string& where)
     : params_(params), constriction_(Constriction::from(params.cognitive, params.social, where)) {}
