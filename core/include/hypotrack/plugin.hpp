@@ -128,7 +128,9 @@ struct HypotrackPlugin {
   const char* version;
   const char* summary;
   const char* licence;
-  const char* capabilities;  ///< space-separated, may be empty
+  /// Space-separated, may be empty. `device`: an objective that has an on_device(). `needs_device`:
+  /// an optimizer of costs that have a device().
+  const char* capabilities;
   void* (*create)(PluginContext&);
   std::string (*describe)();  ///< help text of the parameters
 };

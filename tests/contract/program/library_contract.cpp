@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <sstream>
 
 #include "subject.hpp"
@@ -75,6 +76,12 @@ void check_help(const std::string& help, const std::string& dump) {
   }
 }
 
+bool has_word(const std::string& text, const std::string& wanted) {
+  std::istringstream words(text);
+  return std::find(std::istream_iterator<std::string>(words), {}, wanted) !=
+         std::istream_iterator<std::string>();
+}
+
 }  // namespace
 
 ConfigNode Subject::config() const {
@@ -99,6 +106,7 @@ bool check_library(Report& report, Subject& subject) {
   report.row("library gives version, summary and licence", [&] { check_texts(*plugin); });
   if (!report.passed()) return false;
   subject.name = plugin->name;
+  subject.needs_device = has_word(plugin->capabilities, "needs_device");
   subject.loader = std::make_unique<PluginLoader>(
       std::vector{std::filesystem::absolute(subject.library).parent_path()});
   return true;
@@ -110,6 +118,9 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config)
   report.row("an object can be made", [&] {
     try {
       subject.make<T>(subject.config(), &dump);
+    } catch (const DeviceError& error) {
+      if (!subject.needs_device) throw;
+      throw Skipped(error.what());
     } catch (const ConfigError& error) {
       const std::string advice =
           " (hypotrack_add_plugin(... CONTRACT_CONFIG FILE.yaml) gives the test parameters)";

@@ -1,8 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <sstream>
 
+#include "cuda/device.hpp"
+#include "device_twin.hpp"
 #include "random_search.hpp"
 #include "search_problems.hpp"
 #include "subject.hpp"
@@ -27,13 +30,21 @@ struct Run {
   }
 };
 
+/// Searches; for an optimizer that needs a device, with the same costs there.
+OptimizerResult minimize(const Subject& subject, Optimizer& optimizer, RecordingCost& cost,
+                         const SearchRegion& region, const Budget& budget, std::uint64_t seed) {
+  if (!subject.needs_device) return optimizer.minimize(cost, region, budget, seed);
+  test::DeviceTwin twin(cost);
+  return optimizer.minimize(twin, region, budget, seed);
+}
+
 Run search(const Subject& subject, const SearchRegion& region, RecordingCost::Function function,
            const Budget& budget, std::uint64_t seed = 1) {
   Run run{region,
           budget,
           RecordingCost(static_cast<int>(region.start.size()), std::move(function)),
           {}};
-  run.result = subject.make<Optimizer>()->minimize(run.cost, run.region, budget, seed);
+  run.result = minimize(subject, *subject.make<Optimizer>(), run.cost, run.region, budget, seed);
   return run;
 }
 
@@ -105,9 +116,9 @@ void check_repeatable(const Subject& subject) {
   };
   const auto optimizer = subject.make<Optimizer>();
   RecordingCost first(27, problem), other(27, problem), second(27, problem);
-  optimizer->minimize(first, region, {500}, 77);
-  optimizer->minimize(other, region, {300}, 78);
-  optimizer->minimize(second, region, {500}, 77);
+  minimize(subject, *optimizer, first, region, {500}, 77);
+  minimize(subject, *optimizer, other, region, {300}, 78);
+  minimize(subject, *optimizer, second, region, {500}, 77);
   require(same(first, second), "one object, searching twice with one seed, took two ways");
   require(same(first, search(subject, region, problem, {500}, 77).cost),
           "two objects took two ways with one seed");
@@ -127,10 +138,37 @@ void check_infeasible(const Subject& subject) {
   check_all(search(subject, region, [](const Eigen::VectorXd&) { return kInfinity; }, {200}));
 }
 
+struct Special : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// On the device exceptions come from enqueuing; the search after that is a good one again.
+void check_exceptions_of_device(const Subject& subject) {
+  const SearchRegion region = test::tracking_region(27);
+  const auto smooth = test::sphere(region, test::hidden_target(region, 5));
+  const auto optimizer = subject.make<Optimizer>();
+  for (const int when : {0, 2}) {
+    Run run{region, {500}, RecordingCost(27, smooth), {}};
+    test::DeviceTwin twin(run.cost);
+    int calls = 0;
+    twin.on_enqueue([&] {
+      if (calls++ == when) throw Special("a particular problem");
+    });
+    try {
+      optimizer->minimize(twin, region, run.budget, 1);
+      require(false, "an exception of the cost disappeared");
+    } catch (const Special& special) {
+      require(special.what() == std::string("a particular problem"), "its message changed");
+      require(calls == when + 1, "evaluation went on after the exception");
+    }
+    run.cost = RecordingCost(27, smooth);
+    run.result = optimizer->minimize(twin, region, run.budget, 1);
+    check_all(run);
+  }
+}
+
 void check_exceptions(const Subject& subject) {
-  struct Special : std::runtime_error {
-    using std::runtime_error::runtime_error;
-  };
+  if (subject.needs_device) return check_exceptions_of_device(subject);
   const SearchRegion region = test::tracking_region(27);
   const auto smooth = test::sphere(region, test::hidden_target(region, 5));
   for (const int when : {0, 20}) {
@@ -179,10 +217,28 @@ void check_against_random_search(const Subject& subject) {
                                std::to_string(baseline));
 }
 
+/// Rows for an optimizer that needs a device. False if there is none to search on.
+bool check_device(Report& report, const Subject& subject) {
+  report.row("a cost that is not on a device is refused", [&] {
+    const SearchRegion region = test::tracking_region(7);
+    RecordingCost cost(7, test::sphere(region, region.start));
+    try {
+      subject.make<Optimizer>()->minimize(cost, region, {10}, 1);
+    } catch (const DeviceError&) {
+      return;
+    }
+    throw Violation("it was accepted, expected a DeviceError");
+  });
+  const std::string why = cuda::why_no_device();
+  if (!why.empty()) report.row("it searches on a device", [&] { throw Skipped(why); });
+  return why.empty();
+}
+
 }  // namespace
 
 void check_optimizer(Report& report, const Subject& subject) {
   if (!check_parameters<Optimizer>(report, subject)) return;
+  if (subject.needs_device && !check_device(report, subject)) return;
   report.row("the default budget is at least one evaluation", [&] {
     require(subject.make<Optimizer>()->default_evaluations() >= 1, "it is below 1");
   });

@@ -16,6 +16,7 @@ struct Subject {
   std::filesystem::path library;
   std::filesystem::path config_file;  ///< parameters as in a scene; empty: the defaults
   std::string name;                   ///< from the library, once its descriptor has been checked
+  bool needs_device = false;          ///< likewise: it has this capability
   std::unique_ptr<PluginLoader> loader;
   std::unique_ptr<Scene> scene;
 

@@ -1,0 +1,174 @@
+#include "pso_cuda.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "hypotrack/cuda/device_cost.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
+#include "search_graph.hpp"
+#include "swarm_memory.hpp"
+
+namespace hypotrack {
+namespace {
+
+using cuda::DeviceCost;
+using cuda::Stream;
+using cuda::SwarmLaunch;
+using cuda::SwarmLayout;
+
+constexpr std::int64_t kMostCaptured =
+    1024;  // generations; memory and time of a graph grow with it
+
+/// Generations of `particles` evaluations; the last one may be partial.
+struct Schedule {
+  std::int64_t particles;
+  std::int64_t evaluations;
+
+  std::int64_t generations() const { return (evaluations + particles - 1) / particles; }
+  std::int64_t count(std::int64_t generation) const {
+    return std::min(particles, evaluations - generation * particles);
+  }
+  bool operator==(const Schedule&) const = default;
+};
+
+/// What a captured search depends on.
+struct CapturedFor {
+  const DeviceCost* cost;
+  void* stream;
+  std::uint64_t revision;
+  Schedule schedule;
+  SwarmLayout swarm;
+  bool operator==(const CapturedFor&) const = default;
+};
+
+/// A search on the stream of a cost.
+class Search {
+ public:
+  Search(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
+         const Constriction& constriction, double sigma)
+      : cost_(cost),
+        stream_(cost.stream()),
+        swarm_(swarm),
+        schedule_(schedule),
+        constriction_(constriction),
+        sigma_(sigma) {}
+
+  CapturedFor captured_for() const {
+    return {&cost_, stream_.handle, cost_.revision(), schedule_, swarm_};
+  }
+  Stream stream() const { return stream_; }
+  std::int64_t generations() const { return schedule_.generations(); }
+
+  /// Enqueues all of it, or the generations until `enough()` between two; returns their number.
+  template <class Enough>
+  std::int64_t enqueue(const SwarmLaunch& how, const Enough& enough) {
+    cuda::enqueue_region(swarm_, stream_);
+    std::int64_t generation = 0;
+    do {
+      enqueue_generation(how, generation++);
+    } while (generation < generations() && !enough());
+    cuda::enqueue_answer(swarm_, how, generation - 1, schedule_.count(generation - 1), stream_);
+    return generation;
+  }
+
+ private:
+  void enqueue_generation(const SwarmLaunch& how, std::int64_t generation) {
+    if (generation == 0) {
+      cuda::enqueue_initial(swarm_, how, sigma_, stream_);
+    } else {
+      cuda::enqueue_move(swarm_, how, constriction_, generation, stream_);
+    }
+    cost_.enqueue(swarm_.generation(generation).position, schedule_.count(generation),
+                  swarm_.costs);
+  }
+
+  DeviceCost& cost_;
+  Stream stream_;
+  SwarmLayout swarm_;
+  Schedule schedule_;
+  Constriction constriction_;
+  double sigma_;
+};
+
+void wait_for(Stream stream) {
+  cuda::check(cudaStreamSynchronize(cuda::native(stream)), "a search of pso_cuda");
+}
+
+/// Until the deadline, if there is one.
+std::int64_t run_directly(Search& search, const Deadline* deadline) {
+  try {
+    return search.enqueue(cuda::swarm_launch(), [&] {
+      if (!deadline) return false;
+      wait_for(search.stream());
+      return deadline->passed();
+    });
+  } catch (...) {
+    (void)cudaStreamSynchronize(cuda::native(search.stream()));  // before the memory is used again
+    throw;
+  }
+}
+
+}  // namespace
+
+struct PsoCuda::OnDevice {
+  cuda::SwarmMemory memory;
+  cuda::SearchGraph graph;
+  std::optional<CapturedFor> captured;
+
+  void run_captured(Search& search) {
+    if (const CapturedFor wanted = search.captured_for(); captured != wanted) {
+      captured.reset();
+      const SwarmLaunch how = cuda::swarm_launch();
+      graph.capture(search.stream(), [&] { search.enqueue(how, [] { return false; }); });
+      captured = wanted;
+    }
+    graph.launch(search.stream());
+  }
+};
+
+PsoCuda::PsoCuda(const PsoParams& params, const std::string& where)
+    : params_(params),
+      constriction_(Constriction::from(params.cognitive, params.social, where)),
+      where_(where),
+      on_device_(std::make_unique<OnDevice>()) {}
+
+PsoCuda::~PsoCuda() = default;
+
+std::int64_t PsoCuda::default_evaluations() const {
+  return std::int64_t{params_.particles} * params_.generations;
+}
+
+OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region,
+                                  const Budget& budget, std::uint64_t seed) {
+  check_search(cost, region, budget);
+  const Deadline deadline(budget.seconds);
+  DeviceCost* device = cost.device();
+  if (!device) {
+    throw DeviceError(
+        where_ +
+        ": pso_cuda searches on the GPU, and this scene is not evaluated there. Write "
+        "`evaluate: {backend: cuda}`, or `type: pso`, the same search on the CPU");
+  }
+  const Schedule schedule{std::min<std::int64_t>(params_.particles, budget.evaluations),
+                          budget.evaluations};
+  device->reserve(schedule.particles);
+  const SwarmLayout swarm = on_device_->memory.reserve(schedule.particles, cost.dimension());
+  on_device_->memory.write(region, seed);
+
+  Search search(*device, swarm, schedule, constriction_, params_.sigma);
+  std::int64_t generations = search.generations();
+  const bool timed = std::isfinite(budget.seconds);
+  if (timed || generations > kMostCaptured) {
+    generations = run_directly(search, timed ? &deadline : nullptr);
+  } else {
+    on_device_->run_captured(search);
+  }
+  wait_for(search.stream());
+  OptimizerResult result = on_device_->memory.answer(cost.dimension());
+  result.evaluations = std::min(generations * schedule.particles, schedule.evaluations);
+  return result;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <limits>
+
+#include "best_cost.cuh"
+#include "hypotrack/cuda/runtime.cuh"
+#include "particle.hpp"
+#include "swarm_layout.hpp"
+
+namespace hypotrack::cuda {
+namespace {
+
+constexpr int kThreads = 256;
+constexpr int kAnswerThreads = 1024;
+constexpr int kBlocksPerMultiprocessor = 4;  // each looks at all costs: more would only read more
+
+/// The frame's region in device memory.
+struct Region {
+  std::uint64_t seed;
+  const double* start;
+  const double* lower;
+  const double* upper;
+  const double* spread;
+
+  __device__ explicit Region(const SwarmLayout& swarm)
+      : seed(*swarm.region),
+        start(reinterpret_cast<const double*>(swarm.region + 1)),
+        lower(start + swarm.dimension),
+        upper(lower + swarm.dimension),
+        spread(upper + swarm.dimension) {}
+
+  __device__ Interval bounds(std::int64_t d) const { return {lower[d], upper[d]}; }
+};
+
+/// One dimension of one particle.
+struct Element {
+  std::int64_t index;  ///< in the swarm's arrays
+  std::int64_t particle;
+  std::int64_t dimension;
+
+  __device__ Element(const SwarmLayout& swarm, std::int64_t i)
+      : index(i), particle(i / swarm.dimension), dimension(i - particle * swarm.dimension) {}
+};
+
+__device__ std::int64_t first_element() {
+  return std::int64_t{blockIdx.x} * kThreads + threadIdx.x;
+}
+__device__ std::int64_t next_element(std::int64_t i) {
+  return i + std::int64_t{gridDim.x} * kThreads;
+}
+
+__device__ std::array<double, 4> draw(std::uint64_t seed, const Element& at,
+                                      std::uint32_t generation) {
+  return uniform4(seed, {static_cast<std::uint32_t>(at.dimension),
+                         static_cast<std::uint32_t>(at.particle), generation, kMoveStream});
+}
+
+__global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm) {
+  let_next_start();
+  for (std::int64_t i = threadIdx.x; i < region_words(swarm.dimension); i += kThreads) {
+    swarm.region[i] = swarm.frame[i];
+  }
+}
+
+// The next kernel may start only after the wait, here and in move(): then every later one finds
+// the region, also before its own wait.
+__global__ void __launch_bounds__(kThreads)
+    initial(const SwarmLayout swarm, const Generation now, const double sigma) {
+  wait_for_previous();
+  let_next_start();
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const Region region(swarm);
+  const std::int64_t elements = swarm.particles * swarm.dimension;
+  for (std::int64_t i = first_element(); i < elements; i = next_element(i)) {
+    const Element at(swarm, i);
+    const std::int64_t d = at.dimension;
+    double x = region.start[d];
+    if (at.particle > 0) {
+      x = initial_position(x, sigma * region.spread[d], region.bounds(d), region.seed,
+                           static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(at.particle));
+    } else {
+      now.best[d] = x;
+    }
+    now.position[i] = x;
+    swarm.own_best[i] = x;
+    swarm.velocity[i] = 0.0;
+    if (d == 0) now.own_best_cost[at.particle] = kNone;
+    if (i == 0) *now.best_cost = kNone;
+  }
+}
+
+/// A particle's element and what it knows of itself.
+struct Mover {
+  Element at;
+  double x, v, own_best, own_best_cost, cost;
+
+  __device__ Mover(const SwarmLayout& swarm, const Generation& before, const Element& element)
+      : at(element),
+        x(before.position[at.index]),
+        v(swarm.velocity[at.index]),
+        own_best(swarm.own_best[at.index]),
+        own_best_cost(before.own_best_cost[at.particle]),
+        cost(swarm.costs[at.particle]) {}
+
+  /// Takes in the cost of where it is.
+  __device__ void remember(const SwarmLayout& swarm, const Generation& now) {
+    const bool improved = cost < own_best_cost;
+    if (improved) swarm.own_best[at.index] = own_best = x;
+    if (at.dimension == 0) now.own_best_cost[at.particle] = improved ? cost : own_best_cost;
+  }
+
+  __device__ void move(const SwarmLayout& swarm, const Generation& now,
+                       const Constriction& constriction, double swarm_best,
+                       const std::array<double, 4>& random, const Interval& bounds) const {
+    const Motion motion =
+        moved({x, v}, constriction, own_best, swarm_best, random[0], random[1], bounds);
+    now.position[at.index] = motion.position;
+    swarm.velocity[at.index] = motion.velocity;
+  }
+};
+
+/// The best point of all generations, `before` included.
+struct Best {
+  const double* point;
+  double cost;
+
+  /// For every thread of a block of kThreads; all of them call it.
+  template <int kBlock>
+  static __device__ Best find(const SwarmLayout& swarm, const Generation& before,
+                              std::int32_t count) {
+    const double known = *before.best_cost;
+    const Candidate found = best_of_costs<kBlock>(swarm.costs, count);
+    if (!(found.cost < known)) return {before.best, known};
+    return {before.position + found.particle * swarm.dimension, found.cost};
+  }
+};
+
+__global__ void __launch_bounds__(kThreads)
+    move(const SwarmLayout swarm, const Generation before, const Generation now,
+         const Constriction constriction, const std::uint32_t generation) {
+  const std::int64_t elements = swarm.particles * swarm.dimension;
+  const Region region(swarm);
+  // All threads take part in the search for the best, also those without an element.
+  std::int64_t i = first_element();
+  const Element first(swarm, i < elements ? i : 0);
+  const Interval first_bounds = region.bounds(first.dimension);
+  const auto first_random = draw(region.seed, first, generation);
+  wait_for_previous();
+  let_next_start();
+
+  Mover mover(swarm, before, first);
+  const Best best = Best::find<kThreads>(swarm, before, static_cast<std::int32_t>(swarm.particles));
+  if (i < elements) {
+    mover.remember(swarm, now);
+    mover.move(swarm, now, constriction, best.point[first.dimension], first_random, first_bounds);
+  }
+  while ((i = next_element(i)) < elements) {
+    const Element at(swarm, i);
+    Mover other(swarm, before, at);
+    other.remember(swarm, now);
+    other.move(swarm, now, constriction, best.point[at.dimension],
+               draw(region.seed, at, generation), region.bounds(at.dimension));
+  }
+  if (blockIdx.x > 0) return;
+  for (std::int64_t d = threadIdx.x; d < swarm.dimension; d += kThreads) {
+    now.best[d] = best.point[d];
+  }
+  if (threadIdx.x == 0) *now.best_cost = best.cost;
+}
+
+__global__ void __launch_bounds__(kAnswerThreads)
+    write_answer(const SwarmLayout swarm, const Generation last, const std::int32_t count) {
+  wait_for_previous();
+  const Best best = Best::find<kAnswerThreads>(swarm, last, count);
+  for (std::int64_t d = threadIdx.x; d < swarm.dimension; d += kAnswerThreads) {
+    swarm.answer[1 + d] = best.point[d];
+  }
+  if (threadIdx.x == 0) swarm.answer[0] = best.cost;
+}
+
+dim3 blocks(const SwarmLayout& swarm, const SwarmLaunch& launch) {
+  const std::int64_t wanted = (swarm.particles * swarm.dimension + kThreads - 1) / kThreads;
+  return static_cast<unsigned>(std::min<std::int64_t>(wanted, launch.most_blocks));
+}
+
+}  // namespace
+
+SwarmLaunch swarm_launch() {
+  int device = 0, multiprocessors = 0;
+  check(cudaGetDevice(&device), "asking for the current device");
+  check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device),
+        "asking for the number of multiprocessors");
+  cudaFuncAttributes attributes{};
+  check(cudaFuncGetAttributes(&attributes, move), "loading the kernels of pso_cuda");
+  return {kBlocksPerMultiprocessor * multiprocessors, attributes.ptxVersion >= 90};
+}
+
+void enqueue_region(const SwarmLayout& swarm, Stream stream) {
+  // Waits for all that was enqueued before the search, so that nothing behind it has to.
+  launch(copy_region, 1, kThreads, 0, stream, false, swarm);
+}
+
+void enqueue_initial(const SwarmLayout& swarm, const SwarmLaunch& how, double sigma,
+                     Stream stream) {
+  launch(initial, blocks(swarm, how), kThreads, 0, stream, how.overlap, swarm, swarm.generation(0),
+         sigma);
+}
+
+void enqueue_move(const SwarmLayout& swarm, const SwarmLaunch& how,
+                  const Constriction& constriction, std::int64_t generation, Stream stream) {
+  launch(move, blocks(swarm, how), kThreads, 0, stream, how.overlap, swarm,
+         swarm.generation(generation - 1), swarm.generation(generation), constriction,
+         static_cast<std::uint32_t>(generation));
+}
+
+void enqueue_answer(const SwarmLayout& swarm, const SwarmLaunch& how, std::int64_t last,
+                    std::int64_t count, Stream stream) {
+  launch(write_answer, 1, kAnswerThreads, 0, stream, how.overlap, swarm, swarm.generation(last),
+         static_cast<std::int32_t>(count));
+}
+
+}  // namespace hypotrack::cuda

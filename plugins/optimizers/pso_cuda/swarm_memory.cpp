@@ -1,0 +1,50 @@
+#include "swarm_memory.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace hypotrack::cuda {
+
+SwarmLayout SwarmMemory::reserve(std::int64_t particles, std::int64_t dimension) {
+  const std::int64_t elements = particles * dimension;
+  const auto size = [](std::int64_t count) { return static_cast<std::size_t>(count); };
+  memory_.reserve(size(4 * elements + 3 * particles + 2 * dimension + 2));
+  region_.reserve(size(region_words(dimension)));
+  frame_.reserve(size(region_words(dimension)));
+  answer_.reserve(size(1 + dimension));
+
+  double* next = memory_.data();
+  const auto take = [&](std::int64_t count) { return std::exchange(next, next + count); };
+  SwarmLayout swarm{};
+  swarm.particles = particles;
+  swarm.dimension = dimension;
+  swarm.frame = frame_.data();
+  swarm.region = region_.data();
+  swarm.velocity = take(elements);
+  swarm.own_best = take(elements);
+  swarm.costs = take(particles);
+  for (Generation& generation : swarm.generations) {
+    generation = {take(elements), take(particles), take(dimension), take(1)};
+  }
+  swarm.answer = answer_.data();
+  return swarm;
+}
+
+void SwarmMemory::write(const SearchRegion& region, std::uint64_t seed) {
+  std::uint64_t* next = frame_.data();
+  *next++ = seed;
+  for (const auto* part : {&region.start, &region.lower, &region.upper, &region.spread}) {
+    next = std::transform(part->begin(), part->end(), next,
+                          [](double number) { return std::bit_cast<std::uint64_t>(number); });
+  }
+}
+
+OptimizerResult SwarmMemory::answer(std::int64_t dimension) const {
+  OptimizerResult result;
+  result.cost = *answer_.data();
+  result.point = Eigen::Map<const Eigen::VectorXd>(answer_.data() + 1, dimension);
+  return result;
+}
+
+}  // namespace hypotrack::cuda

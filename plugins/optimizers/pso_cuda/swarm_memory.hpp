@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/optimizer.hpp"
+#include "swarm_layout.hpp"
+
+namespace hypotrack::cuda {
+
+/// Memory of a swarm, on the device and page-locked on the host; never shrinks.
+class SwarmMemory {
+ public:
+  /// Throws DeviceError if it is not to be had.
+  SwarmLayout reserve(std::int64_t particles, std::int64_t dimension);
+  /// Writes what the kernels of `swarm` read next; none of them may be running.
+  void write(const SearchRegion& region, std::uint64_t seed);
+  /// Cost and position that the kernels of a swarm in `dimension` dimensions wrote last.
+  OptimizerResult answer(std::int64_t dimension) const;
+
+ private:
+  DeviceBuffer<double> memory_;
+  DeviceBuffer<std::uint64_t> region_;
+  PinnedBuffer<std::uint64_t> frame_;
+  PinnedBuffer<double> answer_;
+};
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,34 @@
+#include "hypotrack/cuda/runtime.cuh"
+#include "quadratic_kernel.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+constexpr int kThreads = 128;
+
+__global__ void quadratic(const double* target, int dimension, const double* points,
+                          std::int64_t count, double* costs) {
+  cuda::let_next_start();
+  cuda::wait_for_previous();
+  const std::int64_t i = std::int64_t{blockIdx.x} * kThreads + threadIdx.x;
+  if (i >= count) return;
+  double sum = 0;
+  for (int d = 0; d < dimension; ++d) {
+    const double offset = points[i * dimension + d] - target[d];
+    sum += (d + 1) * (offset * offset);
+  }
+  costs[i] = sum;
+}
+
+}  // namespace
+
+void enqueue_quadratic(const double* target, int dimension, const double* points,
+                       std::int64_t count, double* costs, cuda::Stream stream) {
+  cudaFuncAttributes attributes{};
+  cuda::check(cudaFuncGetAttributes(&attributes, quadratic), "loading a kernel");
+  const auto blocks = static_cast<unsigned>((count + kThreads - 1) / kThreads);
+  cuda::launch(quadratic, blocks, kThreads, 0, stream, attributes.ptxVersion >= 90, target,
+               dimension, points, count, costs);
+}
+
+}  // namespace hypotrack::test
