@@ -237,5 +237,32 @@ TEST(EglHypotheses, are_what_the_settings_ask_for) {
               testing::AllOf(testing::HasSubstr("egl ("), testing::HasSubstr("OpenGL")));
 }
 
+/// Share of the first view that is covered; without a counterpart on the GPU.
+class Coverage final : public Objective {
+ public:
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    const DepthTile& tile = hypothesis.views[0];
+    int covered = 0;
+    for (int i = 0; i < tile.height * tile.stride; ++i) covered += tile.inverse_depth[i] > 0;
+    return static_cast<double>(covered) / (tile.width * tile.height);
+  }
+};
+
+TEST(EglHypotheses, are_scored_on_the_cpu_if_need_be_and_the_backend_says_why) {
+  const Scene scene = scene_of_hand_and_box();
+  EvaluateSettings settings;
+  settings.backend = Backend::egl;
+  Evaluator evaluator(scene, {{1, std::make_shared<Coverage>(), "coverage"}}, settings);
+  EXPECT_THAT(evaluator.backend(),
+              testing::MatchesRegex(R"(egl \(.*OpenGL.*\); scored on the CPU: .+)"));
+  const Observation observation = observation_of(scene);
+  evaluator.prepare(observation);
+  Eigen::VectorXd costs(1);
+  evaluator.evaluate(random_states(scene, 1), costs);
+  EXPECT_GT(costs[0], 0.01);
+  EXPECT_LT(costs[0], 0.9);
+}
+
 }  // namespace
 }  // namespace hypotrack::test

@@ -1,5 +1,6 @@
 // Stands in for the GPU backend in a build without a CUDA toolkit.
 #include "cuda/device.hpp"
+#include "cuda/egl_cuda_evaluation.hpp"
 #include "evaluate/evaluation.hpp"
 #include "hypotrack/error.hpp"
 
@@ -22,6 +23,12 @@ std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
 std::unique_ptr<Evaluation> make_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
                                             const EvaluateSettings& settings) {
   const Device device(settings.device);
+  return nullptr;
+}
+
+std::unique_ptr<Evaluation> make_egl_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
+                                                const EvaluateSettings&, std::string& why_not) {
+  why_not = why_no_device();
   return nullptr;
 }
 
