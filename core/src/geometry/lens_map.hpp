@@ -57,6 +57,21 @@ HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics&
   return {seen ? xd * map.fx + map.cx : kUnseen, seen ? yd * map.fy + map.cy : kUnseen};
 }
 
+/// What a depth measured along the camera's axis is along the tile's, for a pixel of the tile.
+HYPOTRACK_PIXEL float depth_along_tile(const LensMap& map, const TileIntrinsics& tile, int column,
+                                       int row, float depth) {
+  const float* axis = map.camera_from_ideal + 6;
+  const float u = (static_cast<float>(column) - tile.cx) / tile.fx;
+  const float v = (static_cast<float>(row) - tile.cy) / tile.fy;
+  return depth / (axis[0] * u + (axis[1] * v + axis[2]));
+}
+
+/// The image pixel that a point on the image lies in; halves go up, as inside_image() has it.
+HYPOTRACK_PIXEL int nearest_pixel(float coordinate, int size) {
+  const int nearest = static_cast<int>(std::floor(coordinate + 0.5f));
+  return nearest < size ? nearest : size - 1;
+}
+
 /// Whether a point lies on the image: a pixel reaches half a pixel around its centre.
 HYPOTRACK_PIXEL bool inside_image(ImagePoint p, int width, int height) {
   return p.x >= -0.5f && p.x < static_cast<float>(width) - 0.5f && p.y >= -0.5f &&

@@ -25,23 +25,18 @@ cv::Mat inside_mask(const ImageMap& map, int size, cv::Size image) {
 /// camera's optical axis to the tile's. What is not a positive number counts as not measured.
 cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap& map,
                       const TileCamera& tile, const LensMap& lens) {
-  const float* axis = lens.camera_from_ideal + 6;
+  const TileIntrinsics camera = intrinsics(tile);
   cv::Mat out = cv::Mat::zeros(valid.size(), CV_32F);
   for (int v = 0; v < valid.rows; ++v) {
     const float* x = map.x.ptr<float>(v + 1) + 1;
     const float* y = map.y.ptr<float>(v + 1) + 1;
     const auto* inside = valid.ptr<unsigned char>(v);
     auto* to = out.ptr<float>(v);
-    const auto ray_y = static_cast<float>((v - tile.cy) / tile.fy);
     for (int u = 0; u < valid.cols; ++u) {
       if (inside[u] == 0) continue;
-      // Halves go up, as `inside` has it; cv::remap would take the even neighbour.
-      const int column = static_cast<int>(std::floor(x[u] + 0.5f));
-      const int row = static_cast<int>(std::floor(y[u] + 0.5f));
       const float z =
-          depth.at<float>(std::min(row, depth.rows - 1), std::min(column, depth.cols - 1));
-      const auto ray_x = static_cast<float>((u - tile.cx) / tile.fx);
-      const float along = z / (axis[0] * ray_x + (axis[1] * ray_y + axis[2]));
+          depth.at<float>(nearest_pixel(y[u], depth.rows), nearest_pixel(x[u], depth.cols));
+      const float along = depth_along_tile(lens, camera, u, v, z);
       if (along > 0 && std::isfinite(along)) to[u] = along;
     }
   }
