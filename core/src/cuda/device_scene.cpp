@@ -142,6 +142,7 @@ DeviceScene::DeviceScene(const Scene& scene) {
   layout_ = {scene.dimension(),
              static_cast<int>(host.models.size()),
              static_cast<int>(host.bones.size()),
+             static_cast<int>(host.turns.size()),
              levels,
              static_cast<int>(host.vertices.size()),
              static_cast<int>(host.triangles.size()),

@@ -65,6 +65,12 @@ template <bool kShared>
 struct DepthBuffer {
   Floats<kShared> inverse_depth;
   Box box;
+  __device__ __forceinline__ static DepthBuffer select(bool second, const DepthBuffer& a,
+                                                       const DepthBuffer& b) {
+    return {{second ? b.inverse_depth.global : a.inverse_depth.global,
+             second ? b.inverse_depth.offset : a.inverse_depth.offset},
+            {second ? b.box.x0 : a.box.x0, a.box.y0, second ? b.box.x1 : a.box.x1, a.box.y1}};
+  }
   __device__ __forceinline__ int index(int x, int y) const {
     return (y - box.y0) * box.width() + (x - box.x0);
   }

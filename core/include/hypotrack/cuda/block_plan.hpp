@@ -16,10 +16,10 @@ struct BlockPlan {
   bool vertices_in_shared = true;  ///< otherwise in `vertex_scratch`
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
-  int state = 0, models = 0, bones = 0, vertices = 0, vertex_stride = 0, list = 0, sums = 0,
-      depth = 0;
+  int state = 0, models = 0, bones = 0, layouts = 0, turns = 0, vertices = 0, vertex_stride = 0,
+      list = 0, sums = 0, depth = 0;
 
-  float* vertex_scratch = nullptr;  ///< 3 * vertex_stride floats per block
+  float* vertex_scratch = nullptr;  ///< 4 * vertex_stride floats per block
   float* depth_scratch = nullptr;   ///< depth_scratch_size floats per block, or null
   int depth_scratch_size = 0;
   double* partial_sums = nullptr;    ///< sums of every block, with several bands
@@ -60,7 +60,7 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.threads = threads;
   p.bands = bands;
   p.chunk = std::min(r.scene.triangle_count, 4096);
-  p.vertex_stride = rounded(r.scene.vertex_count);
+  p.vertex_stride = r.scene.vertex_count;
   int end = 0;
   const auto take = [&](int floats) {
     const int begin = end;
@@ -70,14 +70,16 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.state = take(r.scene.dimension);
   p.models = take(12 * r.scene.model_count);
   p.bones = take(12 * r.scene.bone_count);
+  p.layouts = take(static_cast<int>(sizeof(BoneLayout) / 4) * r.scene.bone_count);
+  p.turns = take(static_cast<int>(sizeof(Turn) / 4) * r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
   const int floats = bytes / 4;
   // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
   const int least_depth =
       rounded(std::max(least_depth_capacity(r.tiles_at_once, r.tile_width), floats / 3));
-  p.vertices_in_shared = end + 3 * p.vertex_stride + least_depth <= floats;
-  p.vertices = p.vertices_in_shared ? take(3 * p.vertex_stride) : 0;
+  p.vertices_in_shared = end + 4 * p.vertex_stride + least_depth <= floats;
+  p.vertices = p.vertices_in_shared ? take(4 * p.vertex_stride) : 0;
   p.depth = end;
   const int rows = (r.tile_height + bands - 1) / bands;
   const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;

@@ -62,22 +62,18 @@ class BlockEvaluation {
         band_(static_cast<int>(blockIdx.x % static_cast<unsigned>(plan.bands))) {
     float* scratch = nullptr;
     if constexpr (!kSharedVertices) {
-      scratch = plan.vertex_scratch + std::int64_t{3} * plan.vertex_stride * blockIdx.x;
+      scratch = plan.vertex_scratch + std::int64_t{4} * plan.vertex_stride * blockIdx.x;
     }
-    vertices_ = {{scratch, plan.vertices},
-                 {scratch, plan.vertices + plan.vertex_stride},
-                 {scratch, plan.vertices + 2 * plan.vertex_stride}};
+    vertices_ = {{scratch, plan.vertices}};
   }
 
   /// What does not depend on the search: runs while the kernel before is still at work.
   __device__ void begin() {
-#pragma unroll
-    for (int k = 0; k < kAhead; ++k) {
-      const int i = static_cast<int>(threadIdx.x + k * blockDim.x);
-      if (i < scene_.vertex_count) ahead_[k] = load_vertex(scene_, i);
-    }
+    copy_to_shared(scene_.bones, scene_.bone_count, plan_.layouts);
+    copy_to_shared(scene_.turns, scene_.turn_count, plan_.turns);
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
     reset();
+    __syncthreads();
   }
 
   __device__ void run() {
@@ -85,7 +81,9 @@ class BlockEvaluation {
     if (threadIdx.x < kWarp) {
       const double* point = batch_.points + hypothesis_ * point_size();
       decode(scene_, frame_, batch_, point, shared + plan_.state, shared + plan_.models);
-      pose_bones(scene_, shared + plan_.state, shared + plan_.models, shared + plan_.bones);
+      pose_bones(scene_, reinterpret_cast<const BoneLayout*>(shared + plan_.layouts),
+                 reinterpret_cast<const Turn*>(shared + plan_.turns), shared + plan_.state,
+                 shared + plan_.models, shared + plan_.bones);
     }
     __syncthreads();
     if constexpr (!Term::kStereo) {
@@ -101,10 +99,17 @@ class BlockEvaluation {
   }
 
  private:
-  static constexpr int kAhead = 2;
-
   __device__ std::int64_t point_size() const {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
+  }
+
+  template <class T>
+  __device__ static void copy_to_shared(const T* from, int count, int to) {
+    const auto* words = reinterpret_cast<const float*>(from);
+    const int size = static_cast<int>(sizeof(T) / sizeof(float)) * count;
+    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+      shared_floats()[to + i] = __ldg(words + i);
+    }
   }
 
   __device__ void reset() {
@@ -115,7 +120,7 @@ class BlockEvaluation {
   /// Skins and projects all vertices into a view and, for a pair, the view beside it; then bounds_
   /// holds for the whole block.
   template <bool kPair>
-  __device__ void place_vertices(int view, bool fetched) {
+  __device__ void place_vertices(int view) {
     const float* bones = shared_floats() + plan_.bones;
     const ViewLayout& camera = frame_.views[view];
     const Parallax parallax = pair_parallax();
@@ -124,20 +129,13 @@ class BlockEvaluation {
       const float3 v = project(skin(loaded, bones), camera, view == 0);
       const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
-      vertices_.x[i] = v.x;
-      vertices_.y[i] = v.y;
-      vertices_.w[i] = valid ? v.z : 0.0f;
+      vertices_[i] = {v.x, v.y, valid ? v.z : 0.0f, x2};
       if (valid) own.add(v.x, x2, v.y);
     };
-    const int step = static_cast<int>(blockDim.x);
-    int i = static_cast<int>(threadIdx.x);
-    if (fetched) {
-#pragma unroll
-      for (int k = 0; k < kAhead; ++k, i += step) {
-        if (i < scene_.vertex_count) place(i, ahead_[k]);
-      }
+    for (int i = static_cast<int>(threadIdx.x); i < scene_.vertex_count;
+         i += static_cast<int>(blockDim.x)) {
+      place(i, load_vertex(scene_, i));
     }
-    for (; i < scene_.vertex_count; i += step) place(i, load_vertex(scene_, i));
     own.join(bounds_, kPair);
     __syncthreads();
   }
@@ -146,12 +144,13 @@ class BlockEvaluation {
     return {frame_.maps[0].a[0][2], frame_.maps[0].b[0]};
   }
 
-  /// Draws all triangles into z-buffers that are zero, between barriers.
+  /// Draws all triangles into z-buffers that are zero, between barriers: of `view` or, with kPair,
+  /// of both views.
   template <bool kPair, bool kSharedDepth>
-  __device__ void draw(int view, const DepthBuffer<kSharedDepth>* buffers) {
+  __device__ void draw(int view, const DepthBuffer<kSharedDepth>& left,
+                       const DepthBuffer<kSharedDepth>& right) {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, counts_};
-    const Parallax parallax = pair_parallax();
     const ViewLayout* views = frame_.views + view;
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
@@ -159,10 +158,9 @@ class BlockEvaluation {
         if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
         __syncthreads();
       }
-      cull<kPair>(scene_, vertices_, parallax, views, buffers[0].box.y0, buffers[0].box.y1, first,
-                  count, list);
+      cull<kPair>(scene_, vertices_, views, left.box.y0, left.box.y1, first, count, list);
       __syncthreads();
-      fill<kPair>(scene_, vertices_, parallax, views, first, list, buffers);
+      fill<kPair>(scene_, vertices_, views, first, list, left, right);
       __syncthreads();
     }
     if (threadIdx.x < 2) counts_[threadIdx.x] = 0;  // for the next call, after a barrier
@@ -197,7 +195,7 @@ class BlockEvaluation {
       reset();
       __syncthreads();
     }
-    place_vertices<false>(view, !vertices_are_used_);
+    place_vertices<false>(view);
     vertices_are_used_ = true;
     const ViewLayout& camera = frame_.views[view];
     Box box = bounds_.box(camera.width, camera.height);
@@ -205,13 +203,13 @@ class BlockEvaluation {
     if (Term::kVisitsUncovered) box = {0, 0, camera.width, camera.height};
     in_pieces(band(box.y0, box.y1), box.width(), [&](int y0, int y1) {
       const DepthBuffer<true> buffer{{nullptr, plan_.depth}, {box.x0, y0, box.x1, y1}};
-      draw<false>(view, &buffer);
+      draw<false>(view, buffer, buffer);
       score_view(term_, view, buffer.box, buffer, sums_);
     });
   }
 
   __device__ void pair() {
-    place_vertices<true>(0, true);
+    place_vertices<true>(0);
     const ViewLayout* v = frame_.views;
     Box left = bounds_.box(v[0].width, v[0].height), right = bounds_.box2(v[1].width, v[1].height);
     if (left.empty()) left.x1 = left.x0;
@@ -222,29 +220,28 @@ class BlockEvaluation {
     }
     in_pieces(band(left.y0, left.y1), left.width() + right.width(), [&](int y0, int y1) {
       const int right_at = plan_.depth + left.width() * (y1 - y0);
-      const DepthBuffer<true> buffers[2] = {{{nullptr, plan_.depth}, {left.x0, y0, left.x1, y1}},
-                                            {{nullptr, right_at}, {right.x0, y0, right.x1, y1}}};
-      draw<true>(0, buffers);
-      score_both<true>(buffers);
+      const DepthBuffer<true> first{{nullptr, plan_.depth}, {left.x0, y0, left.x1, y1}};
+      const DepthBuffer<true> second{{nullptr, right_at}, {right.x0, y0, right.x1, y1}};
+      draw<true>(0, first, second);
+      score_both<true>(first, second);
     });
   }
 
   template <bool kRectified, bool kSharedDepth>
-  __device__ void score_both(const DepthBuffer<kSharedDepth>* buffers) {
+  __device__ void score_both(const DepthBuffer<kSharedDepth>& left,
+                             const DepthBuffer<kSharedDepth>& right) {
     const int directions = term_.directions();
     if (directions & 1) {
-      score_stereo<0, kRectified>(term_, frame_.maps[0], buffers[0].box, buffers[0], buffers[1],
-                                  sums_);
+      score_stereo<0, kRectified>(term_, frame_.maps[0], left.box, left, right, sums_);
     }
     if (directions & 2) {
-      score_stereo<1, kRectified>(term_, frame_.maps[1], buffers[1].box, buffers[1], buffers[0],
-                                  sums_);
+      score_stereo<1, kRectified>(term_, frame_.maps[1], right.box, right, left, sums_);
     }
   }
 
   /// Two views that share nothing: both z-buffers are there at once, in global memory if need be.
   __device__ void general_pair() {
-    const Box right = place_alone(1, false), left = place_alone(0, true);
+    const Box right = place_alone(1), left = place_alone(0);
     const int left_size = padded(left.width() * left.height());
     const int right_size = padded(right.width() * right.height());
     if (left_size + right_size <= plan_.depth_capacity) {
@@ -263,14 +260,14 @@ class BlockEvaluation {
   __device__ static int padded(int floats) { return (floats + 3) / 4 * 4; }
 
   /// Places the vertices of a view and returns its box.
-  __device__ Box place_alone(int view, bool fetched) {
+  __device__ Box place_alone(int view) {
     if (vertices_are_used_) {
       __syncthreads();
       reset();
       __syncthreads();
     }
     vertices_are_used_ = true;
-    place_vertices<false>(view, fetched);
+    place_vertices<false>(view);
     const ViewLayout& camera = frame_.views[view];
     if (Term::kVisitsUncovered) return {0, 0, camera.width, camera.height};
     const Box box = bounds_.box(camera.width, camera.height);
@@ -281,11 +278,10 @@ class BlockEvaluation {
   template <bool kSharedDepth>
   __device__ void draw_and_score(const DepthBuffer<kSharedDepth>& left,
                                  const DepthBuffer<kSharedDepth>& right) {
-    const DepthBuffer<kSharedDepth> buffers[2] = {left, right};
-    draw<false>(0, buffers);
-    place_alone(1, false);
-    draw<false>(1, buffers + 1);
-    score_both<false>(buffers);
+    draw<false>(0, left, left);
+    place_alone(1);
+    draw<false>(1, right, right);
+    score_both<false>(left, right);
   }
 
   __device__ void finish() {
@@ -324,7 +320,6 @@ class BlockEvaluation {
   std::int64_t hypothesis_;
   int band_;
   Vertices<kSharedVertices> vertices_;
-  LoadedVertex ahead_[kAhead];
   bool vertices_are_used_ = false;
   bool depth_is_used_ = false;
   float sums_[Term::kSums] = {};

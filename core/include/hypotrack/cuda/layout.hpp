@@ -54,6 +54,7 @@ struct SceneLayout {
   std::int32_t dimension;  ///< of the state
   std::int32_t model_count;
   std::int32_t bone_count;
+  std::int32_t turn_count;
   std::int32_t level_count;  ///< one more than the largest BoneLayout::level
   std::int32_t vertex_count;
   std::int32_t triangle_count;

@@ -75,7 +75,7 @@ class PixelObjective : public DeviceObjective {
     }
     const auto blocks = static_cast<std::size_t>(count) * static_cast<std::size_t>(plan.bands);
     if (!plan.vertices_in_shared) {
-      vertex_scratch_.reserve(blocks * 3 * static_cast<std::size_t>(plan.vertex_stride));
+      vertex_scratch_.reserve(blocks * 4 * static_cast<std::size_t>(plan.vertex_stride));
     }
     const int both_tiles = 2 * detail::rounded(width_ * height_);
     if (Term::kStereo && !rectified_ && both_tiles > plan.depth_capacity) {

@@ -11,7 +11,7 @@ namespace hypotrack::cuda {
 inline constexpr double kLargestParameter = 1e6;
 
 struct Quaternion {
-  double w, x, y, z;
+  float w, x, y, z;
 };
 
 __device__ inline Quaternion multiply(const Quaternion& a, const Quaternion& b) {
@@ -20,19 +20,24 @@ __device__ inline Quaternion multiply(const Quaternion& a, const Quaternion& b) 
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
 
-__device__ inline Quaternion rotation_exp(double x, double y, double z) {
-  const double angle = sqrt(x * x + y * y + z * z);
-  if (angle < 1e-12) return {1.0, x / 2, y / 2, z / 2};
-  const double factor = sin(angle / 2) / angle;
-  return {cos(angle / 2), x * factor, y * factor, z * factor};
+__device__ inline Quaternion rotation_exp(float x, float y, float z) {
+  const float angle = sqrtf(x * x + y * y + z * z);
+  if (angle < 1e-6f) return {1.0f, x / 2, y / 2, z / 2};
+  float s, c;
+  sincosf(angle / 2, &s, &c);
+  const float factor = s / angle;
+  return {c, x * factor, y * factor, z * factor};
 }
 
-__device__ inline Quaternion normalized(Quaternion q) {
-  const double scale = fmax(fmax(fabs(q.w), fabs(q.x)), fmax(fabs(q.y), fabs(q.z)));
-  if (scale == 0.0) return {1.0, 0.0, 0.0, 0.0};
-  q = {q.w / scale, q.x / scale, q.y / scale, q.z / scale};
-  const double norm = sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
+/// Four numbers of any size as a unit quaternion; zeros are the identity.
+__device__ inline Quaternion unit_quaternion(const double* wxyz) {
+  const double scale = fmax(fmax(fabs(wxyz[0]), fabs(wxyz[1])), fmax(fabs(wxyz[2]), fabs(wxyz[3])));
+  if (scale == 0.0) return {1.0f, 0.0f, 0.0f, 0.0f};
+  const double factor = scale > 1e-3 && scale < 1e3 ? 1.0 : 1.0 / scale;  // squares fit a float
+  const auto w = static_cast<float>(wxyz[0] * factor), x = static_cast<float>(wxyz[1] * factor);
+  const auto y = static_cast<float>(wxyz[2] * factor), z = static_cast<float>(wxyz[3] * factor);
+  const float inverse = 1.0f / sqrtf(w * w + x * x + y * y + z * z);
+  return {w * inverse, x * inverse, y * inverse, z * inverse};
 }
 
 /// Where a model's parameters begin in a search point.
@@ -40,36 +45,37 @@ __device__ inline int point_offset(const ModelLayout& model, int index, bool rot
   return model.offset - (rotation_vectors ? index : 0);
 }
 
-/// The model's unit quaternion in a search point.
-__device__ inline Quaternion decode_rotation(const double* point, const double* prior, int offset) {
-  if (!prior) return normalized({point[3], point[4], point[5], point[6]});
-  const double* q = prior + offset + 3;
-  return normalized(multiply({q[0], q[1], q[2], q[3]}, rotation_exp(point[3], point[4], point[5])));
+/// The unit quaternion of a model whose parameters in the search point are `p`.
+__device__ inline Quaternion decode_rotation(const double* p, const double* prior, int offset) {
+  if (!prior) return unit_quaternion(p + 3);
+  const Quaternion turn =
+      rotation_exp(static_cast<float>(p[3]), static_cast<float>(p[4]), static_cast<float>(p[5]));
+  return multiply(unit_quaternion(prior + offset + 3), turn);
 }
 
-/// Writes the model's part of the state and first_from_model (3x4).
-__device__ inline void decode_pose(const ModelLayout& model, int index, const FrameLayout& frame,
-                                   const BatchLayout& batch, const double* point, float* state,
-                                   float* first_from_model) {
-  const double* p = point + point_offset(model, index, batch.prior != nullptr);
-  const Quaternion q = decode_rotation(p, batch.prior, model.offset);
+/// Writes the pose in the model's part of the state and first_from_model (3x4), NaN unless
+/// `drawable`.
+__device__ inline void decode_pose(const ModelLayout& model, const FrameLayout& frame,
+                                   const double* p, const double* prior, bool drawable,
+                                   float* state, float* first_from_model) {
+  const Quaternion q = decode_rotation(p, prior, model.offset);
   for (int i = 0; i < 3; ++i) state[model.offset + i] = static_cast<float>(p[i]);
-  state[model.offset + 3] = static_cast<float>(q.w);
-  state[model.offset + 4] = static_cast<float>(q.x);
-  state[model.offset + 5] = static_cast<float>(q.y);
-  state[model.offset + 6] = static_cast<float>(q.z);
-  const double r[3][3] = {
+  state[model.offset + 3] = q.w;
+  state[model.offset + 4] = q.x;
+  state[model.offset + 5] = q.y;
+  state[model.offset + 6] = q.z;
+  const float r[3][3] = {
       {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y)},
       {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x)},
       {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
-  const bool drawable = fabs(p[0]) <= kLargestParameter && fabs(p[1]) <= kLargestParameter &&
-                        fabs(p[2]) <= kLargestParameter;
   for (int i = 0; i < 3; ++i) {
     const double* f = frame.first_from_world + 4 * i;
     for (int j = 0; j < 3; ++j) {
-      first_from_model[4 * i + j] =
-          static_cast<float>(f[0] * r[0][j] + f[1] * r[1][j] + f[2] * r[2][j]);
+      first_from_model[4 * i + j] = static_cast<float>(f[0]) * r[0][j] +
+                                    static_cast<float>(f[1]) * r[1][j] +
+                                    static_cast<float>(f[2]) * r[2][j];
     }
+    // The world's origin may be far away: double precision until the difference is taken.
     const double t = f[0] * p[0] + f[1] * p[1] + f[2] * p[2] + f[3];
     first_from_model[4 * i + 3] = drawable ? static_cast<float>(t) : nanf("");
   }
@@ -103,51 +109,60 @@ __device__ inline void turn(float* m, const float* axis, float angle) {
 }
 
 /// The bone's transform to its parent with all its turns.
-__device__ inline void local_transform(const SceneLayout& scene, const BoneLayout& bone,
+__device__ inline void local_transform(const BoneLayout& bone, const Turn* turns,
                                        const float* state, float* parent_from_bone) {
   for (int i = 0; i < 12; ++i) parent_from_bone[i] = bone.parent_from_bone[i];
   for (int k = 0; k < bone.turn_count; ++k) {
-    const Turn& t = scene.turns[bone.first_turn + k];
-    const float value = state[t.parameter];
-    const float angle = fabsf(value) <= static_cast<float>(kLargestParameter)
-                            ? t.scale * (value - t.zero)
-                            : nanf("");
-    turn(parent_from_bone, t.axis, angle);
+    const Turn& t = turns[bone.first_turn + k];
+    turn(parent_from_bone, t.axis, t.scale * (state[t.parameter] - t.zero));
   }
 }
 
 /// Decodes one hypothesis with one warp: `state` gets the scene's state, `first_from_models` a
-/// matrix per model, NaN for one that cannot be drawn.
+/// matrix per model, NaN for one with a parameter beyond kLargestParameter.
 __device__ inline void decode(const SceneLayout& scene, const FrameLayout& frame,
                               const BatchLayout& batch, const double* point, float* state,
                               float* first_from_models) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int skipped = batch.prior ? 1 : 0;  // numbers that a rotation vector is shorter
-  for (int m = 0; m < scene.model_count; ++m) {
-    const ModelLayout model = scene.models[m];
-    const double* p = point + point_offset(model, m, batch.prior != nullptr);
-    for (int i = 7 + lane; i < model.dimension; i += kWarp) {
-      state[model.offset + i] = static_cast<float>(p[i - skipped]);
+  const int pose_size = batch.prior ? 6 : 7;
+  for (int base = 0; base < scene.model_count; base += kWarp) {
+    const int end = min(base + kWarp, scene.model_count);
+    bool own_drawable = false;
+    for (int m = base; m < end; ++m) {
+      const ModelLayout model = scene.models[m];
+      const double* p = point + point_offset(model, m, batch.prior != nullptr);
+      const int size = model.dimension - 7 + pose_size;
+      bool drawable = true;
+      for (int i = lane; i < size; i += kWarp) {
+        drawable = drawable && fabs(p[i]) <= kLargestParameter;  // NaN: false
+        if (i >= pose_size) state[model.offset + 7 - pose_size + i] = static_cast<float>(p[i]);
+      }
+      drawable = __all_sync(kWholeWarp, drawable);
+      if (lane == m - base) own_drawable = drawable;
     }
-  }
-  for (int m = lane; m < scene.model_count; m += kWarp) {
-    decode_pose(scene.models[m], m, frame, batch, point, state, first_from_models + 12 * m);
+    if (const int m = base + lane; m < end) {
+      const ModelLayout model = scene.models[m];
+      const double* p = point + point_offset(model, m, batch.prior != nullptr);
+      decode_pose(model, frame, p, batch.prior, own_drawable, state, first_from_models + 12 * m);
+    }
   }
   __syncwarp();
 }
 
 /// Poses a decoded hypothesis with one warp: `bones` gets one matrix per bone that takes vertices
-/// of the bind pose to the frame of the first view's camera.
-__device__ inline void pose_bones(const SceneLayout& scene, const float* state,
+/// of the bind pose to the frame of the first view's camera. `layouts` and `turns` are the scene's,
+/// wherever they lie.
+__device__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* layouts,
+                                  const Turn* turns, const float* state,
                                   const float* first_from_models, float* bones) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   for (int b = lane; b < scene.bone_count; b += kWarp) {
-    local_transform(scene, scene.bones[b], state, bones + 12 * b);
+    local_transform(layouts[b], turns, state, bones + 12 * b);
   }
   for (int level = 0; level < scene.level_count; ++level) {
     __syncwarp();
     for (int b = lane; b < scene.bone_count; b += kWarp) {
-      const BoneLayout& bone = scene.bones[b];
+      const BoneLayout& bone = layouts[b];
       if (bone.level != level) continue;
       const float* parent =
           bone.parent < 0 ? first_from_models + 12 * bone.model : bones + 12 * bone.parent;
@@ -156,7 +171,7 @@ __device__ inline void pose_bones(const SceneLayout& scene, const float* state,
   }
   __syncwarp();
   for (int b = lane; b < scene.bone_count; b += kWarp) {
-    compose(bones + 12 * b, scene.bones[b].bone_from_model, bones + 12 * b);
+    compose(bones + 12 * b, layouts[b].bone_from_model, bones + 12 * b);
   }
 }
 

@@ -17,10 +17,13 @@ inline constexpr float kInclusive = 1e-5f;
 /// Triangles whose boxes have more pixels are drawn by a whole warp instead of one thread.
 inline constexpr int kPixelsPerThread = 48;
 
-/// Projected vertices: pixels and 1/z; w = 0: not to be drawn.
+/// Projected vertices: x, y (pixels), 1/z (0: not to be drawn) and x in the second view of a pair.
 template <bool kShared>
 struct Vertices {
-  Floats<kShared> x, y, w;
+  Floats<kShared> records;  ///< four floats per vertex
+  __device__ __forceinline__ float4& operator[](int index) const {
+    return *reinterpret_cast<float4*>(records.at(4 * index));
+  }
 };
 
 /// How the second view of a rectified pair sees a projected vertex of the first.
@@ -117,7 +120,7 @@ struct ThreadBounds {
   }
 };
 
-/// The corners of a triangle in one view; of a pair's second view with x already shifted.
+/// The corners of a triangle in one view.
 struct Corners {
   float ax, ay, aw, bx, by, bw, cx, cy, cw;
 };
@@ -139,21 +142,23 @@ __device__ __forceinline__ float twice_area(const Corners& t) {
   return (t.bx - t.ax) * (t.cy - t.ay) - (t.cx - t.ax) * (t.by - t.ay);
 }
 
-template <bool kShared>
-__device__ __forceinline__ Corners load_corners(PackedTriangle triangle,
-                                                const Vertices<kShared>& vertices) {
-  const int a = static_cast<int>(static_cast<std::uint32_t>(triangle) & kVertexMask);
-  const int b = static_cast<int>(static_cast<std::uint32_t>(triangle >> kVertexBits) & kVertexMask);
-  const int c =
-      static_cast<int>(static_cast<std::uint32_t>(triangle >> (2 * kVertexBits)) & kVertexMask);
-  return {vertices.x[a], vertices.y[a], vertices.w[a], vertices.x[b], vertices.y[b],
-          vertices.w[b], vertices.x[c], vertices.y[c], vertices.w[c]};
-}
+/// The records of a triangle's corners.
+struct CornerRecords {
+  float4 a, b, c;
+  __device__ __forceinline__ Corners in_view(bool second) const {
+    return {second ? a.w : a.x, a.y, a.z, second ? b.w : b.x, b.y, b.z,
+            second ? c.w : c.x, c.y, c.z};
+  }
+};
 
-__device__ __forceinline__ void to_second_view(Corners& t, const Parallax& parallax) {
-  t.ax = parallax(t.ax, t.aw);
-  t.bx = parallax(t.bx, t.bw);
-  t.cx = parallax(t.cx, t.cw);
+template <bool kShared>
+__device__ __forceinline__ CornerRecords load_corners(PackedTriangle triangle,
+                                                      const Vertices<kShared>& vertices) {
+  const auto corner = [&](int k) {
+    return vertices[static_cast<int>(static_cast<std::uint32_t>(triangle >> (k * kVertexBits)) &
+                                     kVertexMask)];
+  };
+  return {corner(0), corner(1), corner(2)};
 }
 
 /// Visible triangles of a chunk: 2 * (number within the chunk) + view. Those for one thread each
@@ -165,67 +170,65 @@ struct VisibleList {
 };
 inline constexpr int kLongestChunk = 1 << 15;
 
-/// Appends where `visible`; called by whole warps.
-__device__ __forceinline__ void append(const VisibleList& list, bool visible, bool large,
+enum class Coverage { none, few, many };
+
+/// Appends an entry per view where there is coverage; called by whole warps.
+__device__ __forceinline__ void append(const VisibleList& list, Coverage left, Coverage right,
                                        int entry) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const unsigned small_mask = __ballot_sync(kWholeWarp, visible && !large);
-  const unsigned large_mask = __ballot_sync(kWholeWarp, visible && large);
-  int base = 0;
-  if (lane == 0 && small_mask) base = atomicAdd(&list.counts[0], __popc(small_mask));
-  base = __shfl_sync(kWholeWarp, base, 0);
   const unsigned below = (1u << lane) - 1u;
-  if (visible && !large) {
-    list.entries[base + __popc(small_mask & below)] = static_cast<std::uint16_t>(entry);
-  }
-  if (!large_mask) return;
-  if (lane == 0) base = atomicAdd(&list.counts[1], __popc(large_mask));
-  base = __shfl_sync(kWholeWarp, base, 0);
-  if (visible && large) {
-    list.entries[list.capacity - 1 - base - __popc(large_mask & below)] =
-        static_cast<std::uint16_t>(entry);
-  }
+  const auto append_those = [&](Coverage wanted, int& count, bool from_the_back) {
+    const unsigned in_left = __ballot_sync(kWholeWarp, left == wanted);
+    const unsigned in_right = __ballot_sync(kWholeWarp, right == wanted);
+    if (!(in_left | in_right)) return;
+    int base = 0;
+    if (lane == 0) base = atomicAdd(&count, __popc(in_left) + __popc(in_right));
+    base = __shfl_sync(kWholeWarp, base, 0);
+    const auto put = [&](int place, int what) {
+      list.entries[from_the_back ? list.capacity - 1 - place : place] =
+          static_cast<std::uint16_t>(what);
+    };
+    if (left == wanted) put(base + __popc(in_left & below), entry);
+    if (right == wanted) put(base + __popc(in_left) + __popc(in_right & below), entry + 1);
+  };
+  append_those(Coverage::few, list.counts[0], false);
+  append_those(Coverage::many, list.counts[1], true);
 }
 
-/// Whether a triangle covers pixels of `rows` in a view `width` pixels wide, and whether many.
-struct Visibility {
-  bool visible, large;
-};
-__device__ __forceinline__ Visibility visibility(const Corners& t, bool two_sided, int width,
-                                                 Span rows) {
+/// How many pixels of `rows` a triangle may cover in a view `width` pixels wide.
+__device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width,
+                                             Span rows) {
   const float area = -twice_area(t);
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
-  const bool seen = (two_sided ? fabsf(area) : area) > kSmallestArea &&
-                    columns.first <= columns.last && rows.first <= rows.last;
+  if (!((two_sided ? fabsf(area) : area) > kSmallestArea)) return Coverage::none;
+  if (columns.first > columns.last) return Coverage::none;
   const int pixels = (columns.last - columns.first + 1) * (rows.last - rows.first + 1);
-  return {seen, pixels > kPixelsPerThread};
+  return pixels > kPixelsPerThread ? Coverage::many : Coverage::few;
 }
 
-/// Lists the triangles first .. first + count - 1 that cover pixels of the rows y0 <= y < y1 in a
-/// view or, with kPair, in either view of a pair.
+/// Lists the triangles first .. first + count - 1 that may cover pixels of the rows y0 <= y < y1 in
+/// a view or, with kPair, in either view of a pair.
 template <bool kPair, bool kShared>
 __device__ __forceinline__ void cull(const SceneLayout& scene, const Vertices<kShared>& vertices,
-                                     const Parallax& parallax, const ViewLayout* views, int y0,
-                                     int y1, int first, int count, const VisibleList& list) {
+                                     const ViewLayout* views, int y0, int y1, int first, int count,
+                                     const VisibleList& list) {
   const int rounded = (count + kWarp - 1) / kWarp * kWarp;
+  const auto low = static_cast<float>(y0), high = static_cast<float>(y1 - 1);
   for (int i = static_cast<int>(threadIdx.x); i < rounded; i += static_cast<int>(blockDim.x)) {
-    Visibility left{false, false}, right{false, false};
+    Coverage left = Coverage::none, right = Coverage::none;
     if (i < count) {
       const PackedTriangle triangle = __ldg(scene.triangles + first + i);
-      Corners t = load_corners(triangle, vertices);
-      Span rows = pixel_span(t.ay, t.by, t.cy, views[0].height);
-      rows = {max(rows.first, y0), min(rows.last, y1 - 1)};
+      const CornerRecords records = load_corners(triangle, vertices);
+      const Corners t = records.in_view(false);
+      const Span rows = {__float2int_ru(fmaxf(least(t.ay, t.by, t.cy), low)),
+                         __float2int_rd(fminf(most(t.ay, t.by, t.cy), high))};
       if (rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f) {
         const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
-        left = visibility(t, two_sided, views[0].width, rows);
-        if constexpr (kPair) {
-          to_second_view(t, parallax);
-          right = visibility(t, two_sided, views[1].width, rows);
-        }
+        left = coverage(t, two_sided, views[0].width, rows);
+        if (kPair) right = coverage(records.in_view(true), two_sided, views[1].width, rows);
       }
     }
-    append(list, left.visible, left.large, 2 * i);
-    if constexpr (kPair) append(list, right.visible, right.large, 2 * i + 1);
+    append(list, left, right, 2 * i);
   }
 }
 
@@ -236,12 +239,12 @@ struct Planes {
   float w_c, w_ac, w_bc;
 };
 
-__device__ __forceinline__ Planes make_planes(const Corners& t, int width, int height) {
+__device__ __forceinline__ Planes make_planes(const Corners& t, int width, int first_row) {
   Planes p;
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
   p.x0 = columns.first;
   p.x1 = columns.last;
-  p.y0 = pixel_span(t.ay, t.by, t.cy, height).first;
+  p.y0 = first_row;
   // Coordinates from the first pixel are small, so that their products are exact enough.
   const auto x = static_cast<float>(p.x0), y = static_cast<float>(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
@@ -258,57 +261,91 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int h
   return p;
 }
 
-/// Draws one pixel of a triangle if it covers it: the larger 1/z wins, whoever comes first.
+/// Writes a pixel: the larger 1/z wins, whoever comes first.
 template <bool kShared>
-__device__ __forceinline__ void draw_pixel(const Planes& p, int x, int y,
-                                           const DepthBuffer<kShared>& buffer) {
-  const auto dx = static_cast<float>(x - p.x0), dy = static_cast<float>(y - p.y0);
-  const float a = fmaf(dx, p.a_dx, fmaf(dy, p.a_dy, p.a));
-  const float b = fmaf(dx, p.b_dx, fmaf(dy, p.b_dy, p.b));
-  if (least(a, b, 1.0f - a - b) < -kInclusive) return;
-  const float w = fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c));
+__device__ __forceinline__ void put(const Floats<kShared>& depth, int index, float w) {
   // Positive floats order as integers.
-  atomicMax(reinterpret_cast<int*>(buffer.inverse_depth.at(buffer.index(x, y))), __float_as_int(w));
+  atomicMax(reinterpret_cast<int*>(depth.at(index)), __float_as_int(w));
+}
+
+/// A line's part where a + slope * dx >= 0, cut off `columns` (floats, inclusive).
+__device__ __forceinline__ void cut(float a, float slope, float inverse_slope, float& first,
+                                    float& last) {
+  const float zero = -a * inverse_slope;
+  if (slope > 0.0f) {
+    first = fmaxf(first, zero);
+  } else {
+    last = fminf(last, zero);
+  }
+}
+
+/// Draws a triangle of few pixels with one thread: what of every row lies within all three edges.
+template <bool kShared>
+__device__ __forceinline__ void fill_few(const Planes& p, Span rows,
+                                         const DepthBuffer<kShared>& buffer) {
+  constexpr float kHorizontal = 1e-20f;  // keeps the slopes of horizontal edges from being zero
+  const float a_dx = p.a_dx == 0.0f ? kHorizontal : p.a_dx;
+  const float b_dx = p.b_dx == 0.0f ? kHorizontal : p.b_dx;
+  float c_dx = -(p.a_dx + p.b_dx);
+  if (c_dx == 0.0f) c_dx = kHorizontal;
+  const float a_inverse = __frcp_rn(a_dx), b_inverse = __frcp_rn(b_dx), c_inverse = __frcp_rn(c_dx);
+  const float w_dx = fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc);
+  const int last_column = p.x1 - p.x0;
+  for (int y = rows.first; y <= rows.last; ++y) {
+    const auto dy = static_cast<float>(y - p.y0);
+    const float a = fmaf(dy, p.a_dy, p.a), b = fmaf(dy, p.b_dy, p.b);
+    float first = 0.0f, last = static_cast<float>(last_column);
+    cut(a + kInclusive, a_dx, a_inverse, first, last);
+    cut(b + kInclusive, b_dx, b_inverse, first, last);
+    cut(1.0f - a - b + kInclusive, c_dx, c_inverse, first, last);
+    const int begin = __float2int_ru(first), end = __float2int_rd(last);
+    const float w = fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c));
+    const int row = buffer.index(p.x0, y);
+    for (int dx = begin; dx <= end; ++dx) {
+      put(buffer.inverse_depth, row + dx, fmaf(static_cast<float>(dx), w_dx, w));
+    }
+  }
+}
+
+/// Draws a triangle of many pixels with a warp.
+template <bool kShared>
+__device__ __forceinline__ void fill_many(const Planes& p, Span rows,
+                                          const DepthBuffer<kShared>& buffer) {
+  const int width = p.x1 - p.x0 + 1, pixels = width * (rows.last - rows.first + 1);
+  for (int k = static_cast<int>(threadIdx.x) % kWarp; k < pixels; k += kWarp) {
+    const int x = p.x0 + k % width, y = rows.first + k / width;
+    const auto dx = static_cast<float>(x - p.x0), dy = static_cast<float>(y - p.y0);
+    const float a = fmaf(dx, p.a_dx, fmaf(dy, p.a_dy, p.a));
+    const float b = fmaf(dx, p.b_dx, fmaf(dy, p.b_dy, p.b));
+    if (least(a, b, 1.0f - a - b) < -kInclusive) continue;
+    put(buffer.inverse_depth, buffer.index(x, y), fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+  }
 }
 
 /// Draws the listed triangles into the z-buffers of one view or of a pair.
 template <bool kPair, bool kSharedVertices, bool kSharedDepth>
 __device__ __forceinline__ void fill(const SceneLayout& scene,
                                      const Vertices<kSharedVertices>& vertices,
-                                     const Parallax& parallax, const ViewLayout* views, int first,
-                                     const VisibleList& list,
-                                     const DepthBuffer<kSharedDepth>* buffers) {
-  const auto planes_of = [&](int entry) {
-    Corners t = load_corners(__ldg(scene.triangles + first + entry / 2), vertices);
-    const int v = kPair ? entry % 2 : 0;
-    if (kPair && v == 1) to_second_view(t, parallax);
-    return make_planes(t, views[v].width, views[v].height);
-  };
-  const auto rows_of = [&](int entry, const DepthBuffer<kSharedDepth>& buffer) {
-    const Corners t = load_corners(__ldg(scene.triangles + first + entry / 2), vertices);
+                                     const ViewLayout* views, int first, const VisibleList& list,
+                                     const DepthBuffer<kSharedDepth>& left,
+                                     const DepthBuffer<kSharedDepth>& right) {
+  const auto prepared = [&](int entry, const auto& draw) {
+    const bool second = kPair && entry % 2 != 0;
+    const Corners t =
+        load_corners(__ldg(scene.triangles + first + entry / 2), vertices).in_view(second);
+    const auto buffer = DepthBuffer<kSharedDepth>::select(second, left, right);
     const Span rows = pixel_span(t.ay, t.by, t.cy, views[0].height);
-    return Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)};
+    draw(make_planes(t, second ? views[1].width : views[0].width, rows.first),
+         Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)}, buffer);
   };
-  for (int i = static_cast<int>(threadIdx.x); i < list.counts[0];
-       i += static_cast<int>(blockDim.x)) {
-    const int entry = list.entries[i];
-    const DepthBuffer<kSharedDepth> buffer = buffers[kPair ? entry % 2 : 0];
-    const Planes p = planes_of(entry);
-    const Span rows = rows_of(entry, buffer);
-    for (int y = rows.first; y <= rows.last; ++y) {
-      for (int x = p.x0; x <= p.x1; ++x) draw_pixel(p, x, y, buffer);
-    }
+  const int threads = static_cast<int>(blockDim.x), thread = static_cast<int>(threadIdx.x);
+  for (int i = thread; i < list.counts[0]; i += threads) {
+    prepared(list.entries[i],
+             [](const auto& p, Span rows, const auto& buffer) { fill_few(p, rows, buffer); });
   }
-  const int warps = static_cast<int>(blockDim.x) / kWarp;
-  for (int i = static_cast<int>(threadIdx.x) / kWarp; i < list.counts[1]; i += warps) {
-    const int entry = list.entries[list.capacity - 1 - i];
-    const DepthBuffer<kSharedDepth> buffer = buffers[kPair ? entry % 2 : 0];
-    const Planes p = planes_of(entry);
-    const Span rows = rows_of(entry, buffer);
-    const int width = p.x1 - p.x0 + 1, pixels = width * (rows.last - rows.first + 1);
-    for (int k = static_cast<int>(threadIdx.x) % kWarp; k < pixels; k += kWarp) {
-      draw_pixel(p, p.x0 + k % width, rows.first + k / width, buffer);
-    }
+  for (int i = thread / kWarp; i < list.counts[1]; i += threads / kWarp) {
+    prepared(list.entries[list.capacity - 1 - i],
+             [](const auto& p, Span rows, const auto& buffer) { fill_many(p, rows, buffer); });
   }
 }
 
