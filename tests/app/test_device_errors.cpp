@@ -1,0 +1,69 @@
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+/// A test with an objective whose device gets lost.
+class LostDeviceTest : public AppTest {
+ protected:
+  static std::string lost_after(int frames) {
+    return replaced(box_scene(), "{type: stereo_color}",
+                    "{type: failing, frames: " + std::to_string(frames) + "}");
+  }
+
+  Outcome run_lost(const std::string& text) const {
+    return run(text, {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+  }
+};
+
+TEST_F(LostDeviceTest, TheFilesHoldTheFramesBefore) {
+  const Outcome outcome = run_lost(replaced(lost_after(2), "{overlay: false}", "{overlay: true}"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("holds the frames so far"));
+  EXPECT_THAT(names_in(path("out")),
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "overlay.mp4", "run.yaml",
+                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv",
+                          testing::MatchesRegex("worst_[01]\\.jpg")));
+  for (const char* table : {"track.csv", "joints.csv", "errors.csv", "truth_states.csv"})
+    EXPECT_THAT(lines_of(read_text(path("out") / table)), SizeIs(3)) << table;
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), false);
+  EXPECT_EQ(summary.at("frames"), 2);
+  EXPECT_EQ(nlohmann::json::parse(read_text(path("out/metrics.json"))).at("frames"), 2);
+  cv::VideoCapture video(path("out/overlay.mp4").string());
+  cv::Mat picture;
+  int pictures = 0;
+  while (video.read(picture)) ++pictures;
+  EXPECT_EQ(pictures, 2);
+}
+
+TEST_F(LostDeviceTest, TheReasonIsSaidOnce) {
+  const Outcome outcome = run_lost(lost_after(2));
+  const auto lines = lines_of(outcome.err);
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), "hypotrack: the device is lost"), 1)
+      << outcome.err;
+  const auto at = outcome.err.find("the device is lost");
+  EXPECT_EQ(outcome.err.find("the device is lost", at + 1), std::string::npos) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("unexpected error")));
+}
+
+TEST_F(LostDeviceTest, TheNextRunTakesTheResultsPlace) {
+  ASSERT_EQ(run_lost(lost_after(2)).exit_code, 1);
+  const Outcome outcome = run_lost(lost_after(5));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+}
+
+TEST_F(LostDeviceTest, LostOnTheFirstFrameItLeavesNothing) {
+  expect_refusal(run_lost(lost_after(0)), {"the device is lost"});
+}
+
+}  // namespace
+}  // namespace hypotrack::test
