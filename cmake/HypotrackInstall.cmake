@@ -25,3 +25,10 @@ install(FILES
   ${CMAKE_CURRENT_LIST_DIR}/HypotrackPlugin.cmake
   DESTINATION ${package_dir})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR})
+# The build tree has them, too, in the same place.
+file(GLOB_RECURSE configs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+  ${PROJECT_SOURCE_DIR}/configs/*)
+foreach(config IN LISTS configs)
+  configure_file(${PROJECT_SOURCE_DIR}/${config}
+    ${PROJECT_BINARY_DIR}/${HYPOTRACK_DATA_DIR}/${config} COPYONLY)
+endforeach()

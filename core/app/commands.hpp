@@ -18,6 +18,7 @@ struct SceneOptions {
   std::vector<std::string> set;
 };
 void add_scene_options(CLI::App& command, SceneOptions& options);
+void add_set_option(CLI::App& command, std::vector<std::string>& set);
 
 // Each adds one subcommand whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);
@@ -25,6 +26,7 @@ void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_evaluate_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_bench_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_plugins_command(CLI::App& app, CommonOptions& common, int& exit_code);
 

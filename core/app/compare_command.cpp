@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,9 +9,9 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <thread>
 #include <vector>
 
+#include "bench/machine.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
@@ -38,13 +37,6 @@ struct CompareOptions {
   std::string shard = "1/1";
   bool retry_failed = false;
 };
-
-/// The cores that this process may use, which a cluster may have limited.
-int core_count() {
-  cpu_set_t cores;
-  if (sched_getaffinity(0, sizeof(cores), &cores) == 0) return std::max(1, CPU_COUNT(&cores));
-  return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 std::optional<std::size_t> parse_count(std::string_view text) {
   std::size_t count = 0;

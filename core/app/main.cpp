@@ -14,9 +14,12 @@ namespace hypotrack::app {
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
   command.add_option("scene", options.scene, "Scene file (YAML)")->required();
+  add_set_option(command, options.set);
+}
+
+void add_set_option(CLI::App& command, std::vector<std::string>& set) {
   command
-      .add_option("--set", options.set,
-                  "Change a key of the scene: key.path=value (list items by index)")
+      .add_option("--set", set, "Change a key of the scene: key.path=value (list items by index)")
       ->take_all()
       ->expected(1)
       ->type_name("KEY=VALUE");
@@ -43,6 +46,7 @@ int main(int argc, char** argv) {
   add_synth_command(app, common, exit_code);
   add_evaluate_command(app, exit_code);
   add_compare_command(app, common, exit_code);
+  add_bench_command(app, common, exit_code);
   add_report_command(app, common, exit_code);
   add_plugins_command(app, common, exit_code);
   try {

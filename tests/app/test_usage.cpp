@@ -19,9 +19,9 @@ class UsageTest : public AppTest {
 TEST_F(UsageTest, HelpAndVersionSucceed) {
   const Outcome help = run_program({"--help"});
   EXPECT_EQ(help.exit_code, 0);
-  EXPECT_THAT(help.out,
-              AllOf(HasSubstr("run"), HasSubstr("validate"), HasSubstr("synth"),
-                    HasSubstr("evaluate"), HasSubstr("plugins"), HasSubstr("--plugin-path")));
+  EXPECT_THAT(help.out, AllOf(HasSubstr("run"), HasSubstr("validate"), HasSubstr("synth"),
+                              HasSubstr("evaluate"), HasSubstr("bench"), HasSubstr("plugins"),
+                              HasSubstr("--plugin-path")));
   const Outcome run_help = run_program({"run", "--help"});
   EXPECT_EQ(run_help.exit_code, 0);
   EXPECT_THAT(run_help.out, AllOf(HasSubstr("--set"), HasSubstr("--out"), HasSubstr("--frames"),
@@ -44,6 +44,9 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"synth", "a.yaml"},
       {"evaluate"},
       {"evaluate", "a", "--units", "inch"},
+      {"bench", "--frames", "0"},
+      {"bench", "--rounds", "many"},
+      {"bench", "--seconds", "0"},
       {"plugins"},
       {"plugins", "info"},
       {"plugins", "check"},

@@ -57,6 +57,16 @@ std::string shown(std::string_view cell) {
 
 }  // namespace
 
+std::string csv_cell(std::string_view text) {
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c == '\n' || c == '\r' ? ' ' : c;
+  }
+  return quoted + "\"";
+}
+
 CsvTable::CsvTable(const std::filesystem::path& file)
     : name_(file.string()), text_(read_all(file)) {
   std::string_view rest = text_;

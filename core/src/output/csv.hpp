@@ -7,6 +7,10 @@
 
 namespace hypotrack {
 
+/// A cell of a comma-separated table to write: in quotes where it has a comma or a quote (RFC 4180);
+/// a line break becomes a space.
+std::string csv_cell(std::string_view text);
+
 /// The cells of a comma-separated table with a header, as text.
 class CsvTable {
  public:

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "output/csv.hpp"
 #include "output/text_file.hpp"
 #include "report/json_file.hpp"
 #include "report/table_data.hpp"
@@ -10,17 +11,9 @@
 namespace hypotrack {
 namespace {
 
-/// A cell of a CSV table (RFC 4180): quoted where it holds a comma, a quote or a line break.
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? "\"\"" : std::string(1, c);
-  return out + '"';
-}
-
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
-  return quoted(value.is_string() ? value.get<std::string>() : value.dump());
+  return csv_cell(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 /// Speed is left out: it differs from time to time, and the tables of a study should not.
@@ -35,7 +28,7 @@ std::string table_csv(const Json& table) {
     if (!is_repeatable(column)) continue;
     const std::string key = column["key"];
     for (const char* suffix : {"mean", "sd", "p_against_best", "best"})
-      text += "," + quoted(fmt::format("{}_{}", key, suffix));
+      text += "," + csv_cell(fmt::format("{}_{}", key, suffix));
   }
   text += "\n";
   for (const Json& row : table["rows"]) {
@@ -60,14 +53,14 @@ std::string runs_csv(const StudyData& study) {
       for (const auto& [key, value] : run.metrics) metrics.push_back(key);
     }
   std::string text = "run,scene,";
-  for (const StudyAxis& axis : study.axes) text += quoted(axis.key) + ",";
+  for (const StudyAxis& axis : study.axes) text += csv_cell(axis.key) + ",";
   text += "seed,status,message";
-  for (const std::string& metric : metrics) text += "," + quoted(metric);
+  for (const std::string& metric : metrics) text += "," + csv_cell(metric);
   text += "\n";
   for (const StudyRun& run : study.runs) {
-    text += quoted(run.id) + "," + quoted(run.scene) + ",";
-    for (const StudyAxis& axis : study.axes) text += quoted(run.on_axis(axis.key)) + ",";
-    text += fmt::format("{},{},{}", run.seed, run.failed ? "failed" : "ok", quoted(run.message));
+    text += csv_cell(run.id) + "," + csv_cell(run.scene) + ",";
+    for (const StudyAxis& axis : study.axes) text += csv_cell(run.on_axis(axis.key)) + ",";
+    text += fmt::format("{},{},{}", run.seed, run.failed ? "failed" : "ok", csv_cell(run.message));
     for (const std::string& metric : metrics) {
       const double value = run.number(metric);
       text += std::isfinite(value) ? fmt::format(",{}", value) : ",";

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/csv.hpp"
 #include "output/text_file.hpp"
 #include "study/results.hpp"
 
@@ -17,31 +18,20 @@ namespace {
 
 using Column = Metrics RunResult::*;
 
-/// A cell of a table: in quotes where it has a comma, a quote or a line break (RFC 4180).
-std::string csv(std::string_view text) {
-  if (text.find_first_of(",\"\n\r") == std::string_view::npos) return std::string(text);
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return quoted + "\"";
-}
-
 std::string csv(const std::optional<double>& number) {
   return number ? fmt::format("{}", *number) : "";
 }
 
 std::string header_of(const Plan& plan) {
   std::string text = "scene";
-  for (const Axis& axis : plan.study.axes) text += "," + csv(axis.name);
+  for (const Axis& axis : plan.study.axes) text += "," + csv_cell(axis.name);
   return text;
 }
 
 std::string row_of(const Plan& plan, const Cell& cell) {
   std::string text = plan.scene_of(cell).name;
   for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis)
-    text += "," + csv(plan.choice_of(cell, axis).label);
+    text += "," + csv_cell(plan.choice_of(cell, axis).label);
   return text;
 }
 
@@ -68,7 +58,7 @@ std::string numbers_of(const Metrics& metrics, const std::vector<std::string>& n
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) text += "," + csv(name);
+  for (const std::string& name : names) text += "," + csv_cell(name);
   return text;
 }
 
@@ -77,7 +67,7 @@ std::string results_text(const Plan& plan, const std::vector<RunResult>& results
   std::string text = header_of(plan) + ",seed,status,message" + joined(names) + "\n";
   for (const RunResult& result : results)
     text += fmt::format("{},{},{},{}{}\n", row_of(plan, plan.cells[result.run->cell]),
-                        result.run->seed, result.ok ? "ok" : "failed", csv(result.message),
+                        result.run->seed, result.ok ? "ok" : "failed", csv_cell(result.message),
                         numbers_of(result.metrics, names));
   return text;
 }
@@ -110,7 +100,7 @@ std::string cell_numbers(const RunResult* begin, const RunResult* end,
 std::string cells_text(const Plan& plan, const std::vector<RunResult>& results) {
   const auto names = names_of(results, &RunResult::metrics);
   std::string text = header_of(plan) + ",runs,failed";
-  for (const std::string& name : names) text += fmt::format(",{0}_mean,{0}_sd", csv(name));
+  for (const std::string& name : names) text += fmt::format(",{0}_mean,{0}_sd", csv_cell(name));
   text += "\n";
   const RunResult* const all_end = results.data() + results.size();
   for (const RunResult* begin = results.data(); begin != all_end;) {

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/bench_plan.hpp"
+#include "bench/bench_table.hpp"
+#include "bench/frames.hpp"
+#include "bench/machine.hpp"
+#include "bench/measure.hpp"
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "progress.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+/// Exit code where a way of tracking broke in the middle.
+constexpr int kFailedExitCode = 3;
+
+struct BenchOptions {
+  bench::Request request;
+  bench::Limits limits;
+  std::optional<int> frames;
+  int rounds = 1;
+  std::filesystem::path out;
+};
+
+/// Measures what is planned, row by row.
+class Bench {
+ public:
+  Bench(const bench::Plan& plan, const BenchOptions& options, PluginLoader& plugins)
+      : plan_(plan),
+        options_(options),
+        plugins_(plugins),
+        frames_(plugins, options.limits.warm_up + options.limits.frames),
+        progress_(static_cast<int>(plan.cases.size() * plan.ways.size()) * options.rounds,
+                  Progress::Unit::runs) {}
+
+  /// False if the user ended it.
+  bool run() {
+    write();  // a file that cannot be written is found before anything is measured
+    for (int round = 1; round <= options_.rounds; ++round)
+      for (std::size_t c = 0; c < plan_.cases.size(); ++c)
+        for (std::size_t way = 0; way < plan_.ways.size(); ++way) {
+          bench::Measurement measurement = measure(plan_.cases[c], plan_.ways[way]);
+          if (interrupt_.interrupted()) return false;
+          add({round, c, way, std::move(measurement)});
+        }
+    return true;
+  }
+
+  const std::vector<bench::Row>& rows() const { return rows_; }
+
+ private:
+  bench::Measurement measure(const bench::Case& c, const bench::Way& way) {
+    const std::vector<Frame>* frames = nullptr;
+    try {
+      frames = &frames_.of(c);
+    } catch (const std::exception& e) {
+      return {.outcome = bench::Outcome::unavailable, .message = e.what()};
+    }
+    return bench::measure(c, way, *frames, plugins_, options_.limits,
+                          [&] { return !interrupt_.interrupted(); });
+  }
+
+  /// Writes all rows again, so that whatever ends the program leaves those before.
+  void add(bench::Row row) {
+    rows_.push_back(std::move(row));
+    const bench::Row& last = rows_.back();
+    write();
+    progress_.say(fmt::format("{}, {}: {}", plan_.cases[last.case_index].label,
+                              plan_.ways[last.way].name, bench::in_words(last.measurement)));
+    progress_.advance({});
+  }
+
+  void write() const {
+    if (!options_.out.empty()) bench::write_rows(options_.out, plan_, rows_);
+  }
+
+  const bench::Plan& plan_;
+  const BenchOptions& options_;
+  PluginLoader& plugins_;
+  bench::Frames frames_;
+  InterruptGuard interrupt_;
+  Progress progress_;
+  std::vector<bench::Row> rows_;
+};
+
+void print_tables(const bench::Plan& plan, const BenchOptions& options,
+                  const std::vector<bench::Row>& rows) {
+  fmt::print("{}\n{}, {} core{}; up to {} frames after {}, about {} s a row\n", plan.title,
+             processor_name(), core_count(), core_count() == 1 ? "" : "s", options.limits.frames,
+             options.limits.warm_up, options.limits.seconds);
+  for (int round = 1; round <= (rows.empty() ? 0 : rows.back().round); ++round) {
+    if (options.rounds > 1) fmt::print("\nround {} of {}", round, options.rounds);
+    fmt::print("\n{}", bench::table_text(plan, rows, round));
+  }
+  if (!options.out.empty()) fmt::print("\nrows in {}\n", options.out.string());
+}
+
+int conclude(const std::vector<bench::Row>& rows) {
+  const auto count = [&](bench::Outcome outcome) {
+    return std::count_if(rows.begin(), rows.end(),
+                         [&](const bench::Row& row) { return row.measurement.outcome == outcome; });
+  };
+  if (const auto failed = count(bench::Outcome::failed); failed > 0) {
+    fmt::print(stderr, "hypotrack: {} of {} rows failed\n", failed, rows.size());
+    return kFailedExitCode;
+  }
+  if (count(bench::Outcome::measured) > 0) return 0;
+  fmt::print(stderr, "hypotrack: nothing could be measured; the reasons are below the table\n");
+  return 1;
+}
+
+int run_bench(BenchOptions options, const CommonOptions& common) {
+  if (!options.out.empty()) {
+    bench::check_format(options.out);
+    options.out = std::filesystem::absolute(options.out);
+  }
+  PluginLoader plugins(common.plugin_path);
+  if (options.request.table.empty()) options.request.table = data_file("configs/bench.yaml");
+  const bench::Plan plan = bench::make_plan(options.request);
+  options.limits.frames = options.frames.value_or(plan.frames.value_or(options.limits.frames));
+  bool complete = false;
+  std::vector<bench::Row> rows;
+  {
+    Bench bench(plan, options, plugins);
+    complete = bench.run();
+    rows = bench.rows();
+  }
+  print_tables(plan, options, rows);
+  if (complete) return conclude(rows);
+  fmt::print(stderr, "hypotrack: interrupted; the tables end early\n");
+  return kInterruptedExitCode;
+}
+
+void add_limits(CLI::App& command, BenchOptions& options) {
+  command
+      .add_option("--frames", options.frames,
+                  "Frames to measure of each row (default: what the table says, or 50)")
+      ->check(CLI::Range(1, 100'000));
+  command.add_option("--warm-up", options.limits.warm_up, "Frames to track before those")
+      ->check(CLI::Range(0, 100'000))
+      ->capture_default_str();
+  command
+      .add_option("--seconds", options.limits.seconds,
+                  fmt::format("Time for a row; a slow one has fewer frames, at least {}, unless "
+                              "even those take {} times as long",
+                              bench::kFewestFrames, bench::kLongest))
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option("--rounds", options.rounds, "Measure everything so many times")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<BenchOptions>();
+  CLI::App* command =
+      app.add_subcommand("bench", "Measure how fast scenes are tracked, backend beside backend");
+  command->add_option("scene", options->request.scenes,
+                      "Scene files, or names of the table's scenes (default: all of those)");
+  command->add_option("--table", options->request.table,
+                      "Study file with scenes and, as the axis 'backend' of its grid, the ways to "
+                      "track them (default: configs/bench.yaml of the installation)");
+  command->add_option("--variant", options->request.variant, "Variant of the table");
+  command
+      ->add_option("--backends", options->request.backends,
+                   "Cases of the axis 'backend' to measure, with commas between them (default: "
+                   "all)")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  add_set_option(*command, options->request.set);
+  add_limits(*command, *options);
+  command->add_option("--out", options->out, "CSV or JSON file for the rows");
+  command->callback([=, &common, &exit_code] { exit_code = run_bench(*options, common); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/bench_plan.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack::bench {
+
+/// Frames in memory, kept for as long as the cases that follow have the same source.
+class HYPOTRACK_API Frames {
+ public:
+  /// `usable` frames are read of each source, or as many as it has; those that cannot be used and
+  /// lie between them are read, too.
+  Frames(PluginLoader& plugins, int usable) : plugins_(&plugins), usable_(usable) {}
+
+  /// The frames of a case from the first that can be used; valid until the next call. Throws what
+  /// is wrong with the scene, DataError if it has no such frame.
+  const std::vector<Frame>& of(const Case& c);
+
+ private:
+  PluginLoader* plugins_;
+  int usable_;
+  std::string source_;  ///< what frames_ were read from
+  std::vector<Frame> frames_;
+};
+
+}  // namespace hypotrack::bench
