@@ -2,10 +2,12 @@
 #include <opencv2/videoio.hpp>
 
 #include "app_test.hpp"
+#include "cuda/device.hpp"
 
 namespace hypotrack::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::SizeIs;
@@ -63,6 +65,76 @@ TEST_F(LostDeviceTest, TheNextRunTakesTheResultsPlace) {
 
 TEST_F(LostDeviceTest, LostOnTheFirstFrameItLeavesNothing) {
   expect_refusal(run_lost(lost_after(0)), {"the device is lost"});
+}
+
+TEST_F(LostDeviceTest, InAStudyItIsARow) {
+  scene(box_scene(), "box.yaml");
+  write_text(path("study.yaml"), R"(title: A lost device
+scenes: {box: {file: box.yaml}}
+grid:
+  objective:
+    good: {objective: {type: stereo_color}}
+    bad: {objective: {type: failing, frames: 1}}
+)");
+  const Outcome outcome =
+      run_program({"compare", path("study.yaml").string(), "--out", path("out").string(),
+                   "--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  EXPECT_THAT(read_text(path("out/results.csv")),
+              AllOf(HasSubstr("box,good,1,ok,,"), HasSubstr("box,bad,1,failed,"),
+                    HasSubstr("the device is lost")));
+}
+
+/// A test with a scene that asks for a GPU on a machine without one.
+class NoDeviceTest : public AppTest {
+ protected:
+  void SetUp() override {
+    why_ = cuda::why_no_device();
+    if (why_.empty()) GTEST_SKIP() << "needs a machine without a GPU";
+  }
+
+  static std::string scene_for_cuda() { return box_scene() + "evaluate: {backend: cuda}\n"; }
+
+  /// The message says what is missing and what to write instead.
+  std::vector<std::string> message() const {
+    return {"evaluate.backend: cuda: " + why_, "Write `backend: cpu`"};
+  }
+
+ private:
+  std::string why_;
+};
+
+TEST_F(NoDeviceTest, ARunSaysWhatIsMissingAndWhatToWrite) {
+  expect_refused(scene_for_cuda(), message());
+}
+
+TEST_F(NoDeviceTest, SoDoesValidate) {
+  expect_refusal(run_program({"validate", scene(scene_for_cuda())}), message());
+}
+
+TEST_F(NoDeviceTest, SoDoesAStudyBeforeAnythingRuns) {
+  scene(scene_for_cuda(), "box.yaml");
+  write_text(path("study.yaml"), "title: A GPU\nscenes: {box: {file: box.yaml}}\n");
+  std::vector<std::string> pieces = message();
+  pieces.push_back("nothing was run");
+  const Outcome outcome =
+      run_program({"compare", path("study.yaml").string(), "--out", path("out").string()});
+  expect_refusal(outcome, pieces);
+}
+
+TEST_F(NoDeviceTest, ForBenchItIsARow) {
+  const Outcome outcome =
+      run_program({"bench", scene(box_scene()), "--backends", "cpu,cuda", "--frames", "3"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, AllOf(testing::ContainsRegex("cuda +- unavailable \\[1\\]"),
+                                 HasSubstr("[1] " + message()[0]), HasSubstr(message()[1])));
+}
+
+TEST_F(NoDeviceTest, AutomaticTakesTheCpuAndSaysWhy) {
+  const Outcome outcome = run(box_scene() + "evaluate: {backend: automatic}\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("tracking with cpu ("),
+                                 HasSubstr("not on a GPU: " + cuda::why_no_device())));
 }
 
 }  // namespace

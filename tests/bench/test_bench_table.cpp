@@ -102,6 +102,16 @@ TEST(BenchTableTest, ARoundHasItsOwnRows) {
               testing::AllOf(HasSubstr("40.000"), Not(HasSubstr("20.000"))));
 }
 
+TEST(BenchTableTest, MemoryOfTheGpuIsToldWhereThereIsOne) {
+  std::vector<Row> rows = {{1, 0, 0, frames_of(0.010, 3)}, {1, 0, 1, frames_of(0.002, 3)}};
+  EXPECT_THAT(table_text(plan_of_two_ways(), rows, 1), Not(HasSubstr("GPU MiB")));
+  rows[1].measurement.device_mib = 54.3;
+  EXPECT_THAT(table_text(plan_of_two_ways(), rows, 1),
+              testing::AllOf(HasSubstr("error mm   GPU MiB     x cpu"),
+                             HasSubstr("12.35        54      5.00"),
+                             HasSubstr("12.35         -      1.00")));
+}
+
 TEST(BenchTableTest, FilesHoldEveryRow) {
   const TemporaryDirectory folder;
   const std::vector<Row> rows = {{1, 0, 0, frames_of(0.010, 3)},
@@ -109,11 +119,12 @@ TEST(BenchTableTest, FilesHoldEveryRow) {
   write_rows(folder.path() / "rows.csv", plan_of_two_ways(), rows);
   EXPECT_EQ(read(folder.path() / "rows.csv"),
             "scene,backend,round,status,device,frames,warm_up,median_ms,p5_ms,p95_ms,fps,"
-            "evaluations,evaluations_per_second,mean_error_mm,lost_frames,speed_over_cpu,"
+            "evaluations,evaluations_per_second,mean_error_mm,lost_frames,device_mib,"
+            "speed_over_cpu,"
             "speed_over_gpu,message\n"
             "\"A box, small\",cpu,1,measured,a device,3,0,20.0,11.0,29.0,50.0,100.0,5000.0,12.345,"
-            "0,1.0,,\n"
-            "\"A box, small\",gpu,1,unavailable,,0,0,,,,,,,,,,,\"no GPU, none\"\n");
+            "0,,1.0,,\n"
+            "\"A box, small\",gpu,1,unavailable,,0,0,,,,,,,,,,,,\"no GPU, none\"\n");
   write_rows(folder.path() / "rows.json", plan_of_two_ways(), rows);
   const auto json = nlohmann::json::parse(read(folder.path() / "rows.json"));
   EXPECT_EQ(json.at("title"), "Some");

@@ -57,6 +57,7 @@ class Table {
   const std::vector<Row>& rows_;
   int round_;
   std::size_t case_width_ = 5, way_width_ = 7;
+  bool tells_memory_ = false;
   std::vector<std::size_t> references_;  ///< ways to compare with: those measured, if there are two
   Lines reasons_;
 };
@@ -70,12 +71,15 @@ Table::Table(const Plan& plan, const std::vector<Row>& rows, int round)
                     [&](const Row& row) { return row.way == way && numbers_of(row.measurement); }))
       references_.push_back(way);
   if (references_.size() < 2) references_.clear();
+  tells_memory_ = std::any_of(rows.begin(), rows.end(),
+                              [](const Row& row) { return row.measurement.device_mib; });
 }
 
 std::string Table::head() const {
   std::string text = fmt::format("{:<{}}  {:<{}} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9}",
                                  "scene", case_width_, "backend", way_width_, "frames", "median ms",
                                  "5 %", "95 %", "fps", "evals/s", "error mm");
+  if (tells_memory_) text += fmt::format(" {:>9}", "GPU MiB");
   for (const std::size_t way : references_)
     text += fmt::format(" {:>9}", "x " + plan_.ways[way].name);
   return text + "\n";
@@ -87,6 +91,8 @@ std::string Table::numbers(const Row& row, const Numbers& n) const {
       fmt::format("{:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>8} {:>9} {:>9}", m.seconds.size(),
                   1000 * n.median, 1000 * n.p5, 1000 * n.p95, short_number(n.fps),
                   with_prefix(n.evaluations_per_second), error_text(m.metrics.mean_error_mm));
+  if (tells_memory_)
+    text += fmt::format(" {:>9}", m.device_mib ? fmt::format("{:.0f}", *m.device_mib) : "-");
   for (const std::size_t way : references_) {
     const auto speed = speed_over(row, way, rows_);
     text += fmt::format(" {:>9}", speed ? short_number(*speed) : "-");

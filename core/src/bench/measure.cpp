@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "cuda/device.hpp"
 #include "output/true_landmarks.hpp"
 #include "session/session.hpp"
 #include "track/tracker.hpp"
@@ -42,6 +43,21 @@ Session open(const Case& c, const Way& way, PluginLoader& plugins) {
   enter_directory(c);
   return open_session(c.file, overrides, plugins);
 }
+
+/// What a GPU's memory has lost since this was made.
+class DeviceMemory {
+ public:
+  explicit DeviceMemory(int device) : device_(device), free_(cuda::free_memory(device)) {}
+  std::optional<double> used_mib() const {
+    const auto now = free_ ? cuda::free_memory(device_) : std::nullopt;
+    if (!now) return std::nullopt;
+    return (static_cast<double>(*free_) - static_cast<double>(*now)) / (1 << 20);
+  }
+
+ private:
+  int device_;
+  std::optional<std::size_t> free_;
+};
 
 int usable_of(const std::vector<Frame>& frames) {
   return static_cast<int>(std::count_if(frames.begin(), frames.end(),
@@ -96,10 +112,13 @@ Measurement measure(const Case& c, const Way& way, const std::vector<Frame>& fra
                     const std::function<bool()>& again) {
   Measurement result{.outcome = Outcome::unavailable};
   try {
-    Opened opened(open(c, way, plugins), frames.front());
+    Session session = open(c, way, plugins);
+    const DeviceMemory memory(session.parts.evaluate.device);
+    Opened opened(std::move(session), frames.front());
     result.device = opened.tracker.backend();
     result.outcome = Outcome::failed;
     track(opened, frames, limits, again, result);
+    result.device_mib = memory.used_mib();
     result.outcome = Outcome::measured;
   } catch (...) {
     result.message = current_message();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,6 +31,8 @@ struct Measurement {
   std::vector<double> seconds = {};      ///< of every measured frame, from the frame to the answer
   std::vector<double> evaluations = {};  ///< of every measured frame
   Metrics metrics = {};                  ///< of the measured frames
+  /// What it took of the GPU's memory, where there is one, whatever uses it.
+  std::optional<double> device_mib = {};
 };
 
 /// Tracks frames, which lie in memory, one after the other; the first of them has views. `again` is

@@ -8,6 +8,8 @@ namespace hypotrack::cuda {
 
 std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
 
+std::optional<std::size_t> free_memory(int) { return std::nullopt; }
+
 Device::Device(int index) : index_(index) {
   throw DeviceError("evaluate.backend: cuda: " + why_no_device() +
                     ". Write `backend: cpu`, or build with -DHYPOTRACK_CUDA=ON");

@@ -55,6 +55,15 @@ std::string why_not_this_device(int index) {
       properties.name, properties.major, properties.minor, properties.major, properties.minor);
 }
 
+std::optional<std::size_t> free_memory(int index) {
+  std::size_t free = 0, total = 0;
+  const bool known = why_no_device(index).empty() && cudaSetDevice(index) == cudaSuccess &&
+                     cudaMemGetInfo(&free, &total) == cudaSuccess;
+  if (known) return free;
+  (void)cudaGetLastError();
+  return std::nullopt;
+}
+
 Device::Device(int index) : index_(index) {
   std::string why = why_no_device(index);
   if (why.empty()) why = why_not_this_device(index);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hypotrack/cuda/device_objective.hpp"
@@ -15,6 +17,10 @@ HYPOTRACK_API std::string why_no_device(int index = 0);
 /// Why this GPU, for which why_no_device() has no reason, cannot be used all the same: it does not
 /// answer, or hypotrack was built for other ones. Empty if it can. Takes some of its memory.
 std::string why_not_this_device(int index);
+
+/// Bytes of a GPU's memory that no process uses; nothing where there is no such GPU or it does not
+/// answer. Makes it the GPU of this thread.
+HYPOTRACK_API std::optional<std::size_t> free_memory(int index = 0);
 
 /// A GPU and the stream that everything of one evaluator is enqueued on.
 class HYPOTRACK_API Device {
