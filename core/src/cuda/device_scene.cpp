@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "evaluate/mesh_topology.hpp"
 #include "evaluate/vertex_order.hpp"
@@ -18,7 +18,6 @@ struct HostScene {
   std::vector<BoneLayout> bones;
   std::vector<Turn> turns;
   std::vector<VertexLayout> vertices;
-  std::vector<VertexBones> vertex_bones;
   std::vector<PackedTriangle> triangles;
 
   void add(const Scene::Item& item);
@@ -68,20 +67,30 @@ void HostScene::add_bones(const Scene::Item& item) {
   }
 }
 
+/// Weights in units of 1 / kWholeWeight that add up: the largest takes what rounding leaves over.
+void quantize(const Eigen::Vector4f& weights, std::uint16_t* out) {
+  int sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    out[k] = static_cast<std::uint16_t>(std::lround(weights[k] * kWholeWeight));
+    sum += out[k];
+  }
+  Eigen::Index largest = 0;
+  weights.maxCoeff(&largest);
+  out[largest] = static_cast<std::uint16_t>(out[largest] + kWholeWeight - sum);
+}
+
 void HostScene::add_vertices(const Mesh& mesh, const std::vector<int>& order,
                              std::size_t first_bone) {
   for (const int v : order) {
     VertexLayout vertex{};
-    VertexBones held{};
     for (int i = 0; i < 3; ++i) vertex.position[i] = mesh.vertices(i, v);
+    quantize(mesh.bone_weights.col(v), vertex.weight);
     for (int k = 0; k < 4; ++k) {
-      const float weight = mesh.bone_weights(k, v);
-      vertex.weights[k] = weight;
-      held.bone[k] = static_cast<std::uint16_t>(
-          first_bone + static_cast<std::size_t>(weight > 0 ? mesh.bone_indices(k, v) : 0));
+      const auto bone =
+          static_cast<std::size_t>(vertex.weight[k] > 0 ? mesh.bone_indices(k, v) : 0);
+      vertex.bone[k] = static_cast<std::uint8_t>(first_bone + bone);
     }
     vertices.push_back(vertex);
-    vertex_bones.push_back(held);
   }
 }
 
@@ -124,9 +133,8 @@ std::string why_not_on_device(const Scene& scene) {
   if (vertices > kVertexMask) {
     return fmt::format("the models have {} vertices, at most {} fit", vertices, kVertexMask);
   }
-  if (bones > std::numeric_limits<std::uint16_t>::max()) {
-    return fmt::format("the models have {} bones, at most {} fit", bones,
-                       std::numeric_limits<std::uint16_t>::max());
+  if (bones > kMostBones) {
+    return fmt::format("the models have {} bones, at most {} fit", bones, kMostBones);
   }
   return {};
 }
@@ -150,7 +158,6 @@ DeviceScene::DeviceScene(const Scene& scene) {
              upload(bones_, host.bones),
              upload(turns_, host.turns),
              upload(vertices_, host.vertices),
-             upload(vertex_bones_, host.vertex_bones),
              upload(triangles_, host.triangles)};
 }
 

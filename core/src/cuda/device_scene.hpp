@@ -25,7 +25,6 @@ class DeviceScene {
   DeviceBuffer<BoneLayout> bones_;
   DeviceBuffer<Turn> turns_;
   DeviceBuffer<VertexLayout> vertices_;
-  DeviceBuffer<VertexBones> vertex_bones_;
   DeviceBuffer<PackedTriangle> triangles_;
   SceneLayout layout_{};
 };

@@ -75,8 +75,11 @@ struct DepthBuffer {
     return (y - box.y0) * box.width() + (x - box.x0);
   }
   __device__ __forceinline__ float operator()(int x, int y) const {
-    const bool inside = x >= box.x0 && x < box.x1 && y >= box.y0 && y < box.y1;
-    return inside ? inverse_depth[index(x, y)] : 0.0f;
+    return y >= box.y0 && y < box.y1 ? in_row(x, y) : 0.0f;
+  }
+  /// For a row within the box.
+  __device__ __forceinline__ float in_row(int x, int y) const {
+    return x >= box.x0 && x < box.x1 ? inverse_depth[index(x, y)] : 0.0f;
   }
 };
 
@@ -95,11 +98,7 @@ __device__ __forceinline__ void block_sum(const float (&values)[kCount], float* 
   __syncthreads();
   if (warp != 0) return;
   for (int i = 0; i < kCount; ++i) {
-    double sum = lane < warps ? room[lane * kCount + i] : 0.0;
-    for (int step = kWarp / 2; step > 0; step /= 2) {
-      sum += __shfl_xor_sync(kWholeWarp, sum, step);
-    }
-    total[i] = sum;
+    total[i] = warp_sum(lane < warps ? room[lane * kCount + i] : 0.0f);
   }
 }
 

@@ -17,7 +17,12 @@ struct BlockPlan {
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
   int state = 0, models = 0, bones = 0, layouts = 0, turns = 0, vertices = 0, vertex_stride = 0,
-      list = 0, sums = 0, depth = 0;
+      list = 0, sums = 0, histogram = 0, depth = 0;
+  int histogram_rows = 0;
+  /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
+  /// before still runs.
+  bool staged = false;
+  int staged_vertices = 0, staged_triangles = 0;
 
   float* vertex_scratch = nullptr;  ///< 4 * vertex_stride floats per block
   float* depth_scratch = nullptr;   ///< depth_scratch_size floats per block, or null
@@ -74,15 +79,22 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.turns = take(static_cast<int>(sizeof(Turn) / 4) * r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
+  p.histogram_rows = bands > 1 ? r.tile_height : 0;
+  p.histogram = take(p.histogram_rows);
   const int floats = bytes / 4;
   // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
   const int least_depth =
       rounded(std::max(least_depth_capacity(r.tiles_at_once, r.tile_width), floats / 3));
   p.vertices_in_shared = end + 4 * p.vertex_stride + least_depth <= floats;
   p.vertices = p.vertices_in_shared ? take(4 * p.vertex_stride) : 0;
-  p.depth = end;
   const int rows = (r.tile_height + bands - 1) / bands;
   const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;
+  const int vertices = static_cast<int>(sizeof(VertexLayout) / 4) * r.scene.vertex_count;
+  const int triangles = static_cast<int>(sizeof(PackedTriangle) / 4) * r.scene.triangle_count;
+  p.staged = p.vertices_in_shared && end + vertices + triangles + wanted + 8 <= floats;
+  p.staged_vertices = p.staged ? take(vertices) : 0;
+  p.staged_triangles = p.staged ? take(triangles) : 0;
+  p.depth = end;
   p.depth_capacity = static_cast<int>(
       std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end) / 4 * 4));
   p.shared_bytes = 4 * (end + p.depth_capacity);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cuda_pipeline_primitives.h>
+
 #include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/pixel_walk.cuh"
 #include "hypotrack/cuda/pose.cuh"
@@ -12,7 +14,7 @@ namespace hypotrack::cuda {
 
 /// Adds the pixels of `here` within its box to the sums.
 template <int kReference, bool kRectified, class Term, class Here, class There>
-__device__ __forceinline__ void score_stereo(const Term& term, const StereoMap& map, const Box& box,
+__device__ __forceinline__ void score_stereo(const Term& term, const StereoMap map, const Box& box,
                                              const Here& here, const There& there,
                                              float (&sums)[Term::kSums]) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -45,12 +47,14 @@ __device__ __forceinline__ void score_view(const Term& term, int view, const Box
 }
 
 /// Everything that the threads of one block know about their hypothesis.
-template <class Term, bool kSharedVertices>
+/// What a Term's pixels are taken from.
+enum class Walk { views, pair, general_pair };
+
+template <class Term, Walk kWalk, bool kSharedVertices>
 class BlockEvaluation {
  public:
-  __device__ BlockEvaluation(const SceneLayout& scene, const FrameLayout& frame,
-                             const BatchLayout& batch, const BlockPlan& plan, const Term& term,
-                             Bounds& bounds, int* counts)
+  __device__ BlockEvaluation(const SceneLayout& scene, FrameLayout& frame, const BatchLayout& batch,
+                             const BlockPlan& plan, const Term& term, Bounds& bounds, int* counts)
       : scene_(scene),
         frame_(frame),
         batch_(batch),
@@ -68,11 +72,23 @@ class BlockEvaluation {
   }
 
   /// What does not depend on the search: runs while the kernel before is still at work.
-  __device__ void begin() {
+  __device__ void begin(const FrameLayout* frame) {
+    if (plan_.staged) {
+      stage(scene_.vertices, scene_.vertex_count, plan_.staged_vertices);
+      stage(scene_.triangles, scene_.triangle_count, plan_.staged_triangles);
+    }
     copy_to_shared(scene_.bones, scene_.bone_count, plan_.layouts);
     copy_to_shared(scene_.turns, scene_.turn_count, plan_.turns);
+    const auto* words = reinterpret_cast<const std::uint32_t*>(frame);
+    for (unsigned i = threadIdx.x; i < sizeof(FrameLayout) / 4; i += blockDim.x) {
+      reinterpret_cast<std::uint32_t*>(&frame_)[i] = words[i];
+    }
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
+    if (plan_.bands > 1) {
+      clear(Floats<true>{nullptr, plan_.histogram}, padded(plan_.histogram_rows));
+    }
     reset();
+    __pipeline_wait_prior(0);
     __syncthreads();
   }
 
@@ -86,11 +102,11 @@ class BlockEvaluation {
                  shared + plan_.models, shared + plan_.bones);
     }
     __syncthreads();
-    if constexpr (!Term::kStereo) {
+    if constexpr (kWalk == Walk::views) {
       for (int v = 0; v < frame_.view_count; ++v) {
         if (term_.views() >> v & 1) single_view(v);
       }
-    } else if (frame_.pair) {
+    } else if constexpr (kWalk == Walk::pair) {
       pair();
     } else {
       general_pair();
@@ -112,6 +128,18 @@ class BlockEvaluation {
     }
   }
 
+  /// Copies without waiting, 8 bytes at a time.
+  template <class T>
+  __device__ static void stage(const T* from, int count, int to) {
+    const auto* pairs = reinterpret_cast<const uint2*>(from);
+    auto* out = reinterpret_cast<uint2*>(shared_floats() + to);
+    const int size = static_cast<int>(sizeof(T) / sizeof(uint2)) * count;
+    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+      __pipeline_memcpy_async(out + i, pairs + i, sizeof(uint2));
+    }
+    __pipeline_commit();
+  }
+
   __device__ void reset() {
     if (threadIdx.x == 0) bounds_.reset();
     if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
@@ -125,16 +153,22 @@ class BlockEvaluation {
     const ViewLayout& camera = frame_.views[view];
     const Parallax parallax = pair_parallax();
     ThreadBounds own;
-    const auto place = [&](int i, const LoadedVertex& loaded) {
-      const float3 v = project(skin(loaded, bones), camera, view == 0);
+    const VertexLayout* layouts =
+        plan_.staged
+            ? reinterpret_cast<const VertexLayout*>(shared_floats() + plan_.staged_vertices)
+            : scene_.vertices;
+    auto* histogram = reinterpret_cast<int*>(shared_floats() + plan_.histogram);
+    for (int i = static_cast<int>(threadIdx.x); i < scene_.vertex_count;
+         i += static_cast<int>(blockDim.x)) {
+      const float3 v = project(skin(layouts + i, bones), camera, view == 0);
       const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
       vertices_[i] = {v.x, v.y, valid ? v.z : 0.0f, x2};
-      if (valid) own.add(v.x, x2, v.y);
-    };
-    for (int i = static_cast<int>(threadIdx.x); i < scene_.vertex_count;
-         i += static_cast<int>(blockDim.x)) {
-      place(i, load_vertex(scene_, i));
+      if (!valid) continue;
+      own.add(v.x, x2, v.y);
+      if (plan_.bands > 1) {
+        atomicAdd(histogram + min(max(__float2int_rn(v.y), 0), camera.height - 1), 1);
+      }
     }
     own.join(bounds_, kPair);
     __syncthreads();
@@ -151,25 +185,70 @@ class BlockEvaluation {
                        const DepthBuffer<kSharedDepth>& right) {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, counts_};
-    const ViewLayout* views = frame_.views + view;
+    const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
       if (first > 0) {
         if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
         __syncthreads();
       }
-      cull<kPair>(scene_, vertices_, views, left.box.y0, left.box.y1, first, count, list);
+      const PackedTriangle* triangles =
+          (plan_.staged
+               ? reinterpret_cast<const PackedTriangle*>(shared_floats() + plan_.staged_triangles)
+               : scene_.triangles) +
+          first;
+      cull<kPair>(triangles, vertices_, views[0].width, views[1].width, left.box.y0, left.box.y1,
+                  count, list);
       __syncthreads();
-      fill<kPair>(scene_, vertices_, views, first, list, left, right);
+      fill<kPair>(triangles, vertices_, views[0].width, views[1].width, views[0].height, list, left,
+                  right);
       __syncthreads();
     }
     if (threadIdx.x < 2) counts_[threadIdx.x] = 0;  // for the next call, after a barrier
   }
 
-  /// The rows that this block is responsible for.
-  __device__ Span band(int y0, int y1) const {
-    const int rows = (max(y1 - y0, 0) + plan_.bands - 1) / plan_.bands;
-    return {min(y0 + band_ * rows, y1), min(y0 + (band_ + 1) * rows, y1)};
+  /// The rows of y0 <= y < y1 that this block is responsible for, so that every band has the same
+  /// share of vertices and of rows; for the whole block.
+  __device__ Span band(int y0, int y1) {
+    if (plan_.bands == 1) return {y0, y1};
+    if (threadIdx.x < kWarp) find_band(y0, y1);
+    __syncthreads();
+    return {counts_[2], counts_[3]};
+  }
+
+  __device__ void find_band(int y0, int y1) {
+    const int lane = static_cast<int>(threadIdx.x);
+    const auto* histogram = reinterpret_cast<const int*>(shared_floats() + plan_.histogram);
+    const int rows = max(y1 - y0, 0), per_lane = (rows + kWarp - 1) / kWarp;
+    const int first = min(y0 + lane * per_lane, y1), last = min(first + per_lane, y1);
+    // A row weighs as much as its vertices and half of an average row.
+    const auto weight = [&](int y) {
+      return 2 * static_cast<long long>(rows) * histogram[y] + scene_.vertex_count;
+    };
+    long long own = 0;
+    for (int y = first; y < last; ++y) own += weight(y);
+    long long before = own;
+    for (int step = 1; step < kWarp; step *= 2) {
+      const long long other = __shfl_up_sync(kWholeWarp, before, step);
+      if (lane >= step) before += other;
+    }
+    const float total = static_cast<float>(__shfl_sync(kWholeWarp, before, kWarp - 1));
+    before -= own;
+    const float low = total * static_cast<float>(band_) / static_cast<float>(plan_.bands);
+    const float high = total * static_cast<float>(band_ + 1) / static_cast<float>(plan_.bands);
+    if (lane == 0) {
+      counts_[2] = band_ == 0 ? y0 : y1;
+      counts_[3] = y1;
+    }
+    __syncwarp();
+    // The first row that ends beyond a bound begins the next band; every row is in one of them.
+    for (int y = first; y < last; ++y) {
+      const auto from = static_cast<float>(before);
+      before += weight(y);
+      const auto to = static_cast<float>(before);
+      if (band_ > 0 && from < low && to >= low) counts_[2] = y + 1;
+      if (band_ + 1 < plan_.bands && from < high && to >= high) counts_[3] = y + 1;
+    }
   }
 
   /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
@@ -311,7 +390,7 @@ class BlockEvaluation {
   }
 
   const SceneLayout& scene_;
-  const FrameLayout& frame_;
+  FrameLayout& frame_;  // in shared memory
   const BatchLayout& batch_;
   const BlockPlan& plan_;
   const Term& term_;
@@ -325,15 +404,17 @@ class BlockEvaluation {
   float sums_[Term::kSums] = {};
 };
 
-template <class Term, bool kSharedVertices>
+template <class Term, Walk kWalk, bool kSharedVertices>
 __global__ void __launch_bounds__(kMostThreads)
     evaluate_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
                         const __grid_constant__ BatchLayout batch,
                         const __grid_constant__ BlockPlan plan, const __grid_constant__ Term term) {
+  __shared__ FrameLayout shared_frame;
   __shared__ Bounds bounds;
-  __shared__ int counts[2];
-  BlockEvaluation<Term, kSharedVertices> block(scene, *frame, batch, plan, term, bounds, counts);
-  block.begin();
+  __shared__ int counts[4];  // of the list's two ends, and the band's rows
+  BlockEvaluation<Term, kWalk, kSharedVertices> block(scene, shared_frame, batch, plan, term,
+                                                      bounds, counts);
+  block.begin(frame);
   wait_for_previous();
   let_next_start();
   block.run();
@@ -343,6 +424,7 @@ __global__ void __launch_bounds__(kMostThreads)
 struct DrawnDepth {
   cudaTextureObject_t texture;
   int layer;
+  __device__ __forceinline__ float in_row(int x, int y) const { return (*this)(x, y); }
   __device__ __forceinline__ float operator()(int x, int y) const {
     return tex2DLayered<float>(texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
                                layer);

@@ -35,14 +35,13 @@ struct ModelLayout {
 };
 
 /// A vertex and up to four bones that hold it. Unused influences have weight 0 and bone 0.
-struct alignas(16) VertexLayout {
-  float position[3];  ///< model frame at the bind pose
-  float unused;
-  float weights[4];
+struct alignas(8) VertexLayout {
+  float position[3];        ///< model frame at the bind pose
+  std::uint8_t bone[4];     ///< indices into the scene's bones
+  std::uint16_t weight[4];  ///< in units of 1 / kWholeWeight; they add up to it
 };
-struct alignas(8) VertexBones {
-  std::uint16_t bone[4];  ///< indices into the scene's bones
-};
+inline constexpr int kWholeWeight = 65535;
+inline constexpr int kMostBones = 256;
 
 /// Three vertex indices of 21 bits each, lowest first, and one bit: drawn from both sides.
 using PackedTriangle = std::uint64_t;
@@ -62,7 +61,6 @@ struct SceneLayout {
   const BoneLayout* bones;
   const Turn* turns;
   const VertexLayout* vertices;
-  const VertexBones* vertex_bones;
   const PackedTriangle* triangles;
 };
 

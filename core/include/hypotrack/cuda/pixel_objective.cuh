@@ -94,9 +94,7 @@ class PixelObjective : public DeviceObjective {
     plan.depth_scratch = depth_scratch_.data();
     plan.partial_sums = partial_sums_.data();
     plan.tickets = tickets_.data();
-    const auto kernel = plan.vertices_in_shared ? &evaluate_hypotheses<Term, true>
-                                                : &evaluate_hypotheses<Term, false>;
-    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+    check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                plan.shared_bytes),
           "reserving shared memory");
     plan_ = plan;
@@ -106,9 +104,7 @@ class PixelObjective : public DeviceObjective {
 
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
     const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
-    const auto kernel = plan_.vertices_in_shared ? &evaluate_hypotheses<Term, true>
-                                                 : &evaluate_hypotheses<Term, false>;
-    launch(kernel, dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
+    launch(kernel_for(plan_), dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
            static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_), scene,
            frame_, batch, plan_, term_);
   }
@@ -129,6 +125,22 @@ class PixelObjective : public DeviceObjective {
   virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
 
  private:
+  using Kernel = void (*)(SceneLayout, const FrameLayout*, BatchLayout, BlockPlan, Term);
+
+  Kernel kernel_for(const BlockPlan& plan) const {
+    const auto with = [&](auto walk) -> Kernel {
+      constexpr Walk kWalk = decltype(walk)::value;
+      return plan.vertices_in_shared ? &evaluate_hypotheses<Term, kWalk, true>
+                                     : &evaluate_hypotheses<Term, kWalk, false>;
+    };
+    if constexpr (Term::kStereo) {
+      if (rectified_) return with(std::integral_constant<Walk, Walk::pair>());
+      return with(std::integral_constant<Walk, Walk::general_pair>());
+    } else {
+      return with(std::integral_constant<Walk, Walk::views>());
+    }
+  }
+
   static bool differ(const Term& a, const Term& b) {
     if constexpr (std::is_empty_v<Term>) {
       return false;

@@ -29,7 +29,8 @@ struct ViewPixel {
 };
 
 /// What the pixel (x, y) of the reference tile with inverse depth w sees. `there(column, row)` is
-/// the inverse depth in the other view, 0 where nothing is drawn.
+/// the inverse depth in the other view, 0 where nothing is drawn; there.in_row(column, row) the
+/// same for a row of the reference view's pixels.
 template <bool kRectified, class Depth>
 __device__ __forceinline__ StereoPixel stereo_pixel(const StereoMap& map, float tolerance, int x,
                                                     int y, float w, const Depth& there) {
@@ -49,7 +50,8 @@ __device__ __forceinline__ StereoPixel stereo_pixel(const StereoMap& map, float 
   if (scalar::lands_inside<kRectified>(map, m)) {
     p.column = __float2int_rn(m.u);
     p.row = kRectified ? y : __float2int_rn(m.v);
-    p.seen = scalar::same_depth(m.inverse_depth, there(p.column, p.row), tolerance);
+    const float w_there = kRectified ? there.in_row(p.column, y) : there(p.column, p.row);
+    p.seen = scalar::same_depth(m.inverse_depth, w_there, tolerance);
   }
   p.occluded = !p.seen;
   return p;

@@ -81,48 +81,82 @@ __device__ inline void decode_pose(const ModelLayout& model, const FrameLayout& 
   }
 }
 
-/// out = a * b for 3x4 matrices; `out` may be `b`.
-__device__ inline void compose(const float* a, const float* b, float* out) {
-  float result[12];
+/// A 3x4 matrix in registers.
+struct Transform {
+  float m[12];
+};
+
+/// 16-byte aligned memory to registers and back.
+__device__ __forceinline__ Transform load_transform(const float* from) {
+  Transform t;
+#pragma unroll
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 4; ++j) {
-      float sum = j == 3 ? a[4 * i + 3] : 0.0f;
-      for (int k = 0; k < 3; ++k) sum += a[4 * i + k] * b[4 * k + j];
-      result[4 * i + j] = sum;
-    }
+    const float4 row = reinterpret_cast<const float4*>(from)[i];
+    t.m[4 * i] = row.x;
+    t.m[4 * i + 1] = row.y;
+    t.m[4 * i + 2] = row.z;
+    t.m[4 * i + 3] = row.w;
   }
-  for (int i = 0; i < 12; ++i) out[i] = result[i];
+  return t;
+}
+__device__ __forceinline__ void store_transform(const Transform& t, float* to) {
+#pragma unroll
+  for (int i = 0; i < 3; ++i) {
+    reinterpret_cast<float4*>(to)[i] = {t.m[4 * i], t.m[4 * i + 1], t.m[4 * i + 2], t.m[4 * i + 3]};
+  }
 }
 
-/// Turns the frame of a 3x4 matrix about a unit axis.
-__device__ inline void turn(float* m, const float* axis, float angle) {
+__device__ __forceinline__ Transform operator*(const Transform& a, const Transform& b) {
+  Transform out;
+#pragma unroll
+  for (int i = 0; i < 3; ++i) {
+#pragma unroll
+    for (int j = 0; j < 4; ++j) {
+      out.m[4 * i + j] =
+          fmaf(a.m[4 * i], b.m[j],
+               fmaf(a.m[4 * i + 1], b.m[4 + j],
+                    fmaf(a.m[4 * i + 2], b.m[8 + j], j == 3 ? a.m[4 * i + 3] : 0.0f)));
+    }
+  }
+  return out;
+}
+
+/// Turns the frame of a transform about a unit axis.
+__device__ __forceinline__ void turn(Transform& transform, float x, float y, float z, float angle) {
   float s, c;
   sincosf(angle, &s, &c);
-  const float x = axis[0], y = axis[1], z = axis[2], t = 1.0f - c;
+  const float t = 1.0f - c;
   const float r[3][3] = {{t * x * x + c, t * x * y - s * z, t * x * z + s * y},
                          {t * x * y + s * z, t * y * y + c, t * y * z - s * x},
                          {t * x * z - s * y, t * y * z + s * x, t * z * z + c}};
+#pragma unroll
   for (int i = 0; i < 3; ++i) {
-    const float a = m[4 * i], b = m[4 * i + 1], d = m[4 * i + 2];
-    for (int j = 0; j < 3; ++j) m[4 * i + j] = a * r[0][j] + b * r[1][j] + d * r[2][j];
+    float* row = transform.m + 4 * i;
+    const float a = row[0], b = row[1], d = row[2];
+#pragma unroll
+    for (int j = 0; j < 3; ++j) row[j] = a * r[0][j] + b * r[1][j] + d * r[2][j];
   }
 }
 
 /// The bone's transform to its parent with all its turns.
-__device__ inline void local_transform(const BoneLayout& bone, const Turn* turns,
-                                       const float* state, float* parent_from_bone) {
-  for (int i = 0; i < 12; ++i) parent_from_bone[i] = bone.parent_from_bone[i];
+__device__ inline Transform local_transform(const BoneLayout& bone, const Turn* turns,
+                                            const float* state) {
+  Transform parent_from_bone;
+#pragma unroll
+  for (int i = 0; i < 12; ++i) parent_from_bone.m[i] = bone.parent_from_bone[i];
   for (int k = 0; k < bone.turn_count; ++k) {
-    const Turn& t = turns[bone.first_turn + k];
-    turn(parent_from_bone, t.axis, t.scale * (state[t.parameter] - t.zero));
+    const Turn t = turns[bone.first_turn + k];
+    turn(parent_from_bone, t.axis[0], t.axis[1], t.axis[2],
+         t.scale * (state[t.parameter] - t.zero));
   }
+  return parent_from_bone;
 }
 
 /// Decodes one hypothesis with one warp: `state` gets the scene's state, `first_from_models` a
 /// matrix per model, NaN for one with a parameter beyond kLargestParameter.
-__device__ inline void decode(const SceneLayout& scene, const FrameLayout& frame,
-                              const BatchLayout& batch, const double* point, float* state,
-                              float* first_from_models) {
+__device__ __noinline__ inline void decode(const SceneLayout& scene, const FrameLayout& frame,
+                                           const BatchLayout& batch, const double* point,
+                                           float* state, float* first_from_models) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const int pose_size = batch.prior ? 6 : 7;
   for (int base = 0; base < scene.model_count; base += kWarp) {
@@ -152,12 +186,12 @@ __device__ inline void decode(const SceneLayout& scene, const FrameLayout& frame
 /// Poses a decoded hypothesis with one warp: `bones` gets one matrix per bone that takes vertices
 /// of the bind pose to the frame of the first view's camera. `layouts` and `turns` are the scene's,
 /// wherever they lie.
-__device__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* layouts,
-                                  const Turn* turns, const float* state,
-                                  const float* first_from_models, float* bones) {
+__device__ __noinline__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* layouts,
+                                               const Turn* turns, const float* state,
+                                               const float* first_from_models, float* bones) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   for (int b = lane; b < scene.bone_count; b += kWarp) {
-    local_transform(layouts[b], turns, state, bones + 12 * b);
+    store_transform(local_transform(layouts[b], turns, state), bones + 12 * b);
   }
   for (int level = 0; level < scene.level_count; ++level) {
     __syncwarp();
@@ -166,12 +200,15 @@ __device__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* la
       if (bone.level != level) continue;
       const float* parent =
           bone.parent < 0 ? first_from_models + 12 * bone.model : bones + 12 * bone.parent;
-      compose(parent, bones + 12 * b, bones + 12 * b);
+      store_transform(load_transform(parent) * load_transform(bones + 12 * b), bones + 12 * b);
     }
   }
   __syncwarp();
   for (int b = lane; b < scene.bone_count; b += kWarp) {
-    compose(bones + 12 * b, layouts[b].bone_from_model, bones + 12 * b);
+    Transform bone_from_model;
+#pragma unroll
+    for (int i = 0; i < 12; ++i) bone_from_model.m[i] = layouts[b].bone_from_model[i];
+    store_transform(load_transform(bones + 12 * b) * bone_from_model, bones + 12 * b);
   }
 }
 

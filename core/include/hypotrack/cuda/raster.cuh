@@ -44,34 +44,22 @@ struct Bounds {
   }
 };
 
-/// A vertex and its bones as they lie in memory, so that they can be fetched ahead of their use.
-struct LoadedVertex {
-  VertexLayout vertex;
-  VertexBones bones;
-};
-
-__device__ __forceinline__ LoadedVertex load_vertex(const SceneLayout& scene, int index) {
-  LoadedVertex v;
-  const auto* from = reinterpret_cast<const float4*>(scene.vertices + index);
-  const float4 a = __ldg(from), b = __ldg(from + 1);
-  const ushort4 c = __ldg(reinterpret_cast<const ushort4*>(scene.vertex_bones) + index);
-  v.vertex = {{a.x, a.y, a.z}, 0.0f, {b.x, b.y, b.z, b.w}};
-  v.bones = {{c.x, c.y, c.z, c.w}};
-  return v;
-}
-
-__device__ __forceinline__ float3 skin(const LoadedVertex& v, const float* bones) {
-  const float* p = v.vertex.position;
+/// Linear blend skinning of one vertex.
+__device__ __forceinline__ float3 skin(const VertexLayout* vertex, const float* bones) {
+  const auto* from = reinterpret_cast<const uint2*>(vertex);
+  const uint2 xy = from[0], z_bones = from[1], weights = from[2];
+  const float x = __uint_as_float(xy.x), y = __uint_as_float(xy.y), z = __uint_as_float(z_bones.x);
   float3 sum = {0.0f, 0.0f, 0.0f};
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
-    const float weight = v.vertex.weights[k];
-    if (weight == 0.0f) continue;
-    const auto* m = reinterpret_cast<const float4*>(bones + 12 * v.bones.bone[k]);
+    const unsigned units = (k < 2 ? weights.x : weights.y) >> (16 * (k % 2)) & 0xFFFFu;
+    if (units == 0) continue;
+    const float weight = static_cast<float>(units) * (1.0f / kWholeWeight);
+    const auto* m = reinterpret_cast<const float4*>(bones + 12 * (z_bones.y >> (8 * k) & 0xFFu));
     const float4 r0 = m[0], r1 = m[1], r2 = m[2];
-    sum.x += weight * (r0.x * p[0] + r0.y * p[1] + r0.z * p[2] + r0.w);
-    sum.y += weight * (r1.x * p[0] + r1.y * p[1] + r1.z * p[2] + r1.w);
-    sum.z += weight * (r2.x * p[0] + r2.y * p[1] + r2.z * p[2] + r2.w);
+    sum.x += weight * (r0.x * x + r0.y * y + r0.z * z + r0.w);
+    sum.y += weight * (r1.x * x + r1.y * y + r1.z * z + r1.w);
+    sum.z += weight * (r2.x * x + r2.y * y + r2.z * z + r2.w);
   }
   return sum;
 }
@@ -206,26 +194,26 @@ __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, i
   return pixels > kPixelsPerThread ? Coverage::many : Coverage::few;
 }
 
-/// Lists the triangles first .. first + count - 1 that may cover pixels of the rows y0 <= y < y1 in
+/// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in
 /// a view or, with kPair, in either view of a pair.
 template <bool kPair, bool kShared>
-__device__ __forceinline__ void cull(const SceneLayout& scene, const Vertices<kShared>& vertices,
-                                     const ViewLayout* views, int y0, int y1, int first, int count,
-                                     const VisibleList& list) {
+__device__ __forceinline__ void cull(const PackedTriangle* triangles,
+                                     const Vertices<kShared>& vertices, int width, int width2,
+                                     int y0, int y1, int count, const VisibleList& list) {
   const int rounded = (count + kWarp - 1) / kWarp * kWarp;
   const auto low = static_cast<float>(y0), high = static_cast<float>(y1 - 1);
   for (int i = static_cast<int>(threadIdx.x); i < rounded; i += static_cast<int>(blockDim.x)) {
     Coverage left = Coverage::none, right = Coverage::none;
     if (i < count) {
-      const PackedTriangle triangle = __ldg(scene.triangles + first + i);
+      const PackedTriangle triangle = triangles[i];
       const CornerRecords records = load_corners(triangle, vertices);
       const Corners t = records.in_view(false);
       const Span rows = {__float2int_ru(fmaxf(least(t.ay, t.by, t.cy), low)),
                          __float2int_rd(fminf(most(t.ay, t.by, t.cy), high))};
       if (rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f) {
         const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
-        left = coverage(t, two_sided, views[0].width, rows);
-        if (kPair) right = coverage(records.in_view(true), two_sided, views[1].width, rows);
+        left = coverage(t, two_sided, width, rows);
+        if (kPair) right = coverage(records.in_view(true), two_sided, width2, rows);
       }
     }
     append(list, left, right, 2 * i);
@@ -248,7 +236,7 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   // Coordinates from the first pixel are small, so that their products are exact enough.
   const auto x = static_cast<float>(p.x0), y = static_cast<float>(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
-  const float inverse_area = 1.0f / twice_area(s);
+  const float inverse_area = __fdividef(1.0f, twice_area(s));
   p.a = (s.bx * s.cy - s.cx * s.by) * inverse_area;
   p.a_dx = (s.by - s.cy) * inverse_area;
   p.a_dy = (s.cx - s.bx) * inverse_area;
@@ -288,7 +276,8 @@ __device__ __forceinline__ void fill_few(const Planes& p, Span rows,
   const float b_dx = p.b_dx == 0.0f ? kHorizontal : p.b_dx;
   float c_dx = -(p.a_dx + p.b_dx);
   if (c_dx == 0.0f) c_dx = kHorizontal;
-  const float a_inverse = __frcp_rn(a_dx), b_inverse = __frcp_rn(b_dx), c_inverse = __frcp_rn(c_dx);
+  const float a_inverse = __fdividef(1.0f, a_dx), b_inverse = __fdividef(1.0f, b_dx);
+  const float c_inverse = __fdividef(1.0f, c_dx);
   const float w_dx = fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc);
   const int last_column = p.x1 - p.x0;
   for (int y = rows.first; y <= rows.last; ++y) {
@@ -324,18 +313,17 @@ __device__ __forceinline__ void fill_many(const Planes& p, Span rows,
 
 /// Draws the listed triangles into the z-buffers of one view or of a pair.
 template <bool kPair, bool kSharedVertices, bool kSharedDepth>
-__device__ __forceinline__ void fill(const SceneLayout& scene,
-                                     const Vertices<kSharedVertices>& vertices,
-                                     const ViewLayout* views, int first, const VisibleList& list,
+__device__ __forceinline__ void fill(const PackedTriangle* triangles,
+                                     const Vertices<kSharedVertices>& vertices, int width,
+                                     int width2, int height, const VisibleList& list,
                                      const DepthBuffer<kSharedDepth>& left,
                                      const DepthBuffer<kSharedDepth>& right) {
   const auto prepared = [&](int entry, const auto& draw) {
     const bool second = kPair && entry % 2 != 0;
-    const Corners t =
-        load_corners(__ldg(scene.triangles + first + entry / 2), vertices).in_view(second);
+    const Corners t = load_corners(triangles[entry / 2], vertices).in_view(second);
     const auto buffer = DepthBuffer<kSharedDepth>::select(second, left, right);
-    const Span rows = pixel_span(t.ay, t.by, t.cy, views[0].height);
-    draw(make_planes(t, second ? views[1].width : views[0].width, rows.first),
+    const Span rows = pixel_span(t.ay, t.by, t.cy, height);
+    draw(make_planes(t, second ? width2 : width, rows.first),
          Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)}, buffer);
   };
   const int threads = static_cast<int>(blockDim.x), thread = static_cast<int>(threadIdx.x);
