@@ -1,6 +1,8 @@
 #include "hypotrack/plugin.hpp"
 
+#include "device.hpp"
 #include "stereo_color.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::stereo_color::StereoColor,
-                 "colour consistency of the two views of a stereo pair (Back to RGB, 2017)", "")
+                 "colour consistency of the two views of a stereo pair (Back to RGB, 2017)",
+                 hypotrack::stereo_color::capabilities())

@@ -6,6 +6,8 @@
 
 #include "aggregation-inl.hpp"
 #include "checks.hpp"
+#include "device.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::stereo_color {
@@ -62,6 +64,10 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
       return 0.0 - 0.5 * (score(hypothesis, 0, 1) + score(hypothesis, 1, 0));
   }
   return 0;
+}
+
+std::unique_ptr<cuda::DeviceObjective> StereoColor::on_device() const {
+  return make_device_objective(params_);
 }
 
 double StereoColor::score(const RenderedHypothesis& hypothesis, int from, int to) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include "features.hpp"
 #include "hypotrack/objective.hpp"
@@ -42,6 +43,7 @@ class StereoColor : public Objective {
   void prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
  private:
   double score(const RenderedHypothesis& hypothesis, int from, int to) const;

@@ -1,0 +1,55 @@
+#include <memory>
+
+#include "checks.hpp"
+#include "cuda/color_term.cuh"
+#include "cuda/feature_maps.hpp"
+#include "device.hpp"
+#include "hypotrack/cuda/pixel_objective.cuh"
+
+namespace hypotrack::stereo_color {
+namespace {
+
+template <bool kBilinear, bool kBoth>
+class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear, kBoth>> {
+ public:
+  explicit DeviceStereoColor(const Settings& settings) : settings_(settings), maps_(settings) {}
+
+ private:
+  using Term = ColorTerm<kBilinear, kBoth>;
+
+  Term make_term(const cuda::DeviceObservation& observation, cuda::Stream stream) override {
+    check(observation);
+    maps_.enqueue(observation, stream);
+    Term term{};
+    for (int i = 0; i < 2; ++i) {
+      term.features[i] = maps_.of_view(i);
+      term.width[i] = observation.tiles[static_cast<std::size_t>(i)].layout.width;
+    }
+    term.beta = static_cast<float>(settings_.beta) * Term::kUnit;
+    term.tolerance = static_cast<float>(settings_.r);
+    term.direction = settings_.direction;
+    term.aggregation = settings_.aggregation;
+    return term;
+  }
+
+  Settings settings_;
+  FeatureMaps maps_;
+};
+
+template <bool kBilinear>
+std::unique_ptr<cuda::DeviceObjective> make(const Settings& settings) {
+  if (settings.direction == Direction::both) {
+    return std::make_unique<DeviceStereoColor<kBilinear, true>>(settings);
+  }
+  return std::make_unique<DeviceStereoColor<kBilinear, false>>(settings);
+}
+
+}  // namespace
+
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings) {
+  return settings.lookup == Lookup::bilinear ? make<true>(settings) : make<false>(settings);
+}
+
+const char* capabilities() { return "device"; }
+
+}  // namespace hypotrack::stereo_color

@@ -1,0 +1,10 @@
+// Stands in for cuda/ in a build without a CUDA toolkit.
+#include "device.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
+
+namespace hypotrack::stereo_color {
+
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings&) { return nullptr; }
+const char* capabilities() { return ""; }
+
+}  // namespace hypotrack::stereo_color
