@@ -3,7 +3,9 @@
 
 #include <string>
 
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
+#include "on_device.hpp"
 #include "random_pair.hpp"
 #include "stereo_color.hpp"
 
@@ -70,6 +72,10 @@ TEST(StereoColor, TilesOfAnotherSizeThanThePreparedFrameAreErrors) {
 }
 
 TEST(StereoColor, NeedsRendering) { EXPECT_TRUE(StereoColor({}).needs_rendering()); }
+
+TEST(StereoColor, IsOnTheDeviceWhereItSaysSo) {
+  EXPECT_EQ(StereoColor({}).on_device() != nullptr, std::string(capabilities()) == "device");
+}
 
 TEST(StereoColor, BothDirectionsAreTheMeanOfTheTwo) {
   const RandomPair pair({.size = 64});

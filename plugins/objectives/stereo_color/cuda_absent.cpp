@@ -1,6 +1,6 @@
 // Stands in for cuda/ in a build without a CUDA toolkit.
-#include "device.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
+#include "on_device.hpp"
 
 namespace hypotrack::stereo_color {
 

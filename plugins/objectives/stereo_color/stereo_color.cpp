@@ -6,9 +6,9 @@
 
 #include "aggregation-inl.hpp"
 #include "checks.hpp"
-#include "device.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
+#include "on_device.hpp"
 
 namespace hypotrack::stereo_color {
 std::span<const std::string_view> enum_names(ColorSpace) {

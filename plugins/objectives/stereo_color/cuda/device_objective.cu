@@ -3,7 +3,7 @@
 #include "checks.hpp"
 #include "cuda/color_term.cuh"
 #include "cuda/feature_maps.hpp"
-#include "device.hpp"
+#include "on_device.hpp"
 #include "hypotrack/cuda/pixel_objective.cuh"
 
 namespace hypotrack::stereo_color {

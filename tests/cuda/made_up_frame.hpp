@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/observation.hpp"
+
+namespace hypotrack::test {
+
+enum class Texture { noise, waves, flat };
+
+/// What a made-up view looks like.
+struct ViewOptions {
+  int width = 128, height = 128;
+  Texture texture = Texture::waves;
+  bool mask = false;
+  int valid_pixels = -1;  ///< so many at random places; -1: all but a few
+  std::uint32_t seed = 1;
+};
+
+/// A tile with colour and, if wanted, mask.
+TileView made_up_view(const ViewOptions& options);
+
+/// Tiles of an observation in device memory.
+class DeviceFrame {
+ public:
+  /// Waits until they are there.
+  DeviceFrame(const Observation& observation, cuda::Stream stream);
+  const cuda::DeviceObservation& observation() const { return observation_; }
+
+ private:
+  cuda::DeviceObservation observation_;
+  cuda::DeviceBuffer<std::uint32_t> pixels_[2];
+};
+
+/// The first `count` objects of device memory, after all that is enqueued.
+template <class T>
+std::vector<T> download(const T* from, std::size_t count, cuda::Stream stream) {
+  std::vector<T> out(count);
+  cuda::check(cudaMemcpyAsync(out.data(), from, count * sizeof(T), cudaMemcpyDeviceToHost,
+                              cuda::native(stream)),
+              "downloading");
+  cuda::check(cudaStreamSynchronize(cuda::native(stream)), "downloading");
+  return out;
+}
+
+}  // namespace hypotrack::test
