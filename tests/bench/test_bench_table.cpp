@@ -96,6 +96,15 @@ TEST(BenchTableTest, TellsNumbersRatiosDevicesAndReasons) {
             "[1] there is no such thing\n");
 }
 
+TEST(BenchTableTest, WithoutAnyNumberThereAreTheReasons) {
+  EXPECT_EQ(table_text(plan_of_two_ways(), {{1, 0, 1, unavailable("none")}}, 1),
+            "scene         backend  frames median ms       5 %      95 %      fps   evals/s  error "
+            "mm\n"
+            "A box, small  gpu           - unavailable [1]\n"
+            "\n"
+            "[1] none\n");
+}
+
 TEST(BenchTableTest, ARoundHasItsOwnRows) {
   const std::vector<Row> rows = {{1, 0, 0, frames_of(0.010, 3)}, {2, 0, 0, frames_of(0.020, 3)}};
   EXPECT_THAT(table_text(plan_of_two_ways(), rows, 2),

@@ -1,7 +1,6 @@
 #include "bench/bench_table.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +118,8 @@ std::string Table::text() {
     if (!row.measurement.device.empty())
       devices.number_of(plan_.ways[row.way].name + ": " + row.measurement.device);
   }
-  text += fmt::format("\n{}\n", fmt::join(devices.all(), "\n"));
+  text += "\n";
+  for (const std::string& device : devices.all()) text += device + "\n";
   for (const std::string& reason : reasons_.all())
     text += fmt::format("[{}] {}\n", reasons_.number_of(reason), reason);
   return text;
