@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/observation.hpp"

@@ -1,14 +1,15 @@
+#pragma once
+
 #include <memory>
 
 #include "checks.hpp"
 #include "cuda/color_term.cuh"
 #include "cuda/feature_maps.hpp"
-#include "on_device.hpp"
 #include "hypotrack/cuda/pixel_objective.cuh"
 
 namespace hypotrack::stereo_color {
-namespace {
 
+/// The objective on the device; the templates are compiled in one source per lookup.
 template <bool kBilinear, bool kBoth>
 class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear, kBoth>> {
  public:
@@ -37,19 +38,11 @@ class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear,
 };
 
 template <bool kBilinear>
-std::unique_ptr<cuda::DeviceObjective> make(const Settings& settings) {
+std::unique_ptr<cuda::DeviceObjective> make_with_lookup(const Settings& settings) {
   if (settings.direction == Direction::both) {
     return std::make_unique<DeviceStereoColor<kBilinear, true>>(settings);
   }
   return std::make_unique<DeviceStereoColor<kBilinear, false>>(settings);
 }
-
-}  // namespace
-
-std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings) {
-  return settings.lookup == Lookup::bilinear ? make<true>(settings) : make<false>(settings);
-}
-
-const char* capabilities() { return "device"; }
 
 }  // namespace hypotrack::stereo_color

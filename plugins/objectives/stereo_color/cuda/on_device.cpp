@@ -1,0 +1,13 @@
+#include "on_device.hpp"
+
+#include "cuda/lookups.hpp"
+
+namespace hypotrack::stereo_color {
+
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings) {
+  return settings.lookup == Lookup::bilinear ? make_bilinear(settings) : make_nearest(settings);
+}
+
+const char* capabilities() { return "device"; }
+
+}  // namespace hypotrack::stereo_color
