@@ -1,5 +1,6 @@
-#include "hypotrack/cuda/runtime.cuh"
 #include "quadratic_kernel.hpp"
+
+#include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::test {
 namespace {
@@ -24,11 +25,9 @@ __global__ void quadratic(const double* target, int dimension, const double* poi
 
 void enqueue_quadratic(const double* target, int dimension, const double* points,
                        std::int64_t count, double* costs, cuda::Stream stream) {
-  cudaFuncAttributes attributes{};
-  cuda::check(cudaFuncGetAttributes(&attributes, quadratic), "loading a kernel");
   const auto blocks = static_cast<unsigned>((count + kThreads - 1) / kThreads);
-  cuda::launch(quadratic, blocks, kThreads, 0, stream, attributes.ptxVersion >= 90, target,
-               dimension, points, count, costs);
+  cuda::launch(quadratic, blocks, kThreads, 0, stream, true, target, dimension, points, count,
+               costs);
 }
 
 }  // namespace hypotrack::test

@@ -15,7 +15,6 @@ namespace {
 
 using cuda::DeviceCost;
 using cuda::Stream;
-using cuda::SwarmLaunch;
 using cuda::SwarmLayout;
 
 constexpr std::int64_t kMostCaptured =
@@ -63,22 +62,22 @@ class Search {
 
   /// Enqueues all of it, or the generations until `enough()` between two; returns their number.
   template <class Enough>
-  std::int64_t enqueue(const SwarmLaunch& how, const Enough& enough) {
+  std::int64_t enqueue(int most_blocks, const Enough& enough) {
     cuda::enqueue_region(swarm_, stream_);
     std::int64_t generation = 0;
     do {
-      enqueue_generation(how, generation++);
+      enqueue_generation(most_blocks, generation++);
     } while (generation < generations() && !enough());
-    cuda::enqueue_answer(swarm_, how, generation - 1, schedule_.count(generation - 1), stream_);
+    cuda::enqueue_answer(swarm_, generation - 1, schedule_.count(generation - 1), stream_);
     return generation;
   }
 
  private:
-  void enqueue_generation(const SwarmLaunch& how, std::int64_t generation) {
+  void enqueue_generation(int most_blocks, std::int64_t generation) {
     if (generation == 0) {
-      cuda::enqueue_initial(swarm_, how, sigma_, stream_);
+      cuda::enqueue_initial(swarm_, most_blocks, sigma_, stream_);
     } else {
-      cuda::enqueue_move(swarm_, how, constriction_, generation, stream_);
+      cuda::enqueue_move(swarm_, most_blocks, constriction_, generation, stream_);
     }
     cost_.enqueue(swarm_.generation(generation).position, schedule_.count(generation),
                   swarm_.costs);
@@ -99,7 +98,7 @@ void wait_for(Stream stream) {
 /// Until the deadline, if there is one.
 std::int64_t run_directly(Search& search, const Deadline* deadline) {
   try {
-    return search.enqueue(cuda::swarm_launch(), [&] {
+    return search.enqueue(cuda::most_blocks(), [&] {
       if (!deadline) return false;
       wait_for(search.stream());
       return deadline->passed();
@@ -120,8 +119,8 @@ struct PsoCuda::OnDevice {
   void run_captured(Search& search) {
     if (const CapturedFor wanted = search.captured_for(); captured != wanted) {
       captured.reset();
-      const SwarmLaunch how = cuda::swarm_launch();
-      graph.capture(search.stream(), [&] { search.enqueue(how, [] { return false; }); });
+      const int most_blocks = cuda::most_blocks();
+      graph.capture(search.stream(), [&] { search.enqueue(most_blocks, [] { return false; }); });
       captured = wanted;
     }
     graph.launch(search.stream());

@@ -177,21 +177,21 @@ __global__ void __launch_bounds__(kAnswerThreads)
   if (threadIdx.x == 0) swarm.answer[0] = best.cost;
 }
 
-dim3 blocks(const SwarmLayout& swarm, const SwarmLaunch& launch) {
+dim3 blocks(const SwarmLayout& swarm, int most) {
   const std::int64_t wanted = (swarm.particles * swarm.dimension + kThreads - 1) / kThreads;
-  return static_cast<unsigned>(std::min<std::int64_t>(wanted, launch.most_blocks));
+  return static_cast<unsigned>(std::min<std::int64_t>(wanted, most));
 }
 
 }  // namespace
 
-SwarmLaunch swarm_launch() {
+int most_blocks() {
   int device = 0, multiprocessors = 0;
   check(cudaGetDevice(&device), "asking for the current device");
   check(cudaDeviceGetAttribute(&multiprocessors, cudaDevAttrMultiProcessorCount, device),
         "asking for the number of multiprocessors");
   cudaFuncAttributes attributes{};
   check(cudaFuncGetAttributes(&attributes, move), "loading the kernels of pso_cuda");
-  return {kBlocksPerMultiprocessor * multiprocessors, attributes.ptxVersion >= 90};
+  return kBlocksPerMultiprocessor * multiprocessors;
 }
 
 void enqueue_region(const SwarmLayout& swarm, Stream stream) {
@@ -199,22 +199,21 @@ void enqueue_region(const SwarmLayout& swarm, Stream stream) {
   launch(copy_region, 1, kThreads, 0, stream, false, swarm);
 }
 
-void enqueue_initial(const SwarmLayout& swarm, const SwarmLaunch& how, double sigma,
-                     Stream stream) {
-  launch(initial, blocks(swarm, how), kThreads, 0, stream, how.overlap, swarm, swarm.generation(0),
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, double sigma, Stream stream) {
+  launch(initial, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm, swarm.generation(0),
          sigma);
 }
 
-void enqueue_move(const SwarmLayout& swarm, const SwarmLaunch& how,
-                  const Constriction& constriction, std::int64_t generation, Stream stream) {
-  launch(move, blocks(swarm, how), kThreads, 0, stream, how.overlap, swarm,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Constriction& constriction,
+                  std::int64_t generation, Stream stream) {
+  launch(move, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm,
          swarm.generation(generation - 1), swarm.generation(generation), constriction,
          static_cast<std::uint32_t>(generation));
 }
 
-void enqueue_answer(const SwarmLayout& swarm, const SwarmLaunch& how, std::int64_t last,
-                    std::int64_t count, Stream stream) {
-  launch(write_answer, 1, kAnswerThreads, 0, stream, how.overlap, swarm, swarm.generation(last),
+void enqueue_answer(const SwarmLayout& swarm, std::int64_t last, std::int64_t count,
+                    Stream stream) {
+  launch(write_answer, 1, kAnswerThreads, 0, stream, true, swarm, swarm.generation(last),
          static_cast<std::int32_t>(count));
 }
 

@@ -42,25 +42,18 @@ struct SwarmLayout {
   bool operator==(const SwarmLayout&) const = default;
 };
 
-/// How the swarm's kernels are launched on the current GPU.
-struct SwarmLaunch {
-  int most_blocks = 1;
-  bool overlap = false;  ///< whether the kernels were compiled for compute capability 9.0 or later
-};
-
-/// Throws DeviceError if the GPU cannot run the kernels.
-SwarmLaunch swarm_launch();
+/// The most blocks that the swarm's kernels are launched with on the current GPU. Throws
+/// DeviceError if it cannot run them.
+int most_blocks();
 
 /// Enqueues the copying of `frame` to `region`.
 void enqueue_region(const SwarmLayout& swarm, Stream stream);
 /// Enqueues generation 0: the start and samples about it, sigma in spreads.
-void enqueue_initial(const SwarmLayout& swarm, const SwarmLaunch& launch, double sigma,
-                     Stream stream);
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, double sigma, Stream stream);
 /// Enqueues the move to generation `generation` >= 1, after the costs of the one before.
-void enqueue_move(const SwarmLayout& swarm, const SwarmLaunch& launch,
-                  const Constriction& constriction, std::int64_t generation, Stream stream);
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Constriction& constriction,
+                  std::int64_t generation, Stream stream);
 /// Enqueues the answer after the costs of the first `count` particles of generation `last`.
-void enqueue_answer(const SwarmLayout& swarm, const SwarmLaunch& launch, std::int64_t last,
-                    std::int64_t count, Stream stream);
+void enqueue_answer(const SwarmLayout& swarm, std::int64_t last, std::int64_t count, Stream stream);
 
 }  // namespace hypotrack::cuda
