@@ -1,5 +1,6 @@
-#include "hypotrack/cuda/pixel_objective.cuh"
 #include "probe_terms.hpp"
+
+#include "hypotrack/cuda/pixel_objective.cuh"
 
 namespace hypotrack::test {
 namespace {

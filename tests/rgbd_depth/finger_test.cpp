@@ -23,8 +23,8 @@ void set(const Scene& scene, Eigen::VectorXd& state, const std::string& name, do
 }
 
 double crossing(const Scene& scene, const Eigen::VectorXd& state) {
-  return finger_crossing(adjacent_fingers(scene),
-                         {state.data(), static_cast<std::size_t>(state.size())});
+  const std::vector<FingerPair> pairs = adjacent_fingers(scene);
+  return finger_crossing(pairs.data(), static_cast<int>(pairs.size()), state.data());
 }
 
 TEST(FingerCrossing, OfSpreadOrParallelFingersIsZero) {

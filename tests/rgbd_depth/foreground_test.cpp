@@ -2,10 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <random>
 
+#include "depth_range.hpp"
 #include "depth_scene.hpp"
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/params.hpp"
 #include "observed.hpp"
+#include "test_models.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {
@@ -71,6 +78,18 @@ TEST(Foreground, AutoIsTheMaskWhereThereIsOneAndDepthOtherwise) {
   EXPECT_EQ(observe(view, Foreground::automatic, kRange).foreground, 2);
 }
 
+TEST(Foreground, ImagesThatItsWayDoesNotNeedMayBeMissingOrOfAnotherKind) {
+  TileView view = mixed_view();
+  view.color = cv::Mat1b(1, 1);
+  EXPECT_EQ(observe(view, Foreground::mask, kRange).foreground, 8);
+  view.color.release();
+  view.mask.release();
+  EXPECT_EQ(observe(view, Foreground::depth, kRange).foreground, 2);
+  view.color = cv::Mat3b(4, 4, kSkin);
+  view.color.release();  // of a type, but without pixels
+  EXPECT_EQ(observe(view, Foreground::depth, kRange).foreground, 2);
+}
+
 TEST(Foreground, OutsideOfTheImageThereIsNone) {
   TileView view = mixed_view();
   view.valid.col(1).setTo(0);
@@ -91,22 +110,50 @@ TEST(Foreground, RangeIsThatOfTheSurfacesAlongTheCamerasAxis) {
   EXPECT_NEAR(range.nearest, 0.69, 1e-6);
   EXPECT_NEAR(range.farthest, 0.81, 1e-6);
   // From the side the box is 60 mm deep.
-  camera.camera_from_world =
-      Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitY()) * Eigen::Translation3d(-0.7, 0, -0.5);
+  camera.camera_from_world = Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitY()) *
+                             Eigen::Translation3d(-0.7, 0, -0.5);
   range = depth_range(box_scene(), box_state(), camera, 0);
   EXPECT_NEAR(range.nearest, 0.67, 1e-6);
   EXPECT_NEAR(range.farthest, 0.73, 1e-6);
 }
 
+TEST(Foreground, RangeIsThatOfTheReferenceForABentHand) {
+  const Scene scene({{"hand", std::make_shared<Model>(test::make_test_hand())}});
+  std::mt19937_64 random(3);
+  const TileCamera camera = blank_view(4).camera;
+  for (int i = 0; i < 10; ++i) {
+    const Eigen::VectorXd state = test::random_state(scene, random);
+    const Eigen::Matrix3Xf posed =
+        posed_vertices(*scene.items()[0].model, scene.part(scene.items()[0], state));
+    const DepthRange range = depth_range(scene, state, camera, 0.01);
+    EXPECT_NEAR(range.nearest, posed.row(2).minCoeff() - 0.01, 1e-6);
+    EXPECT_NEAR(range.farthest, posed.row(2).maxCoeff() + 0.01, 1e-6);
+  }
+}
+
+bool is_skin(const cv::Vec3b& bgr) { return rgbd_depth::is_skin(bgr[0], bgr[1], bgr[2]); }
+
 TEST(Skin, IsLightAndDarkSkinAndNothingElse) {
-  const auto is_skin = [](const cv::Vec3b& bgr) {
-    return skin(cv::Mat3b(1, 1, bgr)).at<uchar>(0, 0) != 0;
-  };
   EXPECT_TRUE(is_skin(kSkin));
   EXPECT_TRUE(is_skin(kDarkSkin));
   for (const auto& other : {kGrey, kBlue, cv::Vec3b{255, 255, 255}, cv::Vec3b{0, 0, 0},
                             cv::Vec3b{40, 180, 60}, cv::Vec3b{0, 0, 255}}) {
     EXPECT_FALSE(is_skin(other)) << other;
+  }
+}
+
+TEST(Skin, IsTheBoxInOpenCvsYCrCbForEveryColour) {
+  for (int blue = 0; blue < 256; ++blue) {
+    cv::Mat3b colors(256, 256), ycrcb;
+    for (int y = 0; y < 256; ++y)
+      for (int x = 0; x < 256; ++x) colors(y, x) = cv::Vec3b(cv::Vec3i(blue, y, x));
+    cv::cvtColor(colors, ycrcb, cv::COLOR_BGR2YCrCb);
+    cv::Mat1b expected;
+    cv::inRange(ycrcb, cv::Scalar(0, 133, 77), cv::Scalar(255, 173, 127), expected);
+    int different = 0;
+    for (int y = 0; y < 256; ++y)
+      for (int x = 0; x < 256; ++x) different += is_skin(colors(y, x)) != (expected(y, x) != 0);
+    ASSERT_EQ(different, 0) << "blue " << blue;
   }
 }
 

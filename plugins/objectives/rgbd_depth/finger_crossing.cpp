@@ -33,14 +33,4 @@ std::vector<FingerPair> adjacent_fingers(const Scene& scene) {
   return pairs;
 }
 
-double finger_crossing(std::span<const FingerPair> pairs, std::span<const double> state) {
-  double sum = 0;
-  for (const FingerPair& pair : pairs) {
-    const double phi =
-        state[static_cast<std::size_t>(pair.first)] - state[static_cast<std::size_t>(pair.second)];
-    sum += std::max(-phi, 0.0);
-  }
-  return sum;
-}
-
 }  // namespace hypotrack::rgbd_depth

@@ -1,28 +1,21 @@
 #pragma once
 
 #include <cstdint>
-#include <opencv2/core/mat.hpp>
 
+#include "foreground-inl.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/view_pixels.hpp"
-#include "params.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
 
-/// Depths z along a camera's axis, metres.
-struct DepthRange {
-  double nearest = 0;
-  double farthest = 0;
-};
-
-/// The depths that the posed scene has for a camera, widened by `margin` metres at both ends.
-DepthRange depth_range(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera,
-                       double margin);
-
-/// Skin by its chrominance: 133 <= Cr <= 173 and 77 <= Cb <= 127 of 8-bit YCrCb (D. Chai, K. N.
-/// Ngan, "Face segmentation using skin-color map in videophone applications", IEEE Trans. Circuits
-/// and Systems for Video Technology 9(4), 1999). 8-bit, non-zero for skin; `bgr` is 8-bit BGR.
-cv::Mat skin(const cv::Mat& bgr);
+/// What tells foreground in a view with or without a mask.
+constexpr Rule rule_of(Foreground foreground, bool has_mask) {
+  if (foreground == Foreground::skin) return Rule::skin;
+  const bool mask =
+      foreground == Foreground::mask || (foreground == Foreground::automatic && has_mask);
+  return mask ? Rule::mask : Rule::depth;
+}
 
 /// What one view observed.
 struct ObservedView {

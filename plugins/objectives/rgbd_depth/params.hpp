@@ -4,22 +4,14 @@
 #include <string_view>
 
 #include "hypotrack/params.hpp"
+#include "settings.hpp"
 
 namespace hypotrack::rgbd_depth {
-
-enum class Foreground { automatic, mask, depth, skin };
 
 std::span<const std::string_view> enum_names(Foreground);
 
 /// Parameters of `type: rgbd_depth`; the defaults of the first four are the papers'.
-struct Params {
-  double d_max = 40 * kMillimetre;
-  double d_match = 10 * kMillimetre;
-  double lambda = 20;
-  double lambda_k = 10;
-  Foreground foreground = Foreground::automatic;
-  double range = 100 * kMillimetre;
-
+struct Params : Settings {
   void visit(ParamVisitor& v) {
     v("d_max_mm", d_max,
       {.help = "depth differences count up to this (the papers' d_M)",

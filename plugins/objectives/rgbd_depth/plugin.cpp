@@ -1,6 +1,8 @@
 #include "hypotrack/plugin.hpp"
 
+#include "on_device.hpp"
 #include "rgbd_depth.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::rgbd_depth::RgbdDepth,
-                 "agreement with a depth image and its foreground (Oikonomidis et al., 2011)", "")
+                 "agreement with a depth image and its foreground (Oikonomidis et al., 2011)",
+                 hypotrack::rgbd_depth::capabilities())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "finger_crossing.hpp"
@@ -44,7 +45,7 @@ namespace hypotrack::rgbd_depth {
 ///   on their number;
 /// - foreground by depth lies within range_mm before and behind the last solution's surfaces, in
 ///   the tile around it ([1]: within 25 cm of the hand's last position); by skin colour it is Chai
-///   and Ngan's chrominance box (foreground.hpp), where [1] learns its colours;
+///   and Ngan's chrominance box (foreground-inl.hpp), where [1] learns its colours;
 /// - S is 1, its worst, where nothing was observed and nothing is drawn.
 class RgbdDepth : public Objective {
  public:
@@ -57,6 +58,7 @@ class RgbdDepth : public Objective {
   void prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
  private:
   struct PreparedView {

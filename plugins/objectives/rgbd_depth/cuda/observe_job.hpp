@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "foreground-inl.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
+
+namespace hypotrack::rgbd_depth {
+
+/// Pixels of all views with depth, in device memory.
+struct Counts {
+  std::uint32_t foreground;  ///< with o_s: measured or not
+  std::uint32_t measured;    ///< of those, with a depth
+};
+
+/// What is to be done for one view with depth.
+struct ViewJob {
+  cuda::TileLayout tile;
+  Rule rule;
+  DepthRange range;
+  float* observed;  ///< device memory: observed.hpp, row by row without gaps
+};
+
+struct ObserveJob {
+  std::array<ViewJob, cuda::kMaxViews> views;
+  int view_count;
+  Counts* counts;  ///< of all views together
+};
+
+/// Enqueues the telling of foreground from background: the numbers of observe().
+void enqueue_observe(const ObserveJob& job, cuda::Stream stream);
+
+}  // namespace hypotrack::rgbd_depth

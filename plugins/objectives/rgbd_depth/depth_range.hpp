@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "foreground-inl.hpp"
+#include "hypotrack/observation.hpp"
+
+namespace hypotrack::rgbd_depth {
+
+/// The depths that the posed scene has for a camera, widened by `margin` metres at both ends.
+DepthRange depth_range(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera,
+                       double margin);
+
+}  // namespace hypotrack::rgbd_depth

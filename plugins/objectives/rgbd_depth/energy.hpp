@@ -1,0 +1,36 @@
+#pragma once
+
+#include "hypotrack/pixel.hpp"
+
+namespace hypotrack::rgbd_depth {
+
+/// Sums over the pixels of all views with depth.
+struct Totals {
+  double foreground;  ///< number of pixels with o_s: measured or not
+  double measured;    ///< number of those with a depth
+  double closeness;   ///< of d_M - min(|o_d - r_d|, d_M) where foreground was measured, metres
+  double matched;     ///< number with o_s and r_m
+  double beyond;      ///< number with r_m but not o_s
+};
+
+struct Weights {
+  double d_max;  ///< m
+  double lambda;
+  double lambda_k;
+};
+
+/// E of RgbdDepth.
+HYPOTRACK_PIXEL double energy(const Totals& t, double crossing, const Weights& weights) {
+  constexpr double kCentimetresPerMetre = 100;  // the papers' unit of depth, lambda belongs to it
+  constexpr double kEpsilon = 1e-6;
+  // Every pixel that may differ is charged d_M; closeness is what agreement gives back.
+  const double charged = t.measured + t.beyond;
+  const double difference = kCentimetresPerMetre * (weights.d_max * charged - t.closeness);
+  const double covered_or_foreground = t.foreground + t.beyond;
+  const double both = t.matched + covered_or_foreground;
+  const double silhouette = both > 0 ? 1 - 2 * t.matched / both : 1;
+  return difference / (covered_or_foreground + kEpsilon) + weights.lambda * silhouette +
+         weights.lambda_k * crossing;
+}
+
+}  // namespace hypotrack::rgbd_depth
