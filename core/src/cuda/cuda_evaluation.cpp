@@ -5,6 +5,7 @@
 #include "cuda/device.hpp"
 #include "cuda/device_scene.hpp"
 #include "cuda/frame_layout.hpp"
+#include "cuda/tile_cutter.hpp"
 #include "cuda/tile_upload.hpp"
 #include "evaluate/evaluation.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
@@ -30,6 +31,16 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     device_.use();
     observation_ = upload_.upload(observation, stream());
     prepare_frame(observation);
+  }
+  void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    device_.use();
+    if (!cutter_) {
+      cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), device_.limits());
+    }
+    // What may still be going on with the frame before (a search that an error ended).
+    check(cudaStreamSynchronize(native(stream())), "finishing the frame before");
+    observation_ = cutter_->cut(frame, plan, stream());
+    prepare_frame(plan.header);
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -115,6 +126,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   std::vector<ObjectiveTerm> terms_;
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
   TileUpload upload_;
+  std::unique_ptr<TileCutter> cutter_;  // of the first frame's cameras; there are no others
   DeviceObservation observation_;
   DeviceBuffer<FrameLayout> frame_;
   PinnedBuffer<FrameLayout> frame_staging_;

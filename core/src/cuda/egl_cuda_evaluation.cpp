@@ -34,6 +34,7 @@ class EglCudaEvaluation final : public Evaluation {
 
   ~EglCudaEvaluation() override { cudaStreamSynchronize(native(stream())); }
 
+  using Evaluation::prepare;
   void prepare(const Observation& observation) override {
     device_.use();
     synchronize("waiting for the frame before");

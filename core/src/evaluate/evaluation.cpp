@@ -16,6 +16,7 @@ class FallenBack final : public Evaluation {
   FallenBack(std::unique_ptr<Evaluation> host, std::string why)
       : host_(std::move(host)), why_(std::move(why)) {}
 
+  using Evaluation::prepare;
   void prepare(const Observation& observation) override { host_->prepare(observation); }
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     host_->evaluate(states, costs);

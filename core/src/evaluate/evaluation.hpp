@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "evaluate/evaluator.hpp"
+#include "geometry/tiles.hpp"
 
 namespace hypotrack {
 
@@ -21,6 +22,13 @@ class Evaluation {
   /// `prepare`.
   virtual void prepare(const Observation& observation) = 0;
 
+  /// The same for a frame whose tiles are not cut yet. Frame and plan outlive every use until the
+  /// next `prepare`.
+  virtual void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) {
+    cut_ = tiles.cut(frame, plan);
+    prepare(cut_);
+  }
+
   /// Weighted sums of the terms (N) for normalised states (DxN); what a term returns is not judged,
   /// NaN included.
   virtual void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) = 0;
@@ -30,6 +38,9 @@ class Evaluation {
 
   /// Costs of search points on the device (see Evaluator::device_cost); null on the host.
   virtual cuda::DeviceCost* device_cost(const Eigen::VectorXd&, bool) { return nullptr; }
+
+ private:
+  Observation cut_;
 };
 
 /// The backend that the settings ask for. Throws DeviceError if it is not to be had; never a silent

@@ -38,6 +38,7 @@ struct Evaluator::Impl {
   const Scene& scene;
   std::vector<ObjectiveTerm> terms;
   std::unique_ptr<Evaluation> evaluation;
+  TilePlan plan;  // of the frame that is prepared
   Eigen::MatrixXd normalized;
   bool prepared = false;
 };
@@ -51,6 +52,13 @@ Evaluator::~Evaluator() = default;
 void Evaluator::prepare(const Observation& observation) {
   impl_->prepared = false;
   impl_->evaluation->prepare(observation);
+  impl_->prepared = true;
+}
+
+void Evaluator::prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
+  impl_->prepared = false;
+  impl_->plan = std::move(plan);
+  impl_->evaluation->prepare(tiles, frame, impl_->plan);
   impl_->prepared = true;
 }
 

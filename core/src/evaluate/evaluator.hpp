@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/tiles.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -53,6 +54,9 @@ class HYPOTRACK_API Evaluator {
 
   /// Takes a frame in, for the terms as well; the observation must outlive the evaluations.
   void prepare(const Observation& observation);
+  /// The same for a frame whose tiles are not cut yet: on the GPU they are cut there. The frame
+  /// must outlive the evaluations.
+  void prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan);
 
   /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the
   /// term, if one returns NaN; what a term throws arrives unchanged. A model with a parameter that

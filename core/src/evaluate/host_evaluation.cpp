@@ -20,6 +20,7 @@ class HostEvaluation final : public Evaluation {
                  const EvaluateSettings& settings)
       : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {}
 
+  using Evaluation::prepare;
   void prepare(const Observation& observation) override {
     for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
     renderer_->prepare(observation);

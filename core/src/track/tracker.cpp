@@ -81,14 +81,11 @@ Solution Tracker::track(const Frame& frame) {
 }
 
 void Tracker::check(const Frame& frame) {
-  const Observation observation = tiles_.cut(frame, tiles_.plan(frame, state_));
-  evaluator_.prepare(observation);
+  evaluator_.prepare(tiles_, frame, tiles_.plan(frame, state_));
 }
 
 OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior) {
-  const TilePlan plan = tiles_.plan(frame, prior);
-  const Observation observation = tiles_.cut(frame, plan);
-  evaluator_.prepare(observation);
+  evaluator_.prepare(tiles_, frame, tiles_.plan(frame, prior));
   StateCost cost(space_, prior, evaluator_);
   return parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
                                     frame_seed(seed_, frame.index));

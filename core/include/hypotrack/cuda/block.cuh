@@ -24,6 +24,24 @@ __device__ __forceinline__ float warp_sum(float x) {
   return x;
 }
 
+// Between numbers of magnitude below 2^22. The conversion instructions have a quarter of an
+// addition's throughput; adding 1.5 * 2^23 leaves the integer in a float's last bits.
+inline constexpr float kIntegerBias = 12582912.0f;
+inline constexpr int kIntegerBits = 0x4B400000;
+__device__ __forceinline__ int round_up(float x) {
+  return __float_as_int(__fadd_ru(x, kIntegerBias)) - kIntegerBits;
+}
+__device__ __forceinline__ int round_down(float x) {
+  return __float_as_int(__fadd_rd(x, kIntegerBias)) - kIntegerBits;
+}
+/// Ties to even.
+__device__ __forceinline__ int round_nearest(float x) {
+  return __float_as_int(__fadd_rn(x, kIntegerBias)) - kIntegerBits;
+}
+__device__ __forceinline__ float exact_float(int x) {
+  return __int_as_float(x + kIntegerBits) - kIntegerBias;
+}
+
 /// Pixels x0 <= x < x1, y0 <= y < y1.
 struct Box {
   int x0, y0, x1, y1;

@@ -16,8 +16,8 @@ struct BlockPlan {
   bool vertices_in_shared = true;  ///< otherwise in `vertex_scratch`
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
-  int state = 0, models = 0, bones = 0, layouts = 0, turns = 0, vertices = 0, vertex_stride = 0,
-      list = 0, sums = 0, histogram = 0, depth = 0;
+  int point = 0, state = 0, models = 0, layouts_of_models = 0, bones = 0, layouts = 0, turns = 0,
+      vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
   int histogram_rows = 0;
   /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
   /// before still runs.
@@ -57,7 +57,7 @@ inline int rounded(int floats) { return (floats + 3) / 4 * 4; }
 
 // What the system takes of a multiprocessor's shared memory for every block, and what the kernels
 // declare statically.
-inline constexpr int kReservedBytes = 1024 + 256;
+inline constexpr int kReservedBytes = 1024 + 1024;
 
 /// The plan for a block that may use `bytes` of shared memory; depth_capacity is what is left.
 inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes) {
@@ -72,8 +72,10 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
     end += rounded(floats);
     return begin;
   };
+  p.point = take(2 * r.scene.dimension);  // double precision
   p.state = take(r.scene.dimension);
   p.models = take(12 * r.scene.model_count);
+  p.layouts_of_models = take(static_cast<int>(sizeof(ModelLayout) / 4) * r.scene.model_count);
   p.bones = take(12 * r.scene.bone_count);
   p.layouts = take(static_cast<int>(sizeof(BoneLayout) / 4) * r.scene.bone_count);
   p.turns = take(static_cast<int>(sizeof(Turn) / 4) * r.scene.turn_count);
@@ -114,8 +116,9 @@ inline BlockPlan plan_blocks(const PlanRequest& r) {
                            r.limits.shared_bytes_per_block - detail::kReservedBytes);
   }
   const int half = r.limits.shared_bytes_per_multiprocessor / 2 - detail::kReservedBytes;
-  const BlockPlan two = detail::lay_out(r, kMostThreads / 2, 1,
-                                        std::min(half, r.limits.shared_bytes_per_block - 256));
+  const BlockPlan two =
+      detail::lay_out(r, kMostThreads / 2, 1,
+                      std::min(half, r.limits.shared_bytes_per_block - detail::kReservedBytes));
   if (two.vertices_in_shared) return two;
   return detail::lay_out(r, kMostThreads, 1,
                          r.limits.shared_bytes_per_block - detail::kReservedBytes);

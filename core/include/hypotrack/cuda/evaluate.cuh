@@ -12,38 +12,47 @@
 /// hypothesis without leaving its multiprocessor.
 namespace hypotrack::cuda {
 
+/// Calls pixel(x, y) for the pixels of a box, each by one thread of the block.
+template <class Pixel>
+__device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixel) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const int warp = static_cast<int>(threadIdx.x) / kWarp;
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
+  // Warps stand side by side over a row, as many as it takes, in groups one above the other.
+  const int side_by_side = min((box.width() + kWarp - 1) / kWarp, warps);
+  if (side_by_side <= 0) return;
+  const int groups = warps / side_by_side, group = warp / side_by_side;
+  if (group >= groups) return;
+  for (int y = box.y0 + group; y < box.y1; y += groups) {
+    for (int x = box.x0 + warp % side_by_side * kWarp + lane; x < box.x1;
+         x += side_by_side * kWarp) {
+      pixel(x, y);
+    }
+  }
+}
+
 /// Adds the pixels of `here` within its box to the sums.
 template <int kReference, bool kRectified, class Term, class Here, class There>
 __device__ __forceinline__ void score_stereo(const Term& term, const StereoMap map, const Box& box,
                                              const Here& here, const There& there,
                                              float (&sums)[Term::kSums]) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int warps = static_cast<int>(blockDim.x) / kWarp;
-  const int per_row = (box.width() + kWarp - 1) / kWarp;
-  for (int i = static_cast<int>(threadIdx.x) / kWarp; i < per_row * box.height(); i += warps) {
-    const int y = box.y0 + i / per_row, x = box.x0 + i % per_row * kWarp + lane;
-    if (x >= box.x1) continue;
+  for_each_pixel(box, [&](int x, int y) {
     const float w = here(x, y);
-    if (!Term::kVisitsUncovered && !(w > 0.0f)) continue;
+    if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
     term.template pixel<kReference>(stereo_pixel<kRectified>(map, term.tolerance, x, y, w, there),
                                     sums);
-  }
+  });
 }
 
 /// Adds the pixels of one view to the sums.
 template <class Term, class Here>
 __device__ __forceinline__ void score_view(const Term& term, int view, const Box& box,
                                            const Here& here, float (&sums)[Term::kSums]) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int warps = static_cast<int>(blockDim.x) / kWarp;
-  const int per_row = (box.width() + kWarp - 1) / kWarp;
-  for (int i = static_cast<int>(threadIdx.x) / kWarp; i < per_row * box.height(); i += warps) {
-    const int y = box.y0 + i / per_row, x = box.x0 + i % per_row * kWarp + lane;
-    if (x >= box.x1) continue;
+  for_each_pixel(box, [&](int x, int y) {
     const float w = here(x, y);
-    if (!Term::kVisitsUncovered && !(w > 0.0f)) continue;
+    if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
     term.pixel(ViewPixel{view, x, y, w, w > 0.0f}, sums);
-  }
+  });
 }
 
 /// Everything that the threads of one block know about their hypothesis.
@@ -77,6 +86,7 @@ class BlockEvaluation {
       stage(scene_.vertices, scene_.vertex_count, plan_.staged_vertices);
       stage(scene_.triangles, scene_.triangle_count, plan_.staged_triangles);
     }
+    copy_to_shared(scene_.models, scene_.model_count, plan_.layouts_of_models);
     copy_to_shared(scene_.bones, scene_.bone_count, plan_.layouts);
     copy_to_shared(scene_.turns, scene_.turn_count, plan_.turns);
     const auto* words = reinterpret_cast<const std::uint32_t*>(frame);
@@ -94,14 +104,21 @@ class BlockEvaluation {
 
   __device__ void run() {
     float* shared = shared_floats();
-    if (threadIdx.x < kWarp) {
-      const double* point = batch_.points + hypothesis_ * point_size();
-      decode(scene_, frame_, batch_, point, shared + plan_.state, shared + plan_.models);
-      pose_bones(scene_, reinterpret_cast<const BoneLayout*>(shared + plan_.layouts),
-                 reinterpret_cast<const Turn*>(shared + plan_.turns), shared + plan_.state,
-                 shared + plan_.models, shared + plan_.bones);
+    auto* point = reinterpret_cast<double*>(shared + plan_.point);
+    const int size = point_size();
+    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+      point[i] = batch_.points[hypothesis_ * size + i];
     }
     __syncthreads();
+    if (threadIdx.x < kWarp) {
+      decode(reinterpret_cast<const ModelLayout*>(shared + plan_.layouts_of_models),
+             scene_.model_count, frame_, batch_.prior, point, shared + plan_.state,
+             shared + plan_.models);
+    }
+    __syncthreads();
+    pose_bones(scene_, reinterpret_cast<const BoneLayout*>(shared + plan_.layouts),
+               reinterpret_cast<const Turn*>(shared + plan_.turns), shared + plan_.state,
+               shared + plan_.models, shared + plan_.bones);
     if constexpr (kWalk == Walk::views) {
       for (int v = 0; v < frame_.view_count; ++v) {
         if (term_.views() >> v & 1) single_view(v);
@@ -115,7 +132,7 @@ class BlockEvaluation {
   }
 
  private:
-  __device__ std::int64_t point_size() const {
+  __device__ int point_size() const {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
@@ -167,7 +184,7 @@ class BlockEvaluation {
       if (!valid) continue;
       own.add(v.x, x2, v.y);
       if (plan_.bands > 1) {
-        atomicAdd(histogram + min(max(__float2int_rn(v.y), 0), camera.height - 1), 1);
+        atomicAdd(histogram + min(max(round_nearest(v.y), 0), camera.height - 1), 1);
       }
     }
     own.join(bounds_, kPair);
@@ -443,8 +460,8 @@ __global__ void __launch_bounds__(kMostThreads)
   const std::int64_t hypothesis = drawn.first + static_cast<std::int64_t>(blockIdx.x);
   const int size = scene.dimension - (batch.prior ? scene.model_count : 0);
   if (threadIdx.x < kWarp) {
-    decode(scene, *frame, batch, batch.points + hypothesis * size, state,
-           shared_floats() + plan.models);
+    decode(scene.models, scene.model_count, *frame, batch.prior, batch.points + hypothesis * size,
+           state, shared_floats() + plan.models);
   }
   float sums[Term::kSums] = {};
   const auto tile = [&](int v) { return Box{0, 0, frame->views[v].width, frame->views[v].height}; };

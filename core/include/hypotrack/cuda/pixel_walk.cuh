@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/pixel.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
@@ -43,13 +44,12 @@ __device__ __forceinline__ StereoPixel stereo_pixel(const StereoMap& map, float 
   p.same_row = kRectified;
   p.uncovered = !(w > 0.0f);
   if (p.uncovered) return p;
-  const auto m =
-      scalar::map_pixel<kRectified, float>(map, static_cast<float>(x), static_cast<float>(y), w);
+  const auto m = scalar::map_pixel<kRectified, float>(map, exact_float(x), exact_float(y), w);
   p.u = m.u;
   p.v = m.v;
   if (scalar::lands_inside<kRectified>(map, m)) {
-    p.column = __float2int_rn(m.u);
-    p.row = kRectified ? y : __float2int_rn(m.v);
+    p.column = round_nearest(m.u);
+    p.row = kRectified ? y : round_nearest(m.v);
     const float w_there = kRectified ? there.in_row(p.column, y) : there(p.column, p.row);
     p.seen = scalar::same_depth(m.inverse_depth, w_there, tolerance);
   }

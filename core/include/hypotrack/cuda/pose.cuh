@@ -81,90 +81,46 @@ __device__ inline void decode_pose(const ModelLayout& model, const FrameLayout& 
   }
 }
 
-/// A 3x4 matrix in registers.
-struct Transform {
-  float m[12];
-};
-
-/// 16-byte aligned memory to registers and back.
-__device__ __forceinline__ Transform load_transform(const float* from) {
-  Transform t;
-#pragma unroll
-  for (int i = 0; i < 3; ++i) {
-    const float4 row = reinterpret_cast<const float4*>(from)[i];
-    t.m[4 * i] = row.x;
-    t.m[4 * i + 1] = row.y;
-    t.m[4 * i + 2] = row.z;
-    t.m[4 * i + 3] = row.w;
-  }
-  return t;
-}
-__device__ __forceinline__ void store_transform(const Transform& t, float* to) {
-#pragma unroll
-  for (int i = 0; i < 3; ++i) {
-    reinterpret_cast<float4*>(to)[i] = {t.m[4 * i], t.m[4 * i + 1], t.m[4 * i + 2], t.m[4 * i + 3]};
-  }
+/// A row of a 3x4 matrix times one, `columns`, in memory.
+__device__ __forceinline__ float4 multiply(const float4& row, const float* columns) {
+  const auto* m = reinterpret_cast<const float4*>(columns);
+  const float4 a = m[0], b = m[1], c = m[2];
+  return {fmaf(row.x, a.x, fmaf(row.y, b.x, row.z * c.x)),
+          fmaf(row.x, a.y, fmaf(row.y, b.y, row.z * c.y)),
+          fmaf(row.x, a.z, fmaf(row.y, b.z, row.z * c.z)),
+          fmaf(row.x, a.w, fmaf(row.y, b.w, fmaf(row.z, c.w, row.w)))};
 }
 
-__device__ __forceinline__ Transform operator*(const Transform& a, const Transform& b) {
-  Transform out;
-#pragma unroll
-  for (int i = 0; i < 3; ++i) {
-#pragma unroll
-    for (int j = 0; j < 4; ++j) {
-      out.m[4 * i + j] =
-          fmaf(a.m[4 * i], b.m[j],
-               fmaf(a.m[4 * i + 1], b.m[4 + j],
-                    fmaf(a.m[4 * i + 2], b.m[8 + j], j == 3 ? a.m[4 * i + 3] : 0.0f)));
-    }
-  }
-  return out;
-}
-
-/// Turns the frame of a transform about a unit axis.
-__device__ __forceinline__ void turn(Transform& transform, float x, float y, float z, float angle) {
+/// A row of a transform whose frame is turned about a unit axis.
+__device__ __forceinline__ float4 turned(const float4& row, float x, float y, float z,
+                                         float angle) {
   float s, c;
-  sincosf(angle, &s, &c);
+  if (fabsf(angle) < 3.2f) {
+    __sincosf(angle, &s, &c);  // within 4e-7 here
+  } else {
+    sincosf(angle, &s, &c);
+  }
   const float t = 1.0f - c;
-  const float r[3][3] = {{t * x * x + c, t * x * y - s * z, t * x * z + s * y},
-                         {t * x * y + s * z, t * y * y + c, t * y * z - s * x},
-                         {t * x * z - s * y, t * y * z + s * x, t * z * z + c}};
-#pragma unroll
-  for (int i = 0; i < 3; ++i) {
-    float* row = transform.m + 4 * i;
-    const float a = row[0], b = row[1], d = row[2];
-#pragma unroll
-    for (int j = 0; j < 3; ++j) row[j] = a * r[0][j] + b * r[1][j] + d * r[2][j];
-  }
-}
-
-/// The bone's transform to its parent with all its turns.
-__device__ inline Transform local_transform(const BoneLayout& bone, const Turn* turns,
-                                            const float* state) {
-  Transform parent_from_bone;
-#pragma unroll
-  for (int i = 0; i < 12; ++i) parent_from_bone.m[i] = bone.parent_from_bone[i];
-  for (int k = 0; k < bone.turn_count; ++k) {
-    const Turn t = turns[bone.first_turn + k];
-    turn(parent_from_bone, t.axis[0], t.axis[1], t.axis[2],
-         t.scale * (state[t.parameter] - t.zero));
-  }
-  return parent_from_bone;
+  const float a = row.x, b = row.y, d = row.z;
+  return {a * (t * x * x + c) + b * (t * x * y + s * z) + d * (t * x * z - s * y),
+          a * (t * x * y - s * z) + b * (t * y * y + c) + d * (t * y * z + s * x),
+          a * (t * x * z + s * y) + b * (t * y * z - s * x) + d * (t * z * z + c), row.w};
 }
 
 /// Decodes one hypothesis with one warp: `state` gets the scene's state, `first_from_models` a
 /// matrix per model, NaN for one with a parameter beyond kLargestParameter.
-__device__ __noinline__ inline void decode(const SceneLayout& scene, const FrameLayout& frame,
-                                           const BatchLayout& batch, const double* point,
-                                           float* state, float* first_from_models) {
+__device__ __noinline__ inline void decode(const ModelLayout* models, int model_count,
+                                           const FrameLayout& frame, const double* prior,
+                                           const double* point, float* state,
+                                           float* first_from_models) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int pose_size = batch.prior ? 6 : 7;
-  for (int base = 0; base < scene.model_count; base += kWarp) {
-    const int end = min(base + kWarp, scene.model_count);
+  const int pose_size = prior ? 6 : 7;
+  for (int base = 0; base < model_count; base += kWarp) {
+    const int end = min(base + kWarp, model_count);
     bool own_drawable = false;
     for (int m = base; m < end; ++m) {
-      const ModelLayout model = scene.models[m];
-      const double* p = point + point_offset(model, m, batch.prior != nullptr);
+      const ModelLayout model = models[m];
+      const double* p = point + point_offset(model, m, prior != nullptr);
       const int size = model.dimension - 7 + pose_size;
       bool drawable = true;
       for (int i = lane; i < size; i += kWarp) {
@@ -175,41 +131,58 @@ __device__ __noinline__ inline void decode(const SceneLayout& scene, const Frame
       if (lane == m - base) own_drawable = drawable;
     }
     if (const int m = base + lane; m < end) {
-      const ModelLayout model = scene.models[m];
-      const double* p = point + point_offset(model, m, batch.prior != nullptr);
-      decode_pose(model, frame, p, batch.prior, own_drawable, state, first_from_models + 12 * m);
+      const ModelLayout model = models[m];
+      const double* p = point + point_offset(model, m, prior != nullptr);
+      decode_pose(model, frame, p, prior, own_drawable, state, first_from_models + 12 * m);
     }
   }
-  __syncwarp();
 }
 
-/// Poses a decoded hypothesis with one warp: `bones` gets one matrix per bone that takes vertices
-/// of the bind pose to the frame of the first view's camera. `layouts` and `turns` are the scene's,
-/// wherever they lie.
+/// Poses a decoded hypothesis with the whole block, a thread per row of a bone's matrix: `bones`
+/// gets one matrix per bone that takes vertices of the bind pose to the frame of the first view's
+/// camera. Ends with a barrier. `layouts` and `turns` are the scene's, wherever they lie.
 __device__ __noinline__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* layouts,
                                                const Turn* turns, const float* state,
                                                const float* first_from_models, float* bones) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  for (int b = lane; b < scene.bone_count; b += kWarp) {
-    store_transform(local_transform(layouts[b], turns, state), bones + 12 * b);
+  const int first = static_cast<int>(threadIdx.x), step = static_cast<int>(blockDim.x);
+  const int rows = 3 * scene.bone_count;
+  auto* out = reinterpret_cast<float4*>(bones);
+  for (int i = first; i < rows; i += step) {  // parent_from_bone
+    const BoneLayout& bone = layouts[i / 3];
+    const float* bind = bone.parent_from_bone + 4 * (i % 3);
+    float4 row = {bind[0], bind[1], bind[2], bind[3]};
+    for (int k = 0; k < bone.turn_count; ++k) {
+      const Turn& t = turns[bone.first_turn + k];
+      row = turned(row, t.axis[0], t.axis[1], t.axis[2], t.scale * (state[t.parameter] - t.zero));
+    }
+    out[i] = row;
   }
   for (int level = 0; level < scene.level_count; ++level) {
-    __syncwarp();
-    for (int b = lane; b < scene.bone_count; b += kWarp) {
-      const BoneLayout& bone = layouts[b];
-      if (bone.level != level) continue;
-      const float* parent =
-          bone.parent < 0 ? first_from_models + 12 * bone.model : bones + 12 * bone.parent;
-      store_transform(load_transform(parent) * load_transform(bones + 12 * b), bones + 12 * b);
+    __syncthreads();
+    for (int i = first; i < (rows + step - 1) / step * step; i += step) {
+      const bool mine = i < rows && layouts[i / 3].level == level;
+      float4 row;
+      if (mine) {
+        const BoneLayout& bone = layouts[i / 3];
+        const float* parent =
+            bone.parent < 0 ? first_from_models + 12 * bone.model : bones + 12 * bone.parent;
+        row = multiply(reinterpret_cast<const float4*>(parent)[i % 3], bones + 12 * (i / 3));
+      }
+      __syncthreads();  // all rows of a matrix are read before any is overwritten
+      if (mine) out[i] = row;
     }
   }
-  __syncwarp();
-  for (int b = lane; b < scene.bone_count; b += kWarp) {
-    Transform bone_from_model;
-#pragma unroll
-    for (int i = 0; i < 12; ++i) bone_from_model.m[i] = layouts[b].bone_from_model[i];
-    store_transform(load_transform(bones + 12 * b) * bone_from_model, bones + 12 * b);
+  __syncthreads();
+  for (int i = first; i < rows; i += step) {
+    float bind[12];
+    for (int k = 0; k < 12; ++k) bind[k] = layouts[i / 3].bone_from_model[k];
+    const float4 r = out[i];
+    out[i] = {r.x * bind[0] + r.y * bind[4] + r.z * bind[8],
+              r.x * bind[1] + r.y * bind[5] + r.z * bind[9],
+              r.x * bind[2] + r.y * bind[6] + r.z * bind[10],
+              r.x * bind[3] + r.y * bind[7] + r.z * bind[11] + r.w};
   }
+  __syncthreads();
 }
 
 }  // namespace hypotrack::cuda

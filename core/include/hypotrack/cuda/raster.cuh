@@ -83,12 +83,12 @@ struct ThreadBounds {
   Bounds own;
   __device__ __forceinline__ ThreadBounds() { own.reset(); }
   __device__ __forceinline__ void add(float x, float x2, float y) {
-    own.low_x = min(own.low_x, __float2int_ru(x));
-    own.high_x = min(own.high_x, -__float2int_rd(x));
-    own.low_x2 = min(own.low_x2, __float2int_ru(x2));
-    own.high_x2 = min(own.high_x2, -__float2int_rd(x2));
-    own.low_y = min(own.low_y, __float2int_ru(y));
-    own.high_y = min(own.high_y, -__float2int_rd(y));
+    own.low_x = min(own.low_x, round_up(x));
+    own.high_x = min(own.high_x, -round_down(x));
+    own.low_x2 = min(own.low_x2, round_up(x2));
+    own.high_x2 = min(own.high_x2, -round_down(x2));
+    own.low_y = min(own.low_y, round_up(y));
+    own.high_y = min(own.high_y, -round_down(y));
   }
   /// Joins those of the whole block; called by all its threads.
   __device__ __forceinline__ void join(Bounds& all, bool pair) const {
@@ -121,8 +121,8 @@ struct Span {
   int first, last;
 };
 __device__ __forceinline__ Span pixel_span(float a, float b, float c, int size) {
-  return {__float2int_ru(fmaxf(least(a, b, c), 0.0f)),
-          __float2int_rd(fminf(most(a, b, c), static_cast<float>(size - 1)))};
+  return {round_up(fmaxf(least(a, b, c), 0.0f)),
+          round_down(fminf(most(a, b, c), exact_float(size - 1)))};
 }
 
 /// Twice the signed area, pixels^2; negative if counter-clockwise from outside (y is downwards).
@@ -201,15 +201,15 @@ __device__ __forceinline__ void cull(const PackedTriangle* triangles,
                                      const Vertices<kShared>& vertices, int width, int width2,
                                      int y0, int y1, int count, const VisibleList& list) {
   const int rounded = (count + kWarp - 1) / kWarp * kWarp;
-  const auto low = static_cast<float>(y0), high = static_cast<float>(y1 - 1);
+  const float low = exact_float(y0), high = exact_float(y1 - 1);
   for (int i = static_cast<int>(threadIdx.x); i < rounded; i += static_cast<int>(blockDim.x)) {
     Coverage left = Coverage::none, right = Coverage::none;
     if (i < count) {
       const PackedTriangle triangle = triangles[i];
       const CornerRecords records = load_corners(triangle, vertices);
       const Corners t = records.in_view(false);
-      const Span rows = {__float2int_ru(fmaxf(least(t.ay, t.by, t.cy), low)),
-                         __float2int_rd(fminf(most(t.ay, t.by, t.cy), high))};
+      const Span rows = {round_up(fmaxf(least(t.ay, t.by, t.cy), low)),
+                         round_down(fminf(most(t.ay, t.by, t.cy), high))};
       if (rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f) {
         const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
         left = coverage(t, two_sided, width, rows);
@@ -234,7 +234,7 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   p.x1 = columns.last;
   p.y0 = first_row;
   // Coordinates from the first pixel are small, so that their products are exact enough.
-  const auto x = static_cast<float>(p.x0), y = static_cast<float>(p.y0);
+  const float x = exact_float(p.x0), y = exact_float(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
   const float inverse_area = __fdividef(1.0f, twice_area(s));
   p.a = (s.bx * s.cy - s.cx * s.by) * inverse_area;
@@ -279,20 +279,22 @@ __device__ __forceinline__ void fill_few(const Planes& p, Span rows,
   const float a_inverse = __fdividef(1.0f, a_dx), b_inverse = __fdividef(1.0f, b_dx);
   const float c_inverse = __fdividef(1.0f, c_dx);
   const float w_dx = fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc);
-  const int last_column = p.x1 - p.x0;
+  const float last_column = exact_float(p.x1 - p.x0);
+  float dy = exact_float(rows.first - p.y0);
+  int row = buffer.index(p.x0, rows.first);
   for (int y = rows.first; y <= rows.last; ++y) {
-    const auto dy = static_cast<float>(y - p.y0);
     const float a = fmaf(dy, p.a_dy, p.a), b = fmaf(dy, p.b_dy, p.b);
-    float first = 0.0f, last = static_cast<float>(last_column);
+    float first = 0.0f, last = last_column;
     cut(a + kInclusive, a_dx, a_inverse, first, last);
     cut(b + kInclusive, b_dx, b_inverse, first, last);
     cut(1.0f - a - b + kInclusive, c_dx, c_inverse, first, last);
-    const int begin = __float2int_ru(first), end = __float2int_rd(last);
-    const float w = fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c));
-    const int row = buffer.index(p.x0, y);
-    for (int dx = begin; dx <= end; ++dx) {
-      put(buffer.inverse_depth, row + dx, fmaf(static_cast<float>(dx), w_dx, w));
-    }
+    // At most one column beyond either end: a thin triangle's edges may meet far away.
+    const int begin = round_up(fminf(first, last_column + 1.0f)),
+              end = round_down(fmaxf(last, -1.0f));
+    float w = fmaf(exact_float(begin), w_dx, fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+    for (int i = row + begin; i <= row + end; ++i, w += w_dx) put(buffer.inverse_depth, i, w);
+    dy += 1.0f;
+    row += buffer.box.width();
   }
 }
 
@@ -300,14 +302,17 @@ __device__ __forceinline__ void fill_few(const Planes& p, Span rows,
 template <bool kShared>
 __device__ __forceinline__ void fill_many(const Planes& p, Span rows,
                                           const DepthBuffer<kShared>& buffer) {
-  const int width = p.x1 - p.x0 + 1, pixels = width * (rows.last - rows.first + 1);
-  for (int k = static_cast<int>(threadIdx.x) % kWarp; k < pixels; k += kWarp) {
-    const int x = p.x0 + k % width, y = rows.first + k / width;
-    const auto dx = static_cast<float>(x - p.x0), dy = static_cast<float>(y - p.y0);
-    const float a = fmaf(dx, p.a_dx, fmaf(dy, p.a_dy, p.a));
-    const float b = fmaf(dx, p.b_dx, fmaf(dy, p.b_dy, p.b));
-    if (least(a, b, 1.0f - a - b) < -kInclusive) continue;
-    put(buffer.inverse_depth, buffer.index(x, y), fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+  constexpr int kWide = 8, kHigh = kWarp / kWide;  // pixels that the warp draws together
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  for (int y = rows.first + lane / kWide; y <= rows.last; y += kHigh) {
+    const float dy = exact_float(y - p.y0);
+    const float row_a = fmaf(dy, p.a_dy, p.a), row_b = fmaf(dy, p.b_dy, p.b);
+    for (int x = p.x0 + lane % kWide; x <= p.x1; x += kWide) {
+      const float dx = exact_float(x - p.x0);
+      const float a = fmaf(dx, p.a_dx, row_a), b = fmaf(dx, p.b_dx, row_b);
+      if (least(a, b, 1.0f - a - b) < -kInclusive) continue;
+      put(buffer.inverse_depth, buffer.index(x, y), fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+    }
   }
 }
 
