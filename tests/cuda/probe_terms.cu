@@ -14,8 +14,8 @@ struct CoveredTerm {
   static constexpr int kSums = 1;
   __device__ int views() const { return -1; }
   __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const {
-    sums[0] += 1.0f + static_cast<float>(p.x) / 500.0f + static_cast<float>(p.y) / 300.0f +
-               p.inverse_depth / 4.0f;
+    sums[0] += 1.0f + static_cast<float>(p.x) * 0.002f + static_cast<float>(p.y) * 0.003f +
+               p.inverse_depth * 0.25f;
   }
   __device__ double cost(const double (&sums)[kSums], const float*) const { return sums[0]; }
 };
@@ -30,8 +30,8 @@ struct SeenTerm {
   template <int kReference>
   __device__ void pixel(const StereoPixel& p, float (&sums)[kSums]) const {
     if (p.seen) {
-      sums[kReference] += 1.0f + p.u / 500.0f + static_cast<float>(p.column) / 900.0f +
-                          static_cast<float>(p.row) / 700.0f;
+      sums[kReference] += 1.0f + p.u * 0.002f + static_cast<float>(p.column) * 0.001f +
+                          static_cast<float>(p.row) * 0.0015f;
     }
     if (p.occluded) sums[kReference] += 0.5f;
     if (p.uncovered) sums[kReference] += 0.01f;

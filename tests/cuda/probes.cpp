@@ -20,7 +20,7 @@ class CoveredProbe final : public Objective {
       for (int y = 0; y < tile.height; ++y) {
         for (int x = 0; x < tile.width; ++x) {
           const float w = depth_at(tile, x, y);
-          if (w > 0) sum += 1 + x / 500.0 + y / 300.0 + w / 4.0;
+          if (w > 0) sum += 1 + x * 0.002 + y * 0.003 + w * 0.25;
         }
       }
     }
@@ -71,7 +71,7 @@ class SeenProbe final : public Objective {
     if (!scalar::same_depth(m.inverse_depth, depth_at(there, column, row), kProbeTolerance)) {
       return 0.5;
     }
-    return 1 + m.u / 500.0 + column / 900.0 + row / 700.0;
+    return 1 + m.u * 0.002 + column * 0.001 + row * 0.0015;
   }
 
   bool uncovered_;

@@ -7,11 +7,11 @@
 namespace hypotrack::test {
 
 /// An objective over the pixels of every view that a hypothesis covers, on the CPU and on the
-/// device: the sum of 1 + x / 500 + y / 300 + (1 / z) / 4.
+/// device: the sum of 1 + 0.002 x + 0.003 y + 0.25 / z.
 std::shared_ptr<Objective> covered_probe();
 
 /// An objective over the pixels of a stereo pair, in both directions: those seen weigh
-/// 1 + u / 500 + column / 900 + row / 700, those occluded 0.5. With `uncovered` those not covered
+/// 1 + 0.002 u + 0.001 column + 0.0015 row, those occluded 0.5. With `uncovered` those not covered
 /// weigh 0.01.
 std::shared_ptr<Objective> seen_probe(bool uncovered);
 

@@ -50,7 +50,6 @@ void HostScene::add_bones(const Scene::Item& item) {
     BoneLayout out{};
     out.parent = bone.parent < 0 ? -1 : first + bone.parent;
     out.model = static_cast<int>(models.size());
-    out.level = bone.parent < 0 ? 0 : bones[static_cast<std::size_t>(out.parent)].level + 1;
     out.first_turn = static_cast<int>(turns.size());
     for (const BoneRotation& r : data.rotations) {
       if (r.bone != static_cast<int>(b)) continue;
@@ -112,7 +111,8 @@ void HostScene::add_triangles(const Mesh& mesh, const std::vector<int>& order,
 
 template <class T>
 const T* upload(DeviceBuffer<T>& buffer, const std::vector<T>& from) {
-  buffer.reserve(std::max<std::size_t>(from.size(), 1));
+  constexpr std::size_t kCopied = 16;  // bytes that kernels copy at a time
+  buffer.reserve(from.size() + kCopied / sizeof(T) + 1);
   check(cudaMemcpy(buffer.data(), from.data(), from.size() * sizeof(T), cudaMemcpyHostToDevice),
         "uploading the scene");
   return buffer.data();
@@ -145,13 +145,10 @@ DeviceScene::DeviceScene(const Scene& scene) {
   }
   HostScene host;
   for (const Scene::Item& item : scene.items()) host.add(item);
-  int levels = 0;
-  for (const BoneLayout& bone : host.bones) levels = std::max(levels, bone.level + 1);
   layout_ = {scene.dimension(),
              static_cast<int>(host.models.size()),
              static_cast<int>(host.bones.size()),
              static_cast<int>(host.turns.size()),
-             levels,
              static_cast<int>(host.vertices.size()),
              static_cast<int>(host.triangles.size()),
              upload(models_, host.models),

@@ -34,8 +34,8 @@ FrameLayout frame_layout(const Observation& observation) {
     to.width = from.width;
     to.height = from.height;
   }
-  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(frame.first_from_world) =
-      projection.first_from_world.matrix().topRows<3>();
+  Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(frame.first_from_world) =
+      projection.first_from_world.matrix().topRows<3>().cast<float>();
   if (views >= 2) {
     frame.maps[0] = stereo_map(observation, 0, 1);
     frame.maps[1] = stereo_map(observation, 1, 0);

@@ -42,6 +42,13 @@ __device__ __forceinline__ float exact_float(int x) {
   return __int_as_float(x + kIntegerBits) - kIntegerBias;
 }
 
+/// 1 / x within a unit of the last digit, for x whose reciprocal is a normal number.
+__device__ __forceinline__ float reciprocal(float x) {
+  float r;
+  asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(x));
+  return r;
+}
+
 /// Pixels x0 <= x < x1, y0 <= y < y1.
 struct Box {
   int x0, y0, x1, y1;

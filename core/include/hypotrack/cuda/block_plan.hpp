@@ -7,6 +7,17 @@
 
 namespace hypotrack::cuda {
 
+/// Where in a block's shared memory a hypothesis is posed; offsets in floats.
+struct PoseMemory {
+  int point;                               ///< the search point in single precision
+  int state;                               ///< the decoded state
+  int models;                              ///< a 3x4 matrix per model: first_from_model
+  int locals;                              ///< a 3x4 matrix per bone: parent_from_bone
+  int bones;                               ///< a 3x4 matrix per bone: the first camera from the
+                                           ///< vertices of the bind pose
+  int model_layouts, bone_layouts, turns;  ///< of the scene
+};
+
 /// How one hypothesis is spread over blocks of threads, and what lies where in a block's shared
 /// memory (offsets in floats, multiples of four).
 struct BlockPlan {
@@ -16,8 +27,8 @@ struct BlockPlan {
   bool vertices_in_shared = true;  ///< otherwise in `vertex_scratch`
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
-  int point = 0, state = 0, models = 0, layouts_of_models = 0, bones = 0, layouts = 0, turns = 0,
-      vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
+  PoseMemory pose{};
+  int vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
   int histogram_rows = 0;
   /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
   /// before still runs.
@@ -72,13 +83,17 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
     end += rounded(floats);
     return begin;
   };
-  p.point = take(2 * r.scene.dimension);  // double precision
-  p.state = take(r.scene.dimension);
-  p.models = take(12 * r.scene.model_count);
-  p.layouts_of_models = take(static_cast<int>(sizeof(ModelLayout) / 4) * r.scene.model_count);
-  p.bones = take(12 * r.scene.bone_count);
-  p.layouts = take(static_cast<int>(sizeof(BoneLayout) / 4) * r.scene.bone_count);
-  p.turns = take(static_cast<int>(sizeof(Turn) / 4) * r.scene.turn_count);
+  const auto take_items = [&](std::size_t size, int count) {
+    return take(static_cast<int>(size / sizeof(float)) * count);
+  };
+  p.pose.point = take(r.scene.dimension);
+  p.pose.state = take(r.scene.dimension);
+  p.pose.models = take(12 * r.scene.model_count);
+  p.pose.locals = take(12 * r.scene.bone_count);
+  p.pose.bones = take(12 * r.scene.bone_count);
+  p.pose.model_layouts = take_items(sizeof(ModelLayout), r.scene.model_count);
+  p.pose.bone_layouts = take_items(sizeof(BoneLayout), r.scene.bone_count);
+  p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
   p.histogram_rows = bands > 1 ? r.tile_height : 0;

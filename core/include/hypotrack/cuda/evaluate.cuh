@@ -12,6 +12,16 @@
 /// hypothesis without leaving its multiprocessor.
 namespace hypotrack::cuda {
 
+/// Copies `count` objects to an offset in shared memory.
+template <class T>
+__device__ __forceinline__ void copy_to_shared(const T* from, int count, int to) {
+  const auto* words = reinterpret_cast<const float*>(from);
+  const int size = static_cast<int>(sizeof(T) / sizeof(float)) * count;
+  for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+    shared_floats()[to + i] = __ldg(words + i);
+  }
+}
+
 /// Calls pixel(x, y) for the pixels of a box, each by one thread of the block.
 template <class Pixel>
 __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixel) {
@@ -86,9 +96,9 @@ class BlockEvaluation {
       stage(scene_.vertices, scene_.vertex_count, plan_.staged_vertices);
       stage(scene_.triangles, scene_.triangle_count, plan_.staged_triangles);
     }
-    copy_to_shared(scene_.models, scene_.model_count, plan_.layouts_of_models);
-    copy_to_shared(scene_.bones, scene_.bone_count, plan_.layouts);
-    copy_to_shared(scene_.turns, scene_.turn_count, plan_.turns);
+    copy_to_shared(scene_.models, scene_.model_count, plan_.pose.model_layouts);
+    copy_to_shared(scene_.bones, scene_.bone_count, plan_.pose.bone_layouts);
+    copy_to_shared(scene_.turns, scene_.turn_count, plan_.pose.turns);
     const auto* words = reinterpret_cast<const std::uint32_t*>(frame);
     for (unsigned i = threadIdx.x; i < sizeof(FrameLayout) / 4; i += blockDim.x) {
       reinterpret_cast<std::uint32_t*>(&frame_)[i] = words[i];
@@ -103,22 +113,8 @@ class BlockEvaluation {
   }
 
   __device__ void run() {
-    float* shared = shared_floats();
-    auto* point = reinterpret_cast<double*>(shared + plan_.point);
     const int size = point_size();
-    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-      point[i] = batch_.points[hypothesis_ * size + i];
-    }
-    __syncthreads();
-    if (threadIdx.x < kWarp) {
-      decode(reinterpret_cast<const ModelLayout*>(shared + plan_.layouts_of_models),
-             scene_.model_count, frame_, batch_.prior, point, shared + plan_.state,
-             shared + plan_.models);
-    }
-    __syncthreads();
-    pose_bones(scene_, reinterpret_cast<const BoneLayout*>(shared + plan_.layouts),
-               reinterpret_cast<const Turn*>(shared + plan_.turns), shared + plan_.state,
-               shared + plan_.models, shared + plan_.bones);
+    pose(scene_, frame_, batch_.points + hypothesis_ * size, size, batch_.prior, plan_.pose);
     if constexpr (kWalk == Walk::views) {
       for (int v = 0; v < frame_.view_count; ++v) {
         if (term_.views() >> v & 1) single_view(v);
@@ -136,23 +132,14 @@ class BlockEvaluation {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
-  template <class T>
-  __device__ static void copy_to_shared(const T* from, int count, int to) {
-    const auto* words = reinterpret_cast<const float*>(from);
-    const int size = static_cast<int>(sizeof(T) / sizeof(float)) * count;
-    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-      shared_floats()[to + i] = __ldg(words + i);
-    }
-  }
-
-  /// Copies without waiting, 8 bytes at a time.
+  /// Copies without waiting; the array's memory goes on to a multiple of 16 bytes.
   template <class T>
   __device__ static void stage(const T* from, int count, int to) {
-    const auto* pairs = reinterpret_cast<const uint2*>(from);
-    auto* out = reinterpret_cast<uint2*>(shared_floats() + to);
-    const int size = static_cast<int>(sizeof(T) / sizeof(uint2)) * count;
+    const auto* pieces = reinterpret_cast<const uint4*>(from);
+    auto* out = reinterpret_cast<uint4*>(shared_floats() + to);
+    const int size = (static_cast<int>(sizeof(T)) * count + 15) / 16;
     for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-      __pipeline_memcpy_async(out + i, pairs + i, sizeof(uint2));
+      __pipeline_memcpy_async(out + i, pieces + i, sizeof(uint4));
     }
     __pipeline_commit();
   }
@@ -166,7 +153,7 @@ class BlockEvaluation {
   /// holds for the whole block.
   template <bool kPair>
   __device__ void place_vertices(int view) {
-    const float* bones = shared_floats() + plan_.bones;
+    const float* bones = shared_floats() + plan_.pose.bones;
     const ViewLayout& camera = frame_.views[view];
     const Parallax parallax = pair_parallax();
     ThreadBounds own;
@@ -239,14 +226,13 @@ class BlockEvaluation {
     const int rows = max(y1 - y0, 0), per_lane = (rows + kWarp - 1) / kWarp;
     const int first = min(y0 + lane * per_lane, y1), last = min(first + per_lane, y1);
     // A row weighs as much as its vertices and half of an average row.
-    const auto weight = [&](int y) {
-      return 2 * static_cast<long long>(rows) * histogram[y] + scene_.vertex_count;
-    };
-    long long own = 0;
+    const int of_a_row = scene_.vertex_count / max(rows, 1) + 1;
+    const auto weight = [&](int y) { return 2 * histogram[y] + of_a_row; };
+    int own = 0;
     for (int y = first; y < last; ++y) own += weight(y);
-    long long before = own;
+    int before = own;
     for (int step = 1; step < kWarp; step *= 2) {
-      const long long other = __shfl_up_sync(kWholeWarp, before, step);
+      const int other = __shfl_up_sync(kWholeWarp, before, step);
       if (lane >= step) before += other;
     }
     const float total = static_cast<float>(__shfl_sync(kWholeWarp, before, kWarp - 1));
@@ -385,7 +371,7 @@ class BlockEvaluation {
     block_sum(sums_, shared_floats() + plan_.sums, total);
     if (threadIdx.x != 0) return;
     if (plan_.bands > 1 && !join_bands(total)) return;
-    const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.state);
+    const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.pose.state);
     double& out = batch_.costs[hypothesis_];
     out = batch_.add ? out + cost : cost;
   }
@@ -455,14 +441,13 @@ __global__ void __launch_bounds__(kMostThreads)
                            const __grid_constant__ BatchLayout batch,
                            const __grid_constant__ BlockPlan plan, DrawnBatch drawn,
                            const __grid_constant__ Term term) {
-  float* state = shared_floats() + plan.state;
   const int layer = static_cast<int>(blockIdx.x) * frame->view_count;
   const std::int64_t hypothesis = drawn.first + static_cast<std::int64_t>(blockIdx.x);
   const int size = scene.dimension - (batch.prior ? scene.model_count : 0);
-  if (threadIdx.x < kWarp) {
-    decode(scene.models, scene.model_count, *frame, batch.prior, batch.points + hypothesis * size,
-           state, shared_floats() + plan.models);
-  }
+  copy_to_shared(scene.models, scene.model_count, plan.pose.model_layouts);
+  load_point(batch.points + hypothesis * size, size, plan.pose);
+  __syncthreads();
+  decode(scene, *frame, batch.prior, plan.pose);
   float sums[Term::kSums] = {};
   const auto tile = [&](int v) { return Box{0, 0, frame->views[v].width, frame->views[v].height}; };
   const auto depth = [&](int v) { return DrawnDepth{drawn.texture, layer + v}; };
@@ -489,7 +474,7 @@ __global__ void __launch_bounds__(kMostThreads)
   double total[Term::kSums];
   block_sum(sums, shared_floats() + plan.sums, total);  // with a barrier after the decoding
   if (threadIdx.x != 0) return;
-  const double cost = batch.weight * term.cost(total, state);
+  const double cost = batch.weight * term.cost(total, shared_floats() + plan.pose.state);
   double& out = batch.costs[hypothesis];
   out = batch.add ? out + cost : cost;
 }

@@ -22,7 +22,6 @@ struct Turn {
 struct BoneLayout {
   std::int32_t parent;  ///< index into the scene's bones; -1: the pose of its model
   std::int32_t model;
-  std::int32_t level;       ///< number of bones above it
   std::int32_t first_turn;  ///< its turns, in the order in which they apply
   std::int32_t turn_count;
   float parent_from_bone[12];  ///< at the bind pose
@@ -54,7 +53,6 @@ struct SceneLayout {
   std::int32_t model_count;
   std::int32_t bone_count;
   std::int32_t turn_count;
-  std::int32_t level_count;  ///< one more than the largest BoneLayout::level
   std::int32_t vertex_count;
   std::int32_t triangle_count;
   const ModelLayout* models;
@@ -77,7 +75,7 @@ struct FrameLayout {
   std::int32_t view_count;
   std::int32_t pair;  ///< two views that share y and 1/z: x_right = x_left + a constant + f b / z
   ViewLayout views[kMaxViews];
-  double first_from_world[12];
+  float first_from_world[12];
   StereoMap maps[2];  ///< from view 0 into 1 and from 1 into 0; undefined for a single view
 };
 

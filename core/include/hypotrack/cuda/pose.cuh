@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hypotrack/cuda/block.cuh"
+#include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/layout.hpp"
 
 /// From search points to bone matrices: what SearchSpace::states, Scene::normalize and BonePoser do
@@ -10,17 +11,22 @@ namespace hypotrack::cuda {
 /// Models with larger parameters, or NaN, are not drawn.
 inline constexpr double kLargestParameter = 1e6;
 
+template <class T>
+__device__ __forceinline__ const T& shared_item(int offset, int index) {
+  return reinterpret_cast<const T*>(shared_floats() + offset)[index];
+}
+
 struct Quaternion {
   float w, x, y, z;
 };
 
-__device__ inline Quaternion multiply(const Quaternion& a, const Quaternion& b) {
+__device__ __forceinline__ Quaternion multiply(const Quaternion& a, const Quaternion& b) {
   return {
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
 
-__device__ inline Quaternion rotation_exp(float x, float y, float z) {
+__device__ __forceinline__ Quaternion rotation_exp(float x, float y, float z) {
   const float angle = sqrtf(x * x + y * y + z * z);
   if (angle < 1e-6f) return {1.0f, x / 2, y / 2, z / 2};
   float s, c;
@@ -29,159 +35,146 @@ __device__ inline Quaternion rotation_exp(float x, float y, float z) {
   return {c, x * factor, y * factor, z * factor};
 }
 
-/// Four numbers of any size as a unit quaternion; zeros are the identity.
-__device__ inline Quaternion unit_quaternion(const double* wxyz) {
-  const double scale = fmax(fmax(fabs(wxyz[0]), fabs(wxyz[1])), fmax(fabs(wxyz[2]), fabs(wxyz[3])));
-  if (scale == 0.0) return {1.0f, 0.0f, 0.0f, 0.0f};
-  const double factor = scale > 1e-3 && scale < 1e3 ? 1.0 : 1.0 / scale;  // squares fit a float
-  const auto w = static_cast<float>(wxyz[0] * factor), x = static_cast<float>(wxyz[1] * factor);
-  const auto y = static_cast<float>(wxyz[2] * factor), z = static_cast<float>(wxyz[3] * factor);
-  const float inverse = 1.0f / sqrtf(w * w + x * x + y * y + z * z);
+/// Four numbers as a unit quaternion; zeros are the identity.
+__device__ __forceinline__ Quaternion unit_quaternion(float w, float x, float y, float z) {
+  const float scale = fmaxf(fmaxf(fabsf(w), fabsf(x)), fmaxf(fabsf(y), fabsf(z)));
+  if (scale == 0.0f) return {1.0f, 0.0f, 0.0f, 0.0f};
+  if (!(scale > 1e-3f && scale < 1e3f)) {  // the sum of squares might leave the range
+    w /= scale, x /= scale, y /= scale, z /= scale;
+  }
+  const float inverse = rsqrtf(w * w + x * x + y * y + z * z);
   return {w * inverse, x * inverse, y * inverse, z * inverse};
 }
 
-/// Where a model's parameters begin in a search point.
-__device__ inline int point_offset(const ModelLayout& model, int index, bool rotation_vectors) {
-  return model.offset - (rotation_vectors ? index : 0);
-}
-
-/// The unit quaternion of a model whose parameters in the search point are `p`.
-__device__ inline Quaternion decode_rotation(const double* p, const double* prior, int offset) {
-  if (!prior) return unit_quaternion(p + 3);
-  const Quaternion turn =
-      rotation_exp(static_cast<float>(p[3]), static_cast<float>(p[4]), static_cast<float>(p[5]));
-  return multiply(unit_quaternion(prior + offset + 3), turn);
-}
-
-/// Writes the pose in the model's part of the state and first_from_model (3x4), NaN unless
-/// `drawable`.
-__device__ inline void decode_pose(const ModelLayout& model, const FrameLayout& frame,
-                                   const double* p, const double* prior, bool drawable,
-                                   float* state, float* first_from_model) {
-  const Quaternion q = decode_rotation(p, prior, model.offset);
-  for (int i = 0; i < 3; ++i) state[model.offset + i] = static_cast<float>(p[i]);
-  state[model.offset + 3] = q.w;
-  state[model.offset + 4] = q.x;
-  state[model.offset + 5] = q.y;
-  state[model.offset + 6] = q.z;
-  const float r[3][3] = {
-      {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z), 2 * (q.x * q.z + q.w * q.y)},
-      {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z - q.w * q.x)},
-      {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)}};
-  for (int i = 0; i < 3; ++i) {
-    const double* f = frame.first_from_world + 4 * i;
-    for (int j = 0; j < 3; ++j) {
-      first_from_model[4 * i + j] = static_cast<float>(f[0]) * r[0][j] +
-                                    static_cast<float>(f[1]) * r[1][j] +
-                                    static_cast<float>(f[2]) * r[2][j];
-    }
-    // The world's origin may be far away: double precision until the difference is taken.
-    const double t = f[0] * p[0] + f[1] * p[1] + f[2] * p[2] + f[3];
-    first_from_model[4 * i + 3] = drawable ? static_cast<float>(t) : nanf("");
+/// Reads a search point, as every thread of the block calls it; a barrier must follow. Numbers that
+/// cannot be drawn become NaN.
+__device__ __forceinline__ void load_point(const double* point, int size, const PoseMemory& at) {
+  for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+    const double p = point[i];
+    shared_floats()[at.point + i] = fabs(p) <= kLargestParameter ? static_cast<float>(p) : nanf("");
   }
 }
 
-/// A row of a 3x4 matrix times one, `columns`, in memory.
-__device__ __forceinline__ float4 multiply(const float4& row, const float* columns) {
-  const auto* m = reinterpret_cast<const float4*>(columns);
-  const float4 a = m[0], b = m[1], c = m[2];
-  return {fmaf(row.x, a.x, fmaf(row.y, b.x, row.z * c.x)),
-          fmaf(row.x, a.y, fmaf(row.y, b.y, row.z * c.y)),
-          fmaf(row.x, a.z, fmaf(row.y, b.z, row.z * c.z)),
-          fmaf(row.x, a.w, fmaf(row.y, b.w, fmaf(row.z, c.w, row.w)))};
+/// Decodes one model's pose: its part of the state and first_from_model. The other parameters of
+/// the state are copied.
+__device__ __forceinline__ void decode_model(const ModelLayout& model, int index,
+                                             const FrameLayout& frame, const double* prior,
+                                             const PoseMemory& at) {
+  const int shorter = prior ? 1 : 0;  // numbers by which a rotation vector is
+  const float* p = shared_floats() + at.point + model.offset - shorter * index;
+  float* state = shared_floats() + at.state + model.offset;
+  float unusable = 0.0f;  // or NaN
+  for (int i = 7; i < model.dimension; ++i) {
+    state[i] = p[i - shorter];
+    unusable += 0.0f * state[i];
+  }
+  Quaternion q;
+  if (prior) {
+    const double* q0 = prior + model.offset + 3;
+    q = multiply(unit_quaternion(static_cast<float>(q0[0]), static_cast<float>(q0[1]),
+                                 static_cast<float>(q0[2]), static_cast<float>(q0[3])),
+                 rotation_exp(p[3], p[4], p[5]));
+  } else {
+    q = unit_quaternion(p[3], p[4], p[5], p[6]);
+  }
+  for (int i = 0; i < 3; ++i) state[i] = p[i];
+  state[3] = q.w;
+  state[4] = q.x;
+  state[5] = q.y;
+  state[6] = q.z;
+  const float r[3][4] = {{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z),
+                          2 * (q.x * q.z + q.w * q.y), p[0] + unusable},
+                         {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z),
+                          2 * (q.y * q.z - q.w * q.x), p[1] + unusable},
+                         {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x),
+                          1 - 2 * (q.x * q.x + q.y * q.y), p[2] + unusable}};
+  auto* out = reinterpret_cast<float4*>(shared_floats() + at.models) + 3 * index;
+#pragma unroll
+  for (int i = 0; i < 3; ++i) {
+    const float* f = frame.first_from_world + 4 * i;
+    const auto column = [&](int j) { return f[0] * r[0][j] + f[1] * r[1][j] + f[2] * r[2][j]; };
+    out[i] = {column(0), column(1), column(2), column(3) + f[3]};
+  }
 }
 
 /// A row of a transform whose frame is turned about a unit axis.
-__device__ __forceinline__ float4 turned(const float4& row, float x, float y, float z,
-                                         float angle) {
+__device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float value) {
+  const float angle = t.scale * (value - t.zero);
   float s, c;
   if (fabsf(angle) < 3.2f) {
     __sincosf(angle, &s, &c);  // within 4e-7 here
   } else {
     sincosf(angle, &s, &c);
   }
-  const float t = 1.0f - c;
-  const float a = row.x, b = row.y, d = row.z;
-  return {a * (t * x * x + c) + b * (t * x * y + s * z) + d * (t * x * z - s * y),
-          a * (t * x * y - s * z) + b * (t * y * y + c) + d * (t * y * z + s * x),
-          a * (t * x * z + s * y) + b * (t * y * z - s * x) + d * (t * z * z + c), row.w};
+  const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
+  return {row.x * (d * x * x + c) + row.y * (d * x * y + s * z) + row.z * (d * x * z - s * y),
+          row.x * (d * x * y - s * z) + row.y * (d * y * y + c) + row.z * (d * y * z + s * x),
+          row.x * (d * x * z + s * y) + row.y * (d * y * z - s * x) + row.z * (d * z * z + c),
+          row.w};
 }
 
-/// Decodes one hypothesis with one warp: `state` gets the scene's state, `first_from_models` a
-/// matrix per model, NaN for one with a parameter beyond kLargestParameter.
-__device__ __noinline__ inline void decode(const ModelLayout* models, int model_count,
-                                           const FrameLayout& frame, const double* prior,
-                                           const double* point, float* state,
-                                           float* first_from_models) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int pose_size = prior ? 6 : 7;
-  for (int base = 0; base < model_count; base += kWarp) {
-    const int end = min(base + kWarp, model_count);
-    bool own_drawable = false;
-    for (int m = base; m < end; ++m) {
-      const ModelLayout model = models[m];
-      const double* p = point + point_offset(model, m, prior != nullptr);
-      const int size = model.dimension - 7 + pose_size;
-      bool drawable = true;
-      for (int i = lane; i < size; i += kWarp) {
-        drawable = drawable && fabs(p[i]) <= kLargestParameter;  // NaN: false
-        if (i >= pose_size) state[model.offset + 7 - pose_size + i] = static_cast<float>(p[i]);
-      }
-      drawable = __all_sync(kWholeWarp, drawable);
-      if (lane == m - base) own_drawable = drawable;
-    }
-    if (const int m = base + lane; m < end) {
-      const ModelLayout model = models[m];
-      const double* p = point + point_offset(model, m, prior != nullptr);
-      decode_pose(model, frame, p, prior, own_drawable, state, first_from_models + 12 * m);
-    }
+/// A row of parent_from_bone with all turns of the bone. The parameters that turn bones are the
+/// same in a search point as in the state, but for their place.
+__device__ __forceinline__ void place_row(int bone, int row, const double* prior,
+                                          const PoseMemory& at) {
+  const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
+  const float* bind = layout.parent_from_bone + 4 * row;
+  const int shift = prior ? layout.model + 1 : 0;
+  float4 out = {bind[0], bind[1], bind[2], bind[3]};
+  for (int k = 0; k < layout.turn_count; ++k) {
+    const Turn& t = shared_item<Turn>(at.turns, layout.first_turn + k);
+    out = turned(out, t, shared_floats()[at.point + t.parameter - shift]);
+  }
+  reinterpret_cast<float4*>(shared_floats() + at.locals)[3 * bone + row] = out;
+}
+
+/// m * (x, y, z, w) for a 3x4 matrix of shared memory.
+__device__ __forceinline__ float3 transform(int matrix, const float3& v, float w) {
+  const auto* rows = reinterpret_cast<const float4*>(shared_floats() + matrix);
+  const float4 a = rows[0], b = rows[1], c = rows[2];
+  return {fmaf(a.x, v.x, fmaf(a.y, v.y, fmaf(a.z, v.z, a.w * w))),
+          fmaf(b.x, v.x, fmaf(b.y, v.y, fmaf(b.z, v.z, b.w * w))),
+          fmaf(c.x, v.x, fmaf(c.y, v.y, fmaf(c.z, v.z, c.w * w)))};
+}
+
+/// A column of a bone's matrix: from the bind pose through the bone and all above it to the camera.
+__device__ __forceinline__ void chain_column(int bone, int column, const PoseMemory& at) {
+  const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
+  const float* bind = layout.bone_from_model + column;
+  const float w = column == 3 ? 1.0f : 0.0f;
+  float3 v = {bind[0], bind[4], bind[8]};
+  for (int b = bone; b >= 0; b = shared_item<BoneLayout>(at.bone_layouts, b).parent) {
+    v = transform(at.locals + 12 * b, v, w);
+  }
+  v = transform(at.models + 12 * layout.model, v, w);
+  float* out = shared_floats() + at.bones + 12 * bone + column;
+  out[0] = v.x;
+  out[4] = v.y;
+  out[8] = v.z;
+}
+
+/// Decodes a point that load_point() read, with the whole block: state and models; a barrier must
+/// follow.
+__device__ __forceinline__ void decode(const SceneLayout& scene, const FrameLayout& frame,
+                                       const double* prior, const PoseMemory& at) {
+  // The last threads: the first are busy with bones.
+  for (int m = static_cast<int>(blockDim.x - 1 - threadIdx.x); m < scene.model_count;
+       m += static_cast<int>(blockDim.x)) {
+    decode_model(shared_item<ModelLayout>(at.model_layouts, m), m, frame, prior, at);
   }
 }
 
-/// Poses a decoded hypothesis with the whole block, a thread per row of a bone's matrix: `bones`
-/// gets one matrix per bone that takes vertices of the bind pose to the frame of the first view's
-/// camera. Ends with a barrier. `layouts` and `turns` are the scene's, wherever they lie.
-__device__ __noinline__ inline void pose_bones(const SceneLayout& scene, const BoneLayout* layouts,
-                                               const Turn* turns, const float* state,
-                                               const float* first_from_models, float* bones) {
-  const int first = static_cast<int>(threadIdx.x), step = static_cast<int>(blockDim.x);
-  const int rows = 3 * scene.bone_count;
-  auto* out = reinterpret_cast<float4*>(bones);
-  for (int i = first; i < rows; i += step) {  // parent_from_bone
-    const BoneLayout& bone = layouts[i / 3];
-    const float* bind = bone.parent_from_bone + 4 * (i % 3);
-    float4 row = {bind[0], bind[1], bind[2], bind[3]};
-    for (int k = 0; k < bone.turn_count; ++k) {
-      const Turn& t = turns[bone.first_turn + k];
-      row = turned(row, t.axis[0], t.axis[1], t.axis[2], t.scale * (state[t.parameter] - t.zero));
-    }
-    out[i] = row;
-  }
-  for (int level = 0; level < scene.level_count; ++level) {
-    __syncthreads();
-    for (int i = first; i < (rows + step - 1) / step * step; i += step) {
-      const bool mine = i < rows && layouts[i / 3].level == level;
-      float4 row;
-      if (mine) {
-        const BoneLayout& bone = layouts[i / 3];
-        const float* parent =
-            bone.parent < 0 ? first_from_models + 12 * bone.model : bones + 12 * bone.parent;
-        row = multiply(reinterpret_cast<const float4*>(parent)[i % 3], bones + 12 * (i / 3));
-      }
-      __syncthreads();  // all rows of a matrix are read before any is overwritten
-      if (mine) out[i] = row;
-    }
-  }
+/// Poses the hypothesis of a search point with the whole block; ends with a barrier.
+__device__ __forceinline__ void pose(const SceneLayout& scene, const FrameLayout& frame,
+                                     const double* point, int size, const double* prior,
+                                     const PoseMemory& at) {
+  const int thread = static_cast<int>(threadIdx.x), threads = static_cast<int>(blockDim.x);
+  load_point(point, size, at);
   __syncthreads();
-  for (int i = first; i < rows; i += step) {
-    float bind[12];
-    for (int k = 0; k < 12; ++k) bind[k] = layouts[i / 3].bone_from_model[k];
-    const float4 r = out[i];
-    out[i] = {r.x * bind[0] + r.y * bind[4] + r.z * bind[8],
-              r.x * bind[1] + r.y * bind[5] + r.z * bind[9],
-              r.x * bind[2] + r.y * bind[6] + r.z * bind[10],
-              r.x * bind[3] + r.y * bind[7] + r.z * bind[11] + r.w};
-  }
+  decode(scene, frame, prior, at);
+  for (int i = thread; i < 3 * scene.bone_count; i += threads) place_row(i / 3, i % 3, prior, at);
+  __syncthreads();
+  for (int i = thread; i < 4 * scene.bone_count; i += threads) chain_column(i / 4, i % 4, at);
   __syncthreads();
 }
 

@@ -71,7 +71,7 @@ __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool
     p = {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
          m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
   }
-  const float w = 1.0f / p.z;
+  const float w = reciprocal(p.z);
   const float x = fmaf(p.x * w, view.fx, view.cx), y = fmaf(p.y * w, view.fy, view.cy);
   const bool valid = p.z >= kNearest && p.z <= kFarthest && fabsf(x) <= kFarthestPixel &&
                      fabsf(y) <= kFarthestPixel;
@@ -80,25 +80,27 @@ __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool
 
 /// Bounds of a thread's vertices.
 struct ThreadBounds {
-  Bounds own;
-  __device__ __forceinline__ ThreadBounds() { own.reset(); }
+  static constexpr float kNone = kFarthestPixel;
+  float low_x = kNone, high_x = -kNone, low_x2 = kNone, high_x2 = -kNone, low_y = kNone,
+        high_y = -kNone;
+
   __device__ __forceinline__ void add(float x, float x2, float y) {
-    own.low_x = min(own.low_x, round_up(x));
-    own.high_x = min(own.high_x, -round_down(x));
-    own.low_x2 = min(own.low_x2, round_up(x2));
-    own.high_x2 = min(own.high_x2, -round_down(x2));
-    own.low_y = min(own.low_y, round_up(y));
-    own.high_y = min(own.high_y, -round_down(y));
+    low_x = fminf(low_x, x);
+    high_x = fmaxf(high_x, x);
+    low_x2 = fminf(low_x2, x2);
+    high_x2 = fmaxf(high_x2, x2);
+    low_y = fminf(low_y, y);
+    high_y = fmaxf(high_y, y);
   }
   /// Joins those of the whole block; called by all its threads.
   __device__ __forceinline__ void join(Bounds& all, bool pair) const {
-    join(own.low_x, all.low_x);
-    join(own.high_x, all.high_x);
-    join(own.low_y, all.low_y);
-    join(own.high_y, all.high_y);
+    join(round_up(low_x), all.low_x);
+    join(-round_down(high_x), all.high_x);
+    join(round_up(low_y), all.low_y);
+    join(-round_down(high_y), all.high_y);
     if (!pair) return;
-    join(own.low_x2, all.low_x2);
-    join(own.high_x2, all.high_x2);
+    join(round_up(low_x2), all.low_x2);
+    join(-round_down(high_x2), all.high_x2);
   }
 
  private:
@@ -203,18 +205,18 @@ __device__ __forceinline__ void cull(const PackedTriangle* triangles,
   const int rounded = (count + kWarp - 1) / kWarp * kWarp;
   const float low = exact_float(y0), high = exact_float(y1 - 1);
   for (int i = static_cast<int>(threadIdx.x); i < rounded; i += static_cast<int>(blockDim.x)) {
+    const PackedTriangle triangle = i < count ? triangles[i] : 0;
+    const CornerRecords records = load_corners(triangle, vertices);
+    const Corners t = records.in_view(false);
+    const Span rows = {round_up(fmaxf(least(t.ay, t.by, t.cy), low)),
+                       round_down(fminf(most(t.ay, t.by, t.cy), high))};
+    const bool in_rows = i < count && rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f;
+    if (!__any_sync(kWholeWarp, in_rows)) continue;
     Coverage left = Coverage::none, right = Coverage::none;
-    if (i < count) {
-      const PackedTriangle triangle = triangles[i];
-      const CornerRecords records = load_corners(triangle, vertices);
-      const Corners t = records.in_view(false);
-      const Span rows = {round_up(fmaxf(least(t.ay, t.by, t.cy), low)),
-                         round_down(fminf(most(t.ay, t.by, t.cy), high))};
-      if (rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f) {
-        const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
-        left = coverage(t, two_sided, width, rows);
-        if (kPair) right = coverage(records.in_view(true), two_sided, width2, rows);
-      }
+    if (in_rows) {
+      const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
+      left = coverage(t, two_sided, width, rows);
+      if (kPair) right = coverage(records.in_view(true), two_sided, width2, rows);
     }
     append(list, left, right, 2 * i);
   }
@@ -236,7 +238,7 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   // Coordinates from the first pixel are small, so that their products are exact enough.
   const float x = exact_float(p.x0), y = exact_float(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
-  const float inverse_area = __fdividef(1.0f, twice_area(s));
+  const float inverse_area = reciprocal(twice_area(s));
   p.a = (s.bx * s.cy - s.cx * s.by) * inverse_area;
   p.a_dx = (s.by - s.cy) * inverse_area;
   p.a_dy = (s.cx - s.bx) * inverse_area;
@@ -276,8 +278,8 @@ __device__ __forceinline__ void fill_few(const Planes& p, Span rows,
   const float b_dx = p.b_dx == 0.0f ? kHorizontal : p.b_dx;
   float c_dx = -(p.a_dx + p.b_dx);
   if (c_dx == 0.0f) c_dx = kHorizontal;
-  const float a_inverse = __fdividef(1.0f, a_dx), b_inverse = __fdividef(1.0f, b_dx);
-  const float c_inverse = __fdividef(1.0f, c_dx);
+  const float a_inverse = reciprocal(a_dx), b_inverse = reciprocal(b_dx);
+  const float c_inverse = reciprocal(c_dx);
   const float w_dx = fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc);
   const float last_column = exact_float(p.x1 - p.x0);
   float dy = exact_float(rows.first - p.y0);
@@ -292,6 +294,7 @@ __device__ __forceinline__ void fill_few(const Planes& p, Span rows,
     const int begin = round_up(fminf(first, last_column + 1.0f)),
               end = round_down(fmaxf(last, -1.0f));
     float w = fmaf(exact_float(begin), w_dx, fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+#pragma unroll 1  // one or two pixels in most rows
     for (int i = row + begin; i <= row + end; ++i, w += w_dx) put(buffer.inverse_depth, i, w);
     dy += 1.0f;
     row += buffer.box.width();
@@ -332,13 +335,20 @@ __device__ __forceinline__ void fill(const PackedTriangle* triangles,
          Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)}, buffer);
   };
   const int threads = static_cast<int>(blockDim.x), thread = static_cast<int>(threadIdx.x);
-  for (int i = thread; i < list.counts[0]; i += threads) {
-    prepared(list.entries[i],
-             [](const auto& p, Span rows, const auto& buffer) { fill_few(p, rows, buffer); });
+  // Whole warps take turns and wait for their slowest thread: left alone, threads would run ahead
+  // into their next triangles one by one, at a fraction of a warp's width.
+  const int lane = thread % kWarp;
+  for (int base = thread - lane; base < list.counts[0]; base += threads) {
+    if (base + lane < list.counts[0]) {
+      prepared(list.entries[base + lane],
+               [](const auto& p, Span rows, const auto& buffer) { fill_few(p, rows, buffer); });
+    }
+    __syncwarp();
   }
   for (int i = thread / kWarp; i < list.counts[1]; i += threads / kWarp) {
     prepared(list.entries[list.capacity - 1 - i],
              [](const auto& p, Span rows, const auto& buffer) { fill_many(p, rows, buffer); });
+    __syncwarp();
   }
 }
 
