@@ -9,8 +9,8 @@ constexpr int kThreads = 128;
 
 __global__ void quadratic(const double* target, int dimension, const double* points,
                           std::int64_t count, double* costs) {
-  cuda::let_next_start();
   cuda::wait_for_previous();
+  cuda::let_next_start();
   const std::int64_t i = std::int64_t{blockIdx.x} * kThreads + threadIdx.x;
   if (i >= count) return;
   double sum = 0;

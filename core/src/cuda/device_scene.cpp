@@ -31,10 +31,18 @@ void store(const Eigen::Isometry3d& transform, float* matrix) {
   out = transform.matrix().topRows<3>().cast<float>();
 }
 
+/// By the number of their bones, the largest first; among equals neighbours share bones.
+std::vector<int> order_by_work(const Mesh& mesh) {
+  std::vector<int> order = order_by_bones(mesh);
+  const auto bones = [&](int v) { return (mesh.bone_weights.col(v).array() > 0).count(); };
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return bones(a) > bones(b); });
+  return order;
+}
+
 void HostScene::add(const Scene::Item& item) {
   const std::size_t first_bone = bones.size(), first_vertex = vertices.size();
   const Mesh& mesh = item.model->data().mesh;
-  const std::vector<int> order = order_by_bones(mesh);
+  const std::vector<int> order = order_by_work(mesh);
   add_bones(item);
   add_vertices(mesh, order, first_bone);
   add_triangles(mesh, order, first_vertex);

@@ -32,7 +32,7 @@ __device__ __forceinline__ Candidate best_of_warp(Candidate mine) {
 __device__ __forceinline__ Candidate best_of_strided(const double* costs, std::int32_t count,
                                                      std::int32_t first, std::int32_t stride) {
   Candidate best;
-  for (std::int32_t i = first; i < count; i += stride) best = better(best, {costs[i], i});
+  for (std::int32_t i = first; i < count; i += stride) best = better(best, {__ldcg(costs + i), i});
   return best;
 }
 

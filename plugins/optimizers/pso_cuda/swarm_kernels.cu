@@ -22,13 +22,15 @@ struct Region {
   const double* spread;
 
   __device__ explicit Region(const SwarmLayout& swarm)
-      : seed(*swarm.region),
+      : seed(__ldcg(swarm.region)),
         start(reinterpret_cast<const double*>(swarm.region + 1)),
         lower(start + swarm.dimension),
         upper(lower + swarm.dimension),
         spread(upper + swarm.dimension) {}
 
-  __device__ Interval bounds(std::int64_t d) const { return {lower[d], upper[d]}; }
+  __device__ Interval bounds(std::int64_t d) const {
+    return {__ldcg(lower + d), __ldcg(upper + d)};
+  }
 };
 
 /// One dimension of one particle.
@@ -61,8 +63,8 @@ __global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm)
   }
 }
 
-// The next kernel may start only after the wait, here and in move(): then every later one finds
-// the region, also before its own wait.
+// The next kernel may start only after the wait: then every later one finds the region, also before
+// its own wait.
 __global__ void __launch_bounds__(kThreads)
     initial(const SwarmLayout swarm, const Generation now, const double sigma) {
   wait_for_previous();
@@ -91,18 +93,17 @@ __global__ void __launch_bounds__(kThreads)
 /// A particle's element and what it knows of itself.
 struct Mover {
   Element at;
-  double x, v, own_best, own_best_cost, cost;
+  double x, v, own_best, own_best_cost;
 
   __device__ Mover(const SwarmLayout& swarm, const Generation& before, const Element& element)
       : at(element),
-        x(before.position[at.index]),
-        v(swarm.velocity[at.index]),
-        own_best(swarm.own_best[at.index]),
-        own_best_cost(before.own_best_cost[at.particle]),
-        cost(swarm.costs[at.particle]) {}
+        x(__ldcg(before.position + at.index)),
+        v(__ldcg(swarm.velocity + at.index)),
+        own_best(__ldcg(swarm.own_best + at.index)),
+        own_best_cost(__ldcg(before.own_best_cost + at.particle)) {}
 
   /// Takes in the cost of where it is.
-  __device__ void remember(const SwarmLayout& swarm, const Generation& now) {
+  __device__ void remember(const SwarmLayout& swarm, const Generation& now, double cost) {
     const bool improved = cost < own_best_cost;
     if (improved) swarm.own_best[at.index] = own_best = x;
     if (at.dimension == 0) now.own_best_cost[at.particle] = improved ? cost : own_best_cost;
@@ -123,40 +124,58 @@ struct Best {
   const double* point;
   double cost;
 
-  /// For every thread of a block of kThreads; all of them call it.
+  /// For every thread of a block of kBlock; all of them call it. `known` is the best cost of the
+  /// generations before the last, `position` where the last one is.
   template <int kBlock>
-  static __device__ Best find(const SwarmLayout& swarm, const Generation& before,
-                              std::int32_t count) {
-    const double known = *before.best_cost;
+  static __device__ Best find(const SwarmLayout& swarm, const Generation& before, double known,
+                              std::int32_t count, const double* position) {
     const Candidate found = best_of_costs<kBlock>(swarm.costs, count);
     if (!(found.cost < known)) return {before.best, known};
-    return {before.position + found.particle * swarm.dimension, found.cost};
+    return {position + found.particle * swarm.dimension, found.cost};
   }
 };
 
+/// Small swarms' positions fit into a block's memory, so that the best is at hand once it is known.
+constexpr int kKept = 2048;
+
+// What the last move wrote is there before the wait: the evaluation between lets this kernel start
+// only after its own wait for that move (let_next_start()). It is there in the L2 cache, that is: a
+// multiprocessor's own may still hold what it read before. Only the costs are yet to come.
 __global__ void __launch_bounds__(kThreads)
     move(const SwarmLayout swarm, const Generation before, const Generation now,
          const Constriction constriction, const std::uint32_t generation) {
+  __shared__ double kept[kKept];
+  let_next_start();
   const std::int64_t elements = swarm.particles * swarm.dimension;
   const Region region(swarm);
   // All threads take part in the search for the best, also those without an element.
   std::int64_t i = first_element();
   const Element first(swarm, i < elements ? i : 0);
   const Interval first_bounds = region.bounds(first.dimension);
-  const auto first_random = draw(region.seed, first, generation);
-  wait_for_previous();
-  let_next_start();
-
   Mover mover(swarm, before, first);
-  const Best best = Best::find<kThreads>(swarm, before, static_cast<std::int32_t>(swarm.particles));
+  const double best_before = __ldcg(before.best_cost);
+  const bool keep = elements <= kKept;
+  if (keep) {
+    for (auto k = static_cast<std::int64_t>(threadIdx.x); k < elements; k += kThreads) {
+      kept[k] = __ldcg(before.position + k);
+    }
+  }
+  const auto first_random = draw(region.seed, first, generation);
+  __syncthreads();
+  wait_for_previous();
+
+  const double cost = __ldcg(swarm.costs + first.particle);
+  const Best best =
+      Best::find<kThreads>(swarm, before, best_before, static_cast<std::int32_t>(swarm.particles),
+                           keep ? kept : before.position);
   if (i < elements) {
-    mover.remember(swarm, now);
+    mover.remember(swarm, now, cost);
     mover.move(swarm, now, constriction, best.point[first.dimension], first_random, first_bounds);
   }
   while ((i = next_element(i)) < elements) {
     const Element at(swarm, i);
     Mover other(swarm, before, at);
-    other.remember(swarm, now);
+    other.remember(swarm, now, __ldcg(swarm.costs + at.particle));
     other.move(swarm, now, constriction, best.point[at.dimension],
                draw(region.seed, at, generation), region.bounds(at.dimension));
   }
@@ -170,7 +189,8 @@ __global__ void __launch_bounds__(kThreads)
 __global__ void __launch_bounds__(kAnswerThreads)
     write_answer(const SwarmLayout swarm, const Generation last, const std::int32_t count) {
   wait_for_previous();
-  const Best best = Best::find<kAnswerThreads>(swarm, last, count);
+  const Best best =
+      Best::find<kAnswerThreads>(swarm, last, __ldcg(last.best_cost), count, last.position);
   for (std::int64_t d = threadIdx.x; d < swarm.dimension; d += kAnswerThreads) {
     swarm.answer[1 + d] = best.point[d];
   }

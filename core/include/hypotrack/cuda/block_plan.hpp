@@ -12,6 +12,7 @@ struct PoseMemory {
   int point;                               ///< the search point in single precision
   int state;                               ///< the decoded state
   int models;                              ///< a 3x4 matrix per model: first_from_model
+  int drawable;                            ///< per model 0, or NaN if it cannot be drawn
   int locals;                              ///< a 3x4 matrix per bone: parent_from_bone
   int bones;                               ///< a 3x4 matrix per bone: the first camera from the
                                            ///< vertices of the bind pose
@@ -89,6 +90,7 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.point = take(r.scene.dimension);
   p.pose.state = take(r.scene.dimension);
   p.pose.models = take(12 * r.scene.model_count);
+  p.pose.drawable = take(r.scene.model_count);
   p.pose.locals = take(12 * r.scene.bone_count);
   p.pose.bones = take(12 * r.scene.bone_count);
   p.pose.model_layouts = take_items(sizeof(ModelLayout), r.scene.model_count);

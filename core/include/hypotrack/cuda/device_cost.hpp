@@ -21,6 +21,7 @@ class HYPOTRACK_API DeviceCost {
 
   /// Enqueues the costs (count doubles) of points (dimension x count doubles, one after the other),
   /// both in device memory. Only launches kernels: a whole search can be captured into a graph.
+  /// They let the next kernel start early only after their own wait (let_next_start()).
   virtual void enqueue(const double* points, std::int64_t count, double* costs) = 0;
 
   /// A graph captured from enqueue() may be launched again as long as this number stays the same,

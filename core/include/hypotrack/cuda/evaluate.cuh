@@ -101,7 +101,7 @@ class BlockEvaluation {
     copy_to_shared(scene_.turns, scene_.turn_count, plan_.pose.turns);
     const auto* words = reinterpret_cast<const std::uint32_t*>(frame);
     for (unsigned i = threadIdx.x; i < sizeof(FrameLayout) / 4; i += blockDim.x) {
-      reinterpret_cast<std::uint32_t*>(&frame_)[i] = words[i];
+      reinterpret_cast<std::uint32_t*>(&frame_)[i] = __ldcg(words + i);
     }
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
     if (plan_.bands > 1) {
@@ -162,8 +162,12 @@ class BlockEvaluation {
             ? reinterpret_cast<const VertexLayout*>(shared_floats() + plan_.staged_vertices)
             : scene_.vertices;
     auto* histogram = reinterpret_cast<int*>(shared_floats() + plan_.histogram);
-    for (int i = static_cast<int>(threadIdx.x); i < scene_.vertex_count;
-         i += static_cast<int>(blockDim.x)) {
+    const int threads = static_cast<int>(blockDim.x);
+    for (int round = 0; round * threads < scene_.vertex_count; ++round) {
+      // Vertices with many bones come first: who has one of them gets a light one next.
+      const int thread = static_cast<int>(threadIdx.x);
+      const int i = round * threads + (round % 2 == 0 ? thread : threads - 1 - thread);
+      if (i >= scene_.vertex_count) continue;
       const float3 v = project(skin(layouts + i, bones), camera, view == 0);
       const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;

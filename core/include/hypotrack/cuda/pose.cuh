@@ -50,51 +50,65 @@ __device__ __forceinline__ Quaternion unit_quaternion(float w, float x, float y,
 /// cannot be drawn become NaN.
 __device__ __forceinline__ void load_point(const double* point, int size, const PoseMemory& at) {
   for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-    const double p = point[i];
+    const double p = __ldcg(point + i);
     shared_floats()[at.point + i] = fabs(p) <= kLargestParameter ? static_cast<float>(p) : nanf("");
   }
 }
 
-/// Decodes one model's pose: its part of the state and first_from_model. The other parameters of
-/// the state are copied.
-__device__ __forceinline__ void decode_model(const ModelLayout& model, int index,
-                                             const FrameLayout& frame, const double* prior,
-                                             const PoseMemory& at) {
-  const int shorter = prior ? 1 : 0;  // numbers by which a rotation vector is
-  const float* p = shared_floats() + at.point + model.offset - shorter * index;
-  float* state = shared_floats() + at.state + model.offset;
-  float unusable = 0.0f;  // or NaN
-  for (int i = 7; i < model.dimension; ++i) {
-    state[i] = p[i - shorter];
-    unusable += 0.0f * state[i];
+/// Where a model's parameters begin in a search point.
+__device__ __forceinline__ int first_in_point(const ModelLayout& model, int index, bool shorter) {
+  return model.offset - (shorter ? index : 0);
+}
+
+/// Copies a model's parameters behind its pose to the state with the threads of a warp, and marks a
+/// model that cannot be drawn.
+__device__ __forceinline__ void copy_angles(const ModelLayout& model, int index,
+                                            const double* prior, const PoseMemory& at) {
+  const int pose = prior ? 6 : 7, lane = static_cast<int>(threadIdx.x) % kWarp;
+  const float* p = shared_floats() + at.point + first_in_point(model, index, prior != nullptr);
+  float* state = shared_floats() + at.state + model.offset + 7 - pose;
+  bool drawable = true;
+  for (int i = lane; i < model.dimension - 7 + pose; i += kWarp) {
+    const float value = p[i];
+    drawable = drawable && value == value;
+    if (i >= pose) state[i] = value;
   }
+  drawable = __all_sync(kWholeWarp, drawable);
+  if (lane == 0) shared_floats()[at.drawable + index] = drawable ? 0.0f : nanf("");
+}
+
+/// A row of first_from_model; the first also writes the pose to the state.
+__device__ __forceinline__ void decode_row(const ModelLayout& model, int index, int row,
+                                           const FrameLayout& frame, const double* prior,
+                                           const PoseMemory& at) {
+  const float* p = shared_floats() + at.point + first_in_point(model, index, prior != nullptr);
   Quaternion q;
   if (prior) {
     const double* q0 = prior + model.offset + 3;
-    q = multiply(unit_quaternion(static_cast<float>(q0[0]), static_cast<float>(q0[1]),
-                                 static_cast<float>(q0[2]), static_cast<float>(q0[3])),
-                 rotation_exp(p[3], p[4], p[5]));
+    q = multiply(
+        unit_quaternion(static_cast<float>(__ldcg(q0)), static_cast<float>(__ldcg(q0 + 1)),
+                        static_cast<float>(__ldcg(q0 + 2)), static_cast<float>(__ldcg(q0 + 3))),
+        rotation_exp(p[3], p[4], p[5]));
   } else {
     q = unit_quaternion(p[3], p[4], p[5], p[6]);
   }
+  const float* f = frame.first_from_world + 4 * row;
+  const float a = f[0], b = f[1], c = f[2];
+  float4& out = reinterpret_cast<float4*>(shared_floats() + at.models)[3 * index + row];
+  out = {a * (1 - 2 * (q.y * q.y + q.z * q.z)) + b * (2 * (q.x * q.y + q.w * q.z)) +
+             c * (2 * (q.x * q.z - q.w * q.y)),
+         a * (2 * (q.x * q.y - q.w * q.z)) + b * (1 - 2 * (q.x * q.x + q.z * q.z)) +
+             c * (2 * (q.y * q.z + q.w * q.x)),
+         a * (2 * (q.x * q.z + q.w * q.y)) + b * (2 * (q.y * q.z - q.w * q.x)) +
+             c * (1 - 2 * (q.x * q.x + q.y * q.y)),
+         a * p[0] + b * p[1] + c * p[2] + f[3]};
+  if (row > 0) return;
+  float* state = shared_floats() + at.state + model.offset;
   for (int i = 0; i < 3; ++i) state[i] = p[i];
   state[3] = q.w;
   state[4] = q.x;
   state[5] = q.y;
   state[6] = q.z;
-  const float r[3][4] = {{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y - q.w * q.z),
-                          2 * (q.x * q.z + q.w * q.y), p[0] + unusable},
-                         {2 * (q.x * q.y + q.w * q.z), 1 - 2 * (q.x * q.x + q.z * q.z),
-                          2 * (q.y * q.z - q.w * q.x), p[1] + unusable},
-                         {2 * (q.x * q.z - q.w * q.y), 2 * (q.y * q.z + q.w * q.x),
-                          1 - 2 * (q.x * q.x + q.y * q.y), p[2] + unusable}};
-  auto* out = reinterpret_cast<float4*>(shared_floats() + at.models) + 3 * index;
-#pragma unroll
-  for (int i = 0; i < 3; ++i) {
-    const float* f = frame.first_from_world + 4 * i;
-    const auto column = [&](int j) { return f[0] * r[0][j] + f[1] * r[1][j] + f[2] * r[2][j]; };
-    out[i] = {column(0), column(1), column(2), column(3) + f[3]};
-  }
 }
 
 /// A row of a transform whose frame is turned about a unit axis.
@@ -142,7 +156,8 @@ __device__ __forceinline__ void chain_column(int bone, int column, const PoseMem
   const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
   const float* bind = layout.bone_from_model + column;
   const float w = column == 3 ? 1.0f : 0.0f;
-  float3 v = {bind[0], bind[4], bind[8]};
+  const float drawable = shared_floats()[at.drawable + layout.model];  // 0 or NaN
+  float3 v = {bind[0] + drawable, bind[4], bind[8]};
   for (int b = bone; b >= 0; b = shared_item<BoneLayout>(at.bone_layouts, b).parent) {
     v = transform(at.locals + 12 * b, v, w);
   }
@@ -153,14 +168,21 @@ __device__ __forceinline__ void chain_column(int bone, int column, const PoseMem
   out[8] = v.z;
 }
 
-/// Decodes a point that load_point() read, with the whole block: state and models; a barrier must
-/// follow.
+/// Decodes a point that load_point() read, with the whole block: state, models and what cannot be
+/// drawn; a barrier must follow.
 __device__ __forceinline__ void decode(const SceneLayout& scene, const FrameLayout& frame,
                                        const double* prior, const PoseMemory& at) {
   // The last threads: the first are busy with bones.
-  for (int m = static_cast<int>(blockDim.x - 1 - threadIdx.x); m < scene.model_count;
-       m += static_cast<int>(blockDim.x)) {
-    decode_model(shared_item<ModelLayout>(at.model_layouts, m), m, frame, prior, at);
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
+  const int warp = warps - 1 - static_cast<int>(threadIdx.x) / kWarp;
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  for (int m = warp; m < 2 * scene.model_count; m += warps) {
+    const ModelLayout& model = shared_item<ModelLayout>(at.model_layouts, m / 2);
+    if (m % 2 == 0) {
+      copy_angles(model, m / 2, prior, at);
+    } else if (lane < 3) {
+      decode_row(model, m / 2, lane, frame, prior, at);
+    }
   }
 }
 

@@ -14,8 +14,8 @@ inline constexpr float kFarthestPixel = 1 << 20;
 inline constexpr float kSmallestArea = 1e-6f;
 inline constexpr float kInclusive = 1e-5f;
 
-/// Triangles whose boxes have more pixels are drawn by a whole warp instead of one thread.
-inline constexpr int kPixelsPerThread = 48;
+/// Triangles with more rows or columns are drawn by a whole warp instead of one thread.
+inline constexpr int kPixelsPerThread = 8;
 
 /// Projected vertices: x, y (pixels), 1/z (0: not to be drawn) and x in the second view of a pair.
 template <bool kShared>
@@ -34,7 +34,7 @@ struct Parallax {
 
 /// Pixel bounds of a hypothesis, shared by a block.
 struct Bounds {
-  int low_x, high_x, low_x2, high_x2, low_y, high_y;  ///< high ones: minus the largest
+  int low_x, high_x, low_y, high_y, low_x2, high_x2;  ///< high ones: minus the largest
   __device__ void reset() { low_x = high_x = low_x2 = high_x2 = low_y = high_y = 1 << 30; }
   __device__ Box box(int width, int height) const {
     return {max(low_x, 0), max(low_y, 0), min(1 - high_x, width), min(1 - high_y, height)};
@@ -94,19 +94,21 @@ struct ThreadBounds {
   }
   /// Joins those of the whole block; called by all its threads.
   __device__ __forceinline__ void join(Bounds& all, bool pair) const {
-    join(round_up(low_x), all.low_x);
-    join(-round_down(high_x), all.high_x);
-    join(round_up(low_y), all.low_y);
-    join(-round_down(high_y), all.high_y);
-    if (!pair) return;
-    join(round_up(low_x2), all.low_x2);
-    join(-round_down(high_x2), all.high_x2);
-  }
-
- private:
-  __device__ __forceinline__ static void join(int value, int& all) {
-    const int least = warp_min(value);
-    if (threadIdx.x % kWarp == 0) atomicMin(&all, least);
+    const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    int least = warp_min(round_up(low_x));
+    const auto next = [&](int place, int value) {
+      const int joined = warp_min(value);
+      if (lane == place) least = joined;
+    };
+    next(1, -round_down(high_x));
+    next(2, round_up(low_y));
+    next(3, -round_down(high_y));
+    if (pair) {
+      next(4, round_up(low_x2));
+      next(5, -round_down(high_x2));
+    }
+    // One instruction for all of them.
+    if (lane < (pair ? 6 : 4)) atomicMin(&all.low_x + lane, least);
   }
 };
 
@@ -167,22 +169,22 @@ __device__ __forceinline__ void append(const VisibleList& list, Coverage left, C
                                        int entry) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const unsigned below = (1u << lane) - 1u;
-  const auto append_those = [&](Coverage wanted, int& count, bool from_the_back) {
+  const auto append_those = [&](Coverage wanted, int& count, int first, int step) {
     const unsigned in_left = __ballot_sync(kWholeWarp, left == wanted);
     const unsigned in_right = __ballot_sync(kWholeWarp, right == wanted);
-    if (!(in_left | in_right)) return;
     int base = 0;
     if (lane == 0) base = atomicAdd(&count, __popc(in_left) + __popc(in_right));
     base = __shfl_sync(kWholeWarp, base, 0);
     const auto put = [&](int place, int what) {
-      list.entries[from_the_back ? list.capacity - 1 - place : place] =
-          static_cast<std::uint16_t>(what);
+      list.entries[first + step * place] = static_cast<std::uint16_t>(what);
     };
     if (left == wanted) put(base + __popc(in_left & below), entry);
     if (right == wanted) put(base + __popc(in_left) + __popc(in_right & below), entry + 1);
   };
-  append_those(Coverage::few, list.counts[0], false);
-  append_those(Coverage::many, list.counts[1], true);
+  append_those(Coverage::few, list.counts[0], 0, 1);
+  if (__any_sync(kWholeWarp, left == Coverage::many || right == Coverage::many)) {
+    append_those(Coverage::many, list.counts[1], list.capacity - 1, -1);
+  }
 }
 
 /// How many pixels of `rows` a triangle may cover in a view `width` pixels wide.
@@ -192,8 +194,8 @@ __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, i
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
   if (!((two_sided ? fabsf(area) : area) > kSmallestArea)) return Coverage::none;
   if (columns.first > columns.last) return Coverage::none;
-  const int pixels = (columns.last - columns.first + 1) * (rows.last - rows.first + 1);
-  return pixels > kPixelsPerThread ? Coverage::many : Coverage::few;
+  const int extent = max(columns.last - columns.first, rows.last - rows.first);
+  return extent >= kPixelsPerThread ? Coverage::many : Coverage::few;
 }
 
 /// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in

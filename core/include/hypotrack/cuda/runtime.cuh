@@ -138,13 +138,17 @@ void launch(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::size_t sh
 }
 
 #ifdef __CUDACC__
-/// Waits until everything that the kernels before wrote is visible.
+/// Waits until everything that the kernels before wrote is visible: in the L2 cache. Where kernels
+/// start early, read what changes from launch to launch with __ldcg(): a multiprocessor's own cache
+/// may still hold what a kernel before the last one read.
 __device__ __forceinline__ void wait_for_previous() {
 #if __CUDA_ARCH__ >= 900
   cudaGridDependencySynchronize();
 #endif
 }
-/// Lets the next kernel start; it still waits for this one's results.
+/// Lets the next kernel start; it still waits for this one's results. Call it after
+/// wait_for_previous(): then what runs in front of the next kernel's wait finds what the kernel
+/// before this one wrote.
 __device__ __forceinline__ void let_next_start() {
 #if __CUDA_ARCH__ >= 900
   cudaTriggerProgrammaticLaunchCompletion();
