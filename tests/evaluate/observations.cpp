@@ -34,20 +34,21 @@ Observation rectified_pair(const Scene& scene, int size) {
   return observation;
 }
 
-Observation general_pair(const Scene& scene) {
+Observation general_pair(const Scene& scene, int size) {
+  const double scale = size / 128.0;
   Observation observation;
   observation.scene = &scene;
   TileCamera left;
-  left.width = left.height = 128;
-  left.fx = 240;
-  left.fy = 236;
-  left.cx = 63;
-  left.cy = 80;
+  left.width = left.height = size;
+  left.fx = 240 * scale;
+  left.fy = 236 * scale;
+  left.cx = 63 * scale;
+  left.cy = 80 * scale;
   left.camera_from_world.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()));
   TileCamera right = left;
-  right.width = 141;  // no multiple of a vector
-  right.height = 117;
-  right.fx = 251;
+  right.width = static_cast<int>(141 * scale);  // no multiple of a vector
+  right.height = static_cast<int>(117 * scale);
+  right.fx = 251 * scale;
   const Eigen::AngleAxisd turn(25 * 3.14159 / 180, Eigen::Vector3d(0.1, 1, 0.05).normalized());
   right.camera_from_world.linear() = turn.toRotationMatrix();
   // Looks at the same point, (0, 0, 0.5), from as far.

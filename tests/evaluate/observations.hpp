@@ -9,8 +9,9 @@ namespace hypotrack::test {
 /// high. The images are black.
 Observation rectified_pair(const Scene& scene, int size = 128);
 
-/// Two tiles of cameras that converge by 25 degrees, of unequal focal lengths and sizes.
-Observation general_pair(const Scene& scene);
+/// Two tiles of cameras that converge by 25 degrees, of unequal focal lengths and sizes, the first
+/// one `size` pixels wide.
+Observation general_pair(const Scene& scene, int size = 128);
 
 /// Two models of the kind that make_test_hand and make_test_box make.
 Scene hand_scene();
