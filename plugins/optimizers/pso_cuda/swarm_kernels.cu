@@ -211,6 +211,15 @@ int most_blocks() {
         "asking for the number of multiprocessors");
   cudaFuncAttributes attributes{};
   check(cudaFuncGetAttributes(&attributes, move), "loading the kernels of pso_cuda");
+  // The same split between shared memory and cache as the evaluation's, which wants most: a
+  // multiprocessor must be empty to change it, and neither kernel could start early.
+  for (const void* kernel :
+       {reinterpret_cast<const void*>(copy_region), reinterpret_cast<const void*>(initial),
+        reinterpret_cast<const void*>(move), reinterpret_cast<const void*>(write_answer)}) {
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
+                               cudaSharedmemCarveoutMaxShared),
+          "choosing the shared memory of pso_cuda");
+  }
   return kBlocksPerMultiprocessor * multiprocessors;
 }
 

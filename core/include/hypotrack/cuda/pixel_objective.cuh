@@ -97,6 +97,9 @@ class PixelObjective : public DeviceObjective {
     check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                plan.shared_bytes),
           "reserving shared memory");
+    check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributePreferredSharedMemoryCarveout,
+                               cudaSharedmemCarveoutMaxShared),
+          "choosing shared memory over cache");
     plan_ = plan;
     reserved_ = count;
     ++revision_;
