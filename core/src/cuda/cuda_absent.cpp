@@ -1,6 +1,7 @@
 // Stands in for the GPU backend in a build without a CUDA toolkit.
 #include "cuda/device.hpp"
 #include "cuda/egl_cuda_evaluation.hpp"
+#include "cuda/page_locked_images.hpp"
 #include "evaluate/evaluation.hpp"
 #include "hypotrack/error.hpp"
 
@@ -9,6 +10,8 @@ namespace hypotrack::cuda {
 std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
 
 std::optional<std::size_t> free_memory(int) { return std::nullopt; }
+
+void page_lock_images(int) {}
 
 Device::Device(int index) : index_(index) {
   throw DeviceError("evaluate.backend: cuda: " + why_no_device() +

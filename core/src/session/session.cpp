@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "config/yaml_document.hpp"
+#include "cuda/page_locked_images.hpp"
+#include "evaluate/evaluation.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
@@ -25,6 +27,7 @@ class Opening {
   void models();
   void source();
   void objective();
+  void images();
   void optimizer();
   Session finish();
 
@@ -126,6 +129,15 @@ void Opening::objective() {
   record_.set_list("objective", records);
 }
 
+/// Before the source makes any: those that a GPU will read lie where it can.
+void Opening::images() {
+  const EvaluateSettings& settings = file_.evaluate;
+  if (settings.backend != Backend::cuda && settings.backend != Backend::automatic) return;
+  const auto& terms = session_.parts.objective;
+  if (!cuda::why_not_evaluated(*session_.scene, terms, settings).empty()) return;
+  cuda::page_lock_images(settings.device);
+}
+
 void Opening::optimizer() {
   YamlDocument record;
   session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
@@ -152,8 +164,9 @@ Session open_session(const std::filesystem::path& scene_file,
                      std::span<const std::string> overrides, PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
-  opening.source();
   opening.objective();
+  opening.images();
+  opening.source();
   opening.optimizer();
   return opening.finish();
 }
