@@ -59,7 +59,7 @@ class Bench {
 
  private:
   bench::Measurement measure(const bench::Case& c, const bench::Way& way) {
-    const std::vector<Frame>* frames = nullptr;
+    std::vector<Frame>* frames = nullptr;
     try {
       frames = &frames_.of(c);
     } catch (const std::exception& e) {

@@ -31,7 +31,7 @@ std::vector<Frame> read(Source& source, int usable, const Case& c) {
 
 }  // namespace
 
-const std::vector<Frame>& Frames::of(const Case& c) {
+std::vector<Frame>& Frames::of(const Case& c) {
   enter_directory(c);
   const std::string source = source_of(c);
   if (source == source_) return frames_;
@@ -40,6 +40,20 @@ const std::vector<Frame>& Frames::of(const Case& c) {
   frames_ = read(*open_source(c.file, c.overrides, *plugins_).source, usable_, c);
   source_ = source;
   return frames_;
+}
+
+void renew_images(std::vector<Frame>& frames) {
+  const auto renew = [](cv::Mat& image) {
+    const bool made_elsewhere = image.u && image.u->currAllocator != cv::Mat::getDefaultAllocator();
+    if (made_elsewhere) image = image.clone();
+  };
+  for (Frame& frame : frames) {
+    for (View& view : frame.views) {
+      renew(view.color);
+      renew(view.mask);
+      renew(view.depth);
+    }
+  }
 }
 
 }  // namespace hypotrack::bench

@@ -19,7 +19,7 @@ class HYPOTRACK_API Frames {
 
   /// The frames of a case from the first that can be used; valid until the next call. Throws what
   /// is wrong with the scene, DataError if it has no such frame.
-  const std::vector<Frame>& of(const Case& c);
+  std::vector<Frame>& of(const Case& c);
 
  private:
   PluginLoader* plugins_;
@@ -27,5 +27,9 @@ class HYPOTRACK_API Frames {
   std::string source_;  ///< what frames_ were read from
   std::vector<Frame> frames_;
 };
+
+/// Copies what lies elsewhere than images are made now to where they are: opening a scene that is
+/// evaluated on a GPU changes that.
+HYPOTRACK_API void renew_images(std::vector<Frame>& frames);
 
 }  // namespace hypotrack::bench

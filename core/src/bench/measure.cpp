@@ -5,6 +5,7 @@
 #include <exception>
 #include <utility>
 
+#include "bench/frames.hpp"
 #include "cuda/device.hpp"
 #include "output/true_landmarks.hpp"
 #include "session/session.hpp"
@@ -107,12 +108,13 @@ std::string_view to_string(Outcome outcome) {
   return outcome == Outcome::unavailable ? "unavailable" : "failed";
 }
 
-Measurement measure(const Case& c, const Way& way, const std::vector<Frame>& frames,
+Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
                     PluginLoader& plugins, const Limits& limits,
                     const std::function<bool()>& again) {
   Measurement result{.outcome = Outcome::unavailable};
   try {
     Session session = open(c, way, plugins);
+    renew_images(frames);
     const DeviceMemory memory(session.parts.evaluate.device);
     Opened opened(std::move(session), frames.front());
     result.device = opened.tracker.backend();

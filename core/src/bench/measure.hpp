@@ -35,10 +35,10 @@ struct Measurement {
   std::optional<double> device_mib = {};
 };
 
-/// Tracks frames, which lie in memory, one after the other; the first of them has views. `again` is
-/// asked before every frame and ends the work by returning false. What goes wrong is told in the
-/// result and not thrown.
-HYPOTRACK_API Measurement measure(const Case& c, const Way& way, const std::vector<Frame>& frames,
+/// Tracks frames, which lie in memory, one after the other; the first of them has views. Their
+/// images move to where a source would make them for this way. `again` is asked before every frame
+/// and ends the work by returning false. What goes wrong is told in the result and not thrown.
+HYPOTRACK_API Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
                                   PluginLoader& plugins, const Limits& limits,
                                   const std::function<bool()>& again);
 
