@@ -377,7 +377,7 @@ class BlockEvaluation {
     if (plan_.bands > 1 && !join_bands(total)) return;
     const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.pose.state);
     double& out = batch_.costs[hypothesis_];
-    out = batch_.add ? out + cost : cost;
+    out = batch_.add ? __ldcg(&out) + cost : cost;
   }
 
   /// The last block of a hypothesis adds up all bands, in their order, and returns true.
@@ -480,7 +480,7 @@ __global__ void __launch_bounds__(kMostThreads)
   if (threadIdx.x != 0) return;
   const double cost = batch.weight * term.cost(total, shared_floats() + plan.pose.state);
   double& out = batch.costs[hypothesis];
-  out = batch.add ? out + cost : cost;
+  out = batch.add ? __ldcg(&out) + cost : cost;
 }
 
 }  // namespace hypotrack::cuda

@@ -77,21 +77,25 @@ __device__ __forceinline__ void copy_angles(const ModelLayout& model, int index,
   if (lane == 0) shared_floats()[at.drawable + index] = drawable ? 0.0f : nanf("");
 }
 
+/// The unit quaternion of a model whose parameters in the search point are `p`.
+template <class Number>
+__device__ __forceinline__ Quaternion decode_rotation(const Number* p, const double* prior,
+                                                      int offset) {
+  const auto number = [](Number x) { return static_cast<float>(x); };
+  if (!prior) return unit_quaternion(number(p[3]), number(p[4]), number(p[5]), number(p[6]));
+  const double* q = prior + offset + 3;
+  const Quaternion start =
+      unit_quaternion(static_cast<float>(__ldcg(q)), static_cast<float>(__ldcg(q + 1)),
+                      static_cast<float>(__ldcg(q + 2)), static_cast<float>(__ldcg(q + 3)));
+  return multiply(start, rotation_exp(number(p[3]), number(p[4]), number(p[5])));
+}
+
 /// A row of first_from_model; the first also writes the pose to the state.
 __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, int row,
                                            const FrameLayout& frame, const double* prior,
                                            const PoseMemory& at) {
   const float* p = shared_floats() + at.point + first_in_point(model, index, prior != nullptr);
-  Quaternion q;
-  if (prior) {
-    const double* q0 = prior + model.offset + 3;
-    q = multiply(
-        unit_quaternion(static_cast<float>(__ldcg(q0)), static_cast<float>(__ldcg(q0 + 1)),
-                        static_cast<float>(__ldcg(q0 + 2)), static_cast<float>(__ldcg(q0 + 3))),
-        rotation_exp(p[3], p[4], p[5]));
-  } else {
-    q = unit_quaternion(p[3], p[4], p[5], p[6]);
-  }
+  const Quaternion q = decode_rotation(p, prior, model.offset);
   const float* f = frame.first_from_world + 4 * row;
   const float a = f[0], b = f[1], c = f[2];
   float4& out = reinterpret_cast<float4*>(shared_floats() + at.models)[3 * index + row];

@@ -20,11 +20,11 @@ __device__ inline void decode_state(const SceneLayout& scene, const BatchLayout&
   const bool rotation_vectors = batch.prior != nullptr;
   for (int m = 0; m < scene.model_count; ++m) {
     const ModelLayout model = scene.models[m];
-    const double* p = point + point_offset(model, m, rotation_vectors);
+    const double* p = point + first_in_point(model, m, rotation_vectors);
     double* s = state + model.offset;
     for (int i = lane; i < model.dimension; i += kWarp) {
-      if (i < 3) s[i] = p[i];
-      if (i >= 7) s[i] = p[i - (rotation_vectors ? 1 : 0)];
+      if (i < 3) s[i] = __ldcg(p + i);
+      if (i >= 7) s[i] = __ldcg(p + i - (rotation_vectors ? 1 : 0));
     }
     if (lane == 0) {
       const Quaternion q = decode_rotation(p, batch.prior, model.offset);
@@ -47,7 +47,7 @@ __global__ void __launch_bounds__(kWarp)
   if (threadIdx.x != 0) return;
   const double cost = batch.weight * term.cost(state, scene.dimension);
   double& out = batch.costs[blockIdx.x];
-  out = batch.add ? out + cost : cost;
+  out = batch.add ? __ldcg(&out) + cost : cost;
 }
 
 /// An objective that looks at the state only (joint limits, priors), on the device. Its Term can be
