@@ -72,10 +72,11 @@ void expect_like_the_cpu(const Scene& scene, const Observation& observation,
   const Eigen::VectorXd cpu = costs_on(Backend::cpu, scene, observation, objective, states);
   const Eigen::VectorXd gpu = costs_on(Backend::cuda, scene, observation, objective, states);
   ASSERT_GT(cpu.mean(), 300);  // pixels: something is drawn
-  // One pixel more or less is no error where there are few.
-  const Eigen::ArrayXd difference = (gpu - cpu).array().abs() / cpu.array().max(1000);
-  EXPECT_LT(difference.maxCoeff(), 1e-3);
-  EXPECT_LT(difference.mean(), 5e-5);
+  const Eigen::ArrayXd difference = (gpu - cpu).array().abs();
+  // Vertices differ by some 1e-5 pixels, so that rarely one pixel is covered, or seen, on one side
+  // only: once in either direction, at less than 1.5 each.
+  EXPECT_TRUE((difference < (1e-3 * cpu.array()).max(3)).all()) << difference.maxCoeff();
+  EXPECT_LT((difference / cpu.array().max(1000)).mean(), 5e-5);
   const Eigen::VectorXd again = costs_on(Backend::cuda, scene, observation, objective, states);
   EXPECT_EQ(gpu, again);
 }

@@ -65,6 +65,9 @@ SharedLayers::~SharedLayers() {
 
 MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
     : resource_(layers.resource()), stream_(stream) {
+  // Taking over waits for OpenGL by itself, but has been seen to wait for ever on commands that the
+  // driver had not sent off yet (580.159).
+  glFinish();
   check(cudaGraphicsMapResources(1, &resource_, native(stream)), "taking over from OpenGL");
   try {
     texture_ = make_texture(resource_);
@@ -75,10 +78,9 @@ MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
 }
 
 MappedLayers::~MappedLayers() {
-  // Before waiting: what this costs the CPU then runs beside the kernels.
-  cudaGraphicsUnmapResources(1, &resource_, native(stream_));
-  cudaStreamSynchronize(native(stream_));
+  cudaStreamSynchronize(native(stream_));  // kernels still read what is given back
   cudaDestroyTextureObject(texture_);
+  cudaGraphicsUnmapResources(1, &resource_, native(stream_));
 }
 
 }  // namespace hypotrack::cuda

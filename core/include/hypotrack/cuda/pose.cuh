@@ -16,34 +16,49 @@ __device__ __forceinline__ const T& shared_item(int offset, int index) {
   return reinterpret_cast<const T*>(shared_floats() + offset)[index];
 }
 
+template <class Real>
 struct Quaternion {
-  float w, x, y, z;
+  Real w, x, y, z;
 };
 
-__device__ __forceinline__ Quaternion multiply(const Quaternion& a, const Quaternion& b) {
+template <class Real>
+__device__ __forceinline__ Quaternion<Real> multiply(const Quaternion<Real>& a,
+                                                     const Quaternion<Real>& b) {
   return {
       a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
 
-__device__ __forceinline__ Quaternion rotation_exp(float x, float y, float z) {
-  const float angle = sqrtf(x * x + y * y + z * z);
-  if (angle < 1e-6f) return {1.0f, x / 2, y / 2, z / 2};
-  float s, c;
-  sincosf(angle / 2, &s, &c);
-  const float factor = s / angle;
-  return {c, x * factor, y * factor, z * factor};
+template <class Real>
+__device__ __forceinline__ Quaternion<Real> rotation_exp(Real x, Real y, Real z) {
+  const Real angle = sqrt(x * x + y * y + z * z);
+  if (angle < Real(1e-6)) return {Real(1), x / 2, y / 2, z / 2};
+  const Real factor = sin(angle / 2) / angle;
+  return {cos(angle / 2), x * factor, y * factor, z * factor};
 }
 
 /// Four numbers as a unit quaternion; zeros are the identity.
-__device__ __forceinline__ Quaternion unit_quaternion(float w, float x, float y, float z) {
-  const float scale = fmaxf(fmaxf(fabsf(w), fabsf(x)), fmaxf(fabsf(y), fabsf(z)));
-  if (scale == 0.0f) return {1.0f, 0.0f, 0.0f, 0.0f};
-  if (!(scale > 1e-3f && scale < 1e3f)) {  // the sum of squares might leave the range
+template <class Real>
+__device__ __forceinline__ Quaternion<Real> unit_quaternion(Real w, Real x, Real y, Real z) {
+  const Real scale = fmax(fmax(fabs(w), fabs(x)), fmax(fabs(y), fabs(z)));
+  if (scale == Real(0)) return {Real(1), Real(0), Real(0), Real(0)};
+  if (!(scale > Real(1e-3) && scale < Real(1e3))) {  // the sum of squares might leave the range
     w /= scale, x /= scale, y /= scale, z /= scale;
   }
-  const float inverse = rsqrtf(w * w + x * x + y * y + z * z);
+  const Real inverse = rsqrt(w * w + x * x + y * y + z * z);
   return {w * inverse, x * inverse, y * inverse, z * inverse};
+}
+
+/// The unit quaternion of a model whose parameters in the search point are `p`.
+template <class Real>
+__device__ __forceinline__ Quaternion<Real> decode_rotation(const Real* p, const double* prior,
+                                                            int offset) {
+  if (!prior) return unit_quaternion(p[3], p[4], p[5], p[6]);
+  const double* q = prior + offset + 3;
+  const auto start =
+      unit_quaternion(static_cast<Real>(__ldcg(q)), static_cast<Real>(__ldcg(q + 1)),
+                      static_cast<Real>(__ldcg(q + 2)), static_cast<Real>(__ldcg(q + 3)));
+  return multiply(start, rotation_exp(p[3], p[4], p[5]));
 }
 
 /// Reads a search point, as every thread of the block calls it; a barrier must follow. Numbers that
@@ -77,25 +92,12 @@ __device__ __forceinline__ void copy_angles(const ModelLayout& model, int index,
   if (lane == 0) shared_floats()[at.drawable + index] = drawable ? 0.0f : nanf("");
 }
 
-/// The unit quaternion of a model whose parameters in the search point are `p`.
-template <class Number>
-__device__ __forceinline__ Quaternion decode_rotation(const Number* p, const double* prior,
-                                                      int offset) {
-  const auto number = [](Number x) { return static_cast<float>(x); };
-  if (!prior) return unit_quaternion(number(p[3]), number(p[4]), number(p[5]), number(p[6]));
-  const double* q = prior + offset + 3;
-  const Quaternion start =
-      unit_quaternion(static_cast<float>(__ldcg(q)), static_cast<float>(__ldcg(q + 1)),
-                      static_cast<float>(__ldcg(q + 2)), static_cast<float>(__ldcg(q + 3)));
-  return multiply(start, rotation_exp(number(p[3]), number(p[4]), number(p[5])));
-}
-
 /// A row of first_from_model; the first also writes the pose to the state.
 __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, int row,
                                            const FrameLayout& frame, const double* prior,
                                            const PoseMemory& at) {
   const float* p = shared_floats() + at.point + first_in_point(model, index, prior != nullptr);
-  const Quaternion q = decode_rotation(p, prior, model.offset);
+  const Quaternion<float> q = decode_rotation(p, prior, model.offset);
   const float* f = frame.first_from_world + 4 * row;
   const float a = f[0], b = f[1], c = f[2];
   float4& out = reinterpret_cast<float4*>(shared_floats() + at.models)[3 * index + row];

@@ -27,7 +27,7 @@ __device__ inline void decode_state(const SceneLayout& scene, const BatchLayout&
       if (i >= 7) s[i] = __ldcg(p + i - (rotation_vectors ? 1 : 0));
     }
     if (lane == 0) {
-      const Quaternion q = decode_rotation(p, batch.prior, model.offset);
+      const Quaternion<double> q = decode_rotation(p, batch.prior, model.offset);
       s[3] = q.w, s[4] = q.x, s[5] = q.y, s[6] = q.z;
     }
   }
