@@ -140,7 +140,9 @@ TEST(PluginLoader, LibrariesThatAreNoPluginsAreNamed) {
 
 TEST(PluginLoader, MismatchesNameBothSides) {
   EXPECT_THAT(plugin_error("other_abi"),
-              EndsWith(": was built for plugin ABI version 7, this hypotrack has 1; build it again "
+              EndsWith(": was built for plugin ABI version 7, this hypotrack has " +
+                       std::to_string(kAbiVersion) +
+                       "; build it again "
                        "with this hypotrack's headers"));
   EXPECT_THAT(plugin_error("short_descriptor"),
               EndsWith(": its descriptor has 40 bytes, this hypotrack needs " +
