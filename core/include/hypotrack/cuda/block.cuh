@@ -63,6 +63,16 @@ __device__ __forceinline__ float* shared_floats() {
   return reinterpret_cast<float*>(hypotrack_shared_memory);
 }
 
+/// Copies `count` objects to an offset in shared memory.
+template <class T>
+__device__ __forceinline__ void copy_to_shared(const T* from, int count, int to) {
+  const auto* words = reinterpret_cast<const float*>(from);
+  const int size = static_cast<int>(sizeof(T) / sizeof(float)) * count;
+  for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
+    shared_floats()[to + i] = __ldg(words + i);
+  }
+}
+
 /// An array of floats in shared memory (known to the compiler as such, which makes access cheaper)
 /// or in global memory.
 template <bool kShared>

@@ -3,72 +3,19 @@
 #include <cuda_pipeline_primitives.h>
 
 #include "hypotrack/cuda/block_plan.hpp"
-#include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/cuda/fill.cuh"
 #include "hypotrack/cuda/pose.cuh"
-#include "hypotrack/cuda/raster.cuh"
 #include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/cuda/score.cuh"
 
-/// The kernels behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
+/// The kernel behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
 /// hypothesis without leaving its multiprocessor.
 namespace hypotrack::cuda {
 
-/// Copies `count` objects to an offset in shared memory.
-template <class T>
-__device__ __forceinline__ void copy_to_shared(const T* from, int count, int to) {
-  const auto* words = reinterpret_cast<const float*>(from);
-  const int size = static_cast<int>(sizeof(T) / sizeof(float)) * count;
-  for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-    shared_floats()[to + i] = __ldg(words + i);
-  }
-}
-
-/// Calls pixel(x, y) for the pixels of a box, each by one thread of the block.
-template <class Pixel>
-__device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixel) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int warp = static_cast<int>(threadIdx.x) / kWarp;
-  const int warps = static_cast<int>(blockDim.x) / kWarp;
-  // Warps stand side by side over a row, as many as it takes, in groups one above the other.
-  const int side_by_side = min((box.width() + kWarp - 1) / kWarp, warps);
-  if (side_by_side <= 0) return;
-  const int groups = warps / side_by_side, group = warp / side_by_side;
-  if (group >= groups) return;
-  for (int y = box.y0 + group; y < box.y1; y += groups) {
-    for (int x = box.x0 + warp % side_by_side * kWarp + lane; x < box.x1;
-         x += side_by_side * kWarp) {
-      pixel(x, y);
-    }
-  }
-}
-
-/// Adds the pixels of `here` within its box to the sums.
-template <int kReference, bool kRectified, class Term, class Here, class There>
-__device__ __forceinline__ void score_stereo(const Term& term, const StereoMap map, const Box& box,
-                                             const Here& here, const There& there,
-                                             float (&sums)[Term::kSums]) {
-  for_each_pixel(box, [&](int x, int y) {
-    const float w = here(x, y);
-    if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
-    term.template pixel<kReference>(stereo_pixel<kRectified>(map, term.tolerance, x, y, w, there),
-                                    sums);
-  });
-}
-
-/// Adds the pixels of one view to the sums.
-template <class Term, class Here>
-__device__ __forceinline__ void score_view(const Term& term, int view, const Box& box,
-                                           const Here& here, float (&sums)[Term::kSums]) {
-  for_each_pixel(box, [&](int x, int y) {
-    const float w = here(x, y);
-    if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
-    term.pixel(ViewPixel{view, x, y, w, w > 0.0f}, sums);
-  });
-}
-
-/// Everything that the threads of one block know about their hypothesis.
 /// What a Term's pixels are taken from.
 enum class Walk { views, pair, general_pair };
 
+/// Everything that the threads of one block know about their hypothesis.
 template <class Term, Walk kWalk, bool kSharedVertices>
 class BlockEvaluation {
  public:
@@ -425,62 +372,6 @@ __global__ void __launch_bounds__(kMostThreads)
   wait_for_previous();
   let_next_start();
   block.run();
-}
-
-/// Depth that was drawn elsewhere, one layer of a texture per hypothesis and view.
-struct DrawnDepth {
-  cudaTextureObject_t texture;
-  int layer;
-  __device__ __forceinline__ float in_row(int x, int y) const { return (*this)(x, y); }
-  __device__ __forceinline__ float operator()(int x, int y) const {
-    return tex2DLayered<float>(texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
-                               layer);
-  }
-};
-
-/// A block scores one hypothesis that is drawn already.
-template <class Term>
-__global__ void __launch_bounds__(kMostThreads)
-    score_drawn_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
-                           const __grid_constant__ BatchLayout batch,
-                           const __grid_constant__ BlockPlan plan, DrawnBatch drawn,
-                           const __grid_constant__ Term term) {
-  const int layer = static_cast<int>(blockIdx.x) * frame->view_count;
-  const std::int64_t hypothesis = drawn.first + static_cast<std::int64_t>(blockIdx.x);
-  const int size = scene.dimension - (batch.prior ? scene.model_count : 0);
-  copy_to_shared(scene.models, scene.model_count, plan.pose.model_layouts);
-  load_point(batch.points + hypothesis * size, size, plan.pose);
-  __syncthreads();
-  decode(scene, *frame, batch.prior, plan.pose);
-  float sums[Term::kSums] = {};
-  const auto tile = [&](int v) { return Box{0, 0, frame->views[v].width, frame->views[v].height}; };
-  const auto depth = [&](int v) { return DrawnDepth{drawn.texture, layer + v}; };
-  if constexpr (Term::kStereo) {
-    const auto score = [&](auto rectified) {
-      constexpr bool kRectified = decltype(rectified)::value;
-      if (term.directions() & 1) {
-        score_stereo<0, kRectified>(term, frame->maps[0], tile(0), depth(0), depth(1), sums);
-      }
-      if (term.directions() & 2) {
-        score_stereo<1, kRectified>(term, frame->maps[1], tile(1), depth(1), depth(0), sums);
-      }
-    };
-    if (frame->pair) {
-      score(std::true_type());
-    } else {
-      score(std::false_type());
-    }
-  } else {
-    for (int v = 0; v < frame->view_count; ++v) {
-      if (term.views() >> v & 1) score_view(term, v, tile(v), depth(v), sums);
-    }
-  }
-  double total[Term::kSums];
-  block_sum(sums, shared_floats() + plan.sums, total);  // with a barrier after the decoding
-  if (threadIdx.x != 0) return;
-  const double cost = batch.weight * term.cost(total, shared_floats() + plan.pose.state);
-  double& out = batch.costs[hypothesis];
-  out = batch.add ? __ldcg(&out) + cost : cost;
 }
 
 }  // namespace hypotrack::cuda

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "hypotrack/cuda/drawn.cuh"
 #include "hypotrack/cuda/evaluate.cuh"
 
 namespace hypotrack::cuda {

@@ -1,0 +1,111 @@
+#pragma once
+
+#include "hypotrack/cuda/block.cuh"
+#include "hypotrack/cuda/layout.hpp"
+
+/// Skinning and projection by a block of threads.
+/// The same geometry and the same rules as the CPU's kernels
+/// (core/src/evaluate/{skin,raster}_kernel.cpp), so that the same pixels are covered.
+namespace hypotrack::cuda {
+
+// The CPU's simd_kernels.hpp explains these.
+inline constexpr float kNearest = 0.01f;
+inline constexpr float kFarthest = 1000.0f;
+inline constexpr float kFarthestPixel = 1 << 20;
+
+/// Projected vertices: x, y (pixels), 1/z (0: not to be drawn) and x in the second view of a pair.
+template <bool kShared>
+struct Vertices {
+  Floats<kShared> records;  ///< four floats per vertex
+  __device__ __forceinline__ float4& operator[](int index) const {
+    return *reinterpret_cast<float4*>(records.at(4 * index));
+  }
+};
+
+/// How the second view of a rectified pair sees a projected vertex of the first.
+struct Parallax {
+  float shift, factor;
+  __device__ float operator()(float x, float w) const { return fmaf(factor, w, x + shift); }
+};
+
+/// Pixel bounds of a hypothesis, shared by a block.
+struct Bounds {
+  int low_x, high_x, low_y, high_y, low_x2, high_x2;  ///< high ones: minus the largest
+  __device__ void reset() { low_x = high_x = low_x2 = high_x2 = low_y = high_y = 1 << 30; }
+  __device__ Box box(int width, int height) const {
+    return {max(low_x, 0), max(low_y, 0), min(1 - high_x, width), min(1 - high_y, height)};
+  }
+  __device__ Box box2(int width, int height) const {
+    return {max(low_x2, 0), max(low_y, 0), min(1 - high_x2, width), min(1 - high_y, height)};
+  }
+};
+
+/// Linear blend skinning of one vertex.
+__device__ __forceinline__ float3 skin(const VertexLayout* vertex, const float* bones) {
+  const auto* from = reinterpret_cast<const uint2*>(vertex);
+  const uint2 xy = from[0], z_bones = from[1], weights = from[2];
+  const float x = __uint_as_float(xy.x), y = __uint_as_float(xy.y), z = __uint_as_float(z_bones.x);
+  float3 sum = {0.0f, 0.0f, 0.0f};
+#pragma unroll
+  for (int k = 0; k < 4; ++k) {
+    const unsigned units = (k < 2 ? weights.x : weights.y) >> (16 * (k % 2)) & 0xFFFFu;
+    if (units == 0) continue;
+    const float weight = static_cast<float>(units) * (1.0f / kWholeWeight);
+    const auto* m = reinterpret_cast<const float4*>(bones + 12 * (z_bones.y >> (8 * k) & 0xFFu));
+    const float4 r0 = m[0], r1 = m[1], r2 = m[2];
+    sum.x += weight * (r0.x * x + r0.y * y + r0.z * z + r0.w);
+    sum.y += weight * (r1.x * x + r1.y * y + r1.z * z + r1.w);
+    sum.z += weight * (r2.x * x + r2.y * y + r2.z * z + r2.w);
+  }
+  return sum;
+}
+
+/// Projects a vertex, given in the frame of the first view's camera, into a view.
+__device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool first) {
+  if (!first) {
+    const float* m = view.view_from_first;
+    p = {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+         m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+  }
+  const float w = reciprocal(p.z);
+  const float x = fmaf(p.x * w, view.fx, view.cx), y = fmaf(p.y * w, view.fy, view.cy);
+  const bool valid = p.z >= kNearest && p.z <= kFarthest && fabsf(x) <= kFarthestPixel &&
+                     fabsf(y) <= kFarthestPixel;
+  return {x, y, valid ? w : 0.0f};
+}
+
+/// Bounds of a thread's vertices.
+struct ThreadBounds {
+  static constexpr float kNone = kFarthestPixel;
+  float low_x = kNone, high_x = -kNone, low_x2 = kNone, high_x2 = -kNone, low_y = kNone,
+        high_y = -kNone;
+
+  __device__ __forceinline__ void add(float x, float x2, float y) {
+    low_x = fminf(low_x, x);
+    high_x = fmaxf(high_x, x);
+    low_x2 = fminf(low_x2, x2);
+    high_x2 = fmaxf(high_x2, x2);
+    low_y = fminf(low_y, y);
+    high_y = fmaxf(high_y, y);
+  }
+  /// Joins those of the whole block; called by all its threads.
+  __device__ __forceinline__ void join(Bounds& all, bool pair) const {
+    const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    int least = warp_min(round_up(low_x));
+    const auto next = [&](int place, int value) {
+      const int joined = warp_min(value);
+      if (lane == place) least = joined;
+    };
+    next(1, -round_down(high_x));
+    next(2, round_up(low_y));
+    next(3, -round_down(high_y));
+    if (pair) {
+      next(4, round_up(low_x2));
+      next(5, -round_down(high_x2));
+    }
+    // One instruction for all of them.
+    if (lane < (pair ? 6 : 4)) atomicMin(&all.low_x + lane, least);
+  }
+};
+
+}  // namespace hypotrack::cuda
