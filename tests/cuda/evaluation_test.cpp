@@ -144,6 +144,20 @@ TEST(CudaEvaluation, LeavesOutWhatCannotBeDrawn) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(gpu[i], cpu[i], 1e-3 * cpu[i] + 1e-9) << i;
 }
 
+TEST(CudaEvaluation, TakesFramesThatNobodySearchesAndEmptyBatches) {
+  SKIP_WITHOUT_DEVICE();
+  const Scene scene = test::hand_scene();
+  const Observation small = test::rectified_pair(scene, 64), large = test::rectified_pair(scene);
+  const Eigen::MatrixXd states = random_states(scene, 3);
+  Evaluator evaluator(scene, {{1, covered_probe()}}, {.backend = Backend::cuda});
+  evaluator.prepare(small);
+  evaluator.prepare(large);
+  Eigen::VectorXd costs(3), none(0);
+  evaluator.evaluate(Eigen::MatrixXd(scene.dimension(), 0), none);
+  evaluator.evaluate(states, costs);
+  EXPECT_EQ(costs, costs_on(Backend::cuda, scene, large, covered_probe(), states));
+}
+
 TEST(CudaEvaluation, AddsTermsUpWithTheirWeights) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = test::hand_scene();

@@ -28,22 +28,21 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   ~CudaEvaluation() override { cudaStreamSynchronize(native(stream())); }
 
   void prepare(const Observation& observation) override {
-    device_.use();
+    finish_frame_before();
     observation_ = upload_.upload(observation, stream());
     prepare_frame(observation);
   }
   void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
-    device_.use();
+    finish_frame_before();
     if (!cutter_) {
       cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), device_.limits());
     }
-    // What may still be going on with the frame before (a search that an error ended).
-    check(cudaStreamSynchronize(native(stream())), "finishing the frame before");
     observation_ = cutter_->cut(frame, plan, stream());
     prepare_frame(plan.header);
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
+    if (states.cols() == 0) return;
     device_.use();
     use_prior(nullptr);
     const auto count = static_cast<std::size_t>(states.cols());
@@ -102,6 +101,12 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   template <class T>
   void copy(T* to, const T* from, std::size_t count, cudaMemcpyKind kind) {
     check(cudaMemcpyAsync(to, from, count * sizeof(T), kind, native(stream())), "copying");
+  }
+
+  /// Its uploads may still read the staging memory: it was never searched, or an error ended that.
+  void finish_frame_before() {
+    device_.use();
+    check(cudaStreamSynchronize(native(stream())), "finishing the frame before");
   }
 
   void prepare_frame(const Observation& header) {

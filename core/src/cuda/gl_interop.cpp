@@ -65,8 +65,8 @@ SharedLayers::~SharedLayers() {
 
 MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
     : resource_(layers.resource()), stream_(stream) {
-  // Taking over waits for OpenGL by itself, but has been seen to wait for ever on commands that the
-  // driver had not sent off yet (580.159).
+  // Taking over should wait for OpenGL by itself, but has been seen to wait for ever (driver
+  // 580.159), and not once since OpenGL finishes first.
   glFinish();
   check(cudaGraphicsMapResources(1, &resource_, native(stream)), "taking over from OpenGL");
   try {

@@ -29,8 +29,8 @@ class Evaluation {
     prepare(cut_);
   }
 
-  /// Weighted sums of the terms (N) for normalised states (DxN); what a term returns is not judged,
-  /// NaN included.
+  /// Weighted sums of the terms (N) for normalised states (DxN). Throws by refuse_cost() if one is
+  /// NaN.
   virtual void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) = 0;
 
   /// For Evaluator::backend(): `cpu (AVX3, 2 threads)`.
