@@ -43,6 +43,24 @@ TEST(Search, ABudgetWithoutEvaluationsIsAConfigError) {
               ThrowsMessage<ConfigError>(HasSubstr("0 evaluations, expected at least 1")));
 }
 
+TEST(Search, EveryDimensionIsInOneGroupOrThereAreNone) {
+  SearchRegion region = test::tracking_region(3);
+  EXPECT_TRUE(group_of_dimension(region).empty());
+  region.groups = {{SearchGroup::Kind::pose, {0, 2}}, {SearchGroup::Kind::limb, {1}}};
+  EXPECT_EQ(group_of_dimension(region), (std::vector<int>{0, 1, 0}));
+
+  region.groups[1].dimensions = {1, 2};
+  EXPECT_THAT(
+      [&] { group_of_dimension(region); },
+      ThrowsMessage<Error>(HasSubstr("groups[1] has dimension 2, expected each of 0 to 2")));
+  region.groups[1].dimensions = {3};
+  EXPECT_THAT([&] { group_of_dimension(region); },
+              ThrowsMessage<Error>(HasSubstr("groups[1] has dimension 3")));
+  region.groups.pop_back();
+  EXPECT_THAT([&] { group_of_dimension(region); },
+              ThrowsMessage<Error>(HasSubstr("dimension 1 is in no group")));
+}
+
 TEST(Search, TheEarlierOfEqualPointsStaysTheBest) {
   BestSoFar best;
   const Eigen::MatrixXd points = Eigen::MatrixXd{{1, 2, 3}};

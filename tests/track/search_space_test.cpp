@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 
+#include "hypotrack/search.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -59,7 +60,36 @@ TEST(SearchSpace, APriorOutsideTheBoundsStartsOnThem) {
   EXPECT_EQ(region.start[8], region.upper[8]);
 }
 
+TEST(SearchSpace, GroupsAreThePosesAndLimbsOfTheModels) {
+  const Scene scene = hand_and_box();
+  SearchSettings settings;
+  const auto quaternion = SearchSpace(scene, settings).region(scene.rest_state()).groups;
+  ASSERT_EQ(quaternion.size(), 7u);
+  EXPECT_EQ(quaternion[0].kind, SearchGroup::Kind::pose);
+  EXPECT_EQ(quaternion[0].dimensions, (std::vector<int>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(quaternion[5].kind, SearchGroup::Kind::limb);
+  EXPECT_EQ(quaternion[5].dimensions, (std::vector<int>{23, 24, 25, 26}));
+  EXPECT_EQ(quaternion[6].kind, SearchGroup::Kind::pose);
+  EXPECT_EQ(quaternion[6].dimensions, (std::vector<int>{27, 28, 29, 30, 31, 32, 33}));
+
+  settings.rotation_as = RotationSearch::tangent;
+  const auto tangent = SearchSpace(scene, settings).region(scene.rest_state()).groups;
+  ASSERT_EQ(tangent.size(), 7u);
+  EXPECT_EQ(tangent[0].dimensions, (std::vector<int>{0, 1, 2, 3, 4, 5}));
+  EXPECT_EQ(tangent[1].dimensions, (std::vector<int>{6, 7, 8, 9}));
+  EXPECT_EQ(tangent[6].dimensions, (std::vector<int>{26, 27, 28, 29, 30, 31}));
+}
+
 class BothParametrisations : public testing::TestWithParam<RotationSearch> {};
+
+TEST_P(BothParametrisations, EveryDimensionIsInOneGroup) {
+  const Scene scene = hand_and_box();
+  SearchSettings settings;
+  settings.rotation_as = GetParam();
+  const SearchSpace space(scene, settings);
+  EXPECT_EQ(group_of_dimension(space.region(scene.rest_state())).size(),
+            static_cast<std::size_t>(space.dimension()));
+}
 
 TEST_P(BothParametrisations, TheStartIsThePrior) {
   const Scene scene = hand_and_box();

@@ -75,6 +75,12 @@ struct ModelData {
 /// parameters that are no pose, bounds the wrong way round.
 HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 
+/// The parameters that move one part of a model together, as indices: the pose's seven first, then
+/// the limbs. A limb is a chain of jointed bones up to where the skeleton forks into several
+/// jointed ones: a finger, or an arm between the shoulder and the hand. A parameter that turns
+/// bones of several limbs makes one of them; one that turns no bone is alone.
+HYPOTRACK_API std::vector<std::vector<int>> parameter_groups(const ModelData& data);
+
 /// A model is data. Core moves it: one kinematics and skinning for every model on the CPU, one on
 /// the GPU.
 class HYPOTRACK_API Model {

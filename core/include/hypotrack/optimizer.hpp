@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "hypotrack/export.hpp"
 
@@ -29,12 +30,24 @@ class HYPOTRACK_API CostFunction {
   virtual cuda::DeviceCost* device() { return nullptr; }
 };
 
+/// Dimensions of a search point that move one part of the scene.
+struct SearchGroup {
+  enum class Kind {
+    pose,  ///< where a model is and how it is turned
+    limb,  ///< a chain of joints, say a finger
+  };
+  Kind kind = Kind::limb;
+  std::vector<int> dimensions;
+};
+
 /// Where to look. All vectors have length D.
 struct SearchRegion {
   Eigen::VectorXd start;  ///< the prior's mean, within the bounds
   Eigen::VectorXd lower;  ///< hard bounds (anatomy); may be infinite
   Eigen::VectorXd upper;
   Eigen::VectorXd spread;  ///< how far the answer may plausibly be from `start`, each side; > 0
+  /// Every dimension is in one of them. Empty: nobody knows what belongs together.
+  std::vector<SearchGroup> groups = {};
 };
 
 /// What a search may cost. Evaluations count single points, not batches.

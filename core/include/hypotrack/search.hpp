@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -13,8 +14,33 @@ namespace hypotrack {
 
 // What every optimizer needs around its algorithm.
 
+/// For every dimension of a region the index of its group; empty where the region has no groups.
+/// Throws Error unless every dimension is in exactly one.
+inline std::vector<int> group_of_dimension(const SearchRegion& region) {
+  if (region.groups.empty()) return {};
+  std::vector<int> group_of(static_cast<std::size_t>(region.start.size()), -1);
+  for (std::size_t g = 0; g < region.groups.size(); ++g) {
+    for (const int d : region.groups[g].dimensions) {
+      if (d < 0 || d >= region.start.size() || group_of[static_cast<std::size_t>(d)] >= 0) {
+        throw Error("search region: groups[" + std::to_string(g) + "] has dimension " +
+                    std::to_string(d) + ", expected each of 0 to " +
+                    std::to_string(region.start.size() - 1) + " in one group");
+      }
+      group_of[static_cast<std::size_t>(d)] = static_cast<int>(g);
+    }
+  }
+  for (std::size_t d = 0; d < group_of.size(); ++d) {
+    if (group_of[d] < 0) {
+      throw Error("search region: dimension " + std::to_string(d) +
+                  " is in no group, expected it in one (or no groups at all)");
+    }
+  }
+  return group_of;
+}
+
 /// Throws Error unless the region has the cost's dimension, bounds the right way round, a finite
-/// start within them and positive spreads, and the budget allows the start to be evaluated.
+/// start within them, positive spreads and groups (if any) that hold every dimension once, and the
+/// budget allows the start to be evaluated.
 inline void check_search(const CostFunction& cost, const SearchRegion& region,
                          const Budget& budget) {
   const Eigen::Index d = cost.dimension();
@@ -35,6 +61,7 @@ inline void check_search(const CostFunction& cost, const SearchRegion& region,
                   std::to_string(region.spread[i]) + ", expected positive and finite");
     }
   }
+  (void)group_of_dimension(region);
   if (budget.evaluations < 1) {
     throw ConfigError("budget: " + std::to_string(budget.evaluations) +
                       " evaluations, expected at least 1 (the start is always evaluated)");

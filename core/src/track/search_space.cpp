@@ -14,6 +14,29 @@ Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& v) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
 }
 
+/// Groups of the scene's parameters as groups of dimensions. Where a rotation vector stands for a
+/// quaternion, it belongs where w, x and y did.
+std::vector<SearchGroup> search_groups(const Scene& scene, bool rotation_vectors) {
+  std::vector<SearchGroup> groups;
+  int skipped = 0;  // quaternions' z components before the model
+  for (const Scene::Item& item : scene.items()) {
+    constexpr int kRotationZ = 6;
+    auto kind = SearchGroup::Kind::pose;
+    for (const std::vector<int>& parameters : parameter_groups(item.model->data())) {
+      SearchGroup group{kind, {}};
+      for (const int p : parameters) {
+        if (rotation_vectors && p == kRotationZ) continue;
+        const int own = rotation_vectors && p > kRotationZ ? 1 : 0;
+        group.dimensions.push_back(item.offset + p - skipped - own);
+      }
+      groups.push_back(std::move(group));
+      kind = SearchGroup::Kind::limb;
+    }
+    if (rotation_vectors) ++skipped;
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::span<const std::string_view> enum_names(RotationSearch) {
@@ -25,10 +48,12 @@ SearchSpace::SearchSpace(const Scene& scene, const SearchSettings& settings)
     : scene_(&scene), settings_(settings), dimension_(scene.dimension()) {
   if (settings_.rotation_as == RotationSearch::tangent)
     dimension_ -= static_cast<int>(scene.items().size());
+  groups_ = search_groups(scene, rotation_vectors());
 }
 
 SearchRegion SearchSpace::region(const Eigen::VectorXd& prior) const {
   SearchRegion region;
+  region.groups = groups_;
   for (auto* v : {&region.start, &region.lower, &region.upper, &region.spread})
     v->resize(dimension_);
   // A component of a unit quaternion changes by up to sin(angle / 2) under a rotation by the angle.

@@ -61,8 +61,8 @@ class HYPOTRACK_API SearchSpace {
   /// Whether points have rotation vectors in place of quaternions.
   bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
 
-  /// The region around a prior state. Angles of the prior outside the models' bounds are moved onto
-  /// them.
+  /// The region around a prior state; its groups are the models' (parameter_groups()). Angles of
+  /// the prior outside the models' bounds are moved onto them.
   SearchRegion region(const Eigen::VectorXd& prior) const;
 
   /// States (DxN, normalised) of search points (dimension() x N) found around a prior.
@@ -73,6 +73,7 @@ class HYPOTRACK_API SearchSpace {
   const Scene* scene_;
   SearchSettings settings_;
   int dimension_ = 0;
+  std::vector<SearchGroup> groups_;
 };
 
 }  // namespace hypotrack

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "hypotrack/model.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Sets of parameters that only ever join.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : leader_(count) {
+    std::iota(leader_.begin(), leader_.end(), 0);
+  }
+  /// The lowest parameter of a parameter's set.
+  int of(int parameter) const {
+    while (leader_[static_cast<std::size_t>(parameter)] != parameter)
+      parameter = leader_[static_cast<std::size_t>(parameter)];
+    return parameter;
+  }
+  void join(int a, int b) {
+    a = of(a);
+    b = of(b);
+    leader_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> leader_;
+};
+
+/// For every bone one of the parameters that turn it, -1 for a rigid one.
+std::vector<int> joint_of_bones(const ModelData& data, Sets& sets) {
+  std::vector<int> joint(data.bones.size(), -1);
+  for (const BoneRotation& rotation : data.rotations) {
+    int& of_bone = joint[static_cast<std::size_t>(rotation.bone)];
+    if (of_bone < 0) of_bone = rotation.parameter;
+    sets.join(of_bone, rotation.parameter);
+  }
+  return joint;
+}
+
+/// Joins each jointed bone with the jointed one above it, unless others hang there, too.
+void join_chains(const ModelData& data, const std::vector<int>& joint, Sets& sets) {
+  std::vector<int> above(data.bones.size(), -1);  // nearest jointed bone
+  std::vector<int> below(data.bones.size(), 0);   // number of those whose nearest this one is
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (data.bones[b].parent < 0) continue;
+    const auto parent = static_cast<std::size_t>(data.bones[b].parent);
+    above[b] = joint[parent] >= 0 ? data.bones[b].parent : above[parent];
+    if (joint[b] >= 0 && above[b] >= 0) ++below[static_cast<std::size_t>(above[b])];
+  }
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    if (joint[b] < 0 || above[b] < 0 || below[static_cast<std::size_t>(above[b])] > 1) continue;
+    sets.join(joint[b], joint[static_cast<std::size_t>(above[b])]);
+  }
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> parameter_groups(const ModelData& data) {
+  Sets sets(data.parameters.size());
+  for (int i = 1; i < static_cast<int>(data.parameters.size()); ++i) {
+    if (data.parameters[static_cast<std::size_t>(i)].kind != ParameterKind::angle) sets.join(0, i);
+  }
+  join_chains(data, joint_of_bones(data, sets), sets);
+  std::map<int, std::vector<int>> by_leader;  // the pose's comes first: parameter 0 leads it
+  for (int i = 0; i < static_cast<int>(data.parameters.size()); ++i) {
+    by_leader[sets.of(i)].push_back(i);
+  }
+  std::vector<std::vector<int>> groups;
+  for (auto& [leader, group] : by_leader) groups.push_back(std::move(group));
+  return groups;
+}
+
+}  // namespace hypotrack
