@@ -24,12 +24,21 @@ using ::testing::HasSubstr;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Close to the start compared with the start's own size, so that the last digits of the initial
-/// sample, in which the logarithms of CPU and GPU differ, are lost in the first addition.
+/// samples, in which the logarithms of CPU and GPU differ, are lost in the first addition. A pose
+/// of three dimensions, then limbs of three.
 SearchRegion narrow_region(Eigen::Index dimension) {
   const auto all = [&](double x) -> Eigen::VectorXd {
     return Eigen::VectorXd::Constant(dimension, x);
   };
-  return {all(1000), all(1000 - 1e-3), all(1000 + 2e-3), all(1e-3)};
+  SearchRegion region{all(1000), all(1000 - 1e-3), all(1000 + 2e-3), all(1e-3)};
+  for (int d = 0; d < dimension; ++d) {
+    if (d % 3 == 0) {
+      const auto kind = d == 0 ? SearchGroup::Kind::pose : SearchGroup::Kind::limb;
+      region.groups.push_back({kind, {}});
+    }
+    region.groups.back().dimensions.push_back(d);
+  }
+  return region;
 }
 
 /// Partly beyond the bounds.
@@ -100,6 +109,30 @@ TEST_F(PsoCudaSearch, FindsItWithAnyNumberOfParticles) {
     expect_the_way_of_pso(count, 27, std::int64_t{7} * count / 2);
   }
   expect_the_way_of_pso(1 << 20, 5, 3 << 20);
+}
+
+TEST_F(PsoCudaSearch, FindsItWithGroupedStartsAndLimbsAnew) {
+  for (const Eigen::Index dimension : {2, 7, 27, 54}) {
+    PsoParams params = particles(33);
+    params.start.group_share = 0.3;
+    params.reset = {2, 0.6};
+    const SearchRegion region = narrow_region(dimension);
+    test::QuadraticCost cost(target(dimension));
+    const OptimizerResult cpu = Pso(params).minimize(cost, region, {400}, 3);
+    expect_equal(PsoCuda(params).minimize(cost, region, {400}, 3), cpu);
+    EXPECT_NE(cpu.point, Pso(particles(33)).minimize(cost, region, {400}, 3).point);
+  }
+}
+
+TEST_F(PsoCudaSearch, FindsItWithoutGroups) {
+  PsoParams params = particles(33);
+  params.start.group_share = 0.3;
+  params.reset = {2, 0.6};
+  SearchRegion region = narrow_region(27);
+  region.groups.clear();
+  test::QuadraticCost cost(target(27));
+  expect_equal(PsoCuda(params).minimize(cost, region, {400}, 3),
+               Pso(params).minimize(cost, region, {400}, 3));
 }
 
 TEST_F(PsoCudaSearch, FindsItInMoreGenerationsThanAGraphHolds) {

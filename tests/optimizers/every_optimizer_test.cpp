@@ -1,4 +1,4 @@
-// What holds for every optimizer: PSO, random search and all algorithms of NLopt.
+// What holds for every optimizer, for all algorithms of NLopt and for those made of others.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "cma_es.hpp"
+#include "differential_evolution.hpp"
+#include "multi_start.hpp"
 #include "nlopt_optimizer.hpp"
+#include "pipeline.hpp"
 #include "pso/pso.hpp"
 #include "random_search/random_search.hpp"
 #include "search_problems.hpp"
@@ -35,6 +39,23 @@ std::unique_ptr<Optimizer> make(const std::string& name) {
     params.particles = 32;
     return std::make_unique<Pso>(params);
   }
+  if (name == "pso_of_groups") {
+    PsoParams params;
+    params.particles = 32;
+    params.start.group_share = 0.3;
+    params.reset.every = 3;
+    return std::make_unique<Pso>(params);
+  }
+  if (name == "differential_evolution")
+    return std::make_unique<DifferentialEvolution>(DifferentialEvolutionParams{});
+  if (name == "cma_es") return std::make_unique<CmaEs>(CmaEsParams{});
+  if (name == "pipeline") {
+    std::vector<PipelineStage> stages;
+    stages.push_back({"pso", make("pso"), 0.5, 1});
+    stages.push_back({"nlopt", make("SBPLX"), 0.5, 0.5});
+    return std::make_unique<Pipeline>(std::move(stages), 1024);
+  }
+  if (name == "multi_start") return std::make_unique<MultiStart>(MultiStartParams{}, make("SBPLX"));
   if (name == "random_search") return std::make_unique<RandomSearch>(RandomSearchParams{});
   NloptParams params;
   params.algorithm = name;
@@ -188,16 +209,19 @@ TEST_P(EveryOptimizer, ConvergesToItsStatedQuality) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, EveryOptimizer,
-    ::testing::Values(Candidate{"pso", 0.02, 0.35, 13}, Candidate{"random_search", 0.25, 4, 95},
-                      Candidate{"SBPLX", 1e-06, 1e-05, 0.3}, Candidate{"NELDERMEAD", 0.03, 0.4, 6},
-                      Candidate{"COBYLA", 1e-06, 0.002, 0.02},
-                      Candidate{"BOBYQA", 1e-09, 1e-06, 0.02}, Candidate{"PRAXIS", 0.001, 0.001, 1},
-                      Candidate{"CRS2_LM", 0.08, 0.9, 25}, Candidate{"ESCH", 0.06, 0.9, 16},
-                      Candidate{"ISRES", 0.11, 1.6, 35}, Candidate{"DIRECT", 0.01, 0.15, 11},
-                      Candidate{"DIRECT_L", 0.04, 0.5, 12},
-                      Candidate{"DIRECT_L_RAND", 0.006, 0.08, 7},
-                      Candidate{"ORIG_DIRECT_L", 0.04, 0.5, 12},
-                      Candidate{"MLSL_LDS", 0.006, 0.08, 5}),
+    ::testing::Values(
+        Candidate{"pso", 0.02, 0.35, 13}, Candidate{"random_search", 0.25, 4, 95},
+        Candidate{"pso_of_groups", 0.04, 0.5, 18},
+        Candidate{"differential_evolution", 0.09, 0.7, 35}, Candidate{"cma_es", 0.002, 0.2, 5},
+        Candidate{"pipeline", 1e-4, 0.004, 5}, Candidate{"multi_start", 0.003, 0.2, 12},
+
+        Candidate{"SBPLX", 1e-06, 1e-05, 0.3}, Candidate{"NELDERMEAD", 0.03, 0.4, 6},
+        Candidate{"COBYLA", 1e-06, 0.002, 0.02}, Candidate{"BOBYQA", 1e-09, 1e-06, 0.02},
+        Candidate{"PRAXIS", 0.001, 0.001, 1}, Candidate{"CRS2_LM", 0.08, 0.9, 25},
+        Candidate{"ESCH", 0.06, 0.9, 16}, Candidate{"ISRES", 0.11, 1.6, 35},
+        Candidate{"DIRECT", 0.01, 0.15, 11}, Candidate{"DIRECT_L", 0.04, 0.5, 12},
+        Candidate{"DIRECT_L_RAND", 0.006, 0.08, 7}, Candidate{"ORIG_DIRECT_L", 0.04, 0.5, 12},
+        Candidate{"MLSL_LDS", 0.006, 0.08, 5}),
     [](const auto& each) { return each.param.name; });
 
 class SeededOptimizer : public ::testing::TestWithParam<std::string> {};
@@ -216,7 +240,9 @@ TEST_P(SeededOptimizer, DifferentSeedsGiveDifferentSearches) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SeededOptimizer,
-                         ::testing::Values("pso", "random_search", "CRS2_LM", "ESCH", "ISRES",
+                         ::testing::Values("pso", "pso_of_groups", "random_search",
+                                           "differential_evolution", "cma_es", "pipeline",
+                                           "multi_start", "CRS2_LM", "ESCH", "ISRES",
                                            "DIRECT_L_RAND"));
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST(RandomSearch, TheBatchSizeDoesNotChangeTheSamples) {
 
 TEST(RandomSearch, SamplesHaveTheRegionsSpreadTimesSigma) {
   RandomSearchParams params;
-  params.sigma = 0.25;
+  params.start.sigma = 0.25;
   const SearchRegion region = test::tracking_region(7);
   test::RecordingCost cost(7, [](const Eigen::VectorXd&) { return 0.0; });
   RandomSearch(params).minimize(cost, region, {4000}, 2);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 
 #include "search_problems.hpp"
 
@@ -45,6 +46,7 @@ TEST(Search, ABudgetWithoutEvaluationsIsAConfigError) {
 
 TEST(Search, EveryDimensionIsInOneGroupOrThereAreNone) {
   SearchRegion region = test::tracking_region(3);
+  region.groups.clear();
   EXPECT_TRUE(group_of_dimension(region).empty());
   region.groups = {{SearchGroup::Kind::pose, {0, 2}}, {SearchGroup::Kind::limb, {1}}};
   EXPECT_EQ(group_of_dimension(region), (std::vector<int>{0, 1, 0}));
@@ -72,6 +74,14 @@ TEST(Search, TheEarlierOfEqualPointsStaysTheBest) {
   EXPECT_EQ(best.result().point[0], 3);
   EXPECT_EQ(best.result().cost, 4);
   EXPECT_EQ(best.result().evaluations, 9);
+}
+
+TEST(Search, PartsOfASearchHaveSeedsOfTheirOwn) {
+  std::set<std::uint64_t> seeds;
+  for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{1} << 40}) {
+    for (std::uint32_t part = 0; part < 10; ++part) seeds.insert(seed_of_part(seed, part));
+  }
+  EXPECT_EQ(seeds.size(), 20u);
 }
 
 TEST(Search, ADeadlineOfZeroHasPassedAndAnInfiniteOneNeverDoes) {

@@ -9,6 +9,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/random.hpp"
 
 namespace hypotrack {
 
@@ -68,6 +69,15 @@ inline void check_search(const CostFunction& cost, const SearchRegion& region,
   }
 }
 
+/// A seed of its own for part `part` of a search: another optimizer that takes over, say.
+constexpr std::uint64_t seed_of_part(std::uint64_t seed, std::uint32_t part) {
+  constexpr std::uint32_t kPartStream = 0xffffffffu;  // no population draws from it
+  const auto words =
+      philox4x32({part, 0, 0, kPartStream},
+                 {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+  return (std::uint64_t{words[1]} << 32) | words[0];
+}
+
 /// The nearest point within the bounds.
 inline Eigen::VectorXd within_bounds(const Eigen::Ref<const Eigen::VectorXd>& point,
                                      const SearchRegion& region) {
@@ -99,9 +109,11 @@ class BestSoFar {
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
-  bool passed() const {
+  bool passed() const { return left() <= 0; }
+  /// Seconds until it has passed.
+  double left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    return elapsed.count() >= seconds_;
+    return seconds_ - elapsed.count();
   }
 
  private:

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <exception>
-#include <vector>
 
+#include "hypotrack/offset_space.hpp"
 #include "hypotrack/search.hpp"
 
 namespace hypotrack {
@@ -22,12 +22,12 @@ class ScaledProblem {
   ScaledProblem(CostFunction& cost, const SearchRegion& region, const Budget& budget);
 
   /// Number of free dimensions.
-  int dimension() const { return static_cast<int>(free_.size()); }
+  int dimension() const { return space_.dimension(); }
   /// Evaluations that are left.
   std::int64_t remaining() const { return limit_ - best_.result().evaluations; }
   /// Bounds in NLopt's units, no further from the start than `box`; +-box may be infinite.
-  Eigen::VectorXd lower(double box) const;
-  Eigen::VectorXd upper(double box) const;
+  Eigen::VectorXd lower(double box) const { return space_.lower(box); }
+  Eigen::VectorXd upper(double box) const { return space_.upper(box); }
 
   /// Evaluates the start. Throws what the cost throws.
   void evaluate_start();
@@ -43,7 +43,6 @@ class ScaledProblem {
 
  private:
   double value(const double* offsets);
-  Eigen::VectorXd point(const double* offsets) const;
   double evaluate(const Eigen::VectorXd& point);
   void stop();
 
@@ -51,11 +50,11 @@ class ScaledProblem {
   const SearchRegion& region_;
   const std::int64_t limit_;
   const Deadline deadline_;
-  std::vector<Eigen::Index> free_;
+  OffsetSpace space_;
   nlopt_opt opt_ = nullptr;
   BestSoFar best_;
   double start_value_ = 0;
-  double worst_ = 0;             ///< of the finite costs; NaN before the first
+  FiniteCosts finite_;
   std::int64_t calls_ = 0;       ///< of NLopt
   std::int64_t idle_calls_ = 0;  ///< those that cost no evaluation
   bool stopped_ = false;

@@ -4,29 +4,15 @@
 #include <cstdint>
 
 #include "constriction.hpp"
-#include "hypotrack/random.hpp"
+#include "hypotrack/start_sample.hpp"
 
 /// What happens to one dimension of one particle: shared by the CPU and, without Eigen, by CUDA
 /// kernels.
 namespace hypotrack {
 
 inline constexpr std::uint32_t kMoveStream = 0;
-inline constexpr std::uint32_t kInitialStream = 1;
-
-/// A dimension of the search region.
-struct Interval {
-  double lower;
-  double upper;
-};
-
-/// Where particle `particle` begins: a normal sample about `start` within the bounds.
-HYPOTRACK_PIXEL double initial_position(double start, double standard_deviation,
-                                        const Interval& bounds, std::uint64_t seed,
-                                        std::uint32_t dimension, std::uint32_t particle) {
-  const double x =
-      start + standard_deviation * normal(seed, {dimension, particle, 0, kInitialStream});
-  return std::clamp(x, bounds.lower, bounds.upper);
-}
+inline constexpr std::uint32_t kResetStream = 3;
+inline constexpr std::uint32_t kResetLimbStream = 4;
 
 struct Motion {
   double position;
@@ -41,6 +27,37 @@ constexpr Motion moved(const Motion& from, const Constriction& constriction, dou
   const double v = constriction.velocity(from.velocity, own_best - x, swarm_best - x, r1, r2);
   const double position = std::clamp(x + v, bounds.lower, bounds.upper);
   return {position, position == x + v ? v : position - x};
+}
+
+/// Every few generations a share of the particles gets a limb of its own anew (after Oikonomidis,
+/// Kyriazis and Argyros 2012, who do so with fingers): a swarm that follows its best collapses in
+/// the many small dimensions first.
+struct LimbReset {
+  int every = 0;       ///< generations; 0: never
+  double share = 0.5;  ///< of the particles
+
+  constexpr bool due(std::uint32_t generation) const {
+    return every > 0 && generation > 0 && generation % static_cast<std::uint32_t>(every) == 0;
+  }
+  /// The limb, of `limbs` >= 1, that a particle gets anew in a generation that is due; -1: none.
+  HYPOTRACK_PIXEL int limb(std::uint64_t seed, std::uint32_t particle, std::uint32_t generation,
+                           int limbs) const {
+    const auto u = uniform4(seed, {0, particle, generation, kResetLimbStream});
+    if (!(u[0] < share)) return -1;
+    return std::min(static_cast<int>(u[1] * limbs), limbs - 1);
+  }
+};
+
+/// Where a dimension of a limb anew lies from the swarm's best: a normal sample. `index` is that of
+/// the move that it replaces.
+HYPOTRACK_PIXEL double anew_offset(double standard_deviation, std::uint64_t seed,
+                                   RandomIndex index) {
+  index.stream = kResetStream;
+  return standard_deviation * normal(seed, index);
+}
+/// It begins at rest.
+constexpr Motion placed_anew(double swarm_best, double offset, const Interval& bounds) {
+  return {std::clamp(swarm_best + offset, bounds.lower, bounds.upper), 0.0};
 }
 
 }  // namespace hypotrack

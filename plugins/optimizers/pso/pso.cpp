@@ -4,10 +4,19 @@
 #include <limits>
 
 #include "hypotrack/search.hpp"
+#include "limbs.hpp"
 #include "particle.hpp"
 
 namespace hypotrack {
 namespace {
+
+/// How particles move.
+struct Swarming {
+  Constriction constriction;
+  LimbReset reset;
+  Limbs limbs;
+  double sigma;
+};
 
 /// Positions, velocities and what each particle found, DxN.
 struct Swarm {
@@ -16,29 +25,31 @@ struct Swarm {
   Eigen::MatrixXd own_best;
   Eigen::VectorXd own_best_cost;
 
-  Swarm(const SearchRegion& region, Eigen::Index particles, double sigma, std::uint64_t seed)
-      : position(region.start.replicate(1, particles)),
+  Swarm(const SearchRegion& region, Eigen::Index particles, const StartSpread& spread,
+        std::uint64_t seed)
+      : position(StartPoints(region, spread, seed).points(0, particles)),
         velocity(Eigen::MatrixXd::Zero(region.start.size(), particles)),
+        own_best(position),
         own_best_cost(
-            Eigen::VectorXd::Constant(particles, std::numeric_limits<double>::infinity())) {
-    for (Eigen::Index p = 1; p < particles; ++p) {
-      for (Eigen::Index d = 0; d < position.rows(); ++d) {
-        position(d, p) = initial_position(
-            region.start[d], sigma * region.spread[d], {region.lower[d], region.upper[d]}, seed,
-            static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(p));
-      }
-    }
-    own_best = position;
-  }
+            Eigen::VectorXd::Constant(particles, std::numeric_limits<double>::infinity())) {}
 
-  void move(const Constriction& constriction, const SearchRegion& region,
-            const Eigen::VectorXd& swarm_best, std::uint32_t generation, std::uint64_t seed) {
+  void move(const Swarming& how, const SearchRegion& region, const Eigen::VectorXd& swarm_best,
+            std::uint32_t generation, std::uint64_t seed) {
+    const bool due = how.reset.due(generation) && how.limbs.count > 0;
     for (Eigen::Index p = 0; p < position.cols(); ++p) {
+      const auto particle = static_cast<std::uint32_t>(p);
+      const int anew = due ? how.reset.limb(seed, particle, generation, how.limbs.count) : -1;
       for (Eigen::Index d = 0; d < position.rows(); ++d) {
-        const auto r = uniform4(seed, {static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(p),
-                                       generation, kMoveStream});
-        const Motion motion = moved({position(d, p), velocity(d, p)}, constriction, own_best(d, p),
-                                    swarm_best[d], r[0], r[1], {region.lower[d], region.upper[d]});
+        const RandomIndex index{static_cast<std::uint32_t>(d), particle, generation, kMoveStream};
+        const Interval bounds{region.lower[d], region.upper[d]};
+        const bool of_limb =
+            anew >= 0 && how.limbs.of_dimension[static_cast<std::size_t>(d)] == anew;
+        const auto r = uniform4(seed, index);
+        const Motion motion =
+            of_limb ? placed_anew(swarm_best[d],
+                                  anew_offset(how.sigma * region.spread[d], seed, index), bounds)
+                    : moved({position(d, p), velocity(d, p)}, how.constriction, own_best(d, p),
+                            swarm_best[d], r[0], r[1], bounds);
         position(d, p) = motion.position;
         velocity(d, p) = motion.velocity;
       }
@@ -72,13 +83,14 @@ OptimizerResult Pso::minimize(CostFunction& cost, const SearchRegion& region, co
   const std::int64_t limit = budget.evaluations;
   const std::int64_t particles = std::min<std::int64_t>(params_.particles, limit);
 
-  Swarm swarm(region, particles, params_.sigma, seed);
+  const Swarming how{constriction_, params_.reset, Limbs(region), params_.start.sigma};
+  Swarm swarm(region, particles, params_.start, seed);
   Eigen::VectorXd costs(particles);
   BestSoFar best;
   for (std::uint32_t generation = 0; best.result().evaluations < limit; ++generation) {
     if (generation > 0) {
       if (deadline.passed()) break;
-      swarm.move(constriction_, region, best.result().point, generation, seed);
+      swarm.move(how, region, best.result().point, generation, seed);
     }
     const auto count = std::min(particles, limit - best.result().evaluations);
     cost.evaluate(swarm.position.leftCols(count), costs.head(count));

@@ -20,8 +20,14 @@ namespace hypotrack {
 /// - a position that leaves the bounds is truncated to them, and the velocity of that dimension
 ///   becomes the step that was really made, so that particles do not keep pushing at a wall.
 ///
+/// Beyond the paper, and off by default, for regions whose groups are known:
+/// - the initial particles move only a share of the groups fully (StartSpread), since a hand rarely
+///   moves all of its fingers at once;
+/// - every few generations a share of the particles gets one of its limbs anew (LimbReset).
+///
 /// The numbers r1, r2 (words 0 and 1 of uniform4) have RandomIndex{dimension, particle, generation,
-/// 0}, the initial normal numbers {dimension, particle, 0, 1}. The initial generation is number 0.
+/// 0}, the initial ones are those of start_sample.hpp, those of a limb anew {dimension, particle,
+/// generation, 3} and {0, particle, generation, 4}. The initial generation is number 0.
 ///
 /// The budget decides how many generations there are; the last one evaluates the first particles
 /// only where the budget ends within it. `seconds` is looked at between generations.

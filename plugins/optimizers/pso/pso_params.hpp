@@ -1,6 +1,7 @@
 #pragma once
 
-#include "hypotrack/params.hpp"
+#include "hypotrack/start_points.hpp"
+#include "particle.hpp"
 
 namespace hypotrack {
 
@@ -8,9 +9,10 @@ namespace hypotrack {
 struct PsoParams {
   int particles = 64;
   int generations = 64;
-  double sigma = 0.5;
+  StartParams start;
   double cognitive = 2.8;
   double social = 1.3;
+  LimbReset reset;
   void visit(ParamVisitor& v) {
     v("particles", particles,
       {.help = "particles of the swarm, evaluated as one batch", .min = 1, .max = 1 << 20});
@@ -18,16 +20,19 @@ struct PsoParams {
       {.help = "generations, the initial one included, where the scene names no budget",
        .min = 1,
        .max = 1 << 20});
-    v("sigma", sigma,
-      {.help = "standard deviation of the initial particles, as a share of the search region's "
-               "spread",
-       .min = 0,
-       .max = 10});
+    start.visit(v);
     v("cognitive", cognitive,
       {.help = "c1, pull of a particle's own best; cognitive + social must be above 4",
        .min = 0,
        .max = 100});
     v("social", social, {.help = "c2, pull of the swarm's best", .min = 0, .max = 100});
+    v("reset_every", reset.every,
+      {.help = "generations after which particles get one of their limbs (fingers) anew, about the "
+               "swarm's best; 0: never",
+       .min = 0,
+       .max = 1 << 20});
+    v("reset_share", reset.share,
+      {.help = "share of the particles that reset_every applies to", .min = 0, .max = 1});
   }
 };
 

@@ -46,13 +46,13 @@ struct CapturedFor {
 class Search {
  public:
   Search(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
-         const Constriction& constriction, double sigma)
+         const cuda::Swarming& how, const StartSpread& spread)
       : cost_(cost),
         stream_(cost.stream()),
         swarm_(swarm),
         schedule_(schedule),
-        constriction_(constriction),
-        sigma_(sigma) {}
+        how_(how),
+        spread_(spread) {}
 
   CapturedFor captured_for() const {
     return {&cost_, stream_.handle, cost_.revision(), schedule_, swarm_};
@@ -75,9 +75,9 @@ class Search {
  private:
   void enqueue_generation(int most_blocks, std::int64_t generation) {
     if (generation == 0) {
-      cuda::enqueue_initial(swarm_, most_blocks, sigma_, stream_);
+      cuda::enqueue_initial(swarm_, most_blocks, spread_, stream_);
     } else {
-      cuda::enqueue_move(swarm_, most_blocks, constriction_, generation, stream_);
+      cuda::enqueue_move(swarm_, most_blocks, how_, generation, stream_);
     }
     cost_.enqueue(swarm_.generation(generation).position, schedule_.count(generation),
                   swarm_.costs);
@@ -87,8 +87,8 @@ class Search {
   Stream stream_;
   SwarmLayout swarm_;
   Schedule schedule_;
-  Constriction constriction_;
-  double sigma_;
+  cuda::Swarming how_;
+  StartSpread spread_;
 };
 
 void wait_for(Stream stream) {
@@ -156,7 +156,8 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
   const SwarmLayout swarm = on_device_->memory.reserve(schedule.particles, cost.dimension());
   on_device_->memory.write(region, seed);
 
-  Search search(*device, swarm, schedule, constriction_, params_.sigma);
+  Search search(*device, swarm, schedule, {constriction_, params_.reset, params_.start.sigma},
+                params_.start);
   std::int64_t generations = search.generations();
   const bool timed = std::isfinite(budget.seconds);
   if (timed || generations > kMostCaptured) {

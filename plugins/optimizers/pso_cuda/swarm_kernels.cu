@@ -16,20 +16,28 @@ constexpr int kBlocksPerMultiprocessor = 4;  // each looks at all costs: more wo
 /// The frame's region in device memory.
 struct Region {
   std::uint64_t seed;
+  std::int32_t limbs;
   const double* start;
   const double* lower;
   const double* upper;
   const double* spread;
+  const std::uint64_t* membership;
 
   __device__ explicit Region(const SwarmLayout& swarm)
       : seed(__ldcg(swarm.region)),
-        start(reinterpret_cast<const double*>(swarm.region + 1)),
+        limbs(static_cast<std::int32_t>(__ldcg(swarm.region + 1))),
+        start(reinterpret_cast<const double*>(swarm.region + 2)),
         lower(start + swarm.dimension),
         upper(lower + swarm.dimension),
-        spread(upper + swarm.dimension) {}
+        spread(upper + swarm.dimension),
+        membership(reinterpret_cast<const std::uint64_t*>(spread + swarm.dimension)) {}
 
   __device__ Interval bounds(std::int64_t d) const {
     return {__ldcg(lower + d), __ldcg(upper + d)};
+  }
+  __device__ Membership membership_of(std::int64_t d) const {
+    const std::uint64_t word = __ldcg(membership + d);
+    return {static_cast<std::int32_t>(word), static_cast<std::int32_t>(word >> 32)};
   }
 };
 
@@ -50,11 +58,24 @@ __device__ std::int64_t next_element(std::int64_t i) {
   return i + std::int64_t{gridDim.x} * kThreads;
 }
 
-__device__ std::array<double, 4> draw(std::uint64_t seed, const Element& at,
-                                      std::uint32_t generation) {
-  return uniform4(seed, {static_cast<std::uint32_t>(at.dimension),
-                         static_cast<std::uint32_t>(at.particle), generation, kMoveStream});
-}
+/// The random numbers of an element's move.
+struct Draw {
+  std::array<double, 4> uniform;
+  bool anew = false;  ///< it does not move, but is placed
+  double offset = 0;  ///< from the swarm's best, where it is
+
+  __device__ Draw(const Region& region, const Element& at, const Swarming& how,
+                  std::uint32_t generation) {
+    const RandomIndex index{static_cast<std::uint32_t>(at.dimension),
+                            static_cast<std::uint32_t>(at.particle), generation, kMoveStream};
+    uniform = uniform4(region.seed, index);
+    if (region.limbs == 0 || !how.reset.due(generation)) return;
+    const int limb = how.reset.limb(region.seed, index.particle, generation, region.limbs);
+    anew = limb >= 0 && region.membership_of(at.dimension).limb == limb;
+    if (!anew) return;
+    offset = anew_offset(how.sigma * __ldcg(region.spread + at.dimension), region.seed, index);
+  }
+};
 
 __global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm) {
   let_next_start();
@@ -66,7 +87,7 @@ __global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm)
 // The next kernel may start only after the wait: then every later one finds the region, also before
 // its own wait.
 __global__ void __launch_bounds__(kThreads)
-    initial(const SwarmLayout swarm, const Generation now, const double sigma) {
+    initial(const SwarmLayout swarm, const Generation now, const StartSpread spread) {
   wait_for_previous();
   let_next_start();
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -77,8 +98,10 @@ __global__ void __launch_bounds__(kThreads)
     const std::int64_t d = at.dimension;
     double x = region.start[d];
     if (at.particle > 0) {
-      x = initial_position(x, sigma * region.spread[d], region.bounds(d), region.seed,
-                           static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(at.particle));
+      const auto number = static_cast<std::uint32_t>(at.particle);
+      const auto group = static_cast<std::uint32_t>(region.membership_of(d).group);
+      x = start_sample(x, region.spread[d] * spread.of_group(region.seed, group, number),
+                       region.bounds(d), region.seed, static_cast<std::uint32_t>(d), number);
     } else {
       now.best[d] = x;
     }
@@ -110,10 +133,11 @@ struct Mover {
   }
 
   __device__ void move(const SwarmLayout& swarm, const Generation& now,
-                       const Constriction& constriction, double swarm_best,
-                       const std::array<double, 4>& random, const Interval& bounds) const {
-    const Motion motion =
-        moved({x, v}, constriction, own_best, swarm_best, random[0], random[1], bounds);
+                       const Constriction& constriction, double swarm_best, const Draw& draw,
+                       const Interval& bounds) const {
+    const Motion motion = draw.anew ? placed_anew(swarm_best, draw.offset, bounds)
+                                    : moved({x, v}, constriction, own_best, swarm_best,
+                                            draw.uniform[0], draw.uniform[1], bounds);
     now.position[at.index] = motion.position;
     swarm.velocity[at.index] = motion.velocity;
   }
@@ -142,8 +166,8 @@ constexpr int kKept = 2048;
 // only after its own wait for that move (let_next_start()). It is there in the L2 cache, that is: a
 // multiprocessor's own may still hold what it read before. Only the costs are yet to come.
 __global__ void __launch_bounds__(kThreads)
-    move(const SwarmLayout swarm, const Generation before, const Generation now,
-         const Constriction constriction, const std::uint32_t generation) {
+    move(const SwarmLayout swarm, const Generation before, const Generation now, const Swarming how,
+         const std::uint32_t generation) {
   __shared__ double kept[kKept];
   let_next_start();
   const std::int64_t elements = swarm.particles * swarm.dimension;
@@ -160,7 +184,7 @@ __global__ void __launch_bounds__(kThreads)
       kept[k] = __ldcg(before.position + k);
     }
   }
-  const auto first_random = draw(region.seed, first, generation);
+  const Draw first_draw(region, first, how, generation);
   __syncthreads();
   wait_for_previous();
 
@@ -170,14 +194,14 @@ __global__ void __launch_bounds__(kThreads)
                            keep ? kept : before.position);
   if (i < elements) {
     mover.remember(swarm, now, cost);
-    mover.move(swarm, now, constriction, best.point[first.dimension], first_random, first_bounds);
+    mover.move(swarm, now, how.constriction, best.point[first.dimension], first_draw, first_bounds);
   }
   while ((i = next_element(i)) < elements) {
     const Element at(swarm, i);
     Mover other(swarm, before, at);
     other.remember(swarm, now, __ldcg(swarm.costs + at.particle));
-    other.move(swarm, now, constriction, best.point[at.dimension],
-               draw(region.seed, at, generation), region.bounds(at.dimension));
+    other.move(swarm, now, how.constriction, best.point[at.dimension],
+               Draw(region, at, how, generation), region.bounds(at.dimension));
   }
   if (blockIdx.x > 0) return;
   for (std::int64_t d = threadIdx.x; d < swarm.dimension; d += kThreads) {
@@ -228,15 +252,16 @@ void enqueue_region(const SwarmLayout& swarm, Stream stream) {
   launch(copy_region, 1, kThreads, 0, stream, false, swarm);
 }
 
-void enqueue_initial(const SwarmLayout& swarm, int most_blocks, double sigma, Stream stream) {
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartSpread& spread,
+                     Stream stream) {
   launch(initial, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm, swarm.generation(0),
-         sigma);
+         spread);
 }
 
-void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Constriction& constriction,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,
                   std::int64_t generation, Stream stream) {
   launch(move, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm,
-         swarm.generation(generation - 1), swarm.generation(generation), constriction,
+         swarm.generation(generation - 1), swarm.generation(generation), how,
          static_cast<std::uint32_t>(generation));
 }
 

@@ -6,12 +6,26 @@
 
 #include "constriction.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
+#include "particle.hpp"
 
 namespace hypotrack::cuda {
 
-/// What varies from frame to frame, as 8-byte words: the seed, then start, lower, upper and spread
-/// (D numbers each).
-constexpr std::int64_t region_words(std::int64_t dimension) { return 1 + 4 * dimension; }
+/// Where a dimension belongs.
+struct Membership {
+  std::int32_t group;
+  std::int32_t limb;  ///< -1: none
+};
+
+/// What varies from frame to frame, as 8-byte words: the seed, the number of limbs, then start,
+/// lower, upper, spread and membership (D each).
+constexpr std::int64_t region_words(std::int64_t dimension) { return 2 + 5 * dimension; }
+
+/// How particles move.
+struct Swarming {
+  Constriction constriction;
+  LimbReset reset;
+  double sigma;
+};
 
 /// What one generation leaves to the next. Two sets of buffers take turns: blocks of a kernel read
 /// all of the one while others already write the other.
@@ -48,10 +62,11 @@ int most_blocks();
 
 /// Enqueues the copying of `frame` to `region`.
 void enqueue_region(const SwarmLayout& swarm, Stream stream);
-/// Enqueues generation 0: the start and samples about it, sigma in spreads.
-void enqueue_initial(const SwarmLayout& swarm, int most_blocks, double sigma, Stream stream);
+/// Enqueues generation 0: the start and samples about it.
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartSpread& spread,
+                     Stream stream);
 /// Enqueues the move to generation `generation` >= 1, after the costs of the one before.
-void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Constriction& constriction,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,
                   std::int64_t generation, Stream stream);
 /// Enqueues the answer after the costs of the first `count` particles of generation `last`.
 void enqueue_answer(const SwarmLayout& swarm, std::int64_t last, std::int64_t count, Stream stream);

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <utility>
+#include <vector>
+
+#include "hypotrack/start_points.hpp"
+#include "limbs.hpp"
 
 namespace hypotrack::cuda {
 
@@ -32,11 +36,17 @@ SwarmLayout SwarmMemory::reserve(std::int64_t particles, std::int64_t dimension)
 }
 
 void SwarmMemory::write(const SearchRegion& region, std::uint64_t seed) {
+  const Limbs limbs(region);
+  const std::vector<int> groups = groups_or_dimensions(region);
   std::uint64_t* next = frame_.data();
   *next++ = seed;
+  *next++ = static_cast<std::uint64_t>(limbs.count);
   for (const auto* part : {&region.start, &region.lower, &region.upper, &region.spread}) {
     next = std::transform(part->begin(), part->end(), next,
                           [](double number) { return std::bit_cast<std::uint64_t>(number); });
+  }
+  for (std::size_t d = 0; d < groups.size(); ++d) {
+    *next++ = std::bit_cast<std::uint64_t>(Membership{groups[d], limbs.of_dimension[d]});
   }
 }
 

@@ -3,30 +3,27 @@
 #include <cstdint>
 
 #include "hypotrack/optimizer.hpp"
-#include "hypotrack/params.hpp"
+#include "hypotrack/start_points.hpp"
 
 namespace hypotrack {
 
 struct RandomSearchParams {
   int evaluations = 1024;
   int batch = 256;
-  double sigma = 0.5;
+  StartParams start;
   void visit(ParamVisitor& v) {
     v("evaluations", evaluations,
       {.help = "samples, the start included, where the scene names no budget",
        .min = 1,
        .max = 1 << 30});
     v("batch", batch, {.help = "samples evaluated together", .min = 1, .max = 1 << 20});
-    v("sigma", sigma,
-      {.help = "standard deviation of the samples, as a share of the search region's spread",
-       .min = 0,
-       .max = 10});
+    start.visit(v);
   }
 };
 
 /// The baseline that every optimizer must beat: the start, then normal samples about it with
-/// standard deviation sigma * spread, truncated at the bounds; the best is kept. Sample k draws
-/// RandomIndex{dimension, k, 0, 1}, the numbers of a swarm's initial particle k.
+/// standard deviation sigma * spread, truncated at the bounds; the best is kept. Sample k is a
+/// swarm's initial particle k.
 class RandomSearch : public Optimizer {
  public:
   explicit RandomSearch(const RandomSearchParams& params) : params_(params) {}

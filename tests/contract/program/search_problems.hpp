@@ -41,7 +41,8 @@ class RecordingCost final : public CostFunction {
 };
 
 /// A search region like a tracker's: three positions without bounds, four quaternion components
-/// within -1 .. 1, the rest angles with the start anywhere within anatomical bounds.
+/// within -1 .. 1, the rest angles with the start anywhere within anatomical bounds. The first
+/// seven dimensions are a pose, every further four a limb.
 inline SearchRegion tracking_region(int dimension) {
   SearchRegion region{Eigen::VectorXd(dimension), Eigen::VectorXd(dimension),
                       Eigen::VectorXd(dimension), Eigen::VectorXd(dimension)};
@@ -63,6 +64,11 @@ inline SearchRegion tracking_region(int dimension) {
       region.start[d] = -0.3 + 1.9 * u;
       region.spread[d] = 0.175;
     }
+    const bool pose = d < 7;
+    if (d == 0 || (!pose && (d - 7) % 4 == 0)) {
+      region.groups.push_back({pose ? SearchGroup::Kind::pose : SearchGroup::Kind::limb, {}});
+    }
+    region.groups.back().dimensions.push_back(d);
   }
   return region;
 }

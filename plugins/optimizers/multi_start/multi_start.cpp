@@ -1,0 +1,66 @@
+#include "multi_start.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Indices of the lowest costs, the lowest first; on equal ones the earlier.
+std::vector<Eigen::Index> lowest(const Eigen::VectorXd& costs, std::int64_t count) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(costs.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return costs[i]; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(count)));
+  return order;
+}
+
+}  // namespace
+
+MultiStart::MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
+                       const std::string& where)
+    : params_(params), optimizer_(std::move(optimizer)) {
+  if (params.candidates < params.starts) {
+    throw ConfigError(where + ": multi_start: starts is " + std::to_string(params.starts) +
+                      ", expected at most the " + std::to_string(params.candidates) +
+                      " candidates that they are the best of");
+  }
+}
+
+OptimizerResult MultiStart::minimize(CostFunction& cost, const SearchRegion& region,
+                                     const Budget& budget, std::uint64_t seed) {
+  check_search(cost, region, budget);
+  const Deadline deadline(budget.seconds);
+  const auto count = std::min<std::int64_t>(params_.candidates, budget.evaluations);
+  const Eigen::MatrixXd candidates = StartPoints(region, params_.around, seed).points(0, count);
+  Eigen::VectorXd costs(count);
+  cost.evaluate(candidates, costs);
+  BestSoFar first;
+  first.update(candidates, costs);
+  OptimizerResult best = first.result();
+
+  SearchRegion around = region;
+  around.spread *= params_.spread;
+  const std::vector<Eigen::Index> starts = lowest(costs, params_.starts);
+  for (std::size_t k = 0; k < starts.size() && !deadline.passed(); ++k) {
+    const auto searches = static_cast<std::int64_t>(starts.size() - k);
+    const std::int64_t left = budget.evaluations - best.evaluations;
+    const std::int64_t evaluations = std::min(left, std::max<std::int64_t>(1, left / searches));
+    if (evaluations == 0) break;
+    around.start = candidates.col(starts[k]);
+    const OptimizerResult found = optimizer_->minimize(
+        cost, around, {evaluations, deadline.left() / static_cast<double>(searches)},
+        seed_of_part(seed, static_cast<std::uint32_t>(k)));
+    const std::int64_t all = best.evaluations + found.evaluations;
+    if (found.cost < best.cost) best = found;
+    best.evaluations = all;
+  }
+  return best;
+}
+
+}  // namespace hypotrack

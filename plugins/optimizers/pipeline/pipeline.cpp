@@ -1,0 +1,66 @@
+#include "pipeline.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
+
+namespace hypotrack {
+
+Pipeline::Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
+                   const std::string& where)
+    : stages_(std::move(stages)), default_evaluations_(default_evaluations), where_(where) {
+  if (stages_.empty()) {
+    throw ConfigError(where_ +
+                      ": pipeline: there are no stages; expected a list like `stages: [{optimizer: "
+                      "{type: pso}, share: 0.6}, {optimizer: {type: nlopt}, share: 0.4}]`");
+  }
+}
+
+OptimizerResult Pipeline::run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
+                              const Budget& budget, std::uint64_t seed) {
+  const auto named = [&](const std::exception& error) {
+    return where_ + ": stage " + std::to_string(stage + 1) + " of " +
+           std::to_string(stages_.size()) + ", " + stages_[stage].name + ": " + error.what();
+  };
+  try {
+    return stages_[stage].optimizer->minimize(
+        cost, region, budget, seed_of_part(seed, static_cast<std::uint32_t>(stage)));
+  } catch (const ConfigError& error) {
+    throw ConfigError(named(error));
+  } catch (const DeviceError& error) {
+    throw DeviceError(named(error));
+  }
+}
+
+OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& region,
+                                   const Budget& budget, std::uint64_t seed) {
+  check_search(cost, region, budget);
+  const Deadline deadline(budget.seconds);
+  double shares = 0;
+  for (const PipelineStage& stage : stages_) shares += stage.share;
+
+  SearchRegion around = region;
+  OptimizerResult best;
+  for (std::size_t k = 0; k < stages_.size(); ++k) {
+    const std::int64_t left = budget.evaluations - best.evaluations;
+    if (left == 0 || (best.evaluations > 0 && deadline.passed())) break;
+    const double share = k + 1 < stages_.size() ? stages_[k].share / shares : 1;
+    shares -= stages_[k].share;
+    const auto evaluations =
+        std::min(left, static_cast<std::int64_t>(share * static_cast<double>(left)));
+    if (evaluations == 0) continue;
+
+    around.spread = stages_[k].spread * region.spread;
+    const OptimizerResult found =
+        run(k, cost, around, {evaluations, std::max(0.0, share * deadline.left())}, seed);
+    const std::int64_t all = best.evaluations + found.evaluations;
+    if (best.evaluations == 0 || found.cost < best.cost) best = found;
+    best.evaluations = all;
+    around.start = best.point;
+  }
+  return best;
+}
+
+}  // namespace hypotrack

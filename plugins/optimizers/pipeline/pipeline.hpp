@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hypotrack/optimizer.hpp"
+
+namespace hypotrack {
+
+/// One optimizer of several that take turns.
+struct PipelineStage {
+  std::string name;  ///< for messages
+  std::unique_ptr<Optimizer> optimizer;
+  double share = 1;   ///< of the budget, in proportion to the other stages'; > 0
+  double spread = 1;  ///< factor of the region's spread for this stage; > 0
+};
+
+/// Optimizers one after the other: the first searches from the region's start, each later one from
+/// the best point so far, within the same bounds.
+///
+/// A stage gets its share of what the stages before it left of the budget, evaluations (rounded
+/// down, the last stage all that is left) and seconds alike, so that what one does not use goes to
+/// those after it. A stage without an evaluation of its own is passed over. Each evaluates where it
+/// begins, so every later stage spends one evaluation on the best point so far. Stage k searches
+/// with seed_of_part(seed, k).
+class Pipeline : public Optimizer {
+ public:
+  /// Throws ConfigError, naming `where`, without stages.
+  Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
+           const std::string& where = "pipeline");
+
+  std::int64_t default_evaluations() const override { return default_evaluations_; }
+  /// A ConfigError or DeviceError of a stage names the stage.
+  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t seed) override;
+
+ private:
+  OptimizerResult run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
+                      const Budget& budget, std::uint64_t seed);
+
+  std::vector<PipelineStage> stages_;
+  std::int64_t default_evaluations_;
+  std::string where_;
+};
+
+}  // namespace hypotrack

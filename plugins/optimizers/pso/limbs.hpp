@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "hypotrack/optimizer.hpp"
+
+namespace hypotrack {
+
+/// The groups of a region that are limbs, numbered in their order.
+struct Limbs {
+  int count = 0;
+  std::vector<int> of_dimension;  ///< -1 where a dimension is in none
+
+  explicit Limbs(const SearchRegion& region)
+      : of_dimension(static_cast<std::size_t>(region.start.size()), -1) {
+    for (const SearchGroup& group : region.groups) {
+      if (group.kind != SearchGroup::Kind::limb) continue;
+      for (const int d : group.dimensions) of_dimension[static_cast<std::size_t>(d)] = count;
+      ++count;
+    }
+  }
+};
+
+}  // namespace hypotrack

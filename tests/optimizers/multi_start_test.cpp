@@ -1,0 +1,85 @@
+#include "multi_start.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
+#include "search_problems.hpp"
+
+namespace hypotrack {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// Evaluates its start as often as it may.
+class Staying final : public Optimizer {
+ public:
+  explicit Staying(std::vector<Eigen::VectorXd>& starts) : starts_(starts) {}
+  std::int64_t default_evaluations() const override { return 1; }
+  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t) override {
+    starts_.push_back(region.start);
+    BestSoFar best;
+    const Eigen::MatrixXd points = region.start.replicate(1, budget.evaluations);
+    Eigen::VectorXd costs(budget.evaluations);
+    cost.evaluate(points, costs);
+    best.update(points, costs);
+    return best.result();
+  }
+
+ private:
+  std::vector<Eigen::VectorXd>& starts_;
+};
+
+MultiStartParams three_of_twenty() {
+  MultiStartParams params;
+  params.starts = 3;
+  params.candidates = 20;
+  return params;
+}
+
+TEST(MultiStart, SearchesBeginAtTheBestCandidates) {
+  const SearchRegion region = test::tracking_region(27);
+  test::RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 5)));
+  std::vector<Eigen::VectorXd> starts;
+  MultiStart multi(three_of_twenty(), std::make_unique<Staying>(starts));
+  const OptimizerResult result = multi.minimize(cost, region, {50}, 1);
+
+  EXPECT_EQ(result.evaluations, 50);
+  EXPECT_THAT(cost.batches, ::testing::ElementsAre(20, 10, 10, 10));
+  std::vector<std::size_t> order(20);
+  for (std::size_t i = 0; i < 20; ++i) order[i] = i;
+  std::ranges::sort(order, {}, [&](std::size_t i) { return cost.costs[i]; });
+  ASSERT_EQ(starts.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(starts[k], cost.points[order[k]]) << k;
+  EXPECT_EQ(result.point, starts[0]);
+}
+
+TEST(MultiStart, ASmallBudgetSearchesFromAsManyStartsAsItCan) {
+  const SearchRegion region = test::tracking_region(27);
+  for (const std::int64_t budget : {1, 19, 20, 21, 22, 24}) {
+    test::RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 5)));
+    std::vector<Eigen::VectorXd> starts;
+    MultiStart multi(three_of_twenty(), std::make_unique<Staying>(starts));
+    EXPECT_EQ(multi.minimize(cost, region, {budget}, 1).evaluations, budget);
+    EXPECT_EQ(starts.size(), static_cast<std::size_t>(std::clamp<std::int64_t>(budget - 20, 0, 3)));
+  }
+}
+
+TEST(MultiStart, MoreStartsThanCandidatesAreAConfigError) {
+  MultiStartParams params = three_of_twenty();
+  params.starts = 21;
+  EXPECT_THAT(
+      [&] { MultiStart(params, nullptr, "scene.yaml:4:3"); },
+      ThrowsMessage<ConfigError>(HasSubstr(
+          "scene.yaml:4:3: multi_start: starts is 21, expected at most the 20 candidates")));
+}
+
+}  // namespace
+}  // namespace hypotrack

@@ -1,0 +1,191 @@
+#include "pipeline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
+#include "search_problems.hpp"
+
+namespace hypotrack {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// What a stage was asked.
+struct Call {
+  SearchRegion region;
+  Budget budget;
+  std::uint64_t seed = 0;
+};
+
+/// Steps from the start by a distance along dimension 0 and evaluates `uses` of its budget at most.
+class Stepper final : public Optimizer {
+ public:
+  Stepper(std::vector<Call>& calls, double step, std::int64_t uses = 1 << 20)
+      : calls_(calls), step_(step), uses_(uses) {}
+  std::int64_t default_evaluations() const override { return 1; }
+  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t seed) override {
+    calls_.push_back({region, budget, seed});
+    BestSoFar best;
+    Eigen::VectorXd point = region.start;
+    for (std::int64_t i = 0; i < std::min(uses_, budget.evaluations); ++i) {
+      Eigen::VectorXd value(1);
+      cost.evaluate(point, value);
+      best.update(point, value);
+      point[0] += step_;
+    }
+    return best.result();
+  }
+
+ private:
+  std::vector<Call>& calls_;
+  double step_;
+  std::int64_t uses_;
+};
+
+template <class E>
+class Failing final : public Optimizer {
+ public:
+  std::int64_t default_evaluations() const override { return 1; }
+  OptimizerResult minimize(CostFunction&, const SearchRegion&, const Budget&,
+                           std::uint64_t) override {
+    throw E("cannot do that");
+  }
+};
+
+SearchRegion line() {
+  return {Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, -100),
+          Eigen::VectorXd::Constant(1, 100), Eigen::VectorXd::Ones(1)};
+}
+
+test::RecordingCost away_from(double target) {
+  return {1, [target](const Eigen::VectorXd& x) { return std::abs(x[0] - target); }};
+}
+
+class PipelineTest : public ::testing::Test {
+ protected:
+  void add(std::string name, double step, double share, double spread = 1,
+           std::int64_t uses = 1 << 20) {
+    stages_.push_back(
+        {std::move(name), std::make_unique<Stepper>(calls_, step, uses), share, spread});
+  }
+  OptimizerResult minimize(CostFunction& cost, const Budget& budget, std::uint64_t seed = 7) {
+    return Pipeline(std::move(stages_), 100).minimize(cost, line(), budget, seed);
+  }
+  std::vector<std::int64_t> budgets() const {
+    std::vector<std::int64_t> budgets;
+    for (const Call& call : calls_) budgets.push_back(call.budget.evaluations);
+    return budgets;
+  }
+
+  std::vector<PipelineStage> stages_;
+  std::vector<Call> calls_;
+};
+
+TEST_F(PipelineTest, EachStageBeginsAtTheBestSoFarWithItsSpread) {
+  add("forwards", 1, 1);
+  add("backwards", -1, 1, 0.5);
+  add("again", 1, 2, 0.25);
+  test::RecordingCost cost = away_from(3);
+  const OptimizerResult result = minimize(cost, {40});
+  EXPECT_EQ(result.point[0], 3);
+  EXPECT_EQ(result.evaluations, 40);
+  ASSERT_EQ(calls_.size(), 3u);
+  EXPECT_EQ(calls_[0].region.start[0], 0);
+  EXPECT_EQ(calls_[1].region.start[0], 3);
+  EXPECT_EQ(calls_[2].region.start[0], 3);
+  EXPECT_EQ(calls_[1].region.spread[0], 0.5);
+  EXPECT_EQ(calls_[2].region.spread[0], 0.25) << "of the region's, not of the stage before";
+  EXPECT_EQ(calls_[2].region.upper, line().upper);
+}
+
+TEST_F(PipelineTest, SharesOfTheBudgetAddUpToAllOfIt) {
+  add("a", 0, 3);
+  add("b", 0, 2);
+  add("c", 0, 2);
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {101}).evaluations, 101);
+  EXPECT_THAT(budgets(), ElementsAre(43, 29, 29));
+}
+
+TEST_F(PipelineTest, WhatAStageLeavesGoesToThoseAfterIt) {
+  add("a", 0, 1, 1, 10);
+  add("b", 0, 1);
+  add("c", 0, 1);
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {90}).evaluations, 90);
+  EXPECT_THAT(budgets(), ElementsAre(30, 40, 40));
+}
+
+TEST_F(PipelineTest, StagesWithoutAnEvaluationArePassedOver) {
+  add("a", 0, 0.4);
+  add("b", 0, 0.6);
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {1}).evaluations, 1);
+  EXPECT_THAT(budgets(), ElementsAre(1));
+}
+
+TEST_F(PipelineTest, StagesHaveSeedsOfTheirOwn) {
+  add("a", 0, 1);
+  add("b", 0, 1);
+  test::RecordingCost cost = away_from(3);
+  minimize(cost, {10}, 7);
+  EXPECT_EQ(calls_[0].seed, seed_of_part(7, 0));
+  EXPECT_EQ(calls_[1].seed, seed_of_part(7, 1));
+}
+
+TEST_F(PipelineTest, ABudgetOfTimeIsSharedToo) {
+  add("a", 0, 1);
+  add("b", 0, 3);
+  test::RecordingCost cost = away_from(3);
+  minimize(cost, {10, 1000.0});
+  EXPECT_NEAR(calls_[0].budget.seconds, 250, 10);
+  EXPECT_NEAR(calls_[1].budget.seconds, 1000, 10);
+}
+
+TEST_F(PipelineTest, AnErrorOfAStageNamesIt) {
+  add("pso", 0, 1);
+  stages_.push_back({"levenberg_marquardt", std::make_unique<Failing<ConfigError>>(), 1, 1});
+  Pipeline config(std::move(stages_), 100, "scene.yaml:9:3");
+  test::RecordingCost cost = away_from(3);
+  EXPECT_THAT(
+      [&] { config.minimize(cost, line(), {10}, 1); },
+      ThrowsMessage<ConfigError>("scene.yaml:9:3: stage 2 of 2, levenberg_marquardt: cannot do "
+                                 "that"));
+
+  std::vector<PipelineStage> device;
+  device.push_back({"pso_cuda", std::make_unique<Failing<DeviceError>>(), 1, 1});
+  Pipeline on_device(std::move(device), 100);
+  EXPECT_THAT([&] { on_device.minimize(cost, line(), {10}, 1); },
+              ThrowsMessage<DeviceError>(HasSubstr("stage 1 of 1, pso_cuda: cannot do that")));
+}
+
+TEST_F(PipelineTest, WithoutStagesItIsAConfigError) {
+  EXPECT_THAT(
+      [] { Pipeline({}, 100, "scene.yaml:9:3"); },
+      ThrowsMessage<ConfigError>(HasSubstr("scene.yaml:9:3: pipeline: there are no stages")));
+}
+
+TEST_F(PipelineTest, PipelinesNest) {
+  add("inner a", 1, 1);
+  add("inner b", -1, 1);
+  auto inner = std::make_unique<Pipeline>(std::move(stages_), 100);
+  stages_.clear();
+  stages_.push_back({"pipeline", std::move(inner), 1, 0.5});
+  add("outer", 1, 1);
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {80}).evaluations, 80);
+  EXPECT_THAT(budgets(), ElementsAre(20, 20, 40));
+  EXPECT_EQ(calls_[1].region.spread[0], 0.5);
+  EXPECT_EQ(calls_[2].region.start[0], 3);
+}
+
+}  // namespace
+}  // namespace hypotrack
