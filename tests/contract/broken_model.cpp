@@ -4,6 +4,7 @@
 
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/shape.hpp"
 
 namespace hypotrack {
 namespace {
@@ -18,10 +19,13 @@ enum class Fault {
   ignores_position,
   ignores_rotation,
   moves_on_its_own,
+  dead_shape,
+  drops_triangles,
 };
-constexpr std::array<std::string_view, 9> kFaults = {
-    "none",           "millimetres",      "two_of_one_name",  "no_landmarks",    "dead_angle",
-    "never_the_same", "ignores_position", "ignores_rotation", "moves_on_its_own"};
+constexpr std::array<std::string_view, 11> kFaults = {
+    "none",           "millimetres",      "two_of_one_name",  "no_landmarks",     "dead_angle",
+    "never_the_same", "ignores_position", "ignores_rotation", "moves_on_its_own", "dead_shape",
+    "drops_triangles"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 Mesh tetrahedron(float size) {
@@ -68,6 +72,17 @@ class Broken final : public Model {
   explicit Broken(const Params& params) : Model(make_data(params.fault)), params_(params) {}
 
   bool poses_itself() const override { return params_.poses_itself; }
+
+  std::vector<ShapeParameter> shape_parameters() const override {
+    return {{.name = "size", .lower = 0.5, .upper = 2, .deviation = 0.1}};
+  }
+  ModelData shaped(std::span<const double> values) const override {
+    ModelData other = data();
+    if (params_.fault != Fault::dead_shape) scale_model(other, values[0]);
+    if (params_.fault == Fault::drops_triangles && values[0] != 1)
+      other.mesh.triangles.conservativeResize(3, 3);
+    return other;
+  }
 
   void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
             Eigen::Matrix3Xd& landmarks) const override {

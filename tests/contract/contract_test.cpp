@@ -130,7 +130,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"model", "ignores_rotation", "its rotation turns it rigidly about its origin",
              "metres from where", kItself},
         Case{"model", "moves_on_its_own", "it poses itself the same from several threads",
-             "four threads posing at once differ from one", kItself}),
+             "four threads posing at once differ from one", kItself},
+        Case{"model", "dead_shape", "its shape parameters build it",
+             "the shape parameter 'size' changes nothing"},
+        Case{"model", "drops_triangles", "its shape parameters build it",
+             "another shape has other triangles"}),
     [](const auto& each) { return each.param.fault; });
 
 INSTANTIATE_TEST_SUITE_P(

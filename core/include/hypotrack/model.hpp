@@ -61,6 +61,17 @@ struct Landmark {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< in the bone's frame, metres
 };
 
+/// One number that says how the individual is built that a model stands for: a size, the length of
+/// a finger. It belongs to the model, not to the state.
+struct ShapeParameter {
+  std::string name;
+  double value = 1;    ///< that the model is built with
+  double neutral = 1;  ///< of the model as its files have it
+  double lower = 1;    ///< bounds; `value` and `neutral` lie within
+  double upper = 1;
+  double deviation = 1;  ///< standard deviation among individuals, > 0; what is known beforehand
+};
+
 /// Everything that makes a model. A rigid object is a skeleton of one bone.
 struct ModelData {
   Mesh mesh;
@@ -101,6 +112,15 @@ class HYPOTRACK_API Model {
   /// Vertices (3xV) and landmarks (3xL) in the world, metres, for one parameter vector.
   virtual void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
                     Eigen::Matrix3Xd& landmarks) const;
+
+  /// The numbers that build another individual of this kind; empty: there is only this one. A model
+  /// plugin that has some reads them with ShapeSettings (shape.hpp), so that scenes can give what
+  /// `hypotrack fit-shape` has found.
+  virtual std::vector<ShapeParameter> shape_parameters() const { return {}; }
+  /// What data() would be with other values of shape_parameters(), in their order and within their
+  /// bounds. Bones, parameters, landmarks, triangles and weights stay; places and lengths change.
+  /// Throws Error if there are none, or another number of values.
+  virtual ModelData shaped(std::span<const double> values) const;
 
  private:
   ModelData data_;

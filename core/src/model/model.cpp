@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "hypotrack/error.hpp"
 #include "model/posing.hpp"
 
 namespace hypotrack {
@@ -18,6 +19,11 @@ void Model::pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
   const auto bones = world_from_bones(data_, parameters);
   vertices = skin(data_, bones);
   landmarks = place_landmarks(data_, bones);
+}
+
+ModelData Model::shaped(std::span<const double> values) const {
+  if (!values.empty()) throw Error("model: it has no shape parameters, but a shape was given");
+  return data_;
 }
 
 std::vector<Parameter> pose_parameters() {

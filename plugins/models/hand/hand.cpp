@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "finger_scale.hpp"
+#include "hand_shape.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/shape.hpp"
 #include "names.hpp"
 #include "rig.hpp"
 
@@ -23,6 +26,7 @@ struct HandParams {
   std::filesystem::path rig;
   double scale = 1;
   std::vector<double> finger_scale;
+  ShapeSettings shape;
   std::filesystem::path texture;
   std::optional<double> cut;
 
@@ -35,6 +39,7 @@ struct HandParams {
                "little",
        .min = 0.5,
        .max = 2});
+    shape.visit(v);
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
     v("cut_mm", cut,
       {.help = "cuts the arm off this far proximal of the wrist; default: the rig's",
@@ -87,7 +92,7 @@ void check_size(const ModelData& data, const std::string& where) {
   }
 }
 
-ModelData make_hand(const HandParams& params, const ConfigNode& config) {
+ModelData neutral_hand(const HandParams& params, const ConfigNode& config) {
   const std::filesystem::path rig_file = find_rig(params, config);
   Rig rig = read_rig(rig_file);
   rig.scale *= params.scale;
@@ -98,15 +103,38 @@ ModelData make_hand(const HandParams& params, const ConfigNode& config) {
   const std::string where = fmt::format("{} (for {})", rig_file.string(), mesh.filename().string());
   const ImportedMesh imported = import_mesh(mesh, {.scale = rig.scale, .texture = params.texture});
   ModelData data = rig_hand(imported, rig, where);
-  scale_fingers(data, params.finger_scale, config.where());
+  build(data, {.lengths = finger_lengths(params.finger_scale, config.where())});
   check_size(data, where);
   return data;
+}
+
+ModelData shaped_hand(ModelData neutral, std::span<const double> shape) {
+  build(neutral, hand_shape(shape));
+  return neutral;
 }
 
 class Hand : public Model {
  public:
   using Params = HandParams;
-  Hand(const Params& params, PluginContext& context) : Model(make_hand(params, context.config())) {}
+  Hand(const Params& params, PluginContext& context)
+      : Hand(neutral_hand(params, context.config()),
+             read_shape(params.shape, hand_shape_parameters())) {}
+
+  std::vector<ShapeParameter> shape_parameters() const override {
+    std::vector<ShapeParameter> parameters = hand_shape_parameters();
+    for (std::size_t i = 0; i < parameters.size(); ++i) parameters[i].value = shape_[i];
+    return parameters;
+  }
+  ModelData shaped(std::span<const double> values) const override {
+    return shaped_hand(neutral_, values);
+  }
+
+ private:
+  Hand(const ModelData& neutral, std::vector<double> shape)
+      : Model(shaped_hand(neutral, shape)), neutral_(neutral), shape_(std::move(shape)) {}
+
+  ModelData neutral_;
+  std::vector<double> shape_;
 };
 
 }  // namespace

@@ -9,10 +9,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/mesh_io.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/shape.hpp"
 
 namespace hypotrack {
 namespace {
@@ -47,6 +49,7 @@ struct RigidMeshParams {
   std::filesystem::path texture;
   Origin origin = Origin::center;
   std::vector<Anchor> anchors;
+  ShapeSettings shape;
 
   void visit(ParamVisitor& v) {
     v("mesh", mesh, {.help = "OBJ, STL, glTF or GLB file", .required = true});
@@ -55,6 +58,7 @@ struct RigidMeshParams {
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});
     v("origin", origin, {.help = "the model's origin: centre of its bounding box, or the file's"});
     v("anchors", anchors, {.help = "points for the error; default: three of the bounding box"});
+    shape.visit(v);
   }
 };
 
@@ -92,10 +96,41 @@ ModelData make_object(const RigidMeshParams& params) {
   return rigid_model(std::move(imported.mesh), std::move(landmarks));
 }
 
+/// Objects have no anthropometry: a file's scale may well be off by a tenth.
+const std::vector<ShapeParameter>& size_parameters() {
+  static const std::vector<ShapeParameter> parameters = {{"scale", 1, 1, 0.5, 2, 0.1}};
+  return parameters;
+}
+
+ModelData scaled(ModelData neutral, std::span<const double> values) {
+  if (values.size() != 1) {
+    throw Error(fmt::format("rigid_mesh: a shape has {} numbers, expected 1", values.size()));
+  }
+  if (values[0] != 1) scale_model(neutral, values[0]);
+  return neutral;
+}
+
 class RigidMesh : public Model {
  public:
   using Params = RigidMeshParams;
-  explicit RigidMesh(const Params& params) : Model(make_object(params)) {}
+  explicit RigidMesh(const Params& params)
+      : RigidMesh(make_object(params), read_shape(params.shape, size_parameters())) {}
+
+  std::vector<ShapeParameter> shape_parameters() const override {
+    std::vector<ShapeParameter> parameters = size_parameters();
+    parameters[0].value = shape_[0];
+    return parameters;
+  }
+  ModelData shaped(std::span<const double> values) const override {
+    return scaled(neutral_, values);
+  }
+
+ private:
+  RigidMesh(const ModelData& neutral, std::vector<double> shape)
+      : Model(scaled(neutral, shape)), neutral_(neutral), shape_(std::move(shape)) {}
+
+  ModelData neutral_;
+  std::vector<double> shape_;
 };
 
 }  // namespace

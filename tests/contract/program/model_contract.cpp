@@ -2,6 +2,9 @@
 #include <cmath>
 #include <future>
 #include <random>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "hypotrack/kinematics.hpp"
 #include "subject.hpp"
@@ -144,6 +147,62 @@ void check_self_posing(const Model& model) {
   }
 }
 
+template <class Matrix>
+bool same(const Matrix& a, const Matrix& b) {
+  return a.cols() == b.cols() && a == b;
+}
+
+std::vector<double> values_of(const std::vector<ShapeParameter>& shape) {
+  std::vector<double> values;
+  for (const ShapeParameter& p : shape) values.push_back(p.value);
+  return values;
+}
+
+void check_shape_parameters(const std::vector<ShapeParameter>& shape) {
+  std::set<std::string> names;
+  for (const ShapeParameter& p : shape) {
+    require(!p.name.empty() && names.insert(p.name).second,
+            "a shape parameter has no name or that of another: '" + p.name + "'");
+    require(p.lower < p.upper && p.lower <= p.neutral && p.neutral <= p.upper &&
+                p.lower <= p.value && p.value <= p.upper && p.deviation > 0 &&
+                std::isfinite(p.lower + p.upper + p.deviation),
+            "the shape parameter '" + p.name +
+                "' must have finite bounds, values within them and a positive deviation");
+  }
+}
+
+void check_shapes(const Model& model) {
+  const std::vector<ShapeParameter> shape = model.shape_parameters();
+  if (shape.empty()) throw Skipped("it has one shape only");
+  check_shape_parameters(shape);
+  const ModelData& own = model.data();
+  const Posed as_it_is = pose(model, rest(model));
+  const auto built = [&](const std::vector<double>& values) {
+    ModelData data = model.shaped(values);
+    validate(data, "its shape");
+    require(same(data.mesh.triangles, own.mesh.triangles) &&
+                same(data.mesh.bone_indices, own.mesh.bone_indices) &&
+                data.bones.size() == own.bones.size() &&
+                data.parameters.size() == own.parameters.size() &&
+                data.landmarks.size() == own.landmarks.size(),
+            "another shape has other triangles, bones, parameters or landmarks");
+    const Model other(std::move(data));
+    return pose(other, rest(other));
+  };
+  if (!model.poses_itself())
+    require(distance(built(values_of(shape)), as_it_is) < kTolerance,
+            "built with the values that it has it is not what it is");
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    for (const double bound : {shape[i].lower, shape[i].upper}) {
+      if (bound == shape[i].value) continue;
+      std::vector<double> values = values_of(shape);
+      values[i] = bound;
+      require(distance(built(values), as_it_is) > kTolerance,
+              "the shape parameter '" + shape[i].name + "' changes nothing");
+    }
+  }
+}
+
 }  // namespace
 
 void check_model(Report& report, const Subject& subject) {
@@ -159,6 +218,7 @@ void check_model(Report& report, const Subject& subject) {
   report.row("its position moves it rigidly", [&] { check_translation(*model); });
   report.row("its rotation turns it rigidly about its origin", [&] { check_rotation(*model); });
   report.row("every angle moves something", [&] { check_angles_matter(*model); });
+  report.row("its shape parameters build it", [&] { check_shapes(*model); });
   report.row("it poses itself the same from several threads", [&] { check_self_posing(*model); });
   report.row("a second object is the same", [&] {
     const auto second = subject.make<Model>();
