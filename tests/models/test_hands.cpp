@@ -47,6 +47,21 @@ TEST_P(RiggedHand, HasThePapersParametersAndOurLandmarks) {
   EXPECT_TRUE(at("wrist").isZero(1e-9));
 }
 
+TEST_P(RiggedHand, MovesAsAPoseAndFiveFingers) {
+  const auto groups = parameter_groups(model_->data());
+  ASSERT_EQ(groups.size(), 6u);
+  EXPECT_EQ(groups[0].size(), 7u);
+  for (std::size_t g = 1; g < 6; ++g) {
+    ASSERT_EQ(groups[g].size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::string& name =
+          model_->data().parameters[static_cast<std::size_t>(groups[g][i])].name;
+      EXPECT_EQ(groups[g][i], static_cast<int>(3 + 4 * g + i));
+      EXPECT_TRUE(name.starts_with(g == 1 ? "thumb" : kFingers[g - 2])) << name;
+    }
+  }
+}
+
 TEST_P(RiggedHand, ZeroIsAFlatStraightHandAlongY) {
   for (const std::string& finger : kFingers) {
     const Vector3d mcp = at(finger + "_mcp");
