@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "cuda/device.hpp"
-#include "cuda/device_scene.hpp"
-#include "cuda/frame_layout.hpp"
+#include "cuda/frame_on_device.hpp"
 #include "cuda/gl_interop.hpp"
-#include "cuda/tile_upload.hpp"
+#include "cuda/host_batch.hpp"
 #include "evaluate/egl_drawer.hpp"
 #include "hypotrack/error.hpp"
 #include "render/egl_context.hpp"
@@ -24,46 +21,27 @@ class EglCudaEvaluation final : public Evaluation {
  public:
   EglCudaEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                     const EvaluateSettings& settings, std::unique_ptr<EglDrawer> drawer)
-      : device_(settings.device), scene_(scene), terms_(terms), drawer_(std::move(drawer)) {
-    for (const ObjectiveTerm& term : terms_) {
-      objectives_.push_back(term.objective->on_device());
-    }
-    frame_.reserve(1);
-    frame_staging_.reserve(1);
-  }
-
-  ~EglCudaEvaluation() override { cudaStreamSynchronize(native(stream())); }
+      : frame_(scene, terms, settings), drawer_(std::move(drawer)) {}
+  ~EglCudaEvaluation() override { cudaStreamSynchronize(native(frame_.stream())); }
 
   using Evaluation::prepare;
   void prepare(const Observation& observation) override {
-    device_.use();
-    synchronize("waiting for the frame before");
+    frame_.finish();
     drawer_->prepare(observation);
-    *frame_staging_.data() = frame_layout(observation);
-    copy(frame_.data(), frame_staging_.data(), 1, cudaMemcpyHostToDevice);
-    DeviceObservation uploaded = upload_.upload(observation, stream());
-    uploaded.header = &observation;
-    uploaded.frame = frame_.data();
-    uploaded.pair = frame_staging_.data()->pair != 0;
-    for (const auto& objective : objectives_) objective->prepare(uploaded, stream());
+    frame_.prepare(observation);
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     if (states.cols() == 0) return;
-    device_.use();
-    const Eigen::Index batch = std::min(states.cols(), largest_batch());
-    reserve(states, batch);
-    const auto size = static_cast<std::size_t>(states.size());
-    std::copy_n(states.data(), size, points_staging_.data());
-    copy(points_.data(), points_staging_.data(), size, cudaMemcpyHostToDevice);
-    for (Eigen::Index first = 0; first < states.cols(); first += batch) {
-      draw_and_score(states, first, std::min(batch, states.cols() - first));
-      synchronize("scoring hypotheses");
+    frame_.device().use();
+    const Eigen::Index layers = std::min(states.cols(), largest_batch());
+    reserve(layers);
+    batch_.upload(states, frame_.stream());
+    for (Eigen::Index first = 0; first < states.cols(); first += layers) {
+      draw_and_score(states, first, std::min(layers, states.cols() - first));
+      check(cudaStreamSynchronize(native(frame_.stream())), "scoring hypotheses");
     }
-    for (Eigen::Index i = 0; i < states.cols(); ++i) {
-      costs[i] = costs_staging_.data()[i];
-      if (std::isnan(costs[i])) refuse_cost(terms_.front(), i, "(or one after it) returned NaN");
-    }
+    batch_.read(costs, frame_.terms());
   }
 
   std::string description() const override {
@@ -71,17 +49,6 @@ class EglCudaEvaluation final : public Evaluation {
   }
 
  private:
-  Stream stream() const { return device_.stream(); }
-
-  void synchronize(const char* doing) const {
-    check(cudaStreamSynchronize(native(stream())), doing);
-  }
-
-  template <class T>
-  void copy(T* to, const T* from, std::size_t count, cudaMemcpyKind kind) const {
-    check(cudaMemcpyAsync(to, from, count * sizeof(T), kind, native(stream())), "copying");
-  }
-
   Eigen::Index largest_batch() const {
     const LayerSize one = drawer_->layers_for(1);
     const std::int64_t bytes = std::int64_t{4} * one.width * one.height * one.layers;
@@ -89,16 +56,9 @@ class EglCudaEvaluation final : public Evaluation {
                                     drawer_->largest_batch());
   }
 
-  void reserve(const Eigen::MatrixXd& states, Eigen::Index batch) {
-    points_.reserve(static_cast<std::size_t>(states.size()));
-    points_staging_.reserve(static_cast<std::size_t>(states.size()));
-    costs_.reserve(static_cast<std::size_t>(states.cols()));
-    costs_staging_.reserve(static_cast<std::size_t>(states.cols()));
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].weight == 0) continue;
-      objectives_[i]->reserve(scene_.layout(), device_.limits(), batch);
-    }
-    const LayerSize size = drawer_->layers_for(batch);
+  void reserve(Eigen::Index hypotheses) {
+    frame_.reserve(hypotheses);
+    const LayerSize size = drawer_->layers_for(hypotheses);
     if (layers_ && layers_->layers().holds(size)) return;
     layers_.reset();
     layers_ = std::make_unique<SharedLayers>(drawer_->context(), size);
@@ -107,33 +67,16 @@ class EglCudaEvaluation final : public Evaluation {
   void draw_and_score(const Eigen::MatrixXd& states, Eigen::Index first, Eigen::Index count) {
     const gl::CurrentContext current(drawer_->context());
     drawer_->draw(states.middleCols(first, count), layers_->layers());
-    const MappedLayers drawn(*layers_, stream());
-    enqueue(states.cols(), {drawn.texture(), static_cast<int>(first), static_cast<int>(count)});
-    copy(costs_staging_.data() + first, costs_.data() + first, static_cast<std::size_t>(count),
-         cudaMemcpyDeviceToHost);
+    const MappedLayers drawn(*layers_, frame_.stream());
+    frame_.enqueue_drawn(batch_.layout(),
+                         {drawn.texture(), static_cast<int>(first), static_cast<int>(count)});
+    batch_.download(first, count, frame_.stream());
   }
 
-  void enqueue(Eigen::Index all, const DrawnBatch& drawn) {
-    BatchLayout batch{points_.data(), all, costs_.data(), 0, nullptr, false};
-    for (std::size_t i = 0; i < terms_.size(); ++i) {
-      if (terms_[i].weight == 0) continue;
-      batch.weight = terms_[i].weight;
-      objectives_[i]->enqueue_drawn(scene_.layout(), batch, drawn, stream());
-      batch.add = true;
-    }
-  }
-
-  Device device_;
-  DeviceScene scene_;
-  std::vector<ObjectiveTerm> terms_;
-  std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
+  FrameOnDevice frame_;
+  HostBatch batch_;
   std::unique_ptr<EglDrawer> drawer_;
   std::unique_ptr<const SharedLayers> layers_;  // of the drawer's context
-  TileUpload upload_;
-  DeviceBuffer<FrameLayout> frame_;
-  PinnedBuffer<FrameLayout> frame_staging_;
-  DeviceBuffer<double> points_, costs_;
-  PinnedBuffer<double> points_staging_, costs_staging_;
 };
 
 bool looks_at_pictures(const ObjectiveTerm& term) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cuda/transfer.hpp"
+
 namespace hypotrack::cuda {
 namespace {
 
@@ -15,13 +17,6 @@ std::uint32_t packed(const TileView& view, int y, int x) {
   const auto& bgr = view.color.at<cv::Vec3b>(y, x);
   return word | bgr[0] | static_cast<std::uint32_t>(bgr[1]) << 8 |
          static_cast<std::uint32_t>(bgr[2]) << 16;
-}
-
-template <class T>
-void copy(DeviceBuffer<T>& to, const PinnedBuffer<T>& from, std::size_t count, Stream stream) {
-  check(cudaMemcpyAsync(to.data(), from.data(), count * sizeof(T), cudaMemcpyHostToDevice,
-                        native(stream)),
-        "uploading a tile");
 }
 
 }  // namespace
@@ -40,7 +35,7 @@ DeviceObservation TileUpload::upload(const Observation& observation, Stream stre
         to.pixels_staging.data()[y * width + x] = packed(from, y, x);
       }
     }
-    copy(to.pixels, to.pixels_staging, size, stream);
+    to_device(to.pixels, to.pixels_staging, size, stream);
     DeviceTile& tile = out.tiles[i];
     tile.layout = {width, height, to.pixels.data(), nullptr};
     tile.has_color = !from.color.empty();
@@ -51,7 +46,7 @@ DeviceObservation TileUpload::upload(const Observation& observation, Stream stre
     for (int y = 0; y < height; ++y) {
       std::copy_n(from.depth.ptr<float>(y), width, to.depth_staging.data() + y * width);
     }
-    copy(to.depth, to.depth_staging, size, stream);
+    to_device(to.depth, to.depth_staging, size, stream);
     tile.layout.depth = to.depth.data();
   }
   return out;

@@ -1,0 +1,76 @@
+#include "cuda/frame_on_device.hpp"
+
+#include "cuda/frame_layout.hpp"
+#include "cuda/reserve_batch.hpp"
+#include "cuda/transfer.hpp"
+
+namespace hypotrack::cuda {
+
+FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                             const EvaluateSettings& settings)
+    : device_(settings.device), scene_(scene), terms_(terms), layout_(1), staging_(1) {
+  for (const ObjectiveTerm& term : terms_) objectives_.push_back(term.objective->on_device());
+}
+
+FrameOnDevice::~FrameOnDevice() { cudaStreamSynchronize(native(stream())); }
+
+void FrameOnDevice::finish() {
+  device_.use();
+  check(cudaStreamSynchronize(native(stream())), "finishing the frame before");
+}
+
+void FrameOnDevice::prepare(const Observation& observation) {
+  prepare(upload_.upload(observation, stream()), observation);
+}
+
+void FrameOnDevice::prepare(DeviceObservation tiles, const Observation& header) {
+  *staging_.data() = frame_layout(header);
+  to_device(layout_, staging_, 1, stream());
+  observation_ = tiles;
+  observation_.header = &header;
+  observation_.frame = layout_.data();
+  observation_.pair = staging_.data()->pair != 0;
+  for (const auto& objective : objectives_) objective->prepare(observation_, stream());
+}
+
+void FrameOnDevice::reserve(std::int64_t count) {
+  reserve_batch(count, [&](std::int64_t hypotheses) {
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].weight == 0) continue;
+      objectives_[i]->reserve(scene_.layout(), device_.limits(), hypotheses);
+    }
+  });
+}
+
+template <class Enqueue>
+void FrameOnDevice::add_up(BatchLayout& batch, const Enqueue& enqueue) {
+  batch.add = false;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight == 0) continue;
+    batch.weight = terms_[i].weight;
+    enqueue(*objectives_[i]);
+    batch.add = true;
+  }
+}
+
+void FrameOnDevice::enqueue(BatchLayout batch) {
+  add_up(batch,
+         [&](DeviceObjective& objective) { objective.enqueue(scene_.layout(), batch, stream()); });
+  if (batch.add) return;
+  const auto bytes = static_cast<std::size_t>(batch.count) * sizeof(double);
+  check(cudaMemsetAsync(batch.costs, 0, bytes, native(stream())), "clearing costs");
+}
+
+void FrameOnDevice::enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn) {
+  add_up(batch, [&](DeviceObjective& objective) {
+    objective.enqueue_drawn(scene_.layout(), batch, drawn, stream());
+  });
+}
+
+std::uint64_t FrameOnDevice::revision() const {
+  std::uint64_t sum = 0;  // of numbers that only grow
+  for (const auto& objective : objectives_) sum += objective->revision();
+  return sum;
+}
+
+}  // namespace hypotrack::cuda

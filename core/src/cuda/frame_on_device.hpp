@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "cuda/device.hpp"
+#include "cuda/device_scene.hpp"
+#include "cuda/tile_upload.hpp"
+#include "evaluate/evaluator.hpp"
+#include "hypotrack/cuda/runtime.cuh"
+
+namespace hypotrack::cuda {
+
+/// A frame on the GPU and the terms that score hypotheses of it, all on one stream.
+class FrameOnDevice {
+ public:
+  /// All terms have a device part. Throws DeviceError if the GPU or the scene cannot be used.
+  FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                const EvaluateSettings& settings);
+  ~FrameOnDevice();
+  FrameOnDevice(const FrameOnDevice&) = delete;
+  FrameOnDevice& operator=(const FrameOnDevice&) = delete;
+
+  const Device& device() const { return device_; }
+  Stream stream() const { return device_.stream(); }
+  const std::vector<ObjectiveTerm>& terms() const { return terms_; }
+
+  /// Makes the GPU the calling thread's and waits for the frame before: its uploads may still read
+  /// staging memory if it was never searched, or if an error ended that.
+  void finish();
+
+  /// Takes a frame in whose tiles the CPU cut; finish() comes first.
+  void prepare(const Observation& observation);
+  /// The same for tiles that are on the GPU already; `header` has the rest of the frame.
+  void prepare(DeviceObservation tiles, const Observation& header);
+
+  /// Makes room for batches of `count` hypotheses. Throws DeviceError, saying how many there is
+  /// room for, if there is too little memory.
+  void reserve(std::int64_t count);
+
+  /// Enqueues all terms for a batch; `batch.weight` and `batch.add` are set here.
+  void enqueue(BatchLayout batch);
+  /// The same for hypotheses that are drawn already.
+  void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
+
+  /// Grows whenever a term's does.
+  std::uint64_t revision() const;
+
+ private:
+  template <class Enqueue>
+  void add_up(BatchLayout& batch, const Enqueue& enqueue);
+
+  Device device_;
+  DeviceScene scene_;
+  std::vector<ObjectiveTerm> terms_;
+  std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
+  TileUpload upload_;
+  DeviceObservation observation_;
+  DeviceBuffer<FrameLayout> layout_;
+  PinnedBuffer<FrameLayout> staging_;
+};
+
+}  // namespace hypotrack::cuda
