@@ -7,29 +7,21 @@
 
 #include "evaluate/mesh_topology.hpp"
 #include "evaluate/vertex_order.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "hypotrack/skeleton.hpp"
 
 namespace hypotrack::cuda {
 namespace {
 
-/// A scene's models one after the other, on the host.
-struct HostScene {
-  std::vector<ModelLayout> models;
-  std::vector<BoneLayout> bones;
-  std::vector<Turn> turns;
+/// The surfaces of a scene's models one after the other, on the host.
+struct HostSurface {
+  std::size_t bones = 0;
   std::vector<VertexLayout> vertices;
   std::vector<PackedTriangle> triangles;
 
-  void add(const Scene::Item& item);
-  void add_bones(const Scene::Item& item);
+  void add(const ModelData& data);
   void add_vertices(const Mesh& mesh, const std::vector<int>& order, std::size_t first_bone);
   void add_triangles(const Mesh& mesh, const std::vector<int>& order, std::size_t first_vertex);
 };
-
-void store(const Eigen::Isometry3d& transform, float* matrix) {
-  Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> out(matrix);
-  out = transform.matrix().topRows<3>().cast<float>();
-}
 
 /// By the number of their bones, the largest first; among equals neighbours share bones.
 std::vector<int> order_by_work(const Mesh& mesh) {
@@ -39,39 +31,12 @@ std::vector<int> order_by_work(const Mesh& mesh) {
   return order;
 }
 
-void HostScene::add(const Scene::Item& item) {
-  const std::size_t first_bone = bones.size(), first_vertex = vertices.size();
-  const Mesh& mesh = item.model->data().mesh;
-  const std::vector<int> order = order_by_work(mesh);
-  add_bones(item);
-  add_vertices(mesh, order, first_bone);
-  add_triangles(mesh, order, first_vertex);
-  models.push_back({item.offset, item.model->dimension()});
-}
-
-void HostScene::add_bones(const Scene::Item& item) {
-  const ModelData& data = item.model->data();
-  const auto bind = bind_transforms(data);
-  const auto first = static_cast<int>(bones.size());
-  for (std::size_t b = 0; b < data.bones.size(); ++b) {
-    const Bone& bone = data.bones[b];
-    BoneLayout out{};
-    out.parent = bone.parent < 0 ? -1 : first + bone.parent;
-    out.model = static_cast<int>(models.size());
-    out.first_turn = static_cast<int>(turns.size());
-    for (const BoneRotation& r : data.rotations) {
-      if (r.bone != static_cast<int>(b)) continue;
-      turns.push_back({{static_cast<float>(r.axis.x()), static_cast<float>(r.axis.y()),
-                        static_cast<float>(r.axis.z())},
-                       static_cast<float>(r.scale),
-                       static_cast<float>(r.zero),
-                       item.offset + r.parameter});
-      ++out.turn_count;
-    }
-    store(bone.parent_from_bone, out.parent_from_bone);
-    store(bind[b].inverse(), out.bone_from_model);
-    bones.push_back(out);
-  }
+void HostSurface::add(const ModelData& data) {
+  const std::size_t first_vertex = vertices.size();
+  const std::vector<int> order = order_by_work(data.mesh);
+  add_vertices(data.mesh, order, bones);
+  add_triangles(data.mesh, order, first_vertex);
+  bones += data.bones.size();
 }
 
 /// Weights in units of 1 / kWholeWeight that add up: the largest takes what rounding leaves over.
@@ -86,8 +51,8 @@ void quantize(const Eigen::Vector4f& weights, std::uint16_t* out) {
   out[largest] = static_cast<std::uint16_t>(out[largest] + kWholeWeight - sum);
 }
 
-void HostScene::add_vertices(const Mesh& mesh, const std::vector<int>& order,
-                             std::size_t first_bone) {
+void HostSurface::add_vertices(const Mesh& mesh, const std::vector<int>& order,
+                               std::size_t first_bone) {
   for (const int v : order) {
     VertexLayout vertex{};
     for (int i = 0; i < 3; ++i) vertex.position[i] = mesh.vertices(i, v);
@@ -101,8 +66,8 @@ void HostScene::add_vertices(const Mesh& mesh, const std::vector<int>& order,
   }
 }
 
-void HostScene::add_triangles(const Mesh& mesh, const std::vector<int>& order,
-                              std::size_t first_vertex) {
+void HostSurface::add_triangles(const Mesh& mesh, const std::vector<int>& order,
+                                std::size_t first_vertex) {
   std::vector<std::size_t> place(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     place[static_cast<std::size_t>(order[i])] = first_vertex + i;
@@ -151,19 +116,20 @@ DeviceScene::DeviceScene(const Scene& scene) {
   if (const std::string why = why_not_on_device(scene); !why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why + ". Write `backend: cpu`");
   }
-  HostScene host;
-  for (const Scene::Item& item : scene.items()) host.add(item);
+  const Skeleton skeleton(scene);
+  HostSurface surface;
+  for (const Scene::Item& item : scene.items()) surface.add(item.model->data());
   layout_ = {scene.dimension(),
-             static_cast<int>(host.models.size()),
-             static_cast<int>(host.bones.size()),
-             static_cast<int>(host.turns.size()),
-             static_cast<int>(host.vertices.size()),
-             static_cast<int>(host.triangles.size()),
-             upload(models_, host.models),
-             upload(bones_, host.bones),
-             upload(turns_, host.turns),
-             upload(vertices_, host.vertices),
-             upload(triangles_, host.triangles)};
+             static_cast<int>(skeleton.models.size()),
+             static_cast<int>(skeleton.bones.size()),
+             static_cast<int>(skeleton.turns.size()),
+             static_cast<int>(surface.vertices.size()),
+             static_cast<int>(surface.triangles.size()),
+             upload(models_, skeleton.models),
+             upload(bones_, skeleton.bones),
+             upload(turns_, skeleton.turns),
+             upload(vertices_, surface.vertices),
+             upload(triangles_, surface.triangles)};
 }
 
 }  // namespace hypotrack::cuda

@@ -34,6 +34,46 @@ __device__ inline void decode_state(const SceneLayout& scene, const BatchLayout&
   __syncwarp();
 }
 
+/// The threads of a warp, for Terms that share their work (OneThread on the CPU).
+struct WarpTeam {
+  __device__ int rank() const { return static_cast<int>(threadIdx.x) % kWarp; }
+  __device__ int size() const { return kWarp; }
+  __device__ void sync() const { __syncwarp(); }
+  /// Of all threads' values, for all of them; always added in the same order.
+  __device__ double sum(double value) const {
+    for (int distance = kWarp / 2; distance > 0; distance /= 2) {
+      value += __shfl_xor_sync(kWholeWarp, value, distance);
+    }
+    return value;
+  }
+};
+
+/// A Term whose cost a team of threads finds together.
+template <class Term>
+concept TeamTerm = requires(const Term& term) {
+  term.scratch_floats();
+};
+
+/// Floats of shared memory that a warp works in besides the state.
+template <class Term>
+__host__ __device__ inline int scratch_floats(const Term& term) {
+  if constexpr (TeamTerm<Term>) {
+    return term.scratch_floats();
+  } else {
+    return 0;
+  }
+}
+
+template <class Term>
+__device__ inline double cost_of_state(const Term& term, const double* state, int dimension,
+                                       float* scratch) {
+  if constexpr (TeamTerm<Term>) {
+    return term.cost(state, dimension, WarpTeam{}, scratch);
+  } else {
+    return threadIdx.x == 0 ? term.cost(state, dimension) : 0.0;
+  }
+}
+
 /// One warp per hypothesis.
 template <class Term>
 __global__ void __launch_bounds__(kWarp)
@@ -44,8 +84,9 @@ __global__ void __launch_bounds__(kWarp)
   auto* state = reinterpret_cast<double*>(shared_floats());
   const double* point = batch.points + std::int64_t{blockIdx.x} * point_size(scene, batch);
   decode_state(scene, batch, point, state);
+  auto* scratch = reinterpret_cast<float*>(state + scene.dimension);
+  const double cost = batch.weight * cost_of_state(term, state, scene.dimension, scratch);
   if (threadIdx.x != 0) return;
-  const double cost = batch.weight * term.cost(state, scene.dimension);
   double& out = batch.costs[blockIdx.x];
   out = batch.add ? __ldcg(&out) + cost : cost;
 }
@@ -57,6 +98,14 @@ __global__ void __launch_bounds__(kWarp)
 ///     float stiffness;
 ///     HYPOTRACK_PIXEL double cost(const double* state, int dimension) const;
 ///   };
+///
+/// or, for more work than one thread should do, one that a team of threads shares (the CPU's is
+/// OneThread of skeleton_pose.hpp, whose pose_bones() says where the state puts bones):
+///
+///   HYPOTRACK_PIXEL int scratch_floats() const;  // shared memory that a team works in
+///   template <class Team>
+///   HYPOTRACK_PIXEL double cost(const double* state, int dimension, const Team& team,
+///                               float* scratch) const;  // aligned to 8 bytes; undefined at first
 ///
 /// `state` is the scene's, normalised. Objective::on_device() returns a StateObjective<MyTerm>. One
 /// whose Term depends on the frame overrides make_term(); as with PixelObjective, a Term whose
@@ -73,13 +122,20 @@ class StateObjective : public DeviceObjective {
     if (std::memcmp(&term, &term_, sizeof term) != 0) ++revision_;
     std::memcpy(&term_, &term, sizeof term);
   }
-  void reserve(const SceneLayout&, const DeviceLimits& limits, std::int64_t) final {
+  void reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t) final {
     limits_ = limits;
+    if (shared_bytes(scene) > static_cast<std::size_t>(limits.shared_bytes_per_block)) {
+      throw DeviceError(
+          "CUDA: a term of the state needs more shared memory than the device has; use fewer or "
+          "simpler models, or backend: cpu");
+    }
+    check(cudaFuncSetAttribute(&score_states<Term>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                               static_cast<int>(shared_bytes(scene))),
+          "reserving shared memory");
   }
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
     launch(&score_states<Term>, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp),
-           sizeof(double) * static_cast<std::size_t>(scene.dimension), stream,
-           overlaps_launches(limits_), scene, batch, term_);
+           shared_bytes(scene), stream, overlaps_launches(limits_), scene, batch, term_);
   }
   void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
                      Stream stream) final {
@@ -99,6 +155,11 @@ class StateObjective : public DeviceObjective {
   }
 
  private:
+  std::size_t shared_bytes(const SceneLayout& scene) const {
+    return sizeof(double) * static_cast<std::size_t>(scene.dimension) +
+           sizeof(float) * static_cast<std::size_t>(scratch_floats(term_));
+  }
+
   Term term_;
   DeviceLimits limits_;
   std::uint64_t revision_ = 0;

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/pixel.hpp"
+
+/// Where a state puts the bones of a scene, for terms that look at the state only: the same source
+/// for the CPU and the GPU, in single precision.
+namespace hypotrack {
+
+/// A Skeleton in host or device memory.
+struct SkeletonLayout {
+  std::int32_t bone_count;
+  std::int32_t levels;        ///< of the deepest bone + 1
+  const std::int32_t* level;  ///< of every bone: 0 where there is no parent
+  const cuda::ModelLayout* models;
+  const cuda::BoneLayout* bones;
+  const cuda::Turn* turns;
+};
+
+/// One thread that does all the work: the CPU's side of cuda::StateObjective's warps.
+struct OneThread {
+  HYPOTRACK_PIXEL int rank() const { return 0; }
+  HYPOTRACK_PIXEL int size() const { return 1; }
+  HYPOTRACK_PIXEL void sync() const {}
+  HYPOTRACK_PIXEL double sum(double value) const { return value; }
+};
+
+/// A 3x4 matrix, row by row: a rotation and a translation.
+struct Placement {
+  float m[12];
+};
+
+/// a * b.
+HYPOTRACK_PIXEL Placement compose(const Placement& a, const float* b) {
+  Placement out;
+  for (int r = 0; r < 3; ++r) {
+    const float* row = a.m + 4 * r;
+    for (int c = 0; c < 4; ++c) {
+      out.m[4 * r + c] = row[0] * b[c] + row[1] * b[4 + c] + row[2] * b[8 + c];
+    }
+    out.m[4 * r + 3] += row[3];
+  }
+  return out;
+}
+
+/// Turns the frame of a placement about a unit axis (Rodrigues' formula).
+HYPOTRACK_PIXEL void turn(Placement& placement, const float* axis, float angle) {
+  const float s = std::sin(angle), c = std::cos(angle), d = 1.0f - c;
+  const float x = axis[0], y = axis[1], z = axis[2];
+  for (int r = 0; r < 3; ++r) {
+    float* row = placement.m + 4 * r;
+    const float a = row[0], b = row[1], e = row[2];
+    row[0] = a * (d * x * x + c) + b * (d * x * y + s * z) + e * (d * x * z - s * y);
+    row[1] = a * (d * x * y - s * z) + b * (d * y * y + c) + e * (d * y * z + s * x);
+    row[2] = a * (d * x * z + s * y) + b * (d * y * z - s * x) + e * (d * z * z + c);
+  }
+}
+
+/// world_from_model of a model's pose; the quaternion (w x y z behind the position) is normalised.
+HYPOTRACK_PIXEL Placement place_model(const double* pose) {
+  const auto w = static_cast<float>(pose[3]), x = static_cast<float>(pose[4]);
+  const auto y = static_cast<float>(pose[5]), z = static_cast<float>(pose[6]);
+  return {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+           static_cast<float>(pose[0]), 2 * (x * y + w * z), 1 - 2 * (x * x + z * z),
+           2 * (y * z - w * x), static_cast<float>(pose[1]), 2 * (x * z - w * y),
+           2 * (y * z + w * x), 1 - 2 * (x * x + y * y), static_cast<float>(pose[2])}};
+}
+
+/// parent_from_bone of a bone, turned as the state says.
+HYPOTRACK_PIXEL Placement place_bone(const SkeletonLayout& skeleton, int bone,
+                                     const double* state) {
+  const cuda::BoneLayout& layout = skeleton.bones[bone];
+  Placement local;
+  for (int i = 0; i < 12; ++i) local.m[i] = layout.parent_from_bone[i];
+  for (int k = 0; k < layout.turn_count; ++k) {
+    const cuda::Turn& t = skeleton.turns[layout.first_turn + k];
+    turn(local, t.axis, t.scale * (static_cast<float>(state[t.parameter]) - t.zero));
+  }
+  return local;
+}
+
+/// Writes world_from_bone of every bone for a normalised state. All threads of the team call it,
+/// and what any of them wrote is there for all afterwards.
+template <class Team>
+HYPOTRACK_PIXEL void pose_bones(const SkeletonLayout& skeleton, const double* state,
+                                const Team& team, Placement* world_from_bone) {
+  for (int level = 0; level < skeleton.levels; ++level) {
+    for (int b = team.rank(); b < skeleton.bone_count; b += team.size()) {
+      if (skeleton.level[b] != level) continue;
+      const cuda::BoneLayout& bone = skeleton.bones[b];
+      const Placement above = bone.parent < 0
+                                  ? place_model(state + skeleton.models[bone.model].offset)
+                                  : world_from_bone[bone.parent];
+      world_from_bone[b] = compose(above, place_bone(skeleton, b, state).m);
+    }
+    team.sync();
+  }
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,61 @@
+#include "hypotrack/skeleton.hpp"
+
+#include <algorithm>
+
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack {
+namespace {
+
+using cuda::BoneLayout;
+using cuda::Turn;
+
+void store(const Eigen::Isometry3d& transform, float* matrix) {
+  Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> out(matrix);
+  out = transform.matrix().topRows<3>().cast<float>();
+}
+
+Turn to_turn(const BoneRotation& rotation, int offset) {
+  const Eigen::Vector3f axis = rotation.axis.cast<float>();
+  return {{axis.x(), axis.y(), axis.z()},
+          static_cast<float>(rotation.scale),
+          static_cast<float>(rotation.zero),
+          offset + rotation.parameter};
+}
+
+}  // namespace
+
+Skeleton::Skeleton(const Scene& scene) {
+  for (const Scene::Item& item : scene.items()) {
+    const ModelData& data = item.model->data();
+    const auto bind = bind_transforms(data);
+    const auto first = static_cast<int>(bones.size());
+    for (std::size_t b = 0; b < data.bones.size(); ++b) {
+      const Bone& bone = data.bones[b];
+      BoneLayout out{};
+      out.parent = bone.parent < 0 ? -1 : first + bone.parent;
+      out.model = static_cast<int>(models.size());
+      out.first_turn = static_cast<int>(turns.size());
+      for (const BoneRotation& rotation : data.rotations) {
+        if (rotation.bone == static_cast<int>(b)) turns.push_back(to_turn(rotation, item.offset));
+      }
+      out.turn_count = static_cast<int>(turns.size()) - out.first_turn;
+      store(bone.parent_from_bone, out.parent_from_bone);
+      store(bind[b].inverse(), out.bone_from_model);
+      bones.push_back(out);
+      level.push_back(out.parent < 0 ? 0 : level[static_cast<std::size_t>(out.parent)] + 1);
+    }
+    models.push_back({item.offset, item.model->dimension()});
+  }
+}
+
+SkeletonLayout Skeleton::layout() const {
+  return {static_cast<std::int32_t>(bones.size()),
+          1 + *std::max_element(level.begin(), level.end()),
+          level.data(),
+          models.data(),
+          bones.data(),
+          turns.data()};
+}
+
+}  // namespace hypotrack
