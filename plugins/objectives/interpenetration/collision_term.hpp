@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+
+#include "collision_shape.hpp"
+#include "hypotrack/skeleton_pose.hpp"
+
+namespace hypotrack::interpenetration {
+
+/// Two shapes that must not go into each other by more than `slack` metres. Capsules come before
+/// boxes.
+struct Pair {
+  std::int32_t first, second;
+  float slack;
+};
+
+/// What may collide in a scene, in host or device memory.
+struct CollisionTerm {
+  SkeletonLayout skeleton;
+  std::int32_t shape_count;
+  std::int32_t pair_count;
+  const Shape* shapes;
+  const Pair* pairs;
+
+  /// Floats that a team works in, aligned to 8 bytes.
+  HYPOTRACK_PIXEL int scratch_floats() const {
+    return static_cast<int>((sizeof(Placement) * static_cast<unsigned>(skeleton.bone_count) +
+                             sizeof(PosedShape) * static_cast<unsigned>(shape_count)) /
+                            sizeof(float));
+  }
+
+  /// Poses all shapes in a team's scratch memory.
+  template <class Team>
+  HYPOTRACK_PIXEL const PosedShape* pose(const double* state, const Team& team,
+                                         float* scratch) const {
+    auto* bones = reinterpret_cast<Placement*>(scratch);
+    auto* shapes_in_world = reinterpret_cast<PosedShape*>(bones + skeleton.bone_count);
+    pose_bones(skeleton, state, team, bones);
+    for (int i = team.rank(); i < shape_count; i += team.size()) {
+      shapes_in_world[i] = posed(shapes[i], bones[shapes[i].bone]);
+    }
+    team.sync();
+    return shapes_in_world;
+  }
+
+  /// How much deeper a pair is in each other than it may be, in millimetres; 0 if it is not.
+  HYPOTRACK_PIXEL float excess(const PosedShape* in_world, const Pair& pair) const {
+    const PosedShape &a = in_world[pair.first], &b = in_world[pair.second];
+    if (!may_collide(a, b, pair.slack)) return 0;
+    const bool is_box = shapes[pair.second].is_box;
+    const float depth = !is_box                     ? capsules_depth(a, b)
+                        : shapes[pair.first].is_box ? boxes_depth(a, b)
+                                                    : capsule_box_depth(a, b);
+    return 1e3f * pixel::max(depth - pair.slack, 0.0f);
+  }
+
+  /// Sum of the squared excesses of all pairs, mm^2. `state` is normalised.
+  template <class Team>
+  HYPOTRACK_PIXEL double cost(const double* state, int /*dimension*/, const Team& team,
+                              float* scratch) const {
+    const PosedShape* in_world = pose(state, team, scratch);
+    double sum = 0;
+    for (int i = team.rank(); i < pair_count; i += team.size()) {
+      const double depth = excess(in_world, pairs[i]);
+      sum += depth * depth;
+    }
+    return team.sum(sum);
+  }
+};
+
+}  // namespace hypotrack::interpenetration

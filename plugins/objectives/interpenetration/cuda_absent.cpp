@@ -1,0 +1,7 @@
+// Stands in for device_objective.cu in a build without CUDA.
+#include "on_device.hpp"
+
+namespace hypotrack::interpenetration {
+std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm&) { return nullptr; }
+const char* capabilities() { return ""; }
+}  // namespace hypotrack::interpenetration

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "collision_plan.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::interpenetration {
+
+struct InterpenetrationParams {
+  double tolerance = 0.003;
+  bool within_models = true;
+  void visit(ParamVisitor& v) {
+    v("tolerance_mm", tolerance,
+      {.help = "depth that costs nothing: skin gives way, and capsules are no hands",
+       .min = 0,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("within_models", within_models,
+      {.help =
+           "also between bones of one model that are no neighbours (fingers, fingers and palm)"});
+  }
+};
+
+/// Keeps fingers, hands and objects from passing through each other. Every bone of every model is
+/// filled with capsules, a rigid box with a box (bone_shapes.hpp); the cost is the sum of squared
+/// depths (mm^2) over all pairs of shapes, where
+///
+///   depth = max(0, penetration - tolerance - penetration at rest),
+///
+/// the last only for pairs within a model, so that the rest pose costs nothing. Looks at the state
+/// only and costs no rendering.
+class Interpenetration : public Objective {
+ public:
+  /// `where` is the place of the parameters in messages. Throws ConfigError where CollisionPlan
+  /// does.
+  Interpenetration(const InterpenetrationParams& params, const Scene& scene,
+                   const std::string& where = "interpenetration");
+
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+  const CollisionPlan& plan() const { return plan_; }
+
+ private:
+  CollisionPlan plan_;
+  CollisionTerm term_;
+};
+
+}  // namespace hypotrack::interpenetration

@@ -1,0 +1,7 @@
+// Stands in for device_objective.cu in a build without CUDA.
+#include "on_device.hpp"
+
+namespace hypotrack::plausible_motion {
+std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame) { return nullptr; }
+const char* capabilities() { return ""; }
+}  // namespace hypotrack::plausible_motion

@@ -1,0 +1,52 @@
+#include "frame_residuals.hpp"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace hypotrack::plausible_motion {
+namespace {
+
+LinearResidual residual(std::size_t index, double sigma) {
+  const auto i = static_cast<std::int32_t>(index);
+  return {{i, i}, {1 / sigma, 0}, 0};
+}
+
+/// Where the parameter of that name is; its end where there is none.
+std::size_t find(const std::vector<Parameter>& parameters, const std::string& name) {
+  const auto found = std::ranges::find(parameters, name, &Parameter::name);
+  return static_cast<std::size_t>(found - parameters.begin());
+}
+
+}  // namespace
+
+FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene& scene) {
+  const std::vector<Parameter>& parameters = scene.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].kind != ParameterKind::angle) continue;
+    residuals_.push_back(residual(i, params.motion_sigma));
+  }
+  angles_ = residuals_.size();
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string& name = parameters[i].name;
+    constexpr std::string_view kLast = "_flexion_3";
+    if (!name.ends_with(kLast) || name.ends_with("thumb_flexion_3")) continue;
+    const std::string finger = name.substr(0, name.size() - kLast.size());
+    const std::size_t before = find(parameters, finger + "_flexion_2");
+    if (before == parameters.size()) continue;
+    LinearResidual coupled = residual(i, params.coupling_sigma);
+    coupled.index[1] = static_cast<std::int32_t>(before);
+    coupled.factor[1] = -params.coupling / params.coupling_sigma;
+    residuals_.push_back(coupled);
+  }
+}
+
+MotionTerm FrameResiduals::at(const Eigen::VectorXd& start) {
+  for (std::size_t i = 0; i < angles_; ++i) {
+    LinearResidual& r = residuals_[i];
+    r.offset = r.factor[0] * start[r.index[0]];
+  }
+  return {static_cast<std::int64_t>(residuals_.size()), residuals_.data()};
+}
+
+}  // namespace hypotrack::plausible_motion

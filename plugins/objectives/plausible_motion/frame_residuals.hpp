@@ -1,0 +1,28 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hypotrack/scene.hpp"
+#include "motion_term.hpp"
+#include "params.hpp"
+
+namespace hypotrack::plausible_motion {
+
+/// Makes the residuals of a scene's frames: first one per joint angle, then one per finger.
+class FrameResiduals {
+ public:
+  /// A model has fingers where it has parameters NAME_flexion_2 and NAME_flexion_3; the joints of a
+  /// thumb do not move together.
+  FrameResiduals(const PlausibleMotionParams& params, const Scene& scene);
+
+  /// The term of a frame whose search starts at a state of the scene. Points into this object,
+  /// until the next call.
+  MotionTerm at(const Eigen::VectorXd& start);
+
+ private:
+  std::size_t angles_ = 0;
+  std::vector<LinearResidual> residuals_;
+};
+
+}  // namespace hypotrack::plausible_motion

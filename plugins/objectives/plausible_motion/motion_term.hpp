@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/pixel.hpp"
+
+/// The same source for the CPU and the GPU.
+namespace hypotrack::plausible_motion {
+
+/// A linear function of a state that should be 0: factor[0] * state[index[0]] +
+/// factor[1] * state[index[1]] - offset.
+struct LinearResidual {
+  std::int32_t index[2];
+  double factor[2];
+  double offset;
+};
+
+/// A sum of squared residuals, in host or device memory.
+struct MotionTerm {
+  std::int64_t count;
+  const LinearResidual* residuals;
+
+  HYPOTRACK_PIXEL double residual(std::int64_t i, const double* state) const {
+    const LinearResidual& r = residuals[i];
+    return r.factor[0] * state[r.index[0]] + r.factor[1] * state[r.index[1]] - r.offset;
+  }
+
+  HYPOTRACK_PIXEL int scratch_floats() const { return 0; }
+  template <class Team>
+  HYPOTRACK_PIXEL double cost(const double* state, int /*dimension*/, const Team& team,
+                              float* /*scratch*/) const {
+    double sum = 0;
+    for (std::int64_t i = team.rank(); i < count; i += team.size()) {
+      const double r = residual(i, state);
+      sum += r * r;
+    }
+    return team.sum(sum);
+  }
+};
+
+}  // namespace hypotrack::plausible_motion

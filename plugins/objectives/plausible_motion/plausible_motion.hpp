@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "frame_residuals.hpp"
+#include "hypotrack/objective.hpp"
+
+namespace hypotrack::plausible_motion {
+
+/// Keeps fingers that no camera sees plausible. The cost is
+///
+///   sum over joint angles a         ((a - a_start) / motion_sigma)^2
+/// + sum over fingers but the thumb  ((last - coupling * middle) / coupling_sigma)^2
+///
+/// where a_start is the angle where the frame's search starts (the last solution), and `last` and
+/// `middle` are the flexions of the two outer joints: tendons bend the last by about two thirds of
+/// the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based human grasping,
+/// 1991). Positions and rotations of models are free. Looks at the state only and costs no
+/// rendering.
+class PlausibleMotion : public Objective {
+ public:
+  using Params = PlausibleMotionParams;
+  PlausibleMotion(const Params& params, const Scene& scene) : residuals_(params, scene) {}
+
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation& observation) override;
+  double cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+ private:
+  FrameResiduals residuals_;
+  MotionTerm term_{};
+};
+
+}  // namespace hypotrack::plausible_motion

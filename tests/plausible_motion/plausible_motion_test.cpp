@@ -1,0 +1,113 @@
+#include "plausible_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <stdexcept>
+
+#include "hypotrack/observation.hpp"
+#include "hypotrack/plugin.hpp"
+#include "test_models.hpp"
+
+namespace hypotrack::plausible_motion {
+namespace {
+
+constexpr double kOff = 1e6 * kDegree;  // so wide that the term costs next to nothing
+
+std::shared_ptr<const Model> make_model(const std::string& yaml) {
+  PluginLoader plugins;
+  return plugins.make<Model>(ConfigNode::parse(yaml, "scene.yaml"));
+}
+
+/// A scene with a frame whose search starts at a state.
+class PlausibleMotionTest : public testing::Test {
+ protected:
+  double cost(const PlausibleMotionParams& params, const Eigen::VectorXd& state) const {
+    PlausibleMotion objective(params, scene_);
+    Observation observation;
+    observation.scene = &scene_;
+    observation.start = start_;
+    objective.prepare(observation);
+    return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
+  }
+
+  double& angle(Eigen::VectorXd& state, const std::string& name) const {
+    for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
+      if (scene_.parameters()[i].name == name) return state[static_cast<Eigen::Index>(i)];
+    }
+    throw std::out_of_range(name);
+  }
+
+  const Scene scene_{{{"right", make_model("type: hand\n")},
+                      {"box", make_model("type: rigid_box\n")},
+                      {"left", make_model("type: mirrored_hand\n")}}};
+  Eigen::VectorXd start_ = scene_.rest_state();
+};
+
+TEST_F(PlausibleMotionTest, OfNoMotionAndCoupledFingersIsNothing) {
+  for (const char* hand : {"right.", "left."}) {
+    for (const char* finger : {"index", "middle", "ring", "little"}) {
+      const std::string name = std::string(hand) + finger;
+      angle(start_, name + "_flexion_2") = 0.6;
+      angle(start_, name + "_flexion_3") = 0.4;
+    }
+  }
+  EXPECT_NEAR(cost({}, start_), 0, 1e-12);
+}
+
+TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
+  const PlausibleMotionParams params{.motion_sigma = 0.2, .coupling_sigma = kOff};
+  Eigen::VectorXd state = start_;
+  angle(state, "right.index_flexion_1") += 0.2;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6);
+  angle(state, "left.thumb_abduction") -= 0.4;
+  EXPECT_NEAR(cost(params, state), 5, 1e-6);
+}
+
+TEST_F(PlausibleMotionTest, LeavesPositionsAndRotationsFree) {
+  Eigen::VectorXd state = start_;
+  std::mt19937_64 random(1);
+  const Eigen::VectorXd other = test::random_state(scene_, random);
+  for (const Scene::Item& item : scene_.items()) {
+    state.segment<7>(item.offset) = other.segment<7>(item.offset);
+  }
+  EXPECT_EQ(cost({}, state), cost({}, start_));
+}
+
+TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
+  const PlausibleMotionParams params{.motion_sigma = kOff, .coupling_sigma = 0.1, .coupling = 0.5};
+  Eigen::VectorXd state = start_;
+  for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
+    if (scene_.parameters()[i].kind == ParameterKind::angle)
+      state[static_cast<Eigen::Index>(i)] = 0;
+  }
+  EXPECT_NEAR(cost(params, state), 0, 1e-6);
+  angle(state, "right.ring_flexion_2") = 0.8;
+  angle(state, "right.ring_flexion_3") = 0.4;
+  EXPECT_NEAR(cost(params, state), 0, 1e-6);
+  angle(state, "right.ring_flexion_3") = 0.3;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6);
+  angle(state, "left.thumb_flexion_3") = 0.5;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
+}
+
+TEST_F(PlausibleMotionTest, FollowsTheStartOfEveryFrame) {
+  const PlausibleMotionParams params{.coupling_sigma = kOff};
+  PlausibleMotion objective(params, scene_);
+  Observation first, second;
+  first.start = start_;
+  second.start = start_;
+  angle(second.start, "left.index_flexion_1") += 0.3;
+  const auto cost_of = [&](const Eigen::VectorXd& state) {
+    return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
+  };
+  objective.prepare(first);
+  EXPECT_NEAR(cost_of(first.start), 0, 1e-6);
+  EXPECT_GT(cost_of(second.start), 1);
+  objective.prepare(second);
+  EXPECT_GT(cost_of(first.start), 1);
+  EXPECT_NEAR(cost_of(second.start), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace hypotrack::plausible_motion
