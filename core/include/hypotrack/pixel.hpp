@@ -10,8 +10,8 @@
 ///   float   one pixel at a time: plain C++ and, under nvcc, device code;
 ///   Lanes   a whole SIMD vector of pixels (hypotrack/simd-inl.hpp), once per instruction set.
 /// The vocabulary is the same for both: + - * /, comparisons (they yield a mask: bool or LaneMask),
-/// && || ! on masks, and min, max, abs, sqrt, floor, round, exp, mul_add and select. There are no
-/// branches on lanes: say `select(mask, a, b)`. Masks do not short-circuit.
+/// && || ! on masks, and min, max, abs, sqrt, quick_sqrt, floor, round, exp, mul_add and select.
+/// There are no branches on lanes: say `select(mask, a, b)`. Masks do not short-circuit.
 ///
 /// A header with per-pixel functions looks like this (my_term-inl.hpp). In sources that use
 /// Highway's foreach_target (simd-inl.hpp) it is compiled for vectors, once per instruction set;
@@ -88,6 +88,16 @@ HYPOTRACK_PIXEL float min(float a, float b) { return b < a ? b : a; }
 HYPOTRACK_PIXEL float max(float a, float b) { return a < b ? b : a; }
 HYPOTRACK_PIXEL float abs(float a) { return std::fabs(a); }
 HYPOTRACK_PIXEL float sqrt(float a) { return std::sqrt(a); }
+/// The root within 3e-7 relative; of subnormal numbers it may be 0.
+HYPOTRACK_PIXEL float quick_sqrt(float a) {
+#if defined(__CUDA_ARCH__)
+  float root;
+  asm("sqrt.approx.ftz.f32 %0, %1;" : "=f"(root) : "f"(a));
+  return root;
+#else
+  return std::sqrt(a);
+#endif
+}
 HYPOTRACK_PIXEL float floor(float a) { return std::floor(a); }
 /// a * b + c; one or two roundings.
 HYPOTRACK_PIXEL float mul_add(float a, float b, float c) { return a * b + c; }
@@ -98,6 +108,15 @@ HYPOTRACK_PIXEL float round(float a) { return std::nearbyint(a); }
 /// e^x within 5e-7 relative for -80 <= x <= 88; outside, the value at the nearer end.
 HYPOTRACK_PIXEL float exp(float x) {
   x = min(max(x, kExpLowest), kExpHighest);
+#if defined(__CUDA_ARCH__)
+  // 2^(high + low) with the device's own 2^high; high is rounded, low what that left over.
+  constexpr float kLn2 = 0.693147181f, kLog2ERest = 1.92596299e-8f;
+  const float high = x * kLog2E;
+  const float low = fmaf(x, kLog2ERest, fmaf(x, kLog2E, -high));
+  float power;
+  asm("ex2.approx.ftz.f32 %0, %1;" : "=f"(power) : "f"(high));
+  return fmaf(power, low * kLn2, power);
+#else
   const float n = round(x * kLog2E);
   const float r = mul_add(n, -kLn2Low, mul_add(n, -kLn2High, x));
   float p = mul_add(kExp6, r, kExp5);
@@ -109,6 +128,7 @@ HYPOTRACK_PIXEL float exp(float x) {
   float scale;
   std::memcpy(&scale, &bits, sizeof scale);
   return p * scale;
+#endif
 }
 
 }  // namespace pixel

@@ -103,6 +103,7 @@ HYPOTRACK_PIXEL Lanes min(Lanes a, Lanes b) { return Lanes(hn::Min(a.v, b.v)); }
 HYPOTRACK_PIXEL Lanes max(Lanes a, Lanes b) { return Lanes(hn::Max(a.v, b.v)); }
 HYPOTRACK_PIXEL Lanes abs(Lanes a) { return Lanes(hn::Abs(a.v)); }
 HYPOTRACK_PIXEL Lanes sqrt(Lanes a) { return Lanes(hn::Sqrt(a.v)); }
+HYPOTRACK_PIXEL Lanes quick_sqrt(Lanes a) { return sqrt(a); }
 HYPOTRACK_PIXEL Lanes floor(Lanes a) { return Lanes(hn::Floor(a.v)); }
 HYPOTRACK_PIXEL Lanes round(Lanes a) { return Lanes(hn::Round(a.v)); }
 HYPOTRACK_PIXEL Lanes mul_add(Lanes a, Lanes b, Lanes c) {

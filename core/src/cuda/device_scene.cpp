@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cuda/triangle_order.hpp"
 #include "evaluate/mesh_topology.hpp"
 #include "evaluate/vertex_order.hpp"
 #include "hypotrack/skeleton.hpp"
@@ -73,7 +74,8 @@ void HostSurface::add_triangles(const Mesh& mesh, const std::vector<int>& order,
     place[static_cast<std::size_t>(order[i])] = first_vertex + i;
   }
   const PackedTriangle two_sided = is_closed_outwards(mesh) ? 0 : 1;
-  for (const auto& t : mesh.triangles.colwise()) {
+  for (const int number : order_by_place(mesh)) {
+    const auto t = mesh.triangles.col(number);
     PackedTriangle packed = two_sided << (3 * kVertexBits);
     for (int k = 0; k < 3; ++k) {
       packed |= PackedTriangle{place[static_cast<std::size_t>(t[k])]} << (k * kVertexBits);

@@ -26,11 +26,11 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   using pixel::exp;
   using pixel::min;
   using pixel::mul_add;
-  using pixel::sqrt;
+  using pixel::quick_sqrt;
   const F d0 = left.channel_0 - right.channel_0;
   const F d1 = left.channel_1 - right.channel_1;
   const F d2 = left.channel_2 - right.channel_2;
-  const F distance = sqrt(mul_add(d0, d0, mul_add(d1, d1, d2 * d2)));
+  const F distance = quick_sqrt(mul_add(d0, d0, mul_add(d1, d1, d2 * d2)));
   return min(left.weight, right.weight) * exp(F(0.0f) - beta * distance);
 }
 

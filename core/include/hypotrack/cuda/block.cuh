@@ -24,6 +24,18 @@ __device__ __forceinline__ float warp_sum(float x) {
   return x;
 }
 
+__device__ __forceinline__ int warp_max(int x) { return -warp_min(-x); }
+
+/// The sum of a lane's x and those of all lanes before it.
+__device__ __forceinline__ int warp_scan(int x) {
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  for (int step = 1; step < kWarp; step *= 2) {
+    const int other = __shfl_up_sync(kWholeWarp, x, step);
+    if (lane >= step) x += other;
+  }
+  return x;
+}
+
 // Between numbers of magnitude below 2^22. The conversion instructions have a quarter of an
 // addition's throughput; adding 1.5 * 2^23 leaves the integer in a float's last bits.
 inline constexpr float kIntegerBias = 12582912.0f;
@@ -42,11 +54,33 @@ __device__ __forceinline__ float exact_float(int x) {
   return __int_as_float(x + kIntegerBits) - kIntegerBias;
 }
 
+/// The halves of a word as floats, cheaper than by a conversion: kHalfBias + k, for k of 16 bits,
+/// has k in its last bits.
+inline constexpr float kHalfBias = 8388608.0f;  // 2^23
+__device__ __forceinline__ float biased_low_half(std::uint32_t word) {
+  return __uint_as_float(__byte_perm(word, 0x4B000000u, 0x7610));
+}
+__device__ __forceinline__ float biased_high_half(std::uint32_t word) {
+  return __uint_as_float(__byte_perm(word, 0x4B000000u, 0x7632));
+}
+__device__ __forceinline__ float exact_low_half(std::uint32_t word) {
+  return biased_low_half(word) - kHalfBias;
+}
+__device__ __forceinline__ float exact_high_half(std::uint32_t word) {
+  return biased_high_half(word) - kHalfBias;
+}
+
 /// 1 / x within a unit of the last digit, for x whose reciprocal is a normal number.
 __device__ __forceinline__ float reciprocal(float x) {
   float r;
   asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(x));
   return r;
+}
+
+/// a / b for 0 <= a < 2^20, 0 < b.
+__device__ __forceinline__ int small_quotient(int a, int b) {
+  // (a + 1/2) / b is at least 1 / (2 b) away from every integer, which is more than the error.
+  return round_down((exact_float(a) + 0.5f) * reciprocal(exact_float(b)));
 }
 
 /// Pixels x0 <= x < x1, y0 <= y < y1.
@@ -85,6 +119,18 @@ struct Floats {
   __device__ __forceinline__ float& operator[](int index) const { return *at(index); }
 };
 
+/// Plain objects that lie in global memory or, copied, in shared memory.
+template <class T>
+struct Staged {
+  const T* global;
+  int offset;  ///< in shared_floats(), if `copied`
+  bool copied;
+  __device__ __forceinline__ T operator[](int index) const {
+    if (copied) return reinterpret_cast<const T*>(shared_floats() + offset)[index];
+    return global[index];
+  }
+};
+
 /// Sets `count` floats to zero, a multiple of four from a multiple of four on; needs a barrier
 /// after it.
 template <bool kShared>
@@ -112,6 +158,8 @@ struct DepthBuffer {
   __device__ __forceinline__ float operator()(int x, int y) const {
     return y >= box.y0 && y < box.y1 ? in_row(x, y) : 0.0f;
   }
+  /// For a pixel within the box.
+  __device__ __forceinline__ float inside(int x, int y) const { return inverse_depth[index(x, y)]; }
   /// For a row within the box.
   __device__ __forceinline__ float in_row(int x, int y) const {
     return x >= box.x0 && x < box.x1 ? inverse_depth[index(x, y)] : 0.0f;
@@ -119,7 +167,7 @@ struct DepthBuffer {
 };
 
 /// Sums of all threads, the same in every run. `room` holds kCount floats per warp of the block;
-/// the sums are in `total` of thread 0.
+/// the sums are in `total` of the first warp's threads.
 template <int kCount>
 __device__ __forceinline__ void block_sum(const float (&values)[kCount], float* room,
                                           double (&total)[kCount]) {

@@ -30,17 +30,20 @@ struct BlockPlan {
   int depth_capacity = 0;          ///< floats of the z-buffers
   PoseMemory pose{};
   int vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
-  int histogram_rows = 0;
+  int histogram_shift = 0;  ///< 2^this rows are a bin of the histogram
+  int tall = -1;            ///< a list of tall triangles as large as `list`; -1: they go there, too
+  int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
   /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
   /// before still runs.
   bool staged = false;
   int staged_vertices = 0, staged_triangles = 0;
+  int end = 0;  ///< of the block's memory; from the z-buffers' last pixel to here there is room for
+                ///< texels, once the vertices are placed
 
   float* vertex_scratch = nullptr;  ///< 4 * vertex_stride floats per block
   float* depth_scratch = nullptr;   ///< depth_scratch_size floats per block, or null
   int depth_scratch_size = 0;
-  double* partial_sums = nullptr;    ///< sums of every block, with several bands
-  std::uint32_t* tickets = nullptr;  ///< blocks of a hypothesis that are done; 0 between launches
+  double* band_sums = nullptr;  ///< with several bands: a slot per block and sum (join_bands)
 };
 
 /// What a plan is made for.
@@ -53,10 +56,12 @@ struct PlanRequest {
   int tiles_at_once = 1;  ///< z-buffers that must be there together
   bool may_split = true;  ///< into bands
   int sums = 0;
+  bool texels = false;  ///< whether it pays to have room for texels
 };
 
 inline constexpr int kMostThreads = 1024;
 inline constexpr int kMostBands = 16;
+inline constexpr int kHistogramBins = 64;
 
 /// Room for a row of every z-buffer: with less a plan cannot work.
 inline int least_depth_capacity(int tiles_at_once, int tile_width) {
@@ -70,6 +75,10 @@ inline int rounded(int floats) { return (floats + 3) / 4 * 4; }
 // What the system takes of a multiprocessor's shared memory for every block, and what the kernels
 // declare statically.
 inline constexpr int kReservedBytes = 1024 + 1024;
+
+// What is left to an optimizer's kernel that starts early, beside a block that takes all it can
+// get.
+inline constexpr int kLeftToOthers = 20 * 1024;
 
 /// The plan for a block that may use `bytes` of shared memory; depth_capacity is what is left.
 inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes) {
@@ -98,25 +107,33 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
-  p.histogram_rows = bands > 1 ? r.tile_height : 0;
-  p.histogram = take(p.histogram_rows);
+  p.tall = bands > 1 ? take(p.chunk) : -1;
+  p.histogram = bands > 1 ? take(kHistogramBins) : 0;
+  while (r.tile_height > kHistogramBins << p.histogram_shift) ++p.histogram_shift;
   const int floats = bytes / 4;
   // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
   const int least_depth =
       rounded(std::max(least_depth_capacity(r.tiles_at_once, r.tile_width), floats / 3));
   p.vertices_in_shared = end + 4 * p.vertex_stride + least_depth <= floats;
   p.vertices = p.vertices_in_shared ? take(4 * p.vertex_stride) : 0;
+  if (p.vertices_in_shared && bands > 1 && end + p.vertex_stride + least_depth <= floats) {
+    p.heights = take(p.vertex_stride) - p.vertices;
+  }
   const int rows = (r.tile_height + bands - 1) / bands;
   const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;
   const int vertices = static_cast<int>(sizeof(VertexLayout) / 4) * r.scene.vertex_count;
   const int triangles = static_cast<int>(sizeof(PackedTriangle) / 4) * r.scene.triangle_count;
   p.staged = p.vertices_in_shared && end + vertices + triangles + wanted + 8 <= floats;
-  p.staged_vertices = p.staged ? take(vertices) : 0;
   p.staged_triangles = p.staged ? take(triangles) : 0;
+  const int behind = p.staged ? rounded(vertices) : 0;
   p.depth = end;
   p.depth_capacity = static_cast<int>(
-      std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end) / 4 * 4));
-  p.shared_bytes = 4 * (end + p.depth_capacity);
+      std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end - behind) / 4 * 4));
+  end += p.depth_capacity;
+  p.staged_vertices = p.staged ? take(vertices) : 0;
+  if (r.texels && bands > 1) end = std::max(end, (floats - kLeftToOthers / 4) / 4 * 4);
+  p.end = end;
+  p.shared_bytes = 4 * end;
   return p;
 }
 

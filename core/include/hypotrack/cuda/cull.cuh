@@ -11,6 +11,8 @@ namespace hypotrack::cuda {
 inline constexpr float kSmallestArea = 1e-6f;
 /// Triangles with more rows or columns are drawn by a whole warp instead of one thread.
 inline constexpr int kPixelsPerThread = 8;
+/// What VisibleList::flat_rows is where there is room for a list of tall ones.
+inline constexpr int kFlatRows = 2;
 
 /// The corners of a triangle in one view.
 struct Corners {
@@ -43,83 +45,116 @@ struct CornerRecords {
   }
 };
 
+/// The vertices of a triangle.
+struct TriangleCorners {
+  int a, b, c;
+  __device__ __forceinline__ explicit TriangleCorners(PackedTriangle packed)
+      : a(vertex(packed, 0)), b(vertex(packed, 1)), c(vertex(packed, 2)) {}
+
+ private:
+  __device__ __forceinline__ static int vertex(PackedTriangle packed, int corner) {
+    return static_cast<int>(static_cast<std::uint32_t>(packed >> (corner * kVertexBits)) &
+                            kVertexMask);
+  }
+};
+
 template <bool kShared>
-__device__ __forceinline__ CornerRecords load_corners(PackedTriangle triangle,
+__device__ __forceinline__ CornerRecords load_corners(const TriangleCorners& corners,
                                                       const Vertices<kShared>& vertices) {
-  const auto corner = [&](int k) {
-    return vertices[static_cast<int>(static_cast<std::uint32_t>(triangle >> (k * kVertexBits)) &
-                                     kVertexMask)];
-  };
-  return {corner(0), corner(1), corner(2)};
+  return {vertices[corners.a], vertices[corners.b], vertices[corners.c]};
 }
 
-/// Visible triangles of a chunk: 2 * (number within the chunk) + view. Those for one thread each
-/// grow from the front, those for a warp each from the back.
+/// Visible triangles of a chunk in one view or a pair: 2 * (number within the chunk) + view. Those
+/// for one thread each grow from the front, those for a warp each from the back. With `flat_rows`
+/// below kPixelsPerThread those for one thread that have more rows are a list of their own, so that
+/// the threads of a warp have equally much to do.
 struct VisibleList {
   std::uint16_t* entries;
   int capacity;
-  int* counts;  ///< of the front and of the back
+  int flat_rows;
+  std::uint16_t* tall;
+  struct Counts {
+    int flat, tall, large;
+    __device__ void reset() { flat = tall = large = 0; }
+  } * counts;
 };
 
-enum class Coverage { none, few, many };
+enum class Coverage { none, flat, tall, large };
 
-/// Appends an entry per view where there is coverage; called by whole warps.
-__device__ __forceinline__ void append(const VisibleList& list, Coverage left, Coverage right,
-                                       int entry) {
+/// Appends an entry per view that is wanted; called by whole warps.
+__device__ __forceinline__ void append(std::uint16_t* first, int step, int& count, bool left,
+                                       bool right, int entry) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const unsigned below = (1u << lane) - 1u;
-  const auto append_those = [&](Coverage wanted, int& count, int first, int step) {
-    const unsigned in_left = __ballot_sync(kWholeWarp, left == wanted);
-    const unsigned in_right = __ballot_sync(kWholeWarp, right == wanted);
-    int base = 0;
-    if (lane == 0) base = atomicAdd(&count, __popc(in_left) + __popc(in_right));
-    base = __shfl_sync(kWholeWarp, base, 0);
-    const auto put = [&](int place, int what) {
-      list.entries[first + step * place] = static_cast<std::uint16_t>(what);
-    };
-    if (left == wanted) put(base + __popc(in_left & below), entry);
-    if (right == wanted) put(base + __popc(in_left) + __popc(in_right & below), entry + 1);
+  const unsigned in_left = __ballot_sync(kWholeWarp, left);
+  const unsigned in_right = __ballot_sync(kWholeWarp, right);
+  const int lefts = __popc(in_left);
+  int base = 0;
+  if (lane == 0) base = atomicAdd(&count, lefts + __popc(in_right));
+  base = __shfl_sync(kWholeWarp, base, 0);
+  const auto put = [&](int place, int what) {
+    first[step * place] = static_cast<std::uint16_t>(what);
   };
-  append_those(Coverage::few, list.counts[0], 0, 1);
-  if (__any_sync(kWholeWarp, left == Coverage::many || right == Coverage::many)) {
-    append_those(Coverage::many, list.counts[1], list.capacity - 1, -1);
-  }
+  if (left) put(base + __popc(in_left & below), entry);
+  if (right) put(base + lefts + __popc(in_right & below), entry + 1);
+}
+
+/// Appends what the lanes of a warp have found to the lists.
+__device__ __forceinline__ void append(const VisibleList& list, Coverage left, Coverage right,
+                                       int entry) {
+  const auto append_those = [&](Coverage wanted, std::uint16_t* first, int step, int& count) {
+    append(first, step, count, left == wanted, right == wanted, entry);
+  };
+  append_those(Coverage::flat, list.entries, 1, list.counts->flat);
+  if (!__any_sync(kWholeWarp, left > Coverage::flat || right > Coverage::flat)) return;
+  append_those(Coverage::tall, list.tall, 1, list.counts->tall);
+  append_those(Coverage::large, list.entries + list.capacity - 1, -1, list.counts->large);
 }
 
 /// How many pixels of `rows` a triangle may cover in a view `width` pixels wide.
-__device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width,
-                                             Span rows) {
+__device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width, Span rows,
+                                             int flat_rows) {
   const float area = -twice_area(t);
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
   if (!((two_sided ? fabsf(area) : area) > kSmallestArea)) return Coverage::none;
   if (columns.first > columns.last) return Coverage::none;
-  const int extent = max(columns.last - columns.first, rows.last - rows.first);
-  return extent >= kPixelsPerThread ? Coverage::many : Coverage::few;
+  const int height = rows.last - rows.first;
+  if (max(columns.last - columns.first, height) >= kPixelsPerThread) return Coverage::large;
+  return height < flat_rows ? Coverage::flat : Coverage::tall;
 }
 
 /// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in
 /// a view or, with kPair, in either view of a pair.
 template <bool kPair, bool kShared>
-__device__ __forceinline__ void cull(const PackedTriangle* triangles,
+__device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
                                      const Vertices<kShared>& vertices, int width, int width2,
                                      int y0, int y1, int count, const VisibleList& list) {
-  const int rounded = (count + kWarp - 1) / kWarp * kWarp;
+  const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const float low = exact_float(y0), high = exact_float(y1 - 1);
-  for (int i = static_cast<int>(threadIdx.x); i < rounded; i += static_cast<int>(blockDim.x)) {
-    const PackedTriangle triangle = i < count ? triangles[i] : 0;
-    const CornerRecords records = load_corners(triangle, vertices);
-    const Corners t = records.in_view(false);
-    const Span rows = {round_up(fmaxf(least(t.ay, t.by, t.cy), low)),
-                       round_down(fminf(most(t.ay, t.by, t.cy), high))};
-    const bool in_rows = i < count && rows.first <= rows.last && least(t.aw, t.bw, t.cw) > 0.0f;
+  for (int base = static_cast<int>(threadIdx.x) - lane; base < count;
+       base += static_cast<int>(blockDim.x)) {
+    const bool there = base + lane < count;
+    const PackedTriangle triangle = there ? triangles[base + lane] : 0;
+    const TriangleCorners corners(triangle);
+    // Most triangles lie in other rows, which their heights alone tell.
+    const float ay = vertices.y(corners.a), by = vertices.y(corners.b), cy = vertices.y(corners.c);
+    const Span rows = {round_up(fmaxf(least(ay, by, cy), low)),
+                       round_down(fminf(most(ay, by, cy), high))};
+    const bool in_rows = there && rows.first <= rows.last;
     if (!__any_sync(kWholeWarp, in_rows)) continue;
     Coverage left = Coverage::none, right = Coverage::none;
     if (in_rows) {
-      const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
-      left = coverage(t, two_sided, width, rows);
-      if (kPair) right = coverage(records.in_view(true), two_sided, width2, rows);
+      const CornerRecords records = load_corners(corners, vertices);
+      const Corners t = records.in_view(false);
+      if (least(t.aw, t.bw, t.cw) > 0.0f) {
+        const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
+        left = coverage(t, two_sided, width, rows, list.flat_rows);
+        if (kPair) {
+          right = coverage(records.in_view(true), two_sided, width2, rows, list.flat_rows);
+        }
+      }
     }
-    append(list, left, right, 2 * i);
+    append(list, left, right, 2 * (base + lane));
   }
 }
 

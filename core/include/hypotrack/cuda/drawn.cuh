@@ -13,6 +13,7 @@ namespace hypotrack::cuda {
 struct DrawnDepth {
   cudaTextureObject_t texture;
   int layer;
+  __device__ __forceinline__ float inside(int x, int y) const { return (*this)(x, y); }
   __device__ __forceinline__ float in_row(int x, int y) const { return (*this)(x, y); }
   __device__ __forceinline__ float operator()(int x, int y) const {
     return tex2DLayered<float>(texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f,
@@ -38,13 +39,16 @@ __global__ void __launch_bounds__(kMostThreads)
   const auto tile = [&](int v) { return Box{0, 0, frame->views[v].width, frame->views[v].height}; };
   const auto depth = [&](int v) { return DrawnDepth{drawn.texture, layer + v}; };
   if constexpr (Term::kStereo) {
+    const TileTexels<Term> texels(term, *frame);
     const auto score = [&](auto rectified) {
       constexpr bool kRectified = decltype(rectified)::value;
       if (term.directions() & 1) {
-        score_stereo<0, kRectified>(term, frame->maps[0], tile(0), depth(0), depth(1), sums);
+        score_stereo<0, kRectified>(term, frame->maps[0], tile(0), depth(0), depth(1), texels,
+                                    sums);
       }
       if (term.directions() & 2) {
-        score_stereo<1, kRectified>(term, frame->maps[1], tile(1), depth(1), depth(0), sums);
+        score_stereo<1, kRectified>(term, frame->maps[1], tile(1), depth(1), depth(0), texels,
+                                    sums);
       }
     };
     if (frame->pair) {

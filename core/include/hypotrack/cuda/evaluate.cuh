@@ -2,11 +2,13 @@
 
 #include <cuda_pipeline_primitives.h>
 
+#include "hypotrack/cuda/bands.cuh"
 #include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/fill.cuh"
 #include "hypotrack/cuda/pose.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/cuda/score.cuh"
+#include "hypotrack/cuda/texels.cuh"
 
 /// The kernel behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
 /// hypothesis without leaving its multiprocessor.
@@ -15,44 +17,49 @@ namespace hypotrack::cuda {
 /// What a Term's pixels are taken from.
 enum class Walk { views, pair, general_pair };
 
+/// What the threads of one block share besides its plan's memory.
+struct alignas(16) BlockState {
+  FrameLayout frame;
+  Bounds bounds;
+  VisibleList::Counts counts;
+  Span band;
+};
+
 /// Everything that the threads of one block know about their hypothesis.
 template <class Term, Walk kWalk, bool kSharedVertices>
 class BlockEvaluation {
  public:
-  __device__ BlockEvaluation(const SceneLayout& scene, FrameLayout& frame, const BatchLayout& batch,
-                             const BlockPlan& plan, const Term& term, Bounds& bounds, int* counts)
+  __device__ BlockEvaluation(const SceneLayout& scene, const BatchLayout& batch,
+                             const BlockPlan& plan, const Term& term, BlockState& state)
       : scene_(scene),
-        frame_(frame),
         batch_(batch),
         plan_(plan),
         term_(term),
-        bounds_(bounds),
-        counts_(counts),
+        state_(state),
+        frame_(state.frame),
         hypothesis_(blockIdx.x / static_cast<unsigned>(plan.bands)),
         band_(static_cast<int>(blockIdx.x % static_cast<unsigned>(plan.bands))) {
     float* scratch = nullptr;
     if constexpr (!kSharedVertices) {
       scratch = plan.vertex_scratch + std::int64_t{4} * plan.vertex_stride * blockIdx.x;
     }
-    vertices_ = {{scratch, plan.vertices}};
+    vertices_ = {{scratch, plan.vertices}, plan.heights};
   }
 
   /// What does not depend on the search: runs while the kernel before is still at work.
   __device__ void begin(const FrameLayout* frame) {
+    stage(frame, 1, &state_.frame);
+    stage(scene_.models, scene_.model_count, shared_floats() + plan_.pose.model_layouts);
+    stage(scene_.bones, scene_.bone_count, shared_floats() + plan_.pose.bone_layouts);
+    stage(scene_.turns, scene_.turn_count, shared_floats() + plan_.pose.turns);
     if (plan_.staged) {
-      stage(scene_.vertices, scene_.vertex_count, plan_.staged_vertices);
-      stage(scene_.triangles, scene_.triangle_count, plan_.staged_triangles);
+      stage(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
+      stage(scene_.triangles, scene_.triangle_count, shared_floats() + plan_.staged_triangles);
     }
-    copy_to_shared(scene_.models, scene_.model_count, plan_.pose.model_layouts);
-    copy_to_shared(scene_.bones, scene_.bone_count, plan_.pose.bone_layouts);
-    copy_to_shared(scene_.turns, scene_.turn_count, plan_.pose.turns);
-    const auto* words = reinterpret_cast<const std::uint32_t*>(frame);
-    for (unsigned i = threadIdx.x; i < sizeof(FrameLayout) / 4; i += blockDim.x) {
-      reinterpret_cast<std::uint32_t*>(&frame_)[i] = __ldcg(words + i);
-    }
+    __pipeline_commit();
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
     if (plan_.bands > 1) {
-      clear(Floats<true>{nullptr, plan_.histogram}, padded(plan_.histogram_rows));
+      clear(Floats<true>{nullptr, plan_.histogram}, kHistogramBins);
     }
     reset();
     __pipeline_wait_prior(0);
@@ -79,35 +86,33 @@ class BlockEvaluation {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
-  /// Copies without waiting; the array's memory goes on to a multiple of 16 bytes.
+  /// Begins to copy from the L2 cache; both memories go on to a multiple of 16 bytes.
   template <class T>
-  __device__ static void stage(const T* from, int count, int to) {
+  __device__ static void stage(const T* from, int count, void* to) {
     const auto* pieces = reinterpret_cast<const uint4*>(from);
-    auto* out = reinterpret_cast<uint4*>(shared_floats() + to);
+    auto* out = reinterpret_cast<uint4*>(to);
     const int size = (static_cast<int>(sizeof(T)) * count + 15) / 16;
     for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
       __pipeline_memcpy_async(out + i, pieces + i, sizeof(uint4));
     }
-    __pipeline_commit();
   }
 
   __device__ void reset() {
-    if (threadIdx.x == 0) bounds_.reset();
-    if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
+    if (threadIdx.x > 0) return;
+    state_.bounds.reset();
+    state_.counts.reset();
   }
 
-  /// Skins and projects all vertices into a view and, for a pair, the view beside it; then bounds_
-  /// holds for the whole block.
+  /// Skins and projects all vertices into a view and, for a pair, the view beside it; then the
+  /// bounds hold for the whole block.
   template <bool kPair>
-  __device__ void place_vertices(int view) {
+  __device__ __forceinline__ void place_vertices(int view) {
     const float* bones = shared_floats() + plan_.pose.bones;
     const ViewLayout& camera = frame_.views[view];
     const Parallax parallax = pair_parallax();
     ThreadBounds own;
-    const VertexLayout* layouts =
-        plan_.staged
-            ? reinterpret_cast<const VertexLayout*>(shared_floats() + plan_.staged_vertices)
-            : scene_.vertices;
+    const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
+                                      plan_.staged_vertices, plan_.staged};
     auto* histogram = reinterpret_cast<int*>(shared_floats() + plan_.histogram);
     const int threads = static_cast<int>(blockDim.x);
     for (int round = 0; round * threads < scene_.vertex_count; ++round) {
@@ -115,17 +120,18 @@ class BlockEvaluation {
       const int thread = static_cast<int>(threadIdx.x);
       const int i = round * threads + (round % 2 == 0 ? thread : threads - 1 - thread);
       if (i >= scene_.vertex_count) continue;
-      const float3 v = project(skin(layouts + i, bones), camera, view == 0);
+      const float3 v = project<kPair>(skin(layouts[i], bones), camera, view == 0);
       const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
-      vertices_[i] = {v.x, v.y, valid ? v.z : 0.0f, x2};
+      vertices_.put(i, {v.x, v.y, valid ? v.z : 0.0f, x2});
       if (!valid) continue;
       own.add(v.x, x2, v.y);
       if (plan_.bands > 1) {
-        atomicAdd(histogram + min(max(round_nearest(v.y), 0), camera.height - 1), 1);
+        const int row = min(max(round_nearest(v.y), 0), camera.height - 1);
+        atomicAdd(histogram + (row >> plan_.histogram_shift), 1);
       }
     }
-    own.join(bounds_, kPair);
+    own.join(state_.bounds, kPair);
     __syncthreads();
   }
 
@@ -133,76 +139,52 @@ class BlockEvaluation {
     return {frame_.maps[0].a[0][2], frame_.maps[0].b[0]};
   }
 
-  /// Draws all triangles into z-buffers that are zero, between barriers: of `view` or, with kPair,
-  /// of both views.
+  /// Draws all triangles into z-buffers that are zero, after a barrier and before one: of `view`
+  /// or, with kPair, of both views.
   template <bool kPair, bool kSharedDepth>
   __device__ void draw(int view, const DepthBuffer<kSharedDepth>& left,
                        const DepthBuffer<kSharedDepth>& right) {
-    const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
-                           2 * plan_.chunk, counts_};
+    const bool tall = plan_.tall >= 0;
+    const auto entries = [](int at) {
+      return reinterpret_cast<std::uint16_t*>(shared_floats() + at);
+    };
+    const VisibleList list{entries(plan_.list), 2 * plan_.chunk,
+                           tall ? kFlatRows : kPixelsPerThread, entries(tall ? plan_.tall : 0),
+                           &state_.counts};
     const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
-      if (first > 0) {
-        if (threadIdx.x < 2) counts_[threadIdx.x] = 0;
+      if (first > 0) __syncthreads();
+      if (first > 0 || lists_are_used_) {
+        if (threadIdx.x == 0) state_.counts.reset();
         __syncthreads();
       }
-      const PackedTriangle* triangles =
-          (plan_.staged
-               ? reinterpret_cast<const PackedTriangle*>(shared_floats() + plan_.staged_triangles)
-               : scene_.triangles) +
-          first;
+      lists_are_used_ = true;
+      constexpr int kWords = sizeof(PackedTriangle) / sizeof(float);
+      const Staged<PackedTriangle> triangles{scene_.triangles + first,
+                                             plan_.staged_triangles + kWords * first, plan_.staged};
       cull<kPair>(triangles, vertices_, views[0].width, views[1].width, left.box.y0, left.box.y1,
                   count, list);
       __syncthreads();
-      fill<kPair>(triangles, vertices_, views[0].width, views[1].width, views[0].height, list, left,
-                  right);
-      __syncthreads();
+      const Filler<kPair, kSharedVertices, kSharedDepth> filler{
+          triangles, vertices_, views[0].width, views[1].width, views[0].height, left, right};
+      filler.few(list);
+      filler.many(list);
     }
-    if (threadIdx.x < 2) counts_[threadIdx.x] = 0;  // for the next call, after a barrier
   }
 
   /// The rows of y0 <= y < y1 that this block is responsible for, so that every band has the same
   /// share of vertices and of rows; for the whole block.
   __device__ Span band(int y0, int y1) {
     if (plan_.bands == 1) return {y0, y1};
-    if (threadIdx.x < kWarp) find_band(y0, y1);
+    if (threadIdx.x < kWarp) {
+      const auto* bins = reinterpret_cast<const int2*>(shared_floats() + plan_.histogram);
+      const Span band =
+          find_band(bins, plan_.histogram_shift, scene_.vertex_count, {y0, y1}, band_, plan_.bands);
+      if (threadIdx.x == 0) state_.band = band;
+    }
     __syncthreads();
-    return {counts_[2], counts_[3]};
-  }
-
-  __device__ void find_band(int y0, int y1) {
-    const int lane = static_cast<int>(threadIdx.x);
-    const auto* histogram = reinterpret_cast<const int*>(shared_floats() + plan_.histogram);
-    const int rows = max(y1 - y0, 0), per_lane = (rows + kWarp - 1) / kWarp;
-    const int first = min(y0 + lane * per_lane, y1), last = min(first + per_lane, y1);
-    // A row weighs as much as its vertices and half of an average row.
-    const int of_a_row = scene_.vertex_count / max(rows, 1) + 1;
-    const auto weight = [&](int y) { return 2 * histogram[y] + of_a_row; };
-    int own = 0;
-    for (int y = first; y < last; ++y) own += weight(y);
-    int before = own;
-    for (int step = 1; step < kWarp; step *= 2) {
-      const int other = __shfl_up_sync(kWholeWarp, before, step);
-      if (lane >= step) before += other;
-    }
-    const float total = static_cast<float>(__shfl_sync(kWholeWarp, before, kWarp - 1));
-    before -= own;
-    const float low = total * static_cast<float>(band_) / static_cast<float>(plan_.bands);
-    const float high = total * static_cast<float>(band_ + 1) / static_cast<float>(plan_.bands);
-    if (lane == 0) {
-      counts_[2] = band_ == 0 ? y0 : y1;
-      counts_[3] = y1;
-    }
-    __syncwarp();
-    // The first row that ends beyond a bound begins the next band; every row is in one of them.
-    for (int y = first; y < last; ++y) {
-      const auto from = static_cast<float>(before);
-      before += weight(y);
-      const auto to = static_cast<float>(before);
-      if (band_ > 0 && from < low && to >= low) counts_[2] = y + 1;
-      if (band_ + 1 < plan_.bands && from < high && to >= high) counts_[3] = y + 1;
-    }
+    return state_.band;
   }
 
   /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
@@ -210,7 +192,7 @@ class BlockEvaluation {
   template <class Piece>
   __device__ void in_pieces(const Span& rows, int width, const Piece& piece) {
     if (width <= 0) return;
-    const int most = (plan_.depth_capacity - 4) / width;
+    const int most = small_quotient(plan_.depth_capacity - 4, width);
     for (int y0 = rows.first; y0 < rows.last; y0 += most) {
       if (y0 > rows.first || depth_is_used_) {
         __syncthreads();
@@ -231,12 +213,13 @@ class BlockEvaluation {
     place_vertices<false>(view);
     vertices_are_used_ = true;
     const ViewLayout& camera = frame_.views[view];
-    Box box = bounds_.box(camera.width, camera.height);
+    Box box = state_.bounds.box(camera.width, camera.height);
     if (box.empty()) box = {0, 0, 0, 0};
     if (Term::kVisitsUncovered) box = {0, 0, camera.width, camera.height};
     in_pieces(band(box.y0, box.y1), box.width(), [&](int y0, int y1) {
       const DepthBuffer<true> buffer{{nullptr, plan_.depth}, {box.x0, y0, box.x1, y1}};
       draw<false>(view, buffer, buffer);
+      __syncthreads();
       score_view(term_, view, buffer.box, buffer, sums_);
     });
   }
@@ -244,7 +227,8 @@ class BlockEvaluation {
   __device__ void pair() {
     place_vertices<true>(0);
     const ViewLayout* v = frame_.views;
-    Box left = bounds_.box(v[0].width, v[0].height), right = bounds_.box2(v[1].width, v[1].height);
+    Box left = state_.bounds.box(v[0].width, v[0].height);
+    Box right = state_.bounds.box2(v[1].width, v[1].height);
     if (left.empty()) left.x1 = left.x0;
     if (right.empty()) right.x1 = right.x0;
     if (Term::kVisitsUncovered) {
@@ -255,20 +239,35 @@ class BlockEvaluation {
       const int right_at = plan_.depth + left.width() * (y1 - y0);
       const DepthBuffer<true> first{{nullptr, plan_.depth}, {left.x0, y0, left.x1, y1}};
       const DepthBuffer<true> second{{nullptr, right_at}, {right.x0, y0, right.x1, y1}};
+      const SharedTexels<Term> texels = fetch(first.box, second.box);
       draw<true>(0, first, second);
-      score_both<true>(first, second);
+      texels.wait();
+      __syncthreads();
+      if (texels.fetched) {
+        score_both<true>(first, second, texels);
+      } else {
+        score_both<true>(first, second, TileTexels<Term>(term_, frame_));
+      }
     });
   }
 
-  template <bool kRectified, bool kSharedDepth>
+  /// Begins to fetch the texels of the boxes behind the z-buffers, if there is room.
+  __device__ SharedTexels<Term> fetch(const Box& left, const Box& right) {
+    const int depth = (left.width() + right.width()) * left.height();
+    SharedTexels<Term> texels;
+    texels.fetch(term_, frame_, left, right, plan_.depth + padded(depth), plan_.end);
+    return texels;
+  }
+
+  template <bool kRectified, bool kSharedDepth, class Texels>
   __device__ void score_both(const DepthBuffer<kSharedDepth>& left,
-                             const DepthBuffer<kSharedDepth>& right) {
+                             const DepthBuffer<kSharedDepth>& right, const Texels& texels) {
     const int directions = term_.directions();
     if (directions & 1) {
-      score_stereo<0, kRectified>(term_, frame_.maps[0], left.box, left, right, sums_);
+      score_stereo<0, kRectified>(term_, frame_.maps[0], left.box, left, right, texels, sums_);
     }
     if (directions & 2) {
-      score_stereo<1, kRectified>(term_, frame_.maps[1], right.box, right, left, sums_);
+      score_stereo<1, kRectified>(term_, frame_.maps[1], right.box, right, left, texels, sums_);
     }
   }
 
@@ -303,7 +302,7 @@ class BlockEvaluation {
     place_vertices<false>(view);
     const ViewLayout& camera = frame_.views[view];
     if (Term::kVisitsUncovered) return {0, 0, camera.width, camera.height};
-    const Box box = bounds_.box(camera.width, camera.height);
+    const Box box = state_.bounds.box(camera.width, camera.height);
     return box.empty() ? Box{0, 0, 0, 0} : box;
   }
 
@@ -314,47 +313,38 @@ class BlockEvaluation {
     draw<false>(0, left, left);
     place_alone(1);
     draw<false>(1, right, right);
-    score_both<false>(left, right);
+    __syncthreads();
+    score_both<false>(left, right, TileTexels<Term>(term_, frame_));
   }
 
   __device__ void finish() {
     double total[Term::kSums];
     block_sum(sums_, shared_floats() + plan_.sums, total);
-    if (threadIdx.x != 0) return;
-    if (plan_.bands > 1 && !join_bands(total)) return;
+    if (threadIdx.x >= kWarp) return;
+    if (plan_.bands > 1) {
+      constexpr int kSums = Term::kSums;
+      double* slots = plan_.band_sums + hypothesis_ * (plan_.bands * kSums);
+      auto* room = reinterpret_cast<double*>(shared_floats() + plan_.sums);
+      if (!join_bands<kSums>(slots, band_, plan_.bands, room, total)) return;
+    }
+    if (threadIdx.x > 0) return;
     const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.pose.state);
     double& out = batch_.costs[hypothesis_];
     out = batch_.add ? __ldcg(&out) + cost : cost;
   }
 
-  /// The last block of a hypothesis adds up all bands, in their order, and returns true.
-  __device__ bool join_bands(double (&total)[Term::kSums]) {
-    double* partial = plan_.partial_sums + hypothesis_ * plan_.bands * Term::kSums;
-    for (int i = 0; i < Term::kSums; ++i) __stcg(partial + band_ * Term::kSums + i, total[i]);
-    __threadfence();
-    const std::uint32_t done = atomicAdd(plan_.tickets + hypothesis_, 1u);
-    if (done + 1 != static_cast<std::uint32_t>(plan_.bands)) return false;
-    __threadfence();
-    plan_.tickets[hypothesis_] = 0;
-    for (int i = 0; i < Term::kSums; ++i) {
-      total[i] = 0.0;
-      for (int b = 0; b < plan_.bands; ++b) total[i] += __ldcg(partial + b * Term::kSums + i);
-    }
-    return true;
-  }
-
   const SceneLayout& scene_;
-  FrameLayout& frame_;  // in shared memory
   const BatchLayout& batch_;
   const BlockPlan& plan_;
   const Term& term_;
-  Bounds& bounds_;
-  int* counts_;
+  BlockState& state_;
+  const FrameLayout& frame_;
   std::int64_t hypothesis_;
   int band_;
   Vertices<kSharedVertices> vertices_;
   bool vertices_are_used_ = false;
   bool depth_is_used_ = false;
+  bool lists_are_used_ = false;
   float sums_[Term::kSums] = {};
 };
 
@@ -363,11 +353,8 @@ __global__ void __launch_bounds__(kMostThreads)
     evaluate_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
                         const __grid_constant__ BatchLayout batch,
                         const __grid_constant__ BlockPlan plan, const __grid_constant__ Term term) {
-  __shared__ FrameLayout shared_frame;
-  __shared__ Bounds bounds;
-  __shared__ int counts[4];  // of the list's two ends, and the band's rows
-  BlockEvaluation<Term, kWalk, kSharedVertices> block(scene, shared_frame, batch, plan, term,
-                                                      bounds, counts);
+  __shared__ BlockState state;
+  BlockEvaluation<Term, kWalk, kSharedVertices> block(scene, batch, plan, term, state);
   block.begin(frame);
   wait_for_previous();
   let_next_start();

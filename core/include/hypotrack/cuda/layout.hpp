@@ -71,7 +71,7 @@ struct ViewLayout {
 
 /// A frame's cameras; in device memory, so that kernels that were captured into a graph find the
 /// current ones.
-struct FrameLayout {
+struct alignas(16) FrameLayout {
   std::int32_t view_count;
   std::int32_t pair;  ///< two views that share y and 1/z: x_right = x_left + a constant + f b / z
   ViewLayout views[kMaxViews];

@@ -23,7 +23,17 @@ namespace hypotrack::cuda {
 ///     __device__ int directions() const;               // kStereo: bit v: view v is the reference
 ///     template <int kReference>
 ///     __device__ void pixel(const StereoPixel& p, float (&sums)[kSums]) const;
-///     // not kStereo, instead of these two:
+///     // kStereo, if it looks things up per pixel of the tiles; the block then has them at hand,
+///     and
+///     // pixel() is called with a third argument: texels.template at<view>(x, y), for pixels that
+///     are
+///     // covered in that view, and for their neighbours within its tile in x
+///     using Texel = uint2;                             // 4, 8 or 16 bytes
+///     __device__ const Texel* texels(int view) const;  // row by row without gaps, aligned to 16
+///     bytes template <int kReference, class Texels>
+///     __device__ void pixel(const StereoPixel& p, const Texels& texels, float (&sums)[kSums])
+///     const;
+///     // not kStereo, instead of these:
 ///     __device__ int views() const;                    // bit v: view v is looked at
 ///     __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const;
 ///     // once per hypothesis, `state` decoded and normalised:
@@ -68,7 +78,8 @@ class PixelObjective : public DeviceObjective {
                                   .tile_height = height_,
                                   .tiles_at_once = Term::kStereo ? 2 : 1,
                                   .may_split = !Term::kStereo || rectified_,
-                                  .sums = Term::kSums});
+                                  .sums = Term::kSums,
+                                  .texels = HasTexels<Term>});
     if (plan.depth_capacity < least_depth_capacity(Term::kStereo ? 2 : 1, width_)) {
       throw DeviceError("CUDA: tiles " + std::to_string(width_) +
                         " pixels wide and this scene's bones do not fit into the device's shared "
@@ -84,17 +95,16 @@ class PixelObjective : public DeviceObjective {
       depth_scratch_.reserve(blocks * static_cast<std::size_t>(both_tiles));
     }
     if (plan.bands > 1) {
-      partial_sums_.reserve(blocks * Term::kSums);
-      if (tickets_.reserve(static_cast<std::size_t>(count))) {
-        check(cudaMemset(tickets_.data(), 0, tickets_.size() * sizeof(std::uint32_t)),
-              "clearing memory");
-        check(cudaDeviceSynchronize(), "clearing memory");
+      if (band_sums_.reserve(blocks * Term::kSums)) {
+        static_assert(kEmptySlot == ~std::uint64_t{0});
+        check(cudaMemset(band_sums_.data(), 0xFF, band_sums_.size() * sizeof(double)),
+              "emptying memory");
+        check(cudaDeviceSynchronize(), "emptying memory");
       }
     }
     plan.vertex_scratch = vertex_scratch_.data();
     plan.depth_scratch = depth_scratch_.data();
-    plan.partial_sums = partial_sums_.data();
-    plan.tickets = tickets_.data();
+    plan.band_sums = band_sums_.data();
     check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
                                plan.shared_bytes),
           "reserving shared memory");
@@ -162,8 +172,7 @@ class PixelObjective : public DeviceObjective {
   std::uint64_t revision_ = 0;
   BlockPlan plan_;
   DeviceBuffer<float> vertex_scratch_, depth_scratch_;
-  DeviceBuffer<double> partial_sums_;
-  DeviceBuffer<std::uint32_t> tickets_;
+  DeviceBuffer<double> band_sums_;
 };
 
 }  // namespace hypotrack::cuda

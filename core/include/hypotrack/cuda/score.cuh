@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hypotrack/cuda/pixel_walk.cuh"
+#include "hypotrack/cuda/texels.cuh"
 
 /// A Term's pixels, looked at by a block of threads.
 namespace hypotrack::cuda {
@@ -14,26 +15,27 @@ __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixe
   // Warps stand side by side over a row, as many as it takes, in groups one above the other.
   const int side_by_side = min((box.width() + kWarp - 1) / kWarp, warps);
   if (side_by_side <= 0) return;
-  const int groups = warps / side_by_side, group = warp / side_by_side;
+  const int groups = small_quotient(warps, side_by_side);
+  const int group = small_quotient(warp, side_by_side);
   if (group >= groups) return;
+  const int first = box.x0 + (warp - group * side_by_side) * kWarp + lane;
   for (int y = box.y0 + group; y < box.y1; y += groups) {
-    for (int x = box.x0 + warp % side_by_side * kWarp + lane; x < box.x1;
-         x += side_by_side * kWarp) {
+    for (int x = first; x < box.x1; x += side_by_side * kWarp) {
       pixel(x, y);
     }
   }
 }
 
 /// Adds the pixels of `here` within its box to the sums.
-template <int kReference, bool kRectified, class Term, class Here, class There>
+template <int kReference, bool kRectified, class Term, class Here, class There, class Texels>
 __device__ __forceinline__ void score_stereo(const Term& term, const StereoMap map, const Box& box,
                                              const Here& here, const There& there,
-                                             float (&sums)[Term::kSums]) {
+                                             const Texels& texels, float (&sums)[Term::kSums]) {
   for_each_pixel(box, [&](int x, int y) {
-    const float w = here(x, y);
+    const float w = here.inside(x, y);
     if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
-    term.template pixel<kReference>(stereo_pixel<kRectified>(map, term.tolerance, x, y, w, there),
-                                    sums);
+    add_pixel<kReference>(term, stereo_pixel<kRectified>(map, term.tolerance, x, y, w, there),
+                          texels, sums);
   });
 }
 
@@ -42,7 +44,7 @@ template <class Term, class Here>
 __device__ __forceinline__ void score_view(const Term& term, int view, const Box& box,
                                            const Here& here, float (&sums)[Term::kSums]) {
   for_each_pixel(box, [&](int x, int y) {
-    const float w = here(x, y);
+    const float w = here.inside(x, y);
     if (!Term::kVisitsUncovered && !(w > 0.0f)) return;
     term.pixel(ViewPixel{view, x, y, w, w > 0.0f}, sums);
   });

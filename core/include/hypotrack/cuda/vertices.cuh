@@ -17,8 +17,16 @@ inline constexpr float kFarthestPixel = 1 << 20;
 template <bool kShared>
 struct Vertices {
   Floats<kShared> records;  ///< four floats per vertex
+  int heights;              ///< from the records on: every vertex's y once more; -1: nowhere else
   __device__ __forceinline__ float4& operator[](int index) const {
     return *reinterpret_cast<float4*>(records.at(4 * index));
+  }
+  __device__ __forceinline__ float y(int index) const {
+    return records[heights < 0 ? 4 * index + 1 : heights + index];
+  }
+  __device__ __forceinline__ void put(int index, const float4& record) const {
+    (*this)[index] = record;
+    if (heights >= 0) records[heights + index] = record.y;
   }
 };
 
@@ -40,29 +48,36 @@ struct Bounds {
   }
 };
 
+/// A VertexLayout as it is loaded.
+struct VertexWords {
+  uint2 words[sizeof(VertexLayout) / sizeof(uint2)];
+};
+
 /// Linear blend skinning of one vertex.
-__device__ __forceinline__ float3 skin(const VertexLayout* vertex, const float* bones) {
-  const auto* from = reinterpret_cast<const uint2*>(vertex);
-  const uint2 xy = from[0], z_bones = from[1], weights = from[2];
+__device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* bones) {
+  const uint2 xy = vertex.words[0], z_bones = vertex.words[1], weights = vertex.words[2];
   const float x = __uint_as_float(xy.x), y = __uint_as_float(xy.y), z = __uint_as_float(z_bones.x);
   float3 sum = {0.0f, 0.0f, 0.0f};
 #pragma unroll
   for (int k = 0; k < 4; ++k) {
-    const unsigned units = (k < 2 ? weights.x : weights.y) >> (16 * (k % 2)) & 0xFFFFu;
-    if (units == 0) continue;
-    const float weight = static_cast<float>(units) * (1.0f / kWholeWeight);
+    const unsigned pair = k < 2 ? weights.x : weights.y;
+    if ((pair >> (16 * (k % 2)) & 0xFFFFu) == 0) continue;
+    const float weight = k % 2 == 0 ? exact_low_half(pair) : exact_high_half(pair);
     const auto* m = reinterpret_cast<const float4*>(bones + 12 * (z_bones.y >> (8 * k) & 0xFFu));
     const float4 r0 = m[0], r1 = m[1], r2 = m[2];
     sum.x += weight * (r0.x * x + r0.y * y + r0.z * z + r0.w);
     sum.y += weight * (r1.x * x + r1.y * y + r1.z * z + r1.w);
     sum.z += weight * (r2.x * x + r2.y * y + r2.z * z + r2.w);
   }
-  return sum;
+  constexpr float kUnit = 1.0f / kWholeWeight;
+  return {sum.x * kUnit, sum.y * kUnit, sum.z * kUnit};
 }
 
-/// Projects a vertex, given in the frame of the first view's camera, into a view.
+/// Projects a vertex, given in the frame of the first view's camera, into a view; of a pair it is
+/// the first.
+template <bool kPair>
 __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool first) {
-  if (!first) {
+  if (!kPair && !first) {
     const float* m = view.view_from_first;
     p = {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
          m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};

@@ -18,8 +18,9 @@ struct ColorTerm {
   static constexpr int kSums = kBoth ? 6 : 3;  // per direction: similarity, seen, rendered
   static constexpr float kUnit = 1.0f / 65535.0f;
 
+  using Texel = PackedFeatures;
+
   const PackedFeatures* features[2];  ///< per view, device memory
-  std::int32_t width[2];              ///< of the views' tiles
   float beta;                         ///< per kUnit of colour
   float tolerance;
   Direction direction;
@@ -29,15 +30,19 @@ struct ColorTerm {
     if (kBoth) return 3;
     return direction == Direction::left_to_right ? 1 : 2;
   }
+  __device__ const Texel* texels(int view) const { return features[view]; }
 
-  template <int kReference>
-  __device__ void pixel(const cuda::StereoPixel& p, float (&sums)[kSums]) const {
+  template <int kReference, class Texels>
+  __device__ void pixel(const cuda::StereoPixel& p, const Texels& texels,
+                        float (&sums)[kSums]) const {
     constexpr int kFirst = kBoth ? 3 * kReference : 0;
-    const Sample here = load<kReference>(p.x, p.y);  // before it is known to be needed: no waiting
+    // Before it is known to be needed: no waiting.
+    const Texel here = texels.template at<kReference>(p.x, p.y);
     sums[kFirst + 2] += 1.0f;
     if (!p.seen) return;
     sums[kFirst + 1] += 1.0f;
-    sums[kFirst] += scalar::color_consistency(here, there<1 - kReference>(p), beta);
+    sums[kFirst] += consistency(
+        here, [&](int x, int y) { return texels.template at<1 - kReference>(x, y); }, p);
   }
 
   __device__ double cost(const double (&sums)[kSums], const float*) const {
@@ -50,27 +55,36 @@ struct ColorTerm {
  private:
   using Sample = scalar::ColorSample<float>;  // colours in kUnit: beta is, too
 
-  template <int kView>
-  __device__ __forceinline__ Sample load(int x, int y) const {
-    const auto* from = reinterpret_cast<const uint2*>(features[kView]) + (y * width[kView] + x);
-    const uint2 words = __ldg(from);
-    return {low(words.x), high(words.x), low(words.y), high(words.y) * kUnit};
-  }
-  // 2^23 + k as a float has k in its lower bits: cheaper than a conversion.
-  __device__ static float low(std::uint32_t word) {
-    return __uint_as_float(__byte_perm(word, 0x4B000000u, 0x7610)) - 8388608.0f;
-  }
-  __device__ static float high(std::uint32_t word) {
-    return __uint_as_float(__byte_perm(word, 0x4B000000u, 0x7632)) - 8388608.0f;
+  template <class There>
+  __device__ __forceinline__ float consistency(const Texel& here, const There& there,
+                                               const cuda::StereoPixel& p) const {
+    if constexpr (kBilinear) {
+      return scalar::color_consistency(sample(here), blended(there, p), beta);
+    } else {
+      // Only differences of colours count, so that both may keep what biased() adds.
+      return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), beta);
+    }
   }
 
-  template <int kView>
-  __device__ __forceinline__ Sample there(const cuda::StereoPixel& p) const {
-    if constexpr (!kBilinear) return load<kView>(p.column, p.row);
+  __device__ __forceinline__ static Sample sample(const Texel& t) {
+    using cuda::exact_high_half, cuda::exact_low_half;
+    return {exact_low_half(t.channels_01), exact_high_half(t.channels_01),
+            exact_low_half(t.channel_2_weight), exact_high_half(t.channel_2_weight) * kUnit};
+  }
+  /// The same, every channel with kHalfBias added.
+  __device__ __forceinline__ static Sample biased(const Texel& t) {
+    using cuda::biased_high_half, cuda::biased_low_half;
+    return {biased_low_half(t.channels_01), biased_high_half(t.channels_01),
+            biased_low_half(t.channel_2_weight), cuda::exact_high_half(t.channel_2_weight) * kUnit};
+  }
+
+  /// Between the pixels around p.u, p.v.
+  template <class There>
+  __device__ __forceinline__ static Sample blended(const There& there, const cuda::StereoPixel& p) {
     const float x0 = corner(p.u, p.width), fx = share(p.u, x0);
     const int x = static_cast<int>(x0);
     const auto row = [&](int y) {
-      return scalar::blend(load<kView>(x, y), load<kView>(x + 1, y), fx);
+      return scalar::blend(sample(there(x, y)), sample(there(x + 1, y)), fx);
     };
     if (p.same_row) return row(p.row);
     const float y0 = corner(p.v, p.height);

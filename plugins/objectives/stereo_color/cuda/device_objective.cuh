@@ -22,10 +22,7 @@ class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear,
     check(observation);
     maps_.enqueue(observation, stream);
     Term term{};
-    for (int i = 0; i < 2; ++i) {
-      term.features[i] = maps_.of_view(i);
-      term.width[i] = observation.tiles[static_cast<std::size_t>(i)].layout.width;
-    }
+    for (int i = 0; i < 2; ++i) term.features[i] = maps_.of_view(i);
     term.beta = static_cast<float>(settings_.beta) * Term::kUnit;
     term.tolerance = static_cast<float>(settings_.r);
     term.direction = settings_.direction;
