@@ -4,7 +4,7 @@
 
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/observation.hpp"
+#include "hypotrack/observation_checks.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {
@@ -16,13 +16,7 @@ struct Has {
 
 void check_image(const cv::Mat& image, int type, const TileView& view, std::size_t index,
                  const char* what) {
-  const bool fits = image.cols == view.camera.width && image.rows == view.camera.height;
-  if (fits && image.type() == type) return;
-  throw DataError(fmt::format(
-      "objective rgbd_depth: the {} of view {} is {}x{} of OpenCV type {}; expected {}x{}, the "
-      "size of its tile, of type {}",
-      what, index, image.cols, image.rows, image.type(), view.camera.width, view.camera.height,
-      type));
+  check_tile_image("rgbd_depth", image, type, view, index, what);
 }
 
 void check_images(const TileView& view, std::size_t index, Foreground foreground) {

@@ -1,12 +1,10 @@
 #include "rgbd_depth.hpp"
 
-#include <fmt/format.h>
-
 #include "checks.hpp"
 #include "depth_range.hpp"
 #include "energy.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
 
 namespace hypotrack::rgbd_depth {
@@ -57,15 +55,7 @@ std::unique_ptr<cuda::DeviceObjective> RgbdDepth::on_device() const {
 void RgbdDepth::check_tiles(const RenderedHypothesis& hypothesis) const {
   for (const PreparedView& view : views_) {
     const auto& plane = view.observed.pixels;
-    if (hypothesis.views.size() > view.index &&
-        hypothesis.views[view.index].width == plane.width() &&
-        hypothesis.views[view.index].height == plane.height()) {
-      continue;
-    }
-    throw DataError(fmt::format(
-        "objective rgbd_depth: a hypothesis drawn in {} views does not match the prepared frame; "
-        "expected a {}x{} tile as view {}",
-        hypothesis.views.size(), plane.width(), plane.height(), view.index));
+    check_drawn_tile("rgbd_depth", hypothesis, view.index, plane.width(), plane.height());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "hypotrack/bgr.hpp"
 #include "hypotrack/pixel.hpp"
 
 /// Colours of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines them.
@@ -12,17 +13,6 @@ namespace hypotrack::stereo_color {
 struct Channels {
   float c0, c1, c2;
 };
-
-/// An 8-bit pixel.
-struct Bgr {
-  std::uint8_t b, g, r;
-};
-
-HYPOTRACK_PIXEL float gray_level(Bgr p) {
-  return (0.299f * static_cast<float>(p.r) + 0.587f * static_cast<float>(p.g) +
-          0.114f * static_cast<float>(p.b)) /
-         255.0f;
-}
 
 HYPOTRACK_PIXEL Channels rgb_channels(Bgr p) {
   return {static_cast<float>(p.r) / 255.0f, static_cast<float>(p.g) / 255.0f,

@@ -1,13 +1,11 @@
 #include "stereo_color.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 
 #include "aggregation-inl.hpp"
 #include "checks.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
 
 namespace hypotrack::stereo_color {
@@ -46,14 +44,7 @@ void StereoColor::prepare(const Observation& observation) {
 double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& plane = features_[i].channels_01;
-    if (hypothesis.views.size() > i && hypothesis.views[i].width == plane.width() &&
-        hypothesis.views[i].height == plane.height()) {
-      continue;
-    }
-    throw DataError(fmt::format(
-        "objective stereo_color: a hypothesis drawn in {} views does not match the prepared frame; "
-        "expected a {}x{} tile as view {}",
-        hypothesis.views.size(), plane.width(), plane.height(), i));
+    check_drawn_tile("stereo_color", hypothesis, i, plane.width(), plane.height());
   }
   switch (params_.direction) {
     case Direction::left_to_right:

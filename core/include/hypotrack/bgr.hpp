@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+
+#include "hypotrack/pixel.hpp"
+
+namespace hypotrack {
+
+/// An 8-bit pixel, for the CPU and for CUDA.
+struct Bgr {
+  std::uint8_t b, g, r;
+};
+
+/// Luma of ITU-R BT.601, 0 .. 1.
+HYPOTRACK_PIXEL float gray_level(Bgr p) {
+  return (0.299f * static_cast<float>(p.r) + 0.587f * static_cast<float>(p.g) +
+          0.114f * static_cast<float>(p.b)) /
+         255.0f;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,6 @@
+#include "hypotrack/plugin.hpp"
+
+#include "skin.hpp"
+
+HYPOTRACK_PLUGIN(hypotrack::skin::Skin,
+                 "coverage of what looks like foreground, by colour, mask or depth", "")

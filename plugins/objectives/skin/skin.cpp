@@ -1,0 +1,37 @@
+#include "skin.hpp"
+
+#include "checks.hpp"
+#include "hypotrack/observation_checks.hpp"
+#include "score.hpp"
+
+namespace hypotrack::skin {
+
+std::span<const std::string_view> enum_names(Foreground) {
+  static constexpr std::string_view kNames[] = {"auto", "color", "mask", "depth"};
+  return kNames;
+}
+
+Skin::Skin(const Params& params) : params_(params) {}
+
+void Skin::prepare(const Observation& observation) {
+  views_.clear();
+  check(observation, params_.foreground);
+  while (tellers_.size() < observation.views.size()) tellers_.emplace_back(params_);
+  for (std::size_t i = 0; i < observation.views.size(); ++i) {
+    ViewForeground foreground = tellers_[i].tell(observation, i);
+    if (foreground.pixels.width() > 0) views_.push_back({i, std::move(foreground)});
+  }
+}
+
+double Skin::cost(const RenderedHypothesis& hypothesis) const {
+  double sum = 0;
+  for (const PreparedView& view : views_) {
+    const auto& plane = view.foreground.pixels;
+    check_drawn_tile("skin", hypothesis, view.index, plane.width(), plane.height());
+    sum += view.foreground.sum +
+           sum_covered(plane, hypothesis.views[view.index], static_cast<float>(params_.spill));
+  }
+  return sum / static_cast<double>(views_.size());
+}
+
+}  // namespace hypotrack::skin

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "foreground.hpp"
+#include "hypotrack/objective.hpp"
+#include "params.hpp"
+
+namespace hypotrack::skin {
+
+/// Agreement of a hypothesis' silhouettes with how likely each pixel is foreground, P:
+///
+///   cost = mean over views of ( sum over uncovered pixels of P
+///                             + spill * sum over covered pixels of (1 - P) )
+///
+/// in pixels of a tile, as a stereo objective's score is. A hypothesis is rewarded for covering
+/// what has the models' colours and pays for lying on what has not, which a comparison of two views
+/// cannot see. P comes from the colours under the first frames' poses, from the frame's mask or
+/// from its depth (foreground.hpp). All models of a scene are foreground together.
+class Skin : public Objective {
+ public:
+  using Params = skin::Params;
+
+  explicit Skin(const Params& params);
+
+  /// Uses the views that have what the parameters ask for. Throws DataError if none has, and on
+  /// images that do not have their tile's size and type.
+  void prepare(const Observation& observation) override;
+  /// Throws DataError if the drawn tiles are not those of the prepared frame.
+  double cost(const RenderedHypothesis& hypothesis) const override;
+
+ private:
+  struct PreparedView {
+    std::size_t index;  ///< among the observation's views
+    ViewForeground foreground;
+  };
+
+  Params params_;
+  std::vector<ForegroundTeller> tellers_;  ///< one per view of the observation
+  std::vector<PreparedView> views_;
+};
+
+}  // namespace hypotrack::skin

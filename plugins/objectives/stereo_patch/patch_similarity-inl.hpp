@@ -1,0 +1,69 @@
+// Included once per instruction set: no #pragma once.
+#if defined(STEREO_PATCH_PATCH_SIMILARITY_INL_HPP_) == defined(HWY_TARGET_TOGGLE)
+#ifdef STEREO_PATCH_PATCH_SIMILARITY_INL_HPP_
+#undef STEREO_PATCH_PATCH_SIMILARITY_INL_HPP_
+#else
+#define STEREO_PATCH_PATCH_SIMILARITY_INL_HPP_
+#endif
+
+#include "hypotrack/pixel.hpp"
+
+/// The per-pixel functions of the stereo_patch objective, for every lane type (pixel.hpp).
+HYPOTRACK_PIXEL_BEGIN();
+namespace hypotrack::stereo_patch::HYPOTRACK_TARGET {
+
+/// Mean and variance (with the floor added) of a patch.
+template <class F>
+struct Moments {
+  F mean, variance;
+};
+
+template <class F>
+HYPOTRACK_PIXEL Moments<F> moments(F mean, F mean_of_square, F floor) {
+  using pixel::max;
+  return {mean, max(mean_of_square - mean * mean, F(0.0f)) + floor};
+}
+
+/// z = cov(a, b) / sqrt((var a + e)(var b + e)): correlation of two patches, with a variance floor.
+template <class F>
+HYPOTRACK_PIXEL F correlation(F mean_of_product, const Moments<F>& a, const Moments<F>& b) {
+  using pixel::sqrt;
+  return (mean_of_product - a.mean * b.mean) / sqrt(a.variance * b.variance);
+}
+
+/// s = exp(-sharpness (1 - z)), and 0 where z is NaN: where a patch reaches out of an image.
+template <class F>
+HYPOTRACK_PIXEL F similarity(F z, F sharpness) {
+  using pixel::exp;
+  using pixel::min;
+  using pixel::select;
+  const F s = exp(sharpness * (min(z, F(1.0f)) - F(1.0f)));
+  return select(z >= F(-2.0f), s, F(0.0f));
+}
+
+/// Where an inverse depth lies between the planes: the one before it and how far to the next.
+template <class F>
+struct PlaneShare {
+  F before, share;
+};
+
+/// `position` = (inverse depth - first) / step. Meaningful where between_planes() says so.
+template <class F>
+HYPOTRACK_PIXEL PlaneShare<F> plane_share(F position, F last) {
+  using pixel::floor;
+  using pixel::max;
+  using pixel::min;
+  const F before = min(max(floor(position), F(0.0f)), last - F(1.0f));
+  return {before, position - before};
+}
+
+/// Whether a position lies on or between the first plane (0) and the last.
+template <class F>
+HYPOTRACK_PIXEL auto between_planes(F position, F last) {
+  return position >= F(0.0f) && position <= last;
+}
+
+}  // namespace hypotrack::stereo_patch::HYPOTRACK_TARGET
+HYPOTRACK_PIXEL_END();
+
+#endif

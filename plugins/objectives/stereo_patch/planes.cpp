@@ -1,0 +1,64 @@
+#include "planes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/stereo_pixels_map-inl.hpp"
+
+namespace hypotrack::stereo_patch {
+namespace {
+
+struct Depths {
+  double nearest, farthest;  ///< m
+};
+
+Depths depths_of(const Observation& observation, double margin) {
+  constexpr double kNearest = 0.01;  // nearer than this nothing is drawn
+  const Eigen::Isometry3f camera = observation.views[0].camera.camera_from_world.cast<float>();
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (const Scene::Item& item : observation.scene->items()) {
+    const Eigen::Matrix3Xf vertices =
+        posed_vertices(*item.model, observation.scene->part(item, observation.start));
+    const Eigen::RowVectorXf z =
+        (camera.linear().row(2) * vertices).array() + camera.translation().z();
+    nearest = std::min(nearest, double{z.minCoeff()} - margin);
+    farthest = std::max(farthest, double{z.maxCoeff()} + margin);
+  }
+  nearest = std::max(nearest, kNearest);
+  return {nearest, std::max(farthest, nearest + margin)};
+}
+
+/// How far a pixel's counterpart moves over a range of inverse depths, pixels.
+double motion(const StereoMap& map, float x, float y, float w0, float w1) {
+  const auto at = [&](float w) {
+    return map.rectified ? scalar::map_pixel<true>(map, x, y, w)
+                         : scalar::map_pixel<false>(map, x, y, w);
+  };
+  const auto a = at(w0), b = at(w1);
+  return std::hypot(double{b.u} - double{a.u}, double{b.v} - double{a.v});
+}
+
+}  // namespace
+
+Planes planes_around(const Observation& observation, const Settings& settings) {
+  const Depths depths = depths_of(observation, settings.range);
+  const auto first = static_cast<float>(1 / depths.farthest);
+  const auto last = static_cast<float>(1 / depths.nearest);
+  const StereoMap map = stereo_map(observation, 0, 1);
+  const TileCamera& tile = observation.views[0].camera;
+  const auto right = static_cast<float>(tile.width - 1);
+  const auto low = static_cast<float>(tile.height - 1);
+  double most = motion(map, right / 2, low / 2, first, last);
+  for (const float x : {0.0f, right})
+    for (const float y : {0.0f, low}) most = std::max(most, motion(map, x, y, first, last));
+
+  const int room = std::clamp(kMostNumbers / (tile.width * tile.height), 2, kMostPlanes);
+  const double wanted = std::isfinite(most) ? std::min(most / settings.step, 1e6) : 1e6;
+  const int count = std::clamp(static_cast<int>(std::ceil(wanted)) + 1, 2, room);
+  return {first, (last - first) / static_cast<float>(count - 1), count};
+}
+
+}  // namespace hypotrack::stereo_patch

@@ -1,0 +1,6 @@
+#include "hypotrack/plugin.hpp"
+
+#include "stereo_patch.hpp"
+
+HYPOTRACK_PLUGIN(hypotrack::stereo_patch::StereoPatch,
+                 "patch consistency of the two views of a stereo pair (ZNCC or census)", "")

@@ -1,0 +1,28 @@
+#include "stereo_patch.hpp"
+
+#include "hypotrack/observation_checks.hpp"
+#include "score.hpp"
+
+namespace hypotrack::stereo_patch {
+
+std::span<const std::string_view> enum_names(Measure) {
+  static constexpr std::string_view kNames[] = {"zncc", "census"};
+  return kNames;
+}
+
+StereoPatch::StereoPatch(const Params& params) : params_(params) {}
+
+void StereoPatch::prepare(const Observation& observation) {
+  check_color_pair("stereo_patch", observation);
+  map_ = stereo_map(observation, 0, 1);
+  make_volume(observation, params_, volume_);
+}
+
+double StereoPatch::cost(const RenderedHypothesis& hypothesis) const {
+  check_drawn_tile("stereo_patch", hypothesis, 0, volume_.width, volume_.height);
+  check_drawn_tile("stereo_patch", hypothesis, 1, map_.width, map_.height);
+  return 0.0 - sum_similarity(volume_, hypothesis.views[0], hypothesis.views[1], map_,
+                              static_cast<float>(params_.r));  // not -0.0
+}
+
+}  // namespace hypotrack::stereo_patch

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "hypotrack/objective.hpp"
+#include "hypotrack/stereo_pixels.hpp"
+#include "params.hpp"
+#include "volume.hpp"
+
+namespace hypotrack::stereo_patch {
+
+/// Patch consistency of a hypothesis in a stereo pair: as stereo_color, but what is compared are
+/// patches of grey around the two pixels that see a surface point, by a measure that neither
+/// brightness nor contrast of one view against the other changes. A uniform surface, which a
+/// comparison of colours finds consistent wherever it is put, has next to no score.
+///
+///   z = cov(a, b) / sqrt((var a + e)(var b + e))     patches a (left) and b (right), e the floor
+///   s = exp(-sharpness (1 - z))
+///   S = sum of s over the pixels of the left view that the hypothesis covers and whose surface
+///       point the right view sees too (within r of the depth rendered there),   cost = -S
+///
+/// (or z by census: patch_compare-inl.hpp). Patches are compared as if every surface were parallel
+/// to the left view's image plane. So they can be compared before there is a hypothesis: `prepare`
+/// fills a volume with s of every pixel at a range of depths (volume.hpp), and scoring a pixel is
+/// one lookup, interpolated in depth. In a rectified pair the volume is one over disparities; other
+/// pairs are resampled by the general projection.
+///
+/// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
+class StereoPatch : public Objective {
+ public:
+  using Params = stereo_patch::Params;
+
+  explicit StereoPatch(const Params& params);
+
+  /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
+  /// that do not have their tile's size and type.
+  void prepare(const Observation& observation) override;
+  /// Throws DataError if the drawn tiles are not those of the prepared frame.
+  double cost(const RenderedHypothesis& hypothesis) const override;
+
+ private:
+  Params params_;
+  StereoMap map_{};
+  Volume volume_;
+};
+
+}  // namespace hypotrack::stereo_patch

@@ -1,0 +1,110 @@
+#include "volume_kernel.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+// Too little between neighbours to be worth compiling all of them; the scalable ones do not fit
+// simd-inl.hpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "volume_kernel.cpp"
+#include <hwy/foreach_target.h>
+
+#include "patch_compare-inl.hpp"
+#include "plane_warp-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::stereo_patch::HWY_NAMESPACE {
+
+using namespace hypotrack::HWY_NAMESPACE;  // Lanes
+
+/// A row of one plane into the volume: the low halves of its words and the high halves of those of
+/// the plane before.
+class RowWriter {
+ public:
+  HYPOTRACK_PIXEL RowWriter(Volume& volume, int plane, int y)
+      : here_(volume.words.data() + static_cast<std::size_t>(y) * volume.row_stride() +
+              static_cast<std::ptrdiff_t>(plane) * volume.width),
+        before_(plane > 0 ? here_ - volume.width : nullptr) {}
+
+  /// `count` similarities from column x on.
+  HYPOTRACK_PIXEL void write(int x, int count, Lanes similarity) const {
+    const UintTag tag;
+    const auto mask = hn::RebindMask(tag, first_lanes(count).m);
+    const auto fraction = hn::BitCast(tag, to_int(similarity * Lanes(65535.0f)).v);
+    hn::BlendedStore(fraction, mask, tag, here_ + x);
+    if (!before_) return;
+    const auto both = hn::Or(hn::LoadU(tag, before_ + x), hn::ShiftLeft<16>(fraction));
+    hn::BlendedStore(both, mask, tag, before_ + x);
+  }
+  HYPOTRACK_PIXEL void clear(int x0, int x1) const { std::fill(here_ + x0, here_ + x1, 0u); }
+
+ private:
+  std::uint32_t* here_;
+  std::uint32_t* before_;
+};
+
+/// All rows of one plane, from the second view as that plane shows it.
+template <class Comparer>
+void fill_plane(const VolumeJob& job, const Settings& settings, const PixelPlane<float>& warped,
+                int plane, Comparer& comparer, Volume& volume) {
+  const int r = settings.radius;
+  const int x0 = std::min(r, volume.width), x1 = std::max(volume.width - r, x0);
+  const Lanes sharpness(static_cast<float>(settings.sharpness));
+  for (int y = 0; y < volume.height; ++y) {
+    const RowWriter out(volume, plane, y);
+    if (y < r || y >= volume.height - r) {
+      out.clear(0, volume.width);
+      continue;
+    }
+    out.clear(0, x0);
+    out.clear(x1, volume.width);
+    comparer.start_row(warped, y);
+    for (int x = x0; x < x1; x += kLanes) {
+      const Lanes s = similarity(comparer.correlation_at(warped, x, y), sharpness);
+      out.write(x, std::min(kLanes, x1 - x), s * load(job.weight.row(y) + x));
+    }
+  }
+}
+
+template <class Comparer>
+void fill_with(const VolumeJob& job, const Settings& settings, Comparer comparer, Volume& volume) {
+  PixelPlane<float> warped(volume.width, volume.height);
+  for (int plane = 0; plane < volume.planes.count; ++plane) {
+    const float w = volume.planes.first + static_cast<float>(plane) * volume.planes.step;
+    warp(job, w, warped);
+    fill_plane(job, settings, warped, plane, comparer, volume);
+  }
+}
+
+void fill_on_target(const VolumeJob& job, const Settings& settings, Volume& volume) {
+  if (settings.measure == Measure::census) {
+    fill_with(job, settings, CensusComparer(job.left, settings.radius), volume);
+  } else {
+    fill_with(job, settings,
+              ZnccComparer(job.left, settings.radius, static_cast<float>(settings.variance_floor)),
+              volume);
+  }
+}
+
+}  // namespace hypotrack::stereo_patch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::stereo_patch {
+
+HWY_EXPORT(fill_on_target);
+
+void fill_volume(const VolumeJob& job, const Settings& settings, Volume& volume) {
+  HWY_DYNAMIC_DISPATCH(fill_on_target)(job, settings, volume);
+}
+
+std::int64_t volume_targets() { return HWY_TARGETS; }
+
+}  // namespace hypotrack::stereo_patch
+#endif

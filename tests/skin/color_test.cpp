@@ -1,0 +1,103 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "colored_box.hpp"
+#include "foreground.hpp"
+#include "hypotrack/unorm16.hpp"
+#include "silhouette.hpp"
+
+namespace hypotrack::skin {
+namespace {
+
+/// Mean P inside and outside of the box's true outline in the first view.
+struct Means {
+  double inside = 0, outside = 0;
+};
+
+Means means(const ViewForeground& foreground) {
+  Means out;
+  const cv::Rect box = box_outline();
+  int inside = 0, outside = 0;
+  for (int y = 0; y < foreground.pixels.height(); ++y) {
+    for (int x = 0; x < foreground.pixels.width(); ++x) {
+      const double p = (foreground.pixels.row(y)[x] & 0xFFFF) / 65535.0;
+      const bool in = box.contains({x, y});
+      (in ? out.inside : out.outside) += p;
+      ++(in ? inside : outside);
+    }
+  }
+  return {out.inside / inside, out.outside / outside};
+}
+
+TEST(SkinColors, AreLearnedUnderThePose) {
+  ForegroundTeller teller({});
+  const Means p = means(teller.tell(colored_box(), 0));
+  EXPECT_GT(p.inside, 0.95);
+  EXPECT_LT(p.outside, 0.05);
+}
+
+TEST(SkinColors, AreLearnedUnderAPoseThatIsWrong) {
+  Observation observation = colored_box();
+  observation.start[0] += 0.012;  // of a box of 60 mm x 40 mm
+  observation.start[1] += 0.006;
+  ForegroundTeller teller({});
+  const Means p = means(teller.tell(observation, 0));
+  EXPECT_GT(p.inside, 0.9);
+  EXPECT_LT(p.outside, 0.15);
+}
+
+TEST(SkinColors, AreKeptAfterTheFirstFrames) {
+  const Observation first = colored_box();
+  Observation second = first;
+  second.frame = 1;
+  second.start[0] += 1;  // off the image: nothing here would be foreground
+  ForegroundTeller once({}), again({.learn_frames = 2});
+  once.tell(first, 0);
+  again.tell(first, 0);
+  const double kept = means(once.tell(second, 0)).inside;
+  EXPECT_GT(kept, 0.95);
+  EXPECT_LT(means(again.tell(second, 0)).inside, kept - 0.03);
+}
+
+TEST(SkinColors, OfAFrameAreLearnedOnce) {
+  const Observation observation = colored_box();
+  Observation moved = observation;
+  moved.start[0] += 1;
+  ForegroundTeller teller({.learn_frames = 5});
+  const double before = teller.tell(observation, 0).sum;
+  EXPECT_EQ(teller.tell(moved, 0).sum, before);
+}
+
+TEST(SkinColors, ThatWereNeverSeenAreBackground) {
+  Observation observation = colored_box();
+  ForegroundTeller teller({});
+  teller.tell(observation, 0);
+  observation.views[0].color.setTo(cv::Scalar(0, 255, 0));
+  EXPECT_LT(means(teller.tell(observation, 0)).inside, 0.01);
+}
+
+TEST(SkinColors, DoNotComeFromInvalidPixels) {
+  Observation observation = colored_box();
+  observation.views[0].valid.colRange(0, 48).setTo(0);
+  observation.views[0].color.colRange(0, 48).setTo(cv::Scalar(0, 255, 0));
+  ForegroundTeller teller({});
+  teller.tell(observation, 0);
+  observation.views[0].valid.setTo(255);
+  const ViewForeground all = teller.tell(observation, 0);
+  EXPECT_LT(all.pixels.row(48)[40] & 0xFFFF, 700u) << "green, inside the box";
+}
+
+TEST(SkinColors, SilhouetteOfABoxIsItsOutline) {
+  const Observation observation = colored_box();
+  const cv::Mat1b covered =
+      silhouette(*observation.scene, observation.start, observation.views[0].camera);
+  // The nearest face: 60 mm x 40 mm at 0.44 m, 300 px focal length.
+  EXPECT_NEAR(box_outline().width, 300 * 0.06 / 0.44, 2);
+  EXPECT_NEAR(box_outline().height, 300 * 0.04 / 0.44, 2);
+  EXPECT_EQ(cv::countNonZero(covered), box_outline().area());
+}
+
+}  // namespace
+}  // namespace hypotrack::skin
