@@ -52,5 +52,19 @@ TEST(TilePixels, AreThoseThatOpenCvMakes) {
   }
 }
 
+TEST(TilePixels, AreMappedAsTheCpuMapsThem) {
+  const std::vector<test::TileCase> cases = test::tile_cases();
+  for (std::size_t i = 0; i < cases.size(); i += 6) {
+    const test::TileCase& c = cases[i];
+    SCOPED_TRACE(c.name);
+    const Resampler camera(c.camera, c.camera_from_ideal);
+    const double scale = scale_at_centre(camera.lens(), c.tile);
+    CutPlan plan = plan_cut(camera.lens(), c.tile, camera.image_size(), scale);
+    plan.colors = {{0.9f, 0.75f, 1.0f}, {60.0f, -40.0f, 3.5f}};
+    const HostTile tile(camera, c.tile, plan, c.view);
+    test::expect_same_tile(camera.cut(c.view, c.tile, plan), tile.pixels, tile.depth);
+  }
+}
+
 }  // namespace
 }  // namespace hypotrack

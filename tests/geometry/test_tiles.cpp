@@ -10,6 +10,7 @@
 #include "geometry/tiles.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
+#include "tile_cases.hpp"
 
 namespace hypotrack {
 namespace {
@@ -372,6 +373,25 @@ TEST(Tiles, CutTheMaskWithTheColour) {
       EXPECT_EQ(view.mask.at<uchar>(40, u) != 0, x > 644.5) << x << " at scale " << scale;
     }
   }
+}
+
+TEST(Tiles, ShowMappedColoursWithinTheirRange) {
+  const Eigen::Matrix3d straight = Eigen::Matrix3d::Identity();
+  const View view = test::noise_view(test::lens_camera(0), true, true, false);
+  const TileCamera tile = test::tile_towards(straight, {0.1, 0.05, 1}, 1);
+  const Resampler camera(test::lens_camera(0), straight);
+  CutPlan plan = plan_cut(camera.lens(), tile, camera.image_size(), 1);
+  const TileView before = camera.cut(view, tile, plan);
+  plan.colors = {{0.86f, 1.3f, 1.0f}, {0.0f, 40.0f, -70.0f}};
+  const TileView after = camera.cut(view, tile, plan);
+  for (int i = 0; i < before.color.rows * before.color.cols; ++i) {
+    const cv::Vec3b from = before.color.at<cv::Vec3b>(i / before.color.cols, i % before.color.cols);
+    const cv::Vec3b to = after.color.at<cv::Vec3b>(i / before.color.cols, i % before.color.cols);
+    ASSERT_EQ(to[0], cv::saturate_cast<uchar>(0.86f * from[0]));
+    ASSERT_EQ(to[1], cv::saturate_cast<uchar>(1.3f * from[1] + 40));
+    ASSERT_EQ(to[2], cv::saturate_cast<uchar>(from[2] - 70));
+  }
+  EXPECT_EQ(cv::norm(before.mask, after.mask, cv::NORM_INF), 0);
 }
 
 TEST(Tiles, SmoothBothViewsOfAPairAlike) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "geometry/color_map.hpp"
 #include "geometry/lens_map.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/pixel.hpp"
@@ -27,6 +28,7 @@ struct ViewCut {
   std::int32_t samples;  ///< ReductionPlan: 1 or 2
   float means_scale;     ///< from image coordinates to those of the means
   float means_x, means_y;
+  ColorMap colors;
   ImagePart touched;           ///< what `color` and `mask` hold, whole blocks
   ImagePart measured;          ///< what `depth` holds
   const unsigned char* color;  ///< BGR; null if the view has none
@@ -133,6 +135,13 @@ HYPOTRACK_PIXEL std::uint32_t sampled(const ViewCut& cut, const Map& map, int u,
   return c.rounded(2, 2);
 }
 
+/// Blue, green and red of a word, mapped; without what lies above them.
+HYPOTRACK_PIXEL std::uint32_t mapped_colors(const ColorMap& map, std::uint32_t word) {
+  std::uint32_t out = 0;
+  for (int i = 0; i < 3; ++i) out |= mapped_channel(map, i, (word >> (8 * i)) & 255) << (8 * i);
+  return out;
+}
+
 /// A tile's pixel as TileLayout has it.
 template <class Map>
 HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int u, int v) {
@@ -141,7 +150,7 @@ HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int
   if (!cut.means) return word;
   const std::uint32_t color_and_mask = sampled(cut, map, u, v);
   if (valid && (color_and_mask >> 31) != 0) word |= kForegroundFlag;
-  return word | (color_and_mask & 0xffffffu);
+  return cut.color ? word | mapped_colors(cut.colors, color_and_mask) : word;
 }
 
 /// Depth of a tile's pixel that lies at `p` in the image: that of the nearest pixel; 0 where there

@@ -32,6 +32,7 @@ inline ViewCut view_cut(const Resampler& camera, const TileCamera& tile, const C
   cut.means_scale = static_cast<float>(scale);
   cut.means_x = static_cast<float>((0.5 - plan.touched.x) * scale - 0.5);
   cut.means_y = static_cast<float>((0.5 - plan.touched.y) * scale - 0.5);
+  cut.colors = plan.colors;
   cut.touched = {plan.touched.x, plan.touched.y, plan.touched.width, plan.touched.height};
   cut.measured = measured_part(plan, image);
   return cut;

@@ -2,6 +2,7 @@
 
 #include <opencv2/core/types.hpp>
 
+#include "geometry/color_map.hpp"
 #include "geometry/lens_map.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
@@ -23,6 +24,8 @@ struct CutPlan {
   /// Lookups elsewhere take its nearest pixel. The image's last pixels that fill no block are left
   /// out.
   cv::Rect touched;
+  /// Applied to the tile's colours; identity from plan_cut().
+  ColorMap colors;
 };
 
 /// `camera_from_ideal` is a rotation.

@@ -61,6 +61,21 @@ std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const CutPlan
   return {x(inner), y(inner)};
 }
 
+/// The colours of a tile (8-bit BGR), mapped.
+cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
+  if (keeps_colors(map)) return color;
+  cv::Mat table(1, 256, CV_8UC3);
+  for (int value = 0; value < 256; ++value) {
+    for (int i = 0; i < 3; ++i) {
+      table.at<cv::Vec3b>(value)[i] =
+          static_cast<unsigned char>(mapped_channel(map, i, static_cast<std::uint32_t>(value)));
+    }
+  }
+  cv::Mat out;
+  cv::LUT(color, table, out);
+  return out;
+}
+
 cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int size, int samples) {
   cv::Mat out;
   cv::remap(image, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -109,7 +124,7 @@ TileView Resampler::cut(const View& view, const TileCamera& tile, const CutPlan&
     }
     return look_up(part, x, y, size, plan.reduction.samples);
   };
-  if (!view.color.empty()) out.color = take(view.color(plan.touched));
+  if (!view.color.empty()) out.color = with_colors(take(view.color(plan.touched)), plan.colors);
   if (!view.mask.empty()) {
     out.mask = take(view.mask(plan.touched) != 0) >= 128;
     out.mask &= out.valid;
