@@ -1,4 +1,5 @@
-// What a frame's tiles take: planning them, and cutting them on the CPU and on the GPU.
+// What a frame's tiles take: planning them, matching their colours, and cutting them on the CPU and
+// on the GPU.
 #include "geometry/tiles.hpp"
 
 #include <benchmark/benchmark.h>
@@ -12,6 +13,7 @@
 #include "cuda/tile_cutter.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "test_models.hpp"
+#include "track/photometric.hpp"
 #include "track/visible_share.hpp"
 
 namespace hypotrack {
@@ -79,6 +81,23 @@ void cut_on_the_cpu(benchmark::State& run) {
   }
 }
 BENCHMARK(cut_on_the_cpu)->Unit(benchmark::kMicrosecond)->UseRealTime();
+
+/// Per frame: the solution drawn once more, both images looked up, three lines fitted.
+void learn_colors(benchmark::State& run) {
+  Setup setup;
+  setup.make_frames();
+  for (Frame& frame : setup.frames) {
+    for (View& view : frame.views) view.color.convertTo(view.color, CV_8U, 0.15, 90);
+  }
+  const TilePlan tile_plan = setup.tiles->plan(setup.frames[0], setup.state);
+  PhotometricMatch match(setup.scene, {});
+  std::size_t next = 0;
+  for (auto _ : run) {
+    match.learn(*setup.tiles, setup.frames[next++ % kFrames], tile_plan, setup.state);
+  }
+  if (!match.knows()) run.SkipWithError("nothing was learned");
+}
+BENCHMARK(learn_colors)->Unit(benchmark::kMicrosecond);
 
 /// From the call to the tiles' being there; `enqueued` is what the call itself takes.
 void cut_on_the_gpu(benchmark::State& run) {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "geometry/color_map.hpp"
+#include "hypotrack/export.hpp"
+#include "track/color_samples.hpp"
+
+namespace hypotrack {
+
+/// The map that makes the other view's colours the first's, from samples of both at the same
+/// points. Their distributions are brought together, not single samples: a pose that is somewhat
+/// wrong shifts the samples against each other and leaves the distributions nearly alike, and noise
+/// does not flatten the line. Per channel a line through the deciles, found again without the pairs
+/// that are far from it; where the deciles span little, it tends to a pure gain. Nothing if there
+/// are under 100 samples that are neither dark nor saturated, if the pairs scatter by more than a
+/// fifth of their brightness around the map, or if no camera pair would differ that much.
+HYPOTRACK_API std::optional<ColorMap> fit_color_map(const ColorSamples& samples);
+
+}  // namespace hypotrack

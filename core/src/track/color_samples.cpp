@@ -1,0 +1,139 @@
+#include "track/color_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "evaluate/hypothesis_drawer.hpp"
+#include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/stereo_pixels_map-inl.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr int kGrid = 64;
+// Of the depths of one surface at neighbouring points of the grid and in both views: those are
+// some 3 mm apart on a hand, so that it may be slanted by 60 degrees.
+constexpr float kSameSurface = 0.006f;
+
+/// The tile's camera with kGrid x kGrid pixels.
+TileCamera coarse(const TileCamera& tile) {
+  TileCamera out = tile;
+  const double x = static_cast<double>(kGrid) / tile.width;
+  const double y = static_cast<double>(kGrid) / tile.height;
+  out.width = out.height = kGrid;
+  out.fx *= x;
+  out.fy *= y;
+  out.cx = (tile.cx + 0.5) * x - 0.5;
+  out.cy = (tile.cy + 0.5) * y - 0.5;
+  return out;
+}
+
+float depth_at(const DepthTile& tile, int x, int y) {
+  return tile.inverse_depth[y * tile.stride + x];
+}
+
+/// Whether the same surface lies at a pixel and at its four neighbours.
+bool is_interior(const DepthTile& tile, int x, int y) {
+  if (x < 1 || y < 1 || x + 1 >= tile.width || y + 1 >= tile.height) return false;
+  const float w = depth_at(tile, x, y);
+  const auto same = [&](int u, int v) {
+    return scalar::same_depth(w, depth_at(tile, u, v), kSameSurface);
+  };
+  return w > 0 && same(x - 1, y) && same(x + 1, y) && same(x, y - 1) && same(x, y + 1);
+}
+
+/// A camera's image, looked up at positions of its grid.
+struct Lookup {
+  const Resampler& camera;
+  TileIntrinsics grid;
+  const cv::Mat& image;
+
+  /// Colour at a position, interpolated; false outside the image.
+  bool operator()(float column, float row, std::array<float, 3>& color) const {
+    const ImagePoint p = image_point(camera.lens(), grid, column, row);
+    const float x0 = std::floor(p.x), y0 = std::floor(p.y);
+    if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
+          y0 + 1 < static_cast<float>(image.rows))) {
+      return false;
+    }
+    const float fx = p.x - x0, fy = p.y - y0;
+    const auto* top = image.ptr<cv::Vec3b>(static_cast<int>(y0)) + static_cast<int>(x0);
+    const auto* bottom = image.ptr<cv::Vec3b>(static_cast<int>(y0) + 1) + static_cast<int>(x0);
+    for (int i = 0; i < 3; ++i) {
+      const float above =
+          (1 - fx) * static_cast<float>(top[0][i]) + fx * static_cast<float>(top[1][i]);
+      const float below =
+          (1 - fx) * static_cast<float>(bottom[0][i]) + fx * static_cast<float>(bottom[1][i]);
+      color[static_cast<std::size_t>(i)] = (1 - fy) * above + fy * below;
+    }
+    return true;
+  }
+};
+
+/// Where a point of the first view's grid lies in another view's; false where that does not see it.
+bool seen_by_other(const DepthTile& other, const StereoMap& map, int x, int y, float w,
+                   scalar::Mapped<float>& at) {
+  const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+  at = map.rectified ? scalar::map_pixel<true>(map, fx, fy, w)
+                     : scalar::map_pixel<false>(map, fx, fy, w);
+  if (!scalar::lands_inside<false>(map, at)) return false;
+  const int column = static_cast<int>(pixel::round(at.u));
+  const int row = static_cast<int>(pixel::round(at.v));
+  return is_interior(other, column, row) &&
+         scalar::same_depth(at.inverse_depth, depth_at(other, column, row), kSameSurface);
+}
+
+}  // namespace
+
+struct ColorSampler::Impl {
+  explicit Impl(const Scene& scene) : plan(scene), drawer(plan) {}
+
+  ScenePlan plan;
+  HypothesisDrawer drawer;
+  Observation grid;  // cameras only
+  FrameProjection projection;
+};
+
+ColorSampler::ColorSampler(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+ColorSampler::~ColorSampler() = default;
+
+void ColorSampler::draw(const Observation& header, const Eigen::VectorXd& state) {
+  Impl& self = *impl_;
+  self.grid.rectified = header.rectified;
+  self.grid.views.resize(header.views.size());
+  for (std::size_t i = 0; i < header.views.size(); ++i) {
+    self.grid.views[i].camera = coarse(header.views[i].camera);
+  }
+  self.projection = FrameProjection(self.grid);
+  self.drawer.prepare(self.projection);
+  self.drawer.draw({state.data(), static_cast<std::size_t>(state.size())});
+}
+
+ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> cameras,
+                                std::size_t other) const {
+  const Impl& self = *impl_;
+  const auto& views = self.grid.views;
+  ColorSamples samples;
+  if (frame.views[0].color.empty() || frame.views[other].color.empty()) return samples;
+  const Lookup here{cameras[0], intrinsics(views[0].camera), frame.views[0].color};
+  const Lookup there{cameras[other], intrinsics(views[other].camera), frame.views[other].color};
+  const StereoMap map = stereo_map(self.grid, 0, static_cast<int>(other));
+  const DepthTile& tile = self.drawer.tiles()[0];
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0 + (tile.x0 + y) % 2; x < tile.x1; x += 2) {
+      if (!is_interior(tile, x, y)) continue;
+      scalar::Mapped<float> at{};
+      if (!seen_by_other(self.drawer.tiles()[other], map, x, y, depth_at(tile, x, y), at)) continue;
+      std::array<float, 3> first{}, second{};
+      if (!here(static_cast<float>(x), static_cast<float>(y), first)) continue;
+      if (!there(at.u, at.v, second)) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        samples.first[i].push_back(first[i]);
+        samples.other[i].push_back(second[i]);
+      }
+    }
+  }
+  return samples;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,61 @@
+#include "track/photometric.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "track/color_fit.hpp"
+
+namespace hypotrack {
+namespace {
+
+// A line is known by its values at two places, which say how far maps are apart.
+constexpr float kLow = 64, kHigh = 192;
+// From then on the pose is one that a search has found, and a map may not leap.
+constexpr int kSettled = 3;
+
+float moved(float from, float to, float rate, float largest) {
+  return from + std::clamp(rate * (to - from), -largest, largest);
+}
+
+}  // namespace
+
+PhotometricMatch::PhotometricMatch(const Scene& scene, const PhotometricSettings& settings)
+    : settings_(settings), sampler_(scene) {}
+
+void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
+                             const Eigen::VectorXd& state) {
+  if (!settings_.match || plan.cuts.size() < 2) return;
+  views_.resize(plan.cuts.size() - 1);
+  sampler_.draw(plan.header, state);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const auto found = fit_color_map(sampler_.take(frame, tiles.resamplers(), i + 1));
+    if (found) update(views_[i], *found);
+  }
+}
+
+void PhotometricMatch::update(Learned& learned, const ColorMap& found) const {
+  ++learned.frames;
+  const float rate =
+      std::max(static_cast<float>(settings_.rate), 1.0f / static_cast<float>(learned.frames));
+  const float largest = learned.frames <= kSettled ? 255 : static_cast<float>(settings_.max_change);
+  for (int i = 0; i < 3; ++i) {
+    float& gain = learned.map.gain[i];
+    float& offset = learned.map.offset[i];
+    const auto value_at = [&](float level) {
+      return moved(gain * level + offset, found.gain[i] * level + found.offset[i], rate, largest);
+    };
+    const float low = value_at(kLow), high = value_at(kHigh);
+    gain = (high - low) / (kHigh - kLow);
+    offset = low - gain * kLow;
+  }
+}
+
+bool PhotometricMatch::knows() const {
+  return std::ranges::any_of(views_, [](const Learned& l) { return l.frames > 0; });
+}
+
+void PhotometricMatch::apply(TilePlan& plan) const {
+  for (std::size_t i = 0; i < views_.size(); ++i) plan.cuts[i + 1].colors = views_[i].map;
+}
+
+}  // namespace hypotrack

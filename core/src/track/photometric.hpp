@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "geometry/tiles.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+#include "track/color_samples.hpp"
+
+namespace hypotrack {
+
+/// `photometric:` of a scene.
+struct PhotometricSettings {
+  bool match = true;
+  double rate = 0.3;
+  double max_change = 4;
+  void visit(ParamVisitor& v) {
+    v("match", match,
+      {.help = "bring the other views' colours to the first's before they are compared: gain and "
+               "offset per channel, learned where both see the last solution"});
+    v("rate", rate,
+      {.help = "share of a frame's estimate in the next map", .min = 0.001, .max = 1});
+    v("max_change", max_change,
+      {.help = "most that a map changes per frame, in dark and in bright places",
+       .min = 0.01,
+       .max = 255,
+       .unit = "of 255"});
+  }
+};
+
+/// How the colours of each view become those of the first, learned from frame to frame.
+class HYPOTRACK_API PhotometricMatch {
+ public:
+  /// The scene must outlive it.
+  PhotometricMatch(const Scene& scene, const PhotometricSettings& settings);
+
+  /// Looks at a frame with the scene posed in a normalised state, and changes the maps. `plan` is
+  /// of the frame. Where a frame teaches nothing (fit_color_map), maps stay. Does nothing with one
+  /// view or with match off.
+  void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
+             const Eigen::VectorXd& state);
+
+  /// Whether anything has been learned.
+  bool knows() const;
+  /// Puts the maps into the plan of a frame.
+  void apply(TilePlan& plan) const;
+
+ private:
+  /// One view's map and the number of frames that it was learned from.
+  struct Learned {
+    ColorMap map;
+    int frames = 0;
+  };
+  void update(Learned& learned, const ColorMap& found) const;
+
+  PhotometricSettings settings_;
+  ColorSampler sampler_;
+  std::vector<Learned> views_;  // but for the first
+};
+
+}  // namespace hypotrack
