@@ -5,14 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "track/tangent.hpp"
+
 namespace hypotrack {
 namespace {
-
-Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& v) {
-  const double angle = v.norm();
-  if (angle < 1e-12) return Eigen::Quaterniond(1, v.x() / 2, v.y() / 2, v.z() / 2);
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, v / angle));
-}
 
 /// Groups of the scene's parameters as groups of dimensions. Where a rotation vector stands for a
 /// quaternion, it belongs where w, x and y did.

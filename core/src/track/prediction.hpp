@@ -1,0 +1,77 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+#include "track/tangent.hpp"
+
+namespace hypotrack {
+
+/// How much of the last motion is expected to go on.
+enum class Prediction {
+  none,      ///< searches start from the last solution, as in the paper
+  constant,  ///< a fixed share
+  adaptive,  ///< the share that fits the new frame best
+};
+HYPOTRACK_API std::span<const std::string_view> enum_names(Prediction);
+
+/// `search.prediction:` of a scene.
+struct PredictionSettings {
+  Prediction velocity = Prediction::none;
+  double gain = 0.5;
+  double longest_gap = 0.060;
+  void visit(ParamVisitor& v) {
+    v("velocity", velocity,
+      {.help =
+           "whether the last motion is expected to go on: none; constant: a share `gain` of it; "
+           "adaptive: the share that fits the new frame best, of none, half and all of it, for "
+           "poses and joint angles; nine evaluations of the frame's budget"});
+    v("gain", gain,
+      {.help = "for velocity: constant, the share of the last motion that goes on",
+       .min = 0,
+       .max = 1});
+    v("longest_gap_ms", longest_gap,
+      {.help = "no prediction across longer gaps between frames",
+       .min = 0,
+       .max = 1e6,
+       .unit = "ms",
+       .to_si = 1e-3});
+  }
+};
+
+/// Where the scene may be next: the last motion goes on for a while, in part. Motion is what
+/// tangent.hpp calls a difference.
+class HYPOTRACK_API Predictor {
+ public:
+  /// The scene must outlive it.
+  Predictor(const Scene& scene, const PredictionSettings& settings);
+
+  /// States (DxN, normalised) that the scene may have at a time (s), the middle one first: one or,
+  /// for an adaptive share, nine. None where no motion is known that leads there.
+  Eigen::MatrixXd at(double time) const;
+
+  /// Takes in a solution (normalised) and its time (s), after those before it.
+  void add(const Eigen::VectorXd& state, double time);
+
+  /// The solution at hand is no continuation of those before: no motion is known.
+  void forget_motion() { velocity_.reset(); }
+
+ private:
+  bool is_gap(double seconds) const;
+  Eigen::VectorXd led(double seconds, double pose_share, double angle_share) const;
+
+  const Scene* scene_;
+  PredictionSettings settings_;
+  std::vector<TangentPart> parts_;
+  Eigen::VectorXd state_;
+  double time_ = 0;
+  std::optional<Eigen::VectorXd> velocity_;  ///< per second
+};
+
+}  // namespace hypotrack
