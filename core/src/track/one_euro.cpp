@@ -1,0 +1,50 @@
+#include "track/one_euro.hpp"
+
+#include <numbers>
+
+#include "track/tangent.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// The weight of a new value in a low-pass filter (Eq. 3 of the paper, for a sampling interval).
+double weight_of(double cutoff, double seconds) {
+  const double r = 2 * std::numbers::pi * cutoff * seconds;
+  return r / (r + 1);
+}
+
+}  // namespace
+
+OneEuroFilter::OneEuroFilter(const Scene& scene, const SmoothingSettings& settings)
+    : scene_(&scene), settings_(settings) {}
+
+Eigen::VectorXd OneEuroFilter::filter(const Eigen::VectorXd& state, double time) {
+  const double seconds = time - time_;
+  time_ = time;
+  if (state_.size() == 0 || !(seconds > 0)) {
+    speed_.resize(0);
+    return state_ = found_ = state;
+  }
+  const Eigen::VectorXd speed = difference(*scene_, found_, state) / seconds;
+  if (speed_.size() == 0) speed_.setZero(speed.size());
+  speed_ += weight_of(settings_.speed_cutoff, seconds) * (speed - speed_);
+
+  Eigen::VectorXd step = difference(*scene_, state_, state);
+  for (const TangentPart& part : tangent_parts(*scene_)) {
+    auto steps = step.segment(part.first, part.size);
+    const auto speeds = speed_.segment(part.first, part.size);
+    if (part.kind == ParameterKind::angle) {
+      for (Eigen::Index i = 0; i < part.size; ++i) {
+        steps[i] *= weight_of(cutoff(settings_.angle_beta, std::abs(speeds[i])), seconds);
+      }
+      continue;
+    }
+    const double beta =
+        part.kind == ParameterKind::position ? settings_.position_beta : settings_.angle_beta;
+    steps *= weight_of(cutoff(beta, speeds.norm()), seconds);
+  }
+  found_ = state;
+  return state_ = moved(*scene_, state_, step);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// `output.smoothing:` of a scene.
+struct SmoothingSettings {
+  bool enabled = false;
+  double min_cutoff = 1.5;
+  double position_beta = 40;
+  double angle_beta = 4;
+  double speed_cutoff = 1;
+  void visit(ParamVisitor& v) {
+    v("enabled", enabled,
+      {.help = "smooth the states that are written with a one-euro filter; tracking goes on from "
+               "the states as they were found"});
+    v("min_cutoff_hz", min_cutoff,
+      {.help = "cut-off frequency at rest: the lower, the steadier",
+       .min = 1e-3,
+       .max = 1e6,
+       .unit = "Hz"});
+    v("position_beta", position_beta,
+      {.help = "what a position's speed adds to it: the higher, the less lag",
+       .min = 0,
+       .max = 1e6,
+       .unit = "Hz per m/s"});
+    v("angle_beta", angle_beta,
+      {.help = "what a rotation's or a joint angle's speed adds to it",
+       .min = 0,
+       .max = 1e6,
+       .unit = "Hz per rad/s"});
+    v("speed_cutoff_hz", speed_cutoff,
+      {.help = "cut-off frequency of the speeds", .min = 1e-3, .max = 1e6, .unit = "Hz"});
+  }
+};
+
+/// Smooths states from frame to frame, more at rest than in motion: the filter of Casiez, Roussel
+/// and Vogel, "1 Euro Filter" (CHI 2012). A position and a rotation are filtered as wholes, by
+/// their speed's length, rotations along the shortest turn; every joint angle by itself.
+class HYPOTRACK_API OneEuroFilter {
+ public:
+  /// The scene must outlive it.
+  OneEuroFilter(const Scene& scene, const SmoothingSettings& settings);
+
+  /// The smoothed state at a time (s) for the normalised state found there. What is not later than
+  /// the state before, begins anew.
+  Eigen::VectorXd filter(const Eigen::VectorXd& state, double time);
+
+  /// The next state is passed on as it is.
+  void begin_anew() { state_.resize(0); }
+
+ private:
+  double cutoff(double beta, double speed) const { return settings_.min_cutoff + beta * speed; }
+
+  const Scene* scene_;
+  SmoothingSettings settings_;
+  Eigen::VectorXd state_;  ///< the last smoothed one; empty: none
+  Eigen::VectorXd found_;  ///< the last as it was found
+  Eigen::VectorXd speed_;  ///< smoothed, per second
+  double time_ = 0;
+};
+
+}  // namespace hypotrack
