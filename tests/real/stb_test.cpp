@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -83,6 +85,7 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
   parts.objective = stb.session.parts.objective;
   parts.tile = stb.session.parts.tile;
   parts.search = stb.session.parts.search;
+  parts.photometric.match = false;  // as the caller has left the frame
   parts.optimizer = plugins.make<Optimizer>(ConfigNode::parse(
       fmt::format("{{type: pso, particles: {0}, generations: {0}}}", size), "stb test"));
   Tracker tracker(*stb.session.scene, std::move(parts), start, seed);
@@ -150,6 +153,43 @@ TEST(StbPair, WithEqualBrightnessTheScorePeaksAtTheLabelledDepth) {
     EXPECT_LE(std::abs(states(2, best) - stb.fitted[2]), 0.0051) << "beta " << beta;
     EXPECT_LT(score[6], 0.5 * score[0]) << "30 mm behind";
     EXPECT_LT(score[12], 0.5 * score[0]) << "30 mm before";
+  }
+}
+
+/// What the right image shows on the hand: blue, green and red, medians.
+std::array<float, 3> right_levels(const Stb& stb, const TileMaker& tiles) {
+  ColorSampler sampler(*stb.session.scene);
+  sampler.draw(tiles.plan(stb.frame, stb.fitted).header, stb.fitted);
+  ColorSamples samples = sampler.take(stb.frame, tiles.resamplers(), 1);
+  std::array<float, 3> levels{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::sort(samples.other[i].begin(), samples.other[i].end());
+    levels[i] = samples.other[i].at(samples.size() / 2);
+  }
+  return levels;
+}
+
+TEST(StbPair, ThePhotometricMatchFindsTheBrightness) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  const Stb stb = open_stb(plugins);
+  const TileMaker tiles(*stb.session.scene, stb.session.parts.cameras, stb.session.parts.tile);
+  const std::array<float, 3> levels = right_levels(stb, tiles);
+  std::mt19937_64 random(3);
+  for (const double away : {0.0, 0.010, 0.020, 0.030}) {
+    const Eigen::VectorXd state = displaced(stb.fitted, away, 500 * away * kDegree, random);
+    TilePlan plan = tiles.plan(stb.frame, state);
+    PhotometricMatch match(*stb.session.scene, {});
+    match.learn(tiles, stb.frame, plan, state);
+    ASSERT_TRUE(match.knows()) << away;
+    match.apply(plan);
+    const ColorMap& map = plan.cuts[1].colors;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float gain = map.gain[i] + map.offset[i] / levels[i];
+      fmt::print("{:.0f} mm away, channel {}: {:.3f} v {:+.1f}, so {:.3f} at {:.0f}\n", 1e3 * away,
+                 i, map.gain[i], map.offset[i], gain, levels[i]);
+      EXPECT_NEAR(gain, kRightGain, away == 0 ? 0.015 : 0.06) << away << " m, channel " << i;
+    }
   }
 }
 

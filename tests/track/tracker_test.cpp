@@ -56,6 +56,8 @@ struct Fixture {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   std::shared_ptr<MovingTarget> target = std::make_shared<MovingTarget>();
   Sampling* optimizer = nullptr;
+  SearchSettings search;
+  SmoothingSettings smoothing;
 
   Eigen::VectorXd start() const {
     Eigen::VectorXd state = scene.rest_state();
@@ -74,6 +76,8 @@ struct Fixture {
     parts.objective = {{1.0, target}};
     parts.evaluate.threads = 1;
     parts.budget.evaluations = evaluations;
+    parts.search = search;
+    parts.smoothing = smoothing;
     return Tracker(scene, std::move(parts), start(), seed);
   }
 };
@@ -98,13 +102,88 @@ TEST(Tracker, FollowsATargetFromFrameToFrame) {
   }
 }
 
-TEST(Tracker, SearchesFromTheLastSolution) {
+TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {
   Fixture fixture;
+  fixture.search.prediction.velocity = Prediction::none;
   Tracker tracker = fixture.make(1);
-  const Solution first = tracker.track(grey_frame(0));
-  tracker.track(grey_frame(1));
-  ASSERT_EQ(fixture.optimizer->starts.size(), 2u);
-  EXPECT_LT((fixture.optimizer->starts[1] - first.state).cwiseAbs().maxCoeff(), 1e-12);
+  Eigen::VectorXd last = fixture.start();
+  for (int i = 0; i < 5; ++i) {
+    const Solution solution = tracker.track(grey_frame(i));
+    EXPECT_LT((fixture.optimizer->starts.back() - last).cwiseAbs().maxCoeff(), 1e-12) << i;
+    last = solution.state;
+  }
+}
+
+TEST(Tracker, SearchesFromWhereTheMotionLeads) {
+  Fixture fixture;
+  fixture.search.prediction.velocity = Prediction::constant;
+  fixture.search.prediction.gain = 1;
+  Tracker tracker = fixture.make(1);
+  std::vector<Eigen::VectorXd> states;
+  for (int i = 0; i < 5; ++i) {
+    states.push_back(tracker.track(grey_frame(i)).state);
+    if (i < 2) continue;
+    const auto n = static_cast<std::size_t>(i);
+    const Eigen::Vector3d led = 2 * states[n - 1].head<3>() - states[n - 2].head<3>();
+    EXPECT_LT((fixture.optimizer->starts.back().head<3>() - led).norm(), 1e-12) << i;
+  }
+}
+
+TEST(Tracker, SearchesFromTheShareOfTheMotionThatFitsTheFrameBest) {
+  Fixture fixture;
+  fixture.search.prediction.velocity = Prediction::adaptive;
+  Tracker tracker = fixture.make(1);
+  std::vector<Eigen::Vector3d> found;
+  for (int i = 0; i < 8; ++i) {
+    const Solution solution = tracker.track(grey_frame(i));
+    found.emplace_back(solution.state.head<3>());
+    EXPECT_EQ(solution.evaluations, 300) << i;
+    EXPECT_EQ(fixture.optimizer->budgets.back(), i < 2 ? 300 : 291) << i;
+    if (i < 2) continue;
+    const auto n = static_cast<std::size_t>(i);
+    const Eigen::Vector3d target(0.005 * i, 0, 0.5), motion = found[n - 1] - found[n - 2];
+    double nearest = 1;
+    for (const double share : {0.0, 0.5, 1.0})
+      nearest = std::min(nearest, (found[n - 1] + share * motion - target).norm());
+    const Eigen::Vector3d start = fixture.optimizer->starts.back().head<3>();
+    EXPECT_NEAR((start - target).norm(), nearest, 1e-9) << i;
+  }
+}
+
+TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
+  Fixture fixture;
+  fixture.search.prediction.velocity = Prediction::adaptive;
+  Tracker tracker = fixture.make(1, 9);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(tracker.track(grey_frame(i)).evaluations, 9);
+  EXPECT_EQ(fixture.optimizer->budgets.back(), 9);
+}
+
+TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
+  Fixture fixture;
+  fixture.search.prediction.velocity = Prediction::constant;
+  fixture.search.prediction.gain = 1;
+  Tracker tracker = fixture.make(1);
+  Frame first = grey_frame(0), second = grey_frame(1), third = grey_frame(2);
+  tracker.track(first);
+  second.time = first.time + 1e-4;  // so that the way to the third frame is hundreds as long
+  const Solution last = tracker.track(second);
+  third.time = second.time + 0.05;
+  tracker.track(third);
+  EXPECT_LT((fixture.optimizer->starts.back() - last.state).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
+  Fixture plain, smooth;
+  smooth.smoothing.enabled = true;
+  Tracker a = plain.make(1), b = smooth.make(1);
+  double largest = 0;
+  for (int i = 0; i < 8; ++i) {
+    const Solution found = a.track(grey_frame(i)), given = b.track(grey_frame(i));
+    EXPECT_EQ(plain.optimizer->starts.back(), smooth.optimizer->starts.back()) << i;
+    EXPECT_EQ(found.cost, given.cost);
+    largest = std::max(largest, (found.state - given.state).head<3>().norm());
+  }
+  EXPECT_GT(largest, 1e-4);
 }
 
 TEST(Tracker, EqualSeedsAgreeAndOthersDiffer) {

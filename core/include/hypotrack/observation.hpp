@@ -36,8 +36,8 @@ struct Observation {
   int frame = 0;
   double time = 0;
   const Scene* scene = nullptr;  ///< outlives the observation
-  Eigen::VectorXd start;         ///< the scene's state that the tiles were cut around: the last
-                                 ///< solution, or where the first search starts
+  Eigen::VectorXd start;         ///< the scene's state that the tiles were cut around: where the
+                                 ///< search starts, or near it
   std::vector<TileView> views;
   /// Two views whose cameras share rotation, fx, fy and cy: a point has the same y in both, and
   /// x_left - x_right is a constant plus fx * baseline / z.

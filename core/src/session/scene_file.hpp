@@ -12,6 +12,8 @@
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
+#include "track/one_euro.hpp"
+#include "track/photometric.hpp"
 #include "track/search_space.hpp"
 #include "track/status.hpp"
 
@@ -63,6 +65,7 @@ struct BudgetSettings {
 struct OutputSettings {
   bool overlay = true;
   int worst_frames = 3;
+  SmoothingSettings smoothing;
   void visit(ParamVisitor& v) {
     v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
     v("worst_frames", worst_frames,
@@ -70,6 +73,7 @@ struct OutputSettings {
                "largest error (worst_<frame>.jpg)",
        .min = 0,
        .max = 100});
+    v("smoothing", smoothing, {.help = "how states are smoothed before they are written"});
   }
 };
 
@@ -79,6 +83,7 @@ struct SceneFile {
   BudgetSettings budget;
   TileSettings tile;
   EvaluateSettings evaluate;
+  PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings tracker;
   InitSettings init;
@@ -94,7 +99,8 @@ struct SceneFile {
     v("budget", budget, {.help = "what the search of a frame may cost"});
     v("tile", tile, {.help = "the piece of each view that is looked at"});
     v("evaluate", evaluate, {.help = "how hypotheses are evaluated"});
-    v("search", search, {.help = "how far the next solution may be"});
+    v("photometric", photometric, {.help = "how the views' colours are brought together"});
+    v("search", search, {.help = "where the next solution is expected, and how far from there it may be"});
     v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
     v("init", init, {.help = "where the first search starts"});
     v("output", output, {.help = "what a run writes"});

@@ -147,8 +147,10 @@ void Opening::optimizer() {
 Session Opening::finish() {
   session_.parts.tile = file_.tile;
   session_.parts.evaluate = file_.evaluate;
+  session_.parts.photometric = file_.photometric;
   session_.parts.search = file_.search;
   session_.parts.status = file_.tracker;
+  session_.parts.smoothing = file_.output.smoothing;
   session_.parts.budget.evaluations = file_.budget.evaluations;
   if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
   session_.init = file_.init;

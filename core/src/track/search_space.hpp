@@ -9,6 +9,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
+#include "track/prediction.hpp"
 
 namespace hypotrack {
 
@@ -19,12 +20,14 @@ enum class RotationSearch {
 };
 HYPOTRACK_API std::span<const std::string_view> enum_names(RotationSearch);
 
-/// `search:` of a scene: how far from the last solution the next one may plausibly be.
+/// `search:` of a scene: where a search starts, and how far from there the solution may plausibly
+/// be.
 struct SearchSettings {
   double position = 0.040;
   double rotation = 10 * kDegree;
   double angle = 10 * kDegree;
   RotationSearch rotation_as = RotationSearch::quaternion;
+  PredictionSettings prediction;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
       {.help = "spread of a model's position, each side",
@@ -46,6 +49,7 @@ struct SearchSettings {
        .to_si = kDegree});
     v("rotation_as", rotation_as,
       {.help = "what optimizers see of a rotation: quaternion components or a tangent vector"});
+    v("prediction", prediction, {.help = "where a search starts"});
   }
 };
 

@@ -1,5 +1,6 @@
 #include "track/tracker.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -38,18 +39,31 @@ std::uint64_t frame_seed(std::uint64_t seed, int frame) {
   return z ^ (z >> 31);
 }
 
+/// Where no term looks at pictures, their colours are nobody's business.
+PhotometricSettings of_pictures(PhotometricSettings settings,
+                                const std::vector<ObjectiveTerm>& terms) {
+  settings.match = settings.match && std::ranges::any_of(terms, [](const ObjectiveTerm& term) {
+                     return term.weight != 0 && term.objective->needs_rendering();
+                   });
+  return settings;
+}
+
 }  // namespace
 
 Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
     : parts_(std::move(parts)),
       tiles_(scene, parts_.cameras, parts_.tile),
+      photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
       visible_(scene, parts_.cameras),
       space_(scene, parts_.search),
       evaluator_(scene, parts_.objective, parts_.evaluate),
       monitor_(parts_.status),
+      predictor_(scene, parts_.search.prediction),
+      smoother_(scene, parts_.smoothing),
       state_(std::move(start)),
       seed_(seed) {
   scene.normalize(state_);
+  output_ = state_;
   if (parts_.budget.evaluations == 0)
     parts_.budget.evaluations = parts_.optimizer->default_evaluations();
 }
@@ -63,32 +77,71 @@ Solution Tracker::track(const Frame& frame) {
   solution.cost = std::numeric_limits<double>::quiet_NaN();
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    const Eigen::VectorXd prior = state_;
-    const OptimizerResult result = search(frame, prior);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    const Eigen::MatrixXd starts = possible_starts(frame.time);
+    TilePlan plan = tiles_.plan(frame, starts.col(0));
+    if (!photometric_.knows()) photometric_.learn(tiles_, frame, plan, starts.col(0));
+    photometric_.apply(plan);
+    evaluator_.prepare(tiles_, frame, plan);
+    const Eigen::VectorXd prior = cheapest(starts);
+    const OptimizerResult result = search(frame, prior, starts.cols() > 1 ? starts.cols() : 0);
     const Eigen::VectorXd found = space_.states(result.point, prior);
     const double visible = visible_.of(found);
-    // Where nothing was feasible, or the answer has left every image, the last state is the better
-    // place to search the next frame from.
-    if (std::isfinite(result.cost) && visible > 0) state_ = found;
-    solution.seconds = elapsed.count();
     solution.cost = result.cost;
     solution.evaluations = result.evaluations;
     solution.status = monitor_.judge(result.cost, visible);
+    // Where nothing was feasible, or the answer has left every image, the last state is the better
+    // place to search the next frame from.
+    if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame, plan);
+    if (solution.status == Status::lost) predictor_.forget_motion();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+    solution.seconds = elapsed.count();
   }
-  solution.state = state_;
+  solution.state = smoothed(solution);
   return solution;
+}
+
+Eigen::MatrixXd Tracker::possible_starts(double time) {
+  const Eigen::MatrixXd states = predictor_.at(time);
+  // Tiles can be cut around what is seen only.
+  if (states.cols() == 0 || visible_.of(states.col(0)) == 0) return state_;
+  return states.cols() < parts_.budget.evaluations ? states : states.leftCols(1);
+}
+
+Eigen::VectorXd Tracker::cheapest(const Eigen::MatrixXd& states) {
+  if (states.cols() == 1) return states;
+  Eigen::VectorXd costs(states.cols());
+  evaluator_.evaluate(states, costs);
+  Eigen::Index best = 0;
+  costs.minCoeff(&best);
+  return states.col(best);
+}
+
+void Tracker::go_on_from(const Eigen::VectorXd& found, const Frame& frame, const TilePlan& plan) {
+  state_ = found;
+  predictor_.add(state_, frame.time);
+  photometric_.learn(tiles_, frame, plan, state_);
+}
+
+Eigen::VectorXd Tracker::smoothed(const Solution& solution) {
+  if (!parts_.smoothing.enabled) return state_;
+  if (solution.status == Status::lost) smoother_.begin_anew();
+  if (solution.status != Status::missing) output_ = smoother_.filter(state_, solution.time);
+  return output_;
 }
 
 void Tracker::check(const Frame& frame) {
   evaluator_.prepare(tiles_, frame, tiles_.plan(frame, state_));
 }
 
-OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior) {
-  evaluator_.prepare(tiles_, frame, tiles_.plan(frame, prior));
+OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior,
+                                std::int64_t evaluated) {
   StateCost cost(space_, prior, evaluator_);
-  return parts_.optimizer->minimize(cost, space_.region(prior), parts_.budget,
-                                    frame_seed(seed_, frame.index));
+  Budget budget = parts_.budget;
+  budget.evaluations -= evaluated;
+  OptimizerResult result = parts_.optimizer->minimize(cost, space_.region(prior), budget,
+                                                      frame_seed(seed_, frame.index));
+  result.evaluations += evaluated;
+  return result;
 }
 
 }  // namespace hypotrack

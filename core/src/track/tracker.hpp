@@ -12,6 +12,9 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "track/one_euro.hpp"
+#include "track/photometric.hpp"
+#include "track/prediction.hpp"
 #include "track/search_space.hpp"
 #include "track/status.hpp"
 #include "track/visible_share.hpp"
@@ -26,7 +29,7 @@ struct Solution {
   double cost = 0;  ///< NaN if the frame was missing
   std::int64_t evaluations = 0;
   double seconds = 0;     ///< from the frame to the answer: tiles, features and search
-  Eigen::VectorXd state;  ///< normalised
+  Eigen::VectorXd state;  ///< normalised; smoothed if the tracker was told to
 };
 
 /// What a tracker is put together from.
@@ -36,13 +39,15 @@ struct TrackerParts {
   std::vector<ObjectiveTerm> objective;
   TileSettings tile;
   EvaluateSettings evaluate;
+  PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings status;
+  SmoothingSettings smoothing;
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 
-/// Follows a scene from frame to frame: the solution of one frame is where the search of the next
-/// starts.
+/// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
+/// from where its motion leads.
 class HYPOTRACK_API Tracker {
  public:
   /// The scene must outlive the tracker. `start` is the state that the first frame's search starts
@@ -62,15 +67,25 @@ class HYPOTRACK_API Tracker {
   std::string backend() const { return evaluator_.backend(); }
 
  private:
-  OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior);
+  /// States that the search of a frame may start from, the middle one, which is seen, first.
+  Eigen::MatrixXd possible_starts(double time);
+  Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
+  void go_on_from(const Eigen::VectorXd& found, const Frame& frame, const TilePlan& plan);
+  Eigen::VectorXd smoothed(const Solution& solution);
+  /// Searches the prepared frame with what `evaluated` hypotheses have left of its budget.
+  OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior, std::int64_t evaluated);
 
   TrackerParts parts_;
   TileMaker tiles_;
+  PhotometricMatch photometric_;
   VisibleShare visible_;
   SearchSpace space_;
   Evaluator evaluator_;
   StatusMonitor monitor_;
-  Eigen::VectorXd state_;
+  Predictor predictor_;
+  OneEuroFilter smoother_;
+  Eigen::VectorXd state_;   ///< the last solution as it was found
+  Eigen::VectorXd output_;  ///< and as it was given out
   std::uint64_t seed_;
 };
 
