@@ -46,8 +46,14 @@ std::unique_ptr<Optimizer> make(const std::string& name) {
     params.reset.every = 3;
     return std::make_unique<Pso>(params);
   }
-  if (name == "differential_evolution")
-    return std::make_unique<DifferentialEvolution>(DifferentialEvolutionParams{});
+  if (name == "differential_evolution" || name == "de_best_1_bin") {
+    DifferentialEvolutionParams params;
+    if (name == "de_best_1_bin") {
+      params.variant = DifferentialVariant::best_1_bin;
+      params.weight = 0.5;
+    }
+    return std::make_unique<DifferentialEvolution>(params);
+  }
   if (name == "cma_es") return std::make_unique<CmaEs>(CmaEsParams{});
   if (name == "pipeline") {
     std::vector<PipelineStage> stages;
@@ -211,10 +217,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, EveryOptimizer,
     ::testing::Values(
         Candidate{"pso", 0.02, 0.35, 13}, Candidate{"random_search", 0.25, 4, 95},
-        Candidate{"pso_of_groups", 0.04, 0.5, 18},
-        Candidate{"differential_evolution", 0.09, 0.7, 35}, Candidate{"cma_es", 0.002, 0.2, 5},
+        Candidate{"pso_of_groups", 0.04, 0.5, 18}, Candidate{"de_best_1_bin", 0.09, 0.7, 35},
+        Candidate{"differential_evolution", 0.09, 1.3, 35}, Candidate{"cma_es", 0.002, 0.2, 5},
         Candidate{"pipeline", 1e-4, 0.004, 5}, Candidate{"multi_start", 0.003, 0.2, 12},
-
         Candidate{"SBPLX", 1e-06, 1e-05, 0.3}, Candidate{"NELDERMEAD", 0.03, 0.4, 6},
         Candidate{"COBYLA", 1e-06, 0.002, 0.02}, Candidate{"BOBYQA", 1e-09, 1e-06, 0.02},
         Candidate{"PRAXIS", 0.001, 0.001, 1}, Candidate{"CRS2_LM", 0.08, 0.9, 25},

@@ -28,8 +28,8 @@ std::span<const std::string_view> enum_names(DifferentialVariant);
 struct DifferentialEvolutionParams {
   int population = 32;
   int generations = 32;
-  DifferentialVariant variant = DifferentialVariant::best_1_bin;
-  double weight = 0.5;
+  DifferentialVariant variant = DifferentialVariant::best_1_exp;
+  double weight = 0.7;
   double crossover = 0.9;
   double box = 2;
   StartParams start;
