@@ -98,7 +98,9 @@ TEST_F(StateObjective, SearchPointsAreDecodedAsOnTheCpu) {
   device.prepare(frame);
   const Eigen::VectorXd prior = states().col(0);
   for (const auto rotation_as : {RotationSearch::quaternion, RotationSearch::tangent}) {
-    const SearchSpace space(scene_, {.rotation_as = rotation_as});
+    SearchSettings settings;
+    settings.rotation_as = rotation_as;
+    const SearchSpace space(scene_, settings);
     std::srand(3);
     const Eigen::MatrixXd points = Eigen::MatrixXd::Random(space.dimension(), kStates);
     cuda::DeviceCost* device_cost = device.device_cost(prior, space.rotation_vectors());
