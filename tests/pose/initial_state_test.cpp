@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <memory>
 
@@ -50,6 +51,23 @@ TEST(InitialState, IsTheTruthOfTheFirstFrame) {
   frame.truth = GroundTruth{session.scene->rest_state(), {}};
   frame.truth->state[1] = 0.25;
   EXPECT_EQ(initial_state(session, frame), frame.truth->state);
+}
+
+TEST(InitialState, IsAsFarAwayAsAskedForInADirectionOfTheSeed) {
+  Session session = box_session();
+  const Eigen::VectorXd at = initial_state(session, {});
+  session.init.away = 0.03;
+  session.init.away_turn = 15 * kDegree;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (session.seed = 1; session.seed <= 64; ++session.seed) {
+    const Eigen::VectorXd away = initial_state(session, {});
+    const Eigen::Vector3d moved = (away - at).head<3>();
+    EXPECT_NEAR(moved.norm(), 0.03, 1e-12);
+    EXPECT_NEAR(away.segment<4>(3).dot(at.segment<4>(3)), std::cos(7.5 * kDegree), 1e-12);
+    EXPECT_EQ(initial_state(session, {}), away);
+    mean += moved / 64;
+  }
+  EXPECT_LT(mean.norm(), 0.010) << "all directions";
 }
 
 TEST(InitialState, IsAPoseFile) {

@@ -1,5 +1,5 @@
-// A real stereo pair with labelled joints: configs/stb_pair.yaml. What the search makes of it is
-// recorded, not asserted; docs/real_data.md says what was found and why.
+// A real stereo pair with labelled joints: configs/stb_pair.yaml. What the paper's objective makes
+// of it is recorded, not asserted; docs/real_data.md says what was found and why.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -45,6 +45,11 @@ Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
   out.frame = out.session.source->next().value();
   out.fitted = initial_state(out.session, out.frame);
   return out;
+}
+
+/// The pair with the paper's objective.
+Stb open_with_colors(PluginLoader& plugins, const std::string& beta) {
+  return open_stb(plugins, {fmt::format("objective={{type: stereo_color, beta: {}}}", beta)});
 }
 
 /// The hand and its size fitted to the labels.
@@ -142,7 +147,7 @@ TEST(StbPair, WithEqualBrightnessTheScorePeaksAtTheLabelledDepth) {
   HYPOTRACK_NEEDS_SHARED_DATA();
   PluginLoader plugins;
   for (const char* beta : {"100", "25"}) {
-    const Stb stb = open_stb(plugins, {std::string("objective.beta=") + beta});
+    const Stb stb = open_with_colors(plugins, beta);
     Frame frame = stb.frame;
     match_brightness(frame);
     Eigen::MatrixXd states = stb.fitted.replicate(1, 13);
@@ -230,7 +235,7 @@ TEST(StbPair, SearchesEndAndAreRecorded) {
   HYPOTRACK_NEEDS_SHARED_DATA();
   PluginLoader plugins;
   for (const char* beta : {"100", "25"}) {
-    const Stb stb = open_stb(plugins, {std::string("objective.beta=") + beta});
+    const Stb stb = open_with_colors(plugins, beta);
     Frame matched = stb.frame;
     match_brightness(matched);
     for (const int size : {32, 64}) {
@@ -238,6 +243,33 @@ TEST(StbPair, SearchesEndAndAreRecorded) {
       record_searches(stb, matched, std::string("matched_beta_") + beta, size, plugins);
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+/// Mean distance to the labels, mm, after one search per seed from that far away; the colours are
+/// learned there, too.
+double mean_found(PluginLoader& plugins, int away_mm, int away_deg, int draws) {
+  double mean = 0;
+  for (int seed = 1; seed <= draws; ++seed) {
+    Stb stb = open_stb(plugins, {fmt::format("init.away_mm={}", away_mm),
+                                 fmt::format("init.away_deg={}", away_deg),
+                                 fmt::format("seed={}", seed), "evaluate.threads=1"});
+    const Eigen::VectorXd start = stb.fitted;
+    Tracker tracker(*stb.session.scene, std::move(stb.session.parts), start, stb.session.seed);
+    const Solution solution = tracker.track(stb.frame);
+    EXPECT_EQ(solution.evaluations, 1024);
+    mean += 1e3 * stb.distance(solution.state) / draws;
+  }
+  return mean;
+}
+
+TEST(StbPair, IsFoundByPatchesAndSkinFromFarAway) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  for (const int steps : {1, 2, 3}) {
+    const double found = mean_found(plugins, 10 * steps, 5 * steps, 8);
+    fmt::print("from {} mm, {} degrees: {:.1f} mm\n", 10 * steps, 5 * steps, found);
+    EXPECT_LE(found, 9) << "from " << 10 * steps << " mm away";
   }
 }
 

@@ -33,6 +33,8 @@ struct InitSettings {
   std::filesystem::path file;
   int frame = 0;
   ConfigNode pose;
+  double away = 0;       ///< m
+  double away_turn = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
       {.help = "start of the first search: the source's ground truth, the models' rest state or a "
@@ -44,6 +46,20 @@ struct InitSettings {
     v("pose", pose,
       {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg or quaternion, "
                "angles_deg: {NAME: VALUE}}}"});
+    v("away_mm", away,
+      {.help =
+           "moves every model of that state this far, in a direction that the seed decides: how "
+           "far off may a start be?",
+       .min = 0,
+       .max = 1e4,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("away_deg", away_turn,
+      {.help = "turns every model of that state by this, about an axis that the seed decides",
+       .min = 0,
+       .max = 180,
+       .unit = "deg",
+       .to_si = kDegree});
   }
 };
 

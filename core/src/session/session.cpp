@@ -12,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
+#include "session/displace.hpp"
 
 namespace hypotrack {
 namespace {
@@ -199,7 +200,9 @@ Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
     scene.check(state, session.init.file.string());
   }
   if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
-  return state;
+  if (session.init.away == 0 && session.init.away_turn == 0) return state;
+  return displaced(scene, std::move(state), session.init.away, session.init.away_turn,
+                   session.seed);
 }
 
 }  // namespace hypotrack

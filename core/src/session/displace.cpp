@@ -1,0 +1,36 @@
+#include "session/displace.hpp"
+
+#include <Eigen/Geometry>
+
+#include "hypotrack/random.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// A direction per (seed, model, purpose): three normal numbers have no preferred one.
+Eigen::Vector3d direction(std::uint64_t seed, std::uint32_t model, std::uint32_t purpose) {
+  Eigen::Vector3d v;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    v[i] = normal(seed, {.dimension = i, .particle = model, .stream = purpose});
+  }
+  return v.normalized();
+}
+
+}  // namespace
+
+Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, double metres, double radians,
+                          std::uint64_t seed) {
+  std::uint32_t model = 0;
+  for (const Scene::Item& item : scene.items()) {
+    auto pose = state.segment<7>(item.offset);
+    const Eigen::Quaterniond rotation(pose[3], pose[4], pose[5], pose[6]);
+    const Eigen::Quaterniond turned =
+        rotation * Eigen::AngleAxisd(radians, direction(seed, model, 1));
+    pose.head<3>() += metres * direction(seed, model, 0);
+    pose.tail<4>() << turned.w(), turned.x(), turned.y(), turned.z();
+    ++model;
+  }
+  return state;
+}
+
+}  // namespace hypotrack
