@@ -17,10 +17,13 @@ PluginError::~PluginError() = default;
 DeviceError::~DeviceError() = default;
 OutputError::~OutputError() = default;
 
+ResidualTerm::~ResidualTerm() = default;
 Objective::~Objective() = default;
+const ResidualTerm* Objective::residual_term() const { return nullptr; }
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
 cuda::DeviceCost::~DeviceCost() = default;
+ResidualCost::~ResidualCost() = default;
 CostFunction::~CostFunction() = default;
 Optimizer::~Optimizer() = default;
 Source::~Source() = default;

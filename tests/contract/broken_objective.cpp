@@ -20,15 +20,24 @@ enum class Fault {
   never_repeats,
   refuses_everything,
   needs_a_first_frame,
+  infinite_residual,
+  leaves_residuals_out,
 };
-constexpr std::array<std::string_view, 9> kFaults = {
-    "none",          "nan_where_nothing_is_covered", "overflows_on_noise",
-    "remembers",     "depends_on_the_thread",        "depends_on_the_object",
-    "never_repeats", "refuses_everything",           "needs_a_first_frame"};
+constexpr std::array<std::string_view, 11> kFaults = {"none",
+                                                      "nan_where_nothing_is_covered",
+                                                      "overflows_on_noise",
+                                                      "remembers",
+                                                      "depends_on_the_thread",
+                                                      "depends_on_the_object",
+                                                      "never_repeats",
+                                                      "refuses_everything",
+                                                      "needs_a_first_frame",
+                                                      "infinite_residual",
+                                                      "leaves_residuals_out"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 /// Mean inverse depth, the more the better.
-class Broken final : public Objective {
+class Broken final : public Objective, public ResidualTerm {
  public:
   struct Params {
     Fault fault = Fault::none;
@@ -56,6 +65,15 @@ class Broken final : public Objective {
     }
     const double count = fault_ == Fault::nan_where_nothing_is_covered ? covered : covered + 1;
     return -sum / count + extra(sum);
+  }
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return 2; }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override {
+    const bool covered = hypothesis.views[0].x1 > hypothesis.views[0].x0;
+    residuals[0] = fault_ == Fault::infinite_residual ? 1.0f / static_cast<float>(covered) : 1.0f;
+    if (fault_ != Fault::leaves_residuals_out) residuals[1] = covered ? 0.0f : 1.0f;
   }
 
  private:

@@ -69,6 +69,7 @@ TEST_P(Contract, OneFaultFailsItsRow) {
 
 const std::string kFrames = "frames: 6\n";
 const std::string kItself = "poses_itself: true\n";
+const std::string kResidualRow = "residuals are finite, complete and the same from several threads";
 
 INSTANTIATE_TEST_SUITE_P(
     Optimizer, Contract,
@@ -112,7 +113,11 @@ INSTANTIATE_TEST_SUITE_P(
                            "it takes observations in or refuses them with a DataError",
                            "it refuses every observation"},
                       Case{"objective", "needs_a_first_frame",
-                           "it can take in a frame after a frame", "the cost is NaN"}),
+                           "it can take in a frame after a frame", "the cost is NaN"},
+                      Case{"objective", "infinite_residual", kResidualRow,
+                           "nothing covered, a rectified pair: residual 0 is inf"},
+                      Case{"objective", "leaves_residuals_out", kResidualRow,
+                           "a rectified pair: not all of them are written"}),
     [](const auto& each) { return each.param.fault; });
 
 INSTANTIATE_TEST_SUITE_P(

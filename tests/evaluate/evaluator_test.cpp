@@ -37,6 +37,29 @@ class Term : public Objective {
   Cost cost_;
 };
 
+// One whose residuals are the first numbers of a state.
+class SquaresOfState : public Objective, public ResidualTerm {
+ public:
+  explicit SquaresOfState(std::int64_t count) : count_(count) {}
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    double sum = 0;
+    for (const double x : hypothesis.state.first(static_cast<std::size_t>(count_))) sum += x * x;
+    return sum;
+  }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return count_; }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override {
+    for (std::size_t i = 0; i < residuals.size(); ++i)
+      residuals[i] = static_cast<float>(hypothesis.state[i]);
+  }
+
+ private:
+  std::int64_t count_;
+};
+
 std::shared_ptr<Term> drawn(Term::Cost cost) {
   return std::make_shared<Term>(true, std::move(cost));
 }
@@ -315,6 +338,60 @@ TEST_F(EvaluatorTest, RefusesTermsThatAreNone) {
             "evaluate: there is no objective behind term stereo");
   EXPECT_EQ(message<ConfigError>({{kInfinity, term, "stereo"}}),
             "evaluate: the weight of objective stereo is inf, expected a finite number");
+}
+
+TEST_F(EvaluatorTest, ResidualsOfAllTermsAddUpToTheirWeightedSum) {
+  const std::vector<ObjectiveTerm> terms = {{4, std::make_shared<SquaresOfState>(3)},
+                                            {0, drawn(total_inverse_depth)},
+                                            {1, std::make_shared<SquaresOfState>(10)}};
+  const Eigen::MatrixXd states = random_states(40);
+  Eigen::MatrixXf expected;
+  for (const int count : {1, 3}) {
+    Evaluator evaluator(scene_, terms, threads(count), true);
+    evaluator.prepare(observation_);
+    ASSERT_EQ(evaluator.residual_count(), 13);
+    Eigen::MatrixXf residuals(13, 40);
+    Eigen::VectorXd costs(40);
+    evaluator.evaluate(states, residuals, costs);
+    EXPECT_EQ(costs, evaluate(terms, states));
+    EXPECT_TRUE(residuals.colwise().squaredNorm().transpose().isApprox(costs.cast<float>(), 1e-5f));
+    EXPECT_TRUE(residuals.topRows(3).isApprox(2 * states.topRows(3).cast<float>(), 1e-6f));
+    if (expected.size() == 0) expected = residuals;
+    EXPECT_EQ(residuals, expected);
+  }
+}
+
+TEST_F(EvaluatorTest, RefusesResidualsOfTermsThatHaveNone) {
+  const auto squares = std::make_shared<SquaresOfState>(3);
+  const auto plain = undrawn([](const RenderedHypothesis&) { return 0.0; });
+  const auto why = [&](std::vector<ObjectiveTerm> terms, Backend backend) -> std::string {
+    try {
+      Evaluator(scene_, std::move(terms), {.backend = backend}, true);
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(
+      why({{1, squares}, {1, plain, "prior"}}, Backend::cpu),
+      testing::StartsWith("objective: the optimizer needs residuals: objective prior, as it "
+                          "is set up, offers no residuals"));
+  EXPECT_THAT(why({{-2, squares, "prior"}}, Backend::cpu),
+              testing::HasSubstr("the weight of objective prior is -2, and squares cannot be"));
+  EXPECT_THAT(
+      why({{1, squares}}, Backend::cuda),
+      testing::StartsWith("evaluate.backend: cuda: the optimizer needs residuals, which are "
+                          "computed on the CPU. Write `backend: cpu`"));
+  EXPECT_EQ(why({{1, squares}, {0, plain}}, Backend::cpu), "no error");
+  const Evaluator automatic(scene_, {{1, squares}}, {}, true);
+  EXPECT_THAT(automatic.backend(),
+              testing::HasSubstr("not on a GPU: the optimizer needs residuals"));
+}
+
+TEST_F(EvaluatorTest, SaysWhetherThereAreResidualsThatNobodyAnnounced) {
+  EXPECT_TRUE(
+      Evaluator(scene_, {{1, std::make_shared<SquaresOfState>(3)}}, threads(1)).has_residuals());
+  EXPECT_FALSE(Evaluator(scene_, {{1, drawn(total_inverse_depth)}}, threads(1)).has_residuals());
 }
 
 TEST_F(EvaluatorTest, SaysWhatDraws) {

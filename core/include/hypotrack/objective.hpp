@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -28,6 +29,26 @@ struct RenderedHypothesis {
   std::span<const DepthTile> views;  ///< one per view; empty if no objective needs rendering
 };
 
+/// An objective as a sum of squares, for optimizers of least squares.
+class HYPOTRACK_API ResidualTerm {
+ public:
+  ResidualTerm() = default;
+  virtual ~ResidualTerm();
+  ResidualTerm(const ResidualTerm&) = delete;
+  ResidualTerm& operator=(const ResidualTerm&) = delete;
+
+  /// Number of residuals of every hypothesis of the prepared frame; may be 0.
+  virtual std::int64_t residual_count() const = 0;
+
+  /// Writes the residuals of a hypothesis, `residual_count()` finite numbers. One place belongs to
+  /// one pixel (joint, pair of spheres), whatever the hypothesis, so that the residuals of two
+  /// hypotheses can be subtracted. Best, the sum of their squares is the cost plus a constant of
+  /// the frame; where the cost is no sum of squares, they are small where it is low. Called from
+  /// several threads at once; equal inputs give equal results.
+  virtual void write_residuals(const RenderedHypothesis& hypothesis,
+                               std::span<float> residuals) const = 0;
+};
+
 /// Says how badly a hypothesis explains a frame. A scene adds several up with weights.
 class HYPOTRACK_API Objective {
  public:
@@ -47,6 +68,10 @@ class HYPOTRACK_API Objective {
   /// Cost of a hypothesis: lower is better, +infinity is infeasible, NaN is a bug. Called from
   /// several threads at once; equal inputs give equal results.
   virtual double cost(const RenderedHypothesis& hypothesis) const = 0;
+
+  /// The same objective as a sum of squares; null if it has none, before and after every `prepare`.
+  /// Lives as long as this one (an objective may derive from ResidualTerm and return itself).
+  virtual const ResidualTerm* residual_term() const;
 
   /// The same objective for the GPU (hypotrack/cuda/device_objective.hpp), null if it has none or
   /// was built without CUDA: then scenes with it are evaluated on the CPU. Outlived by this one.

@@ -14,6 +14,21 @@ namespace cuda {
 class DeviceCost;
 }
 
+/// A cost function that is a sum of squares, seen square by square.
+class HYPOTRACK_API ResidualCost {
+ public:
+  virtual ~ResidualCost();
+  /// Number M of residuals of every point; the same during a search.
+  virtual Eigen::Index count() const = 0;
+  /// Residuals (MxN) and costs (N) of N points (DxN), each counted as one evaluation. The costs are
+  /// those of CostFunction::evaluate(): they say which point is better. The sum of a point's
+  /// squared residuals is its cost plus a constant, or a stand-in for it where a cost is no sum of
+  /// squares. Residuals are finite where the cost is. Batches are evaluated in parallel.
+  virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                        Eigen::Ref<Eigen::MatrixXf> residuals,
+                        Eigen::Ref<Eigen::VectorXd> costs) = 0;
+};
+
 /// What an optimizer minimises. One search point is a column of D numbers; what they mean (and how
 /// rotations are parametrised) is the region's business, not the optimizer's.
 class HYPOTRACK_API CostFunction {
@@ -28,6 +43,8 @@ class HYPOTRACK_API CostFunction {
   /// The same costs for searches that stay on the GPU (hypotrack/cuda/device_cost.hpp); null if the
   /// scene is not evaluated there.
   virtual cuda::DeviceCost* device() { return nullptr; }
+  /// The same costs with their residuals; null if they have none. Lives as long as this one.
+  virtual ResidualCost* residuals() { return nullptr; }
 };
 
 /// Dimensions of a search point that move one part of the scene.
@@ -70,6 +87,10 @@ class HYPOTRACK_API Optimizer {
   virtual ~Optimizer();
   Optimizer(const Optimizer&) = delete;
   Optimizer& operator=(const Optimizer&) = delete;
+
+  /// Whether it minimises only costs with residuals(). A scene with it is refused at once if one of
+  /// its terms has none.
+  virtual bool needs_residuals() const { return false; }
 
   /// The budget its own parameters imply, for scenes that name none.
   virtual std::int64_t default_evaluations() const = 0;

@@ -171,6 +171,13 @@ HYPOTRACK_PIXEL Lanes unorm16_high(WordLanes a) {
 /// Consecutive values, one per lane; kLanes of them must be readable.
 HYPOTRACK_PIXEL Lanes load(const float* from) { return Lanes(hn::LoadU(FloatTag(), from)); }
 HYPOTRACK_PIXEL WordLanes load(const std::uint32_t* from) { return {hn::LoadU(UintTag(), from)}; }
+/// Writes the first n lanes, n <= kLanes.
+HYPOTRACK_PIXEL void store(Lanes a, int n, float* to) {
+  if (HWY_LIKELY(n == kLanes)) return hn::StoreU(a.v, FloatTag(), to);
+  HWY_ALIGN float copy[kLanes];
+  hn::Store(a.v, FloatTag(), copy);
+  for (int i = 0; i < n; ++i) to[i] = copy[i];
+}
 /// base[index] per lane.
 HYPOTRACK_PIXEL Lanes gather(const float* base, IntLanes index) {
   return Lanes(hn::GatherIndex(FloatTag(), base, index.v));

@@ -86,6 +86,7 @@ struct BilinearLanes {
 /// other ("there").
 struct StereoPixels {
   int x, y;             ///< of the first lane; the lanes are x, x + 1, ...
+  int pixels;           ///< number of lanes in the walk's region, the first ones
   Lanes inverse_depth;  ///< here, 1/m; 0 where uncovered
   // Each lane of the walk's region is exactly one of these; lanes beyond it are none.
   LaneMask seen, occluded, uncovered;
@@ -150,6 +151,7 @@ HYPOTRACK_PIXEL void walk_vector(const DepthTile& here, const DepthTile& there,
   StereoPixels p;
   p.x = x;
   p.y = y;
+  p.pixels = pixels;
   p.inverse_depth = w;
   p.width = map.width;
   p.height = map.height;

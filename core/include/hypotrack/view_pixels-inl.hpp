@@ -27,6 +27,7 @@ namespace hypotrack::HWY_NAMESPACE {
 /// kLanes neighbouring pixels of a row.
 struct ViewPixels {
   int x, y;             ///< of the first lane; the lanes are x, x + 1, ...
+  int pixels;           ///< number of lanes in the walk's region, the first ones
   Lanes inverse_depth;  ///< 1/m; 0 where uncovered
   // Each lane of the walk's region is one of these; lanes beyond it are none.
   LaneMask covered, uncovered;
@@ -63,7 +64,7 @@ HYPOTRACK_PIXEL void for_each_view_pixel(const DepthTile& tile, const PixelBox& 
       const Lanes w = detail::load_depth(row, x, pixels, tile.stride);
       const LaneMask covered = w > Lanes(0.0f);
       if (!Functor::kVisitsUncovered && !any(covered)) continue;
-      functor.pixels(ViewPixels{x, y, w, covered, first_lanes(pixels) && !covered});
+      functor.pixels(ViewPixels{x, y, pixels, w, covered, first_lanes(pixels) && !covered});
     }
     functor.end_row();
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cuda/egl_cuda_evaluation.hpp"
+#include "evaluate/term_residuals.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -21,6 +22,12 @@ class FallenBack final : public Evaluation {
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     host_->evaluate(states, costs);
   }
+  bool has_residuals() const override { return host_->has_residuals(); }
+  Eigen::Index residual_count() const override { return host_->residual_count(); }
+  void evaluate_residuals(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
+                          Eigen::Ref<Eigen::VectorXd> costs) override {
+    host_->evaluate_residuals(states, residuals, costs);
+  }
   std::string description() const override {
     return fmt::format("{}; {}", host_->description(), why_);
   }
@@ -30,35 +37,63 @@ class FallenBack final : public Evaluation {
   std::string why_;
 };
 
+constexpr const char* kNeedsResiduals =
+    "the optimizer needs residuals, which are computed on the CPU";
+
+std::unique_ptr<Evaluation> fall_back(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                                      const EvaluateSettings& settings, std::string why) {
+  return std::make_unique<FallenBack>(make_host_evaluation(scene, terms, settings), std::move(why));
+}
+
 /// Scored where it is drawn if OpenGL and CUDA share the GPU, otherwise read back.
 std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
                                                 const std::vector<ObjectiveTerm>& terms,
-                                                const EvaluateSettings& settings) {
-  std::string why_not;
-  if (auto shared = cuda::make_egl_evaluation(scene, terms, settings, why_not)) return shared;
-  return std::make_unique<FallenBack>(make_host_evaluation(scene, terms, settings),
-                                      "scored on the CPU: " + why_not);
+                                                const EvaluateSettings& settings, bool residuals) {
+  std::string why_not = residuals ? kNeedsResiduals : "";
+  if (!residuals) {
+    if (auto shared = cuda::make_egl_evaluation(scene, terms, settings, why_not)) return shared;
+  }
+  return fall_back(scene, terms, settings, "scored on the CPU: " + why_not);
+}
+
+std::unique_ptr<Evaluation> make_cuda_evaluation(const Scene& scene,
+                                                 const std::vector<ObjectiveTerm>& terms,
+                                                 const EvaluateSettings& settings, bool residuals) {
+  if (residuals) {
+    throw ConfigError(fmt::format(
+        "evaluate.backend: cuda: {}. Write `backend: cpu`, or `automatic` to take what there is",
+        kNeedsResiduals));
+  }
+  return cuda::make_evaluation(scene, terms, settings);
 }
 
 }  // namespace
 
+void Evaluation::evaluate_residuals(const Eigen::MatrixXd&, Eigen::Ref<Eigen::MatrixXf>,
+                                    Eigen::Ref<Eigen::VectorXd>) {
+  throw Error("evaluate: this backend has no residuals");
+}
+
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings) {
+                                            const EvaluateSettings& settings, bool residuals) {
+  if (residuals) {
+    const std::string why = TermResiduals::why_none(terms);
+    if (!why.empty()) throw ConfigError("objective: the optimizer needs residuals: " + why);
+  }
   switch (settings.backend) {
     case Backend::cpu:
       return make_host_evaluation(scene, terms, settings);
     case Backend::egl:
-      return make_egl_evaluation(scene, terms, settings);
+      return make_egl_evaluation(scene, terms, settings, residuals);
     case Backend::cuda:
-      return cuda::make_evaluation(scene, terms, settings);
+      return make_cuda_evaluation(scene, terms, settings, residuals);
     case Backend::automatic:
       break;
   }
-  std::string why = cuda::why_not_evaluated(scene, terms, settings);
+  std::string why = residuals ? kNeedsResiduals : cuda::why_not_evaluated(scene, terms, settings);
   if (why.empty()) return cuda::make_evaluation(scene, terms, settings);
-  return std::make_unique<FallenBack>(make_host_evaluation(scene, terms, settings),
-                                      "not on a GPU: " + why);
+  return fall_back(scene, terms, settings, "not on a GPU: " + why);
 }
 
 void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what) {

@@ -33,6 +33,15 @@ class Evaluation {
   /// NaN.
   virtual void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) = 0;
 
+  /// Whether it has residuals: the terms are a sum of squares, and this backend computes them.
+  virtual bool has_residuals() const { return false; }
+  /// Residuals of every hypothesis of the prepared frame.
+  virtual Eigen::Index residual_count() const { return 0; }
+  /// The costs and the residuals (residual_count() x N); only where has_residuals().
+  virtual void evaluate_residuals(const Eigen::MatrixXd& states,
+                                  Eigen::Ref<Eigen::MatrixXf> residuals,
+                                  Eigen::Ref<Eigen::VectorXd> costs);
+
   /// For Evaluator::backend(): `cpu (AVX3, 2 threads)`.
   virtual std::string description() const = 0;
 
@@ -44,10 +53,11 @@ class Evaluation {
 };
 
 /// The backend that the settings ask for. Throws DeviceError if it is not to be had; never a silent
-/// substitute. The scene outlives it.
+/// substitute. The scene outlives it. `residuals`: what is made has_residuals(); throws ConfigError
+/// if the terms or the backend have none.
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings);
+                                            const EvaluateSettings& settings, bool residuals);
 
 /// Draws with a HypothesisRenderer and asks the terms on the CPU.
 std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,

@@ -30,10 +30,14 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
 }  // namespace
 
 struct Evaluator::Impl {
-  Impl(const Scene& s, std::vector<ObjectiveTerm> t, const EvaluateSettings& settings)
+  Impl(const Scene& s, std::vector<ObjectiveTerm> t, const EvaluateSettings& settings,
+       bool residuals)
       : scene(s),
         terms(checked(std::move(t))),
-        evaluation(make_evaluation(scene, terms, settings)) {}
+        evaluation(make_evaluation(scene, terms, settings, residuals)) {}
+
+  /// Takes in the states of a batch, normalised. Throws Error if they do not fit.
+  void normalize(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Index costs);
 
   const Scene& scene;
   std::vector<ObjectiveTerm> terms;
@@ -44,8 +48,8 @@ struct Evaluator::Impl {
 };
 
 Evaluator::Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms,
-                     const EvaluateSettings& settings)
-    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings)) {}
+                     const EvaluateSettings& settings, bool residuals)
+    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings, residuals)) {}
 
 Evaluator::~Evaluator() = default;
 
@@ -62,20 +66,40 @@ void Evaluator::prepare(const TileMaker& tiles, const Frame& frame, TilePlan pla
   impl_->prepared = true;
 }
 
-void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
-                         Eigen::Ref<Eigen::VectorXd> costs) {
-  if (!impl_->prepared) throw Error("evaluate: no frame has been prepared");
-  if (states.rows() != impl_->scene.dimension() || costs.size() != states.cols()) {
+void Evaluator::Impl::normalize(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                                Eigen::Index costs) {
+  if (!prepared) throw Error("evaluate: no frame has been prepared");
+  if (states.rows() != scene.dimension() || costs != states.cols()) {
     throw Error(
         fmt::format("evaluate: found states {} x {} and room for {} costs, expected "
                     "states {} x N and room for N",
-                    states.rows(), states.cols(), costs.size(), impl_->scene.dimension()));
+                    states.rows(), states.cols(), costs, scene.dimension()));
   }
-  impl_->normalized = states;
-  for (Eigen::Index i = 0; i < states.cols(); ++i) {
-    impl_->scene.normalize(impl_->normalized.col(i));
-  }
+  normalized = states;
+  for (Eigen::Index i = 0; i < states.cols(); ++i) scene.normalize(normalized.col(i));
+}
+
+void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                         Eigen::Ref<Eigen::VectorXd> costs) {
+  impl_->normalize(states, costs.size());
   impl_->evaluation->evaluate(impl_->normalized, costs);
+}
+
+bool Evaluator::has_residuals() const { return impl_->evaluation->has_residuals(); }
+
+Eigen::Index Evaluator::residual_count() const {
+  if (!impl_->prepared) throw Error("evaluate: no frame has been prepared");
+  return impl_->evaluation->residual_count();
+}
+
+void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                         Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) {
+  impl_->normalize(states, costs.size());
+  if (residuals.rows() != residual_count() || residuals.cols() != states.cols()) {
+    throw Error(fmt::format("evaluate: found room for {} x {} residuals, expected {} x {}",
+                            residuals.rows(), residuals.cols(), residual_count(), states.cols()));
+  }
+  impl_->evaluation->evaluate_residuals(impl_->normalized, residuals, costs);
 }
 
 cuda::DeviceCost* Evaluator::device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) {

@@ -47,7 +47,9 @@ struct ObjectiveTerm {
 class HYPOTRACK_API Evaluator {
  public:
   /// The scene must outlive the evaluator. Throws DeviceError if the backend is not to be had.
-  Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings);
+  /// `residuals`: they will be asked for; throws ConfigError if a term or the backend has none.
+  Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings,
+            bool residuals = false);
   ~Evaluator();
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
@@ -64,6 +66,14 @@ class HYPOTRACK_API Evaluator {
   /// farther than 1 km or a million pixels off. A model whose mesh is closed and wound outwards is
   /// drawn without the faces turned away from the camera.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
+
+  /// Whether residuals can be had; always if they were announced.
+  bool has_residuals() const;
+  /// Number M of residuals of every state, for the prepared frame.
+  Eigen::Index residual_count() const;
+  /// The same costs (N), and residuals (MxN) whose squares add up to them (ResidualTerm).
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs);
 
   /// Costs of search points that stay on the GPU, for the prepared frame; null on other backends.
   /// Points are states or, with `rotation_vectors`, states in which every model's quaternion is

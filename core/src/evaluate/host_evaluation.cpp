@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "evaluate/evaluation.hpp"
 #include "evaluate/hypothesis_renderer.hpp"
+#include "evaluate/term_residuals.hpp"
 
 namespace hypotrack {
 namespace {
@@ -18,17 +20,31 @@ class HostEvaluation final : public Evaluation {
  public:
   HostEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                  const EvaluateSettings& settings)
-      : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {}
+      : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {
+    if (TermResiduals::why_none(terms).empty()) residuals_.emplace(terms);
+  }
 
   using Evaluation::prepare;
   void prepare(const Observation& observation) override {
     for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
+    if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       costs[index] = cost(index, hypothesis);
+    });
+  }
+
+  bool has_residuals() const override { return residuals_.has_value(); }
+  Eigen::Index residual_count() const override { return residuals_ ? residuals_->count() : 0; }
+  void evaluate_residuals(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
+                          Eigen::Ref<Eigen::VectorXd> costs) override {
+    const auto count = static_cast<std::size_t>(residuals.rows());
+    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      costs[index] = cost(index, hypothesis);
+      residuals_->write(hypothesis, {residuals.col(index).data(), count});
     });
   }
 
@@ -50,6 +66,7 @@ class HostEvaluation final : public Evaluation {
   }
 
   std::vector<ObjectiveTerm> terms_;
+  std::optional<TermResiduals> residuals_;  // if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
 };
 

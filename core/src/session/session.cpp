@@ -134,6 +134,7 @@ void Opening::objective() {
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
   if (settings.backend != Backend::cuda && settings.backend != Backend::automatic) return;
+  if (session_.parts.optimizer->needs_residuals()) return;
   const auto& terms = session_.parts.objective;
   if (!cuda::why_not_evaluated(*session_.scene, terms, settings).empty()) return;
   cuda::page_lock_images(settings.device);
@@ -168,9 +169,9 @@ Session open_session(const std::filesystem::path& scene_file,
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
   opening.objective();
+  opening.optimizer();
   opening.images();
   opening.source();
-  opening.optimizer();
   return opening.finish();
 }
 

@@ -10,7 +10,7 @@ namespace hypotrack {
 namespace {
 
 /// Costs of search points: points become states, states are evaluated.
-class StateCost final : public CostFunction {
+class StateCost final : public CostFunction, public ResidualCost {
  public:
   StateCost(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
       : space_(space), prior_(prior), evaluator_(evaluator) {}
@@ -22,6 +22,14 @@ class StateCost final : public CostFunction {
   }
   cuda::DeviceCost* device() override {
     return evaluator_.device_cost(prior_, space_.rotation_vectors());
+  }
+  ResidualCost* residuals() override { return evaluator_.has_residuals() ? this : nullptr; }
+
+  // ResidualCost
+  Eigen::Index count() const override { return evaluator_.residual_count(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
+    evaluator_.evaluate(space_.states(points, prior_), residuals, costs);
   }
 
  private:
@@ -56,7 +64,7 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
       photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
       visible_(scene, parts_.cameras),
       space_(scene, parts_.search),
-      evaluator_(scene, parts_.objective, parts_.evaluate),
+      evaluator_(scene, parts_.objective, parts_.evaluate, parts_.optimizer->needs_residuals()),
       monitor_(parts_.status),
       predictor_(scene, parts_.search.prediction),
       smoother_(scene, parts_.smoothing),

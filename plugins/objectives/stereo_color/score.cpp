@@ -10,18 +10,10 @@
 #define HWY_TARGET_INCLUDE "score.cpp"
 #include <hwy/foreach_target.h>
 
-#include "color_consistency-inl.hpp"
-#include "hypotrack/stereo_pixels-inl.hpp"
+#include "color_lookup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_color::HWY_NAMESPACE {
-
-using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
-
-HYPOTRACK_PIXEL ColorSample<Lanes> unpack(WordLanes channels_01, WordLanes channel_2_weight) {
-  return {unorm16_low(channels_01), unorm16_high(channels_01), unorm16_low(channel_2_weight),
-          unorm16_high(channel_2_weight)};
-}
 
 template <bool kBilinear>
 struct ColorTerm {
@@ -38,23 +30,10 @@ struct ColorTerm {
     rendered += count(p.seen || p.occluded);
     if (!any(p.seen)) return;
     seen += count(p.seen);
-    const auto here = unpack(p.here(left.channels_01), p.here(left.channel_2_weight));
-    sum.add(p.seen, color_consistency(here, there(p), beta));
+    sum.add(p.seen,
+            color_consistency(sample_here(left, p), sample_there<kBilinear>(right, p), beta));
   }
   HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
-
- private:
-  HYPOTRACK_PIXEL ColorSample<Lanes> at(const StereoPixels& p, IntLanes x, IntLanes y) const {
-    return unpack(p.at(right.channels_01, x, y), p.at(right.channel_2_weight, x, y));
-  }
-  HYPOTRACK_PIXEL ColorSample<Lanes> there(const StereoPixels& p) const {
-    if constexpr (!kBilinear) return at(p, p.column, p.row);
-    const BilinearLanes b = p.bilinear();
-    const IntLanes x1 = b.x0 + int_lanes(1), y1 = b.y0 + int_lanes(1);
-    if (p.same_row) return blend(at(p, b.x0, p.row), at(p, x1, p.row), b.fx);
-    const auto upper = blend(at(p, b.x0, b.y0), at(p, x1, b.y0), b.fx);
-    return blend(upper, blend(at(p, b.x0, y1), at(p, x1, y1), b.fx), b.fy);
-  }
 };
 
 template <bool kBilinear>

@@ -38,14 +38,19 @@ void StereoColor::prepare(const Observation& observation) {
   for (std::size_t i = 0; i < 2; ++i) {
     features_[i] = make_features(observation.views[i], params_);
     maps_[i] = stereo_map(observation, static_cast<int>(i), static_cast<int>(1 - i));
+    if (residual_term() && uses(i)) uncovered_[i] = uncovered_residuals(features_[i], share());
   }
 }
 
-double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
+void StereoColor::check_tiles(const RenderedHypothesis& hypothesis) const {
   for (std::size_t i = 0; i < 2; ++i) {
     const auto& plane = features_[i].channels_01;
     check_drawn_tile("stereo_color", hypothesis, i, plane.width(), plane.height());
   }
+}
+
+double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
+  check_tiles(hypothesis);
   switch (params_.direction) {
     case Direction::left_to_right:
       return 0.0 - score(hypothesis, 0, 1);  // not -0.0
@@ -59,6 +64,39 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
 
 std::unique_ptr<cuda::DeviceObjective> StereoColor::on_device() const {
   return make_device_objective(params_);
+}
+
+bool StereoColor::uses(std::size_t from) const {
+  return params_.direction != (from == 0 ? Direction::right_to_left : Direction::left_to_right);
+}
+
+float StereoColor::share() const { return params_.direction == Direction::both ? 0.5f : 1.0f; }
+
+const ResidualTerm* StereoColor::residual_term() const {
+  return params_.aggregation == Aggregation::sum ? this : nullptr;
+}
+
+std::int64_t StereoColor::residual_count() const {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& plane = features_[i].channels_01;
+    if (uses(i)) count += std::int64_t{plane.width()} * plane.height();
+  }
+  return count;
+}
+
+void StereoColor::write_residuals(const RenderedHypothesis& hypothesis,
+                                  std::span<float> residuals) const {
+  check_tiles(hypothesis);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!uses(i)) continue;
+    const auto& plane = uncovered_[i];
+    const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
+    stereo_color::write_residuals({features_[i], hypothesis.views[i]},
+                                  {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], params_,
+                                  share(), uncovered_[i], residuals.first(size));
+    residuals = residuals.subspan(size);
+  }
 }
 
 double StereoColor::score(const RenderedHypothesis& hypothesis, int from, int to) const {

@@ -6,6 +6,7 @@
 #include "features.hpp"
 #include "hypotrack/objective.hpp"
 #include "params.hpp"
+#include "residuals.hpp"
 #include "score.hpp"
 
 namespace hypotrack::stereo_color {
@@ -32,7 +33,12 @@ namespace hypotrack::stereo_color {
 /// values of color_space, aggregation, direction, lookup, distinctiveness.
 ///
 /// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
-class StereoColor : public Objective {
+///
+/// With the aggregation `sum` the cost is a sum of squares, up to a constant of the frame: every
+/// pixel of the left tile, covered or not, has the residual sqrt(C - s), where s is 0 unless both
+/// views see its surface. So a silhouette that does not reach a distinctive pixel is felt at that
+/// pixel. With `both` directions each pixel of either tile has the residual sqrt((C - s) / 2).
+class StereoColor : public Objective, public ResidualTerm {
  public:
   using Params = stereo_color::Params;
 
@@ -45,12 +51,23 @@ class StereoColor : public Objective {
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
+  /// This, or null if the aggregation makes a mean of the sum.
+  const ResidualTerm* residual_term() const override;
+  std::int64_t residual_count() const override;
+  /// Throws DataError as cost().
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+
  private:
+  void check_tiles(const RenderedHypothesis& hypothesis) const;
   double score(const RenderedHypothesis& hypothesis, int from, int to) const;
+  bool uses(std::size_t from) const;  ///< whether pixels of this view are summed up
+  float share() const;                ///< of each of the directions that are
 
   Params params_;
   std::array<Features, 2> features_;
-  std::array<StereoMap, 2> maps_;  // from each view into the other
+  std::array<StereoMap, 2> maps_;               // from each view into the other
+  std::array<PixelPlane<float>, 2> uncovered_;  // residuals where nothing is covered
 };
 
 }  // namespace hypotrack::stereo_color

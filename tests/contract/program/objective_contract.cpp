@@ -9,17 +9,20 @@
 namespace hypotrack::contract {
 namespace {
 
+RenderedHypothesis as_drawn_for(const Objective& objective, const NamedHypothesis& hypothesis) {
+  RenderedHypothesis rendered;
+  rendered.state = {hypothesis.state.data(), static_cast<std::size_t>(hypothesis.state.size())};
+  if (objective.needs_rendering()) rendered.views = hypothesis.depth.tiles();
+  return rendered;
+}
+
 /// Costs of hypotheses, in the given order.
 std::vector<double> score(const Objective& objective,
                           const std::vector<NamedHypothesis>& hypotheses,
                           const std::vector<std::size_t>& order) {
   std::vector<double> costs;
   for (const std::size_t i : order) {
-    const NamedHypothesis& hypothesis = hypotheses[i];
-    RenderedHypothesis rendered;
-    rendered.state = {hypothesis.state.data(), static_cast<std::size_t>(hypothesis.state.size())};
-    if (objective.needs_rendering()) rendered.views = hypothesis.depth.tiles();
-    costs.push_back(objective.cost(rendered));
+    costs.push_back(objective.cost(as_drawn_for(objective, hypotheses[i])));
   }
   return costs;
 }
@@ -116,6 +119,39 @@ void check_second_object(const Subject& subject, const Setting& setting) {
           setting.name + ": two objects give two costs");
 }
 
+/// Residuals of all hypotheses, one after the other, into memory that held `before`.
+std::vector<float> residuals(const Setting& setting, float before) {
+  const ResidualTerm& term = *setting.objective->residual_term();
+  const std::int64_t count = term.residual_count();
+  require(count >= 0, setting.name + ": residual_count() is " + std::to_string(count));
+  const auto size = static_cast<std::size_t>(count);
+  std::vector<float> all(size * setting.hypotheses.size(), before);
+  for (std::size_t i = 0; i < setting.hypotheses.size(); ++i) {
+    term.write_residuals(as_drawn_for(*setting.objective, setting.hypotheses[i]),
+                         std::span(all).subspan(i * size, size));
+    for (std::size_t k = i * size; k < (i + 1) * size; ++k) {
+      require(std::isfinite(all[k]), setting.at(i) + ": residual " + std::to_string(k - i * size) +
+                                         " is " + std::to_string(all[k]) +
+                                         ", expected a finite number");
+    }
+  }
+  return all;
+}
+
+void check_residuals(const Setting& setting) {
+  if (!setting.objective->residual_term()) throw Skipped("it offers none");
+  const std::vector<float> expected = residuals(setting, 0.0f);
+  require(residuals(setting, 7.0f) == expected, setting.name + ": not all of them are written");
+  std::vector<std::future<bool>> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.push_back(
+        std::async(std::launch::async, [&] { return residuals(setting, 0.0f) == expected; }));
+  }
+  bool same = true;
+  for (auto& thread : threads) same &= thread.get();
+  require(same, setting.name + ": four threads writing at once differ from one");
+}
+
 }  // namespace
 
 void check_objective(Report& report, const Subject& subject) {
@@ -137,6 +173,8 @@ void check_objective(Report& report, const Subject& subject) {
     prepare_again(settings);
     each(check_numbers);
   });
+  report.row("residuals are finite, complete and the same from several threads",
+             [&] { each(check_residuals); });
   check_on_device(report, subject);
 }
 

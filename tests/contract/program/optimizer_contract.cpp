@@ -234,11 +234,27 @@ bool check_device(Report& report, const Subject& subject) {
   return why.empty();
 }
 
+void check_residuals(const Subject& subject) {
+  const auto optimizer = subject.make<Optimizer>();
+  if (!optimizer->needs_residuals()) throw Skipped("it does without");
+  const SearchRegion region = test::tracking_region(7);
+  RecordingCost cost(7, test::sphere(region, region.start));
+  cost.has_residuals = false;
+  try {
+    optimizer->minimize(cost, region, {10}, 1);
+  } catch (const ConfigError&) {
+    return;
+  }
+  throw Violation("it was accepted, expected a ConfigError");
+}
+
 }  // namespace
 
 void check_optimizer(Report& report, const Subject& subject) {
   if (!check_parameters<Optimizer>(report, subject)) return;
   if (subject.needs_device && !check_device(report, subject)) return;
+  report.row("a cost without residuals is refused where they are needed",
+             [&] { check_residuals(subject); });
   report.row("the default budget is at least one evaluation", [&] {
     require(subject.make<Optimizer>()->default_evaluations() >= 1, "it is below 1");
   });

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,10 +16,34 @@
 
 namespace hypotrack::test {
 
-/// A cost function that writes down everything it is asked.
-class RecordingCost final : public CostFunction {
+/// A cost, not negative, and residuals whose squares add up to it.
+class Problem {
  public:
-  using Function = std::function<double(const Eigen::VectorXd&)>;
+  using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+
+  explicit Problem(Residuals residuals) : residuals_(std::move(residuals)) {}
+  /// From any function that gives costs: they have one residual, their square root.
+  template <class Cost>
+  requires std::convertible_to < std::invoke_result_t<Cost&, const Eigen::VectorXd&>,
+  double > Problem(Cost cost) : cost_(std::move(cost)) {}
+
+  double operator()(const Eigen::VectorXd& point) const {
+    return cost_ ? cost_(point) : residuals_(point).squaredNorm();
+  }
+  Eigen::VectorXd residuals(const Eigen::VectorXd& point) const {
+    if (residuals_) return residuals_(point);
+    return Eigen::VectorXd::Constant(1, std::sqrt(cost_(point)));
+  }
+
+ private:
+  std::function<double(const Eigen::VectorXd&)> cost_;
+  Residuals residuals_;
+};
+
+/// A cost function that writes down everything it is asked.
+class RecordingCost final : public CostFunction, public ResidualCost {
+ public:
+  using Function = Problem;
   RecordingCost(int dimension, Function function)
       : dimension_(dimension), function_(std::move(function)) {}
 
@@ -31,6 +58,20 @@ class RecordingCost final : public CostFunction {
     }
   }
 
+  ResidualCost* residuals() override { return has_residuals ? this : nullptr; }
+  Eigen::Index count() const override {
+    return function_.residuals(Eigen::VectorXd::Zero(dimension_)).size();
+  }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& batch,
+                Eigen::Ref<Eigen::MatrixXf> batch_residuals,
+                Eigen::Ref<Eigen::VectorXd> batch_costs) override {
+    evaluate(batch, batch_costs);
+    for (Eigen::Index i = 0; i < batch.cols(); ++i) {
+      batch_residuals.col(i) = function_.residuals(batch.col(i)).cast<float>();
+    }
+  }
+
+  bool has_residuals = true;
   std::vector<Eigen::VectorXd> points;
   std::vector<double> costs;
   std::vector<int> batches;
@@ -89,36 +130,39 @@ inline Eigen::VectorXd offsets(const SearchRegion& region, const Eigen::VectorXd
 }
 
 /// Mean of squared offsets: 0 at the target, about 0.25 at the start.
-inline RecordingCost::Function sphere(SearchRegion region, Eigen::VectorXd target) {
-  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
-    return offsets(region, target, point).squaredNorm() / static_cast<double>(point.size());
-  };
+inline Problem sphere(SearchRegion region, Eigen::VectorXd target) {
+  return Problem([region = std::move(region),
+                  target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {
+    return offsets(region, target, point) / std::sqrt(static_cast<double>(point.size()));
+  });
 }
 
 /// The sphere with axes stretched from 1 to 100 in the square.
-inline RecordingCost::Function ellipsoid(SearchRegion region, Eigen::VectorXd target) {
-  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
-    const Eigen::VectorXd u = offsets(region, target, point);
-    double sum = 0;
+inline Problem ellipsoid(SearchRegion region, Eigen::VectorXd target) {
+  return Problem([region = std::move(region),
+                  target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {
+    Eigen::VectorXd u = offsets(region, target, point);
     for (Eigen::Index d = 0; d < u.size(); ++d) {
       const double share = u.size() > 1 ? static_cast<double>(d) / (u.size() - 1) : 0;
-      sum += std::pow(100.0, share) * u[d] * u[d];
+      u[d] *= std::pow(10.0, share);
     }
-    return sum / static_cast<double>(u.size());
-  };
+    return u / std::sqrt(static_cast<double>(u.size()));
+  });
 }
 
 /// Rosenbrock's valley, its minimum 0 at the target.
-inline RecordingCost::Function rosenbrock(SearchRegion region, Eigen::VectorXd target) {
-  return [region = std::move(region), target = std::move(target)](const Eigen::VectorXd& point) {
+inline Problem rosenbrock(SearchRegion region, Eigen::VectorXd target) {
+  return Problem([region = std::move(region),
+                  target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {
     const Eigen::VectorXd u = offsets(region, target, point).array() + 1.0;
-    double sum = 0;
-    for (Eigen::Index d = 0; d + 1 < u.size(); ++d) {
-      const double valley = u[d + 1] - u[d] * u[d];
-      sum += 100 * valley * valley + (1 - u[d]) * (1 - u[d]);
+    const Eigen::Index valleys = u.size() - 1;
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(std::max<Eigen::Index>(2 * valleys, 1));
+    for (Eigen::Index d = 0; d < valleys; ++d) {
+      r[2 * d] = 10 * (u[d + 1] - u[d] * u[d]);
+      r[2 * d + 1] = 1 - u[d];
     }
-    return sum / static_cast<double>(u.size());
-  };
+    return r / std::sqrt(static_cast<double>(u.size()));
+  });
 }
 
 }  // namespace hypotrack::test

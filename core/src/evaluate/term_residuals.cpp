@@ -1,0 +1,59 @@
+#include "evaluate/term_residuals.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace hypotrack {
+
+std::string TermResiduals::why_none(const std::vector<ObjectiveTerm>& terms) {
+  constexpr const char* kInstead =
+      "take an optimizer that needs costs only, such as `optimizer: {type: pso}`";
+  for (const ObjectiveTerm& term : terms) {
+    if (term.weight == 0) continue;
+    if (term.weight < 0) {
+      return fmt::format(
+          "the weight of objective {} is {}, and squares cannot be taken off; expected 0 or more, "
+          "or {}",
+          term.name, term.weight, kInstead);
+    }
+    if (!term.objective->residual_term()) {
+      return fmt::format(
+          "objective {}, as it is set up, offers no residuals (`hypotrack plugins info {}` says "
+          "what it offers); leave it out, or {}",
+          term.name, term.name, kInstead);
+    }
+  }
+  return {};
+}
+
+TermResiduals::TermResiduals(const std::vector<ObjectiveTerm>& terms) {
+  for (const ObjectiveTerm& term : terms) {
+    if (term.weight == 0) continue;
+    parts_.push_back({term.objective->residual_term(), term.objective->needs_rendering(),
+                      static_cast<float>(std::sqrt(term.weight))});
+  }
+}
+
+void TermResiduals::prepare() {
+  count_ = 0;
+  for (Part& part : parts_) {
+    const std::int64_t count = part.term->residual_count();
+    part.count = static_cast<std::size_t>(count);
+    count_ += count;
+  }
+}
+
+void TermResiduals::write(const RenderedHypothesis& hypothesis, std::span<float> residuals) const {
+  for (const Part& part : parts_) {
+    const std::span<float> own = residuals.first(part.count);
+    part.term->write_residuals(part.draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}},
+                               own);
+    if (part.factor != 1) {
+      for (float& r : own) r *= part.factor;
+    }
+    residuals = residuals.subspan(part.count);
+  }
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "evaluate/evaluator.hpp"
+#include "hypotrack/objective.hpp"
+
+namespace hypotrack {
+
+/// The residuals of several terms, one after the other, each times the square root of its weight:
+/// the sum of squares of all is the weighted sum of theirs. Terms of weight 0 have none.
+class TermResiduals {
+ public:
+  /// Why these terms are no sum of squares, and what to do; empty if they are one.
+  static std::string why_none(const std::vector<ObjectiveTerm>& terms);
+
+  /// The terms must be a sum of squares.
+  explicit TermResiduals(const std::vector<ObjectiveTerm>& terms);
+
+  /// Asks the terms for the counts of the frame that they are prepared for.
+  void prepare();
+  Eigen::Index count() const { return count_; }
+  /// Writes count() numbers. May be called from several threads at once.
+  void write(const RenderedHypothesis& hypothesis, std::span<float> residuals) const;
+
+ private:
+  struct Part {
+    const ResidualTerm* term;
+    bool draws;
+    float factor;
+    std::size_t count = 0;
+  };
+  std::vector<Part> parts_;
+  Eigen::Index count_ = 0;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "hypotrack/pixel.hpp"
+#include "hypotrack/view_pixels.hpp"
+#include "params.hpp"
+#include "score.hpp"
+
+namespace hypotrack::stereo_color {
+
+/// sqrt(share C) of every pixel: the residuals of a hypothesis that covers nothing.
+PixelPlane<float> uncovered_residuals(const Features& features, float share);
+
+/// Writes sqrt(share (C - s)) for every pixel of `here`, rows without gaps: s is what measure()
+/// adds up, 0 where the pixel is uncovered or occluded (`uncovered` of the features and the share).
+/// The sum of squares is share (sum of C - S). SIMD, as measure().
+void write_residuals(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                     const Params& params, float share, const PixelPlane<float>& uncovered,
+                     std::span<float> residuals);
+
+}  // namespace hypotrack::stereo_color

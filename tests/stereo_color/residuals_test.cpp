@@ -1,0 +1,113 @@
+#include "residuals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "every_target.hpp"
+#include "random_pair.hpp"
+#include "stereo_color.hpp"
+
+namespace hypotrack::stereo_color {
+namespace {
+
+std::vector<float> residuals(const StereoColor& objective, const RenderedHypothesis& hypothesis) {
+  // What is not written stays NaN; nothing may be written behind the end.
+  const auto count = static_cast<std::size_t>(objective.residual_count());
+  std::vector<float> all(count + 32, NAN);
+  objective.write_residuals(hypothesis, {all.data(), count});
+  for (std::size_t i = count; i < all.size(); ++i) EXPECT_TRUE(std::isnan(all[i]));
+  all.resize(count);
+  return all;
+}
+
+double sum_of_squares(const std::vector<float>& residuals) {
+  double sum = 0;
+  for (const float r : residuals) sum += static_cast<double>(r) * r;
+  return sum;
+}
+
+// The same observation with nothing drawn.
+double of_nothing(const StereoColor& objective, const RandomPair& pair) {
+  DepthTile empty[2] = {pair.tiles[0], pair.tiles[1]};
+  for (DepthTile& tile : empty) tile.x0 = tile.y0 = tile.x1 = tile.y1 = 0;
+  return sum_of_squares(residuals(objective, {{}, empty}));
+}
+
+void expect_cost_as_squares(const PairOptions& options, const Params& params) {
+  const RandomPair pair(options);
+  StereoColor objective(params);
+  objective.prepare(pair.observation);
+  ASSERT_EQ(objective.residual_term(), &objective);
+  on_every_target([&] {
+    const double cost = objective.cost(pair.hypothesis());
+    ASSERT_LT(cost, 0);
+    const double squares = sum_of_squares(residuals(objective, pair.hypothesis()));
+    EXPECT_NEAR((squares - of_nothing(objective, pair)) / cost, 1, 1e-4);
+  });
+}
+
+TEST(Residuals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
+  for (const auto direction :
+       {Direction::left_to_right, Direction::right_to_left, Direction::both}) {
+    for (const auto lookup : {Lookup::nearest, Lookup::bilinear}) {
+      for (const bool rectified : {true, false}) {
+        SCOPED_TRACE(testing::Message()
+                     << static_cast<int>(direction) << static_cast<int>(lookup) << rectified);
+        Params params;
+        params.beta = 20;
+        params.direction = direction;
+        params.lookup = lookup;
+        expect_cost_as_squares({.rectified = rectified, .mask = true, .size = 96}, params);
+      }
+    }
+  }
+}
+
+TEST(Residuals, AreThereForEveryPixelOfTilesOfAnySize) {
+  for (const int size : {16, 33, 50, 100}) {
+    const RandomPair pair({.size = size, .stride_beyond = 3});
+    Params params;
+    params.direction = Direction::both;
+    StereoColor objective(params);
+    objective.prepare(pair.observation);
+    EXPECT_EQ(objective.residual_count(), 2 * size * size);
+    on_every_target([&] {
+      for (const float r : residuals(objective, pair.hypothesis())) {
+        EXPECT_TRUE(r >= 0 && r <= 1) << r;
+      }
+    });
+  }
+}
+
+TEST(Residuals, OfOneDirectionAreThoseOfItsView) {
+  const RandomPair pair({.size = 64});
+  const auto of = [&](Direction direction) {
+    Params params;
+    params.direction = direction;
+    StereoColor objective(params);
+    objective.prepare(pair.observation);
+    return residuals(objective, pair.hypothesis());
+  };
+  const auto left = of(Direction::left_to_right), right = of(Direction::right_to_left);
+  const auto both = of(Direction::both);
+  ASSERT_EQ(both.size(), left.size() + right.size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const float one = i < left.size() ? left[i] : right[i - left.size()];
+    EXPECT_NEAR(both[i], one * std::sqrt(0.5), 1e-6);
+  }
+}
+
+TEST(Residuals, AreOfferedForTheSumOnly) {
+  for (const auto aggregation :
+       {Aggregation::mean_seen, Aggregation::mean_rendered, Aggregation::sum_per_sqrt}) {
+    Params params;
+    params.aggregation = aggregation;
+    EXPECT_EQ(StereoColor(params).residual_term(), nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace hypotrack::stereo_color
