@@ -5,6 +5,6 @@
 namespace hypotrack::rgbd_depth {
 
 std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings&) { return nullptr; }
-const char* capabilities() { return ""; }
+const char* capabilities() { return "residuals"; }
 
 }  // namespace hypotrack::rgbd_depth

@@ -9,7 +9,7 @@
 #include "hypotrack/pixel.hpp"
 #include "observed.hpp"
 
-/// The per-pixel function of the rgbd_depth objective, for every lane type (pixel.hpp).
+/// The per-pixel functions of the rgbd_depth objective, for every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();
 namespace hypotrack::rgbd_depth::HYPOTRACK_TARGET {
 
@@ -30,6 +30,18 @@ HYPOTRACK_PIXEL DepthAgreement<F> depth_agreement(F inverse_depth, F observed, F
   const F difference = abs(observed - F(1.0f) / inverse_depth);
   return {max(d_max - difference, F(0.0f)), difference <= d_match || observed == F(kUnmeasured),
           observed == F(kBackground)};
+}
+
+/// How far a covered pixel is from what was observed there, -1 .. 1: (r_d - o_d) / d_M where
+/// foreground was measured, 1 on background, 0 where nothing is known.
+template <class F>
+HYPOTRACK_PIXEL F depth_residual(F inverse_depth, F observed, F d_max) {
+  using pixel::max;
+  using pixel::min;
+  using pixel::select;
+  // kBackground is so far before everything drawn that it is 1.
+  const F off = min(max((F(1.0f) / inverse_depth - observed) / d_max, F(-1.0f)), F(1.0f));
+  return select(observed == F(kUnmeasured) || observed == F(kOutside), F(0.0f), off);
 }
 
 }  // namespace hypotrack::rgbd_depth::HYPOTRACK_TARGET

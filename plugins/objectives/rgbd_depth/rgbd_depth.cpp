@@ -1,5 +1,8 @@
 #include "rgbd_depth.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "checks.hpp"
 #include "depth_range.hpp"
 #include "energy.hpp"
@@ -25,9 +28,51 @@ void RgbdDepth::prepare(const Observation& observation) {
     if (rule_of(params_.foreground, !view.mask.empty()) != Rule::mask) {
       range = depth_range(*observation.scene, observation.start, view.camera, params_.range);
     }
-    views_.push_back({i, observe(view, params_.foreground, range)});
+    views_.push_back({i, observe(view, params_.foreground, range), {}});
   }
+  price_pixels();
   fingers_ = adjacent_fingers(*observation.scene);
+}
+
+void RgbdDepth::price_pixels() {
+  constexpr double kCentimetresPerMetre = 100;  // as in energy()
+  double foreground = 0;
+  for (const PreparedView& view : views_) {
+    foreground += static_cast<double>(view.observed.foreground);
+  }
+  foreground = std::max(foreground, 1.0);
+  const double hidden = params_.lambda / (2 * foreground);
+  const double wrong = kCentimetresPerMetre * params_.d_max / foreground + hidden;
+  prices_ = {static_cast<float>(wrong), static_cast<float>(hidden)};
+  for (PreparedView& view : views_) {
+    view.uncovered = uncovered_residuals(view.observed.pixels, prices_);
+  }
+}
+
+std::int64_t RgbdDepth::residual_count() const {
+  auto count = static_cast<std::int64_t>(fingers_.size());
+  for (const PreparedView& view : views_) {
+    count += std::int64_t{view.uncovered.width()} * view.uncovered.height();
+  }
+  return count;
+}
+
+void RgbdDepth::write_residuals(const RenderedHypothesis& hypothesis,
+                                std::span<float> residuals) const {
+  check_tiles(hypothesis);
+  for (const PreparedView& view : views_) {
+    const auto size = static_cast<std::size_t>(view.uncovered.width()) * view.uncovered.height();
+    rgbd_depth::write_residuals(view.observed.pixels, hypothesis.views[view.index],
+                                static_cast<float>(params_.d_max), prices_, view.uncovered,
+                                residuals.first(size));
+    residuals = residuals.subspan(size);
+  }
+  constexpr double kEqualAt = 0.1;  // radians
+  const double factor = std::sqrt(params_.lambda_k / kEqualAt);
+  for (std::size_t i = 0; i < fingers_.size(); ++i) {
+    const double crossing = finger_crossing(&fingers_[i], 1, hypothesis.state.data());
+    residuals[i] = static_cast<float>(factor * crossing);
+  }
 }
 
 double RgbdDepth::cost(const RenderedHypothesis& hypothesis) const {

@@ -8,6 +8,7 @@
 #include "foreground.hpp"
 #include "hypotrack/objective.hpp"
 #include "params.hpp"
+#include "residuals.hpp"
 #include "score.hpp"
 
 namespace hypotrack::rgbd_depth {
@@ -47,7 +48,13 @@ namespace hypotrack::rgbd_depth {
 ///   the tile around it ([1]: within 25 cm of the hand's last position); by skin colour it is Chai
 ///   and Ngan's chrominance box (foreground-inl.hpp), where [1] learns its colours;
 /// - S is 1, its worst, where nothing was observed and nothing is drawn.
-class RgbdDepth : public Objective {
+///
+/// E is no sum of squares. Its residuals stand in for it near the observation: per pixel
+/// sqrt(P) (r_d - o_d) / d_M, cut off at +-sqrt(P), where it is covered, and sqrt(P) where one of
+/// hypothesis and foreground is without the other, P being what such a pixel adds to E
+/// (residuals.hpp); and per pair of fingers sqrt(lambda_k / 0.1) max(-phi, 0), whose square is
+/// E's term where fingers cross by 0.1 radians.
+class RgbdDepth : public Objective, public ResidualTerm {
  public:
   using Params = rgbd_depth::Params;
 
@@ -60,16 +67,25 @@ class RgbdDepth : public Objective {
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override;
+  /// Throws DataError as cost().
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+
  private:
   struct PreparedView {
     std::size_t index;  ///< among the observation's views
     ObservedView observed;
+    PixelPlane<float> uncovered;  ///< residuals where nothing is covered
   };
 
+  void price_pixels();
   void check_tiles(const RenderedHypothesis& hypothesis) const;
 
   Params params_;
   std::vector<PreparedView> views_;
+  PixelPrices prices_;
   std::vector<FingerPair> fingers_;
 };
 

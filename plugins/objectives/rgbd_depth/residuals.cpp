@@ -1,0 +1,75 @@
+#include "residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// As in score.cpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "residuals.cpp"
+#include <hwy/foreach_target.h>
+
+#include "depth_agreement-inl.hpp"
+#include "hypotrack/view_pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::rgbd_depth::HWY_NAMESPACE {
+
+using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
+
+struct ResidualWriter {
+  static constexpr bool kVisitsUncovered = false;
+
+  const PixelPlane<float>& observed;
+  const PixelPlane<float>& uncovered;
+  Lanes d_max;
+  Lanes factor;
+  float* out;
+
+  HYPOTRACK_PIXEL void pixels(const ViewPixels& p) {
+    const Lanes r = factor * depth_residual(p.inverse_depth, p.here(observed), d_max);
+    store(select(p.covered, r, p.here(uncovered)), p.pixels,
+          out + static_cast<std::ptrdiff_t>(p.y) * observed.width() + p.x);
+  }
+  HYPOTRACK_PIXEL void end_row() {}
+};
+
+void write_covered(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
+                   float factor, const PixelPlane<float>& uncovered, float* out) {
+  ResidualWriter writer{observed, uncovered, Lanes(d_max), Lanes(factor), out};
+  for_each_view_pixel(tile, covered_box(tile), writer);
+}
+
+}  // namespace hypotrack::rgbd_depth::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::rgbd_depth {
+
+HWY_EXPORT(write_covered);
+
+PixelPlane<float> uncovered_residuals(const PixelPlane<float>& observed,
+                                      const PixelPrices& prices) {
+  const float measured = std::sqrt(prices.wrong), hole = std::sqrt(prices.hidden);
+  PixelPlane<float> plane(observed.width(), observed.height());
+  for (int y = 0; y < observed.height(); ++y) {
+    std::transform(observed.row(y), observed.row(y) + observed.width(), plane.row(y), [&](float o) {
+      return o > 0 ? measured : o == kUnmeasured ? hole : 0.0f;
+    });
+  }
+  return plane;
+}
+
+void write_residuals(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
+                     const PixelPrices& prices, const PixelPlane<float>& uncovered,
+                     std::span<float> residuals) {
+  std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
+  HWY_DYNAMIC_DISPATCH(write_covered)
+  (observed, tile, d_max, std::sqrt(prices.wrong), uncovered, residuals.data());
+}
+
+}  // namespace hypotrack::rgbd_depth
+#endif
