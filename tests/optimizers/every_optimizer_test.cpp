@@ -12,6 +12,7 @@
 
 #include "cma_es.hpp"
 #include "differential_evolution.hpp"
+#include "levenberg_marquardt/levenberg_marquardt.hpp"
 #include "multi_start.hpp"
 #include "nlopt_optimizer.hpp"
 #include "pipeline.hpp"
@@ -62,6 +63,9 @@ std::unique_ptr<Optimizer> make(const std::string& name) {
     return std::make_unique<Pipeline>(std::move(stages), 1024);
   }
   if (name == "multi_start") return std::make_unique<MultiStart>(MultiStartParams{}, make("SBPLX"));
+  if (name == "levenberg_marquardt") {
+    return std::make_unique<LevenbergMarquardt>(LevenbergMarquardtParams{});
+  }
   if (name == "random_search") return std::make_unique<RandomSearch>(RandomSearchParams{});
   NloptParams params;
   params.algorithm = name;
@@ -220,13 +224,13 @@ INSTANTIATE_TEST_SUITE_P(
         Candidate{"pso_of_groups", 0.04, 0.5, 18}, Candidate{"de_best_1_bin", 0.09, 0.7, 35},
         Candidate{"differential_evolution", 0.09, 1.3, 35}, Candidate{"cma_es", 0.002, 0.2, 5},
         Candidate{"pipeline", 1e-4, 0.004, 5}, Candidate{"multi_start", 0.003, 0.2, 12},
-        Candidate{"SBPLX", 1e-06, 1e-05, 0.3}, Candidate{"NELDERMEAD", 0.03, 0.4, 6},
-        Candidate{"COBYLA", 1e-06, 0.002, 0.02}, Candidate{"BOBYQA", 1e-09, 1e-06, 0.02},
-        Candidate{"PRAXIS", 0.001, 0.001, 1}, Candidate{"CRS2_LM", 0.08, 0.9, 25},
-        Candidate{"ESCH", 0.06, 0.9, 16}, Candidate{"ISRES", 0.11, 1.6, 35},
-        Candidate{"DIRECT", 0.01, 0.15, 11}, Candidate{"DIRECT_L", 0.04, 0.5, 12},
-        Candidate{"DIRECT_L_RAND", 0.006, 0.08, 7}, Candidate{"ORIG_DIRECT_L", 0.04, 0.5, 12},
-        Candidate{"MLSL_LDS", 0.006, 0.08, 5}),
+        Candidate{"levenberg_marquardt", 1e-09, 1e-09, 0.02}, Candidate{"SBPLX", 1e-06, 1e-05, 0.3},
+        Candidate{"NELDERMEAD", 0.03, 0.4, 6}, Candidate{"COBYLA", 1e-06, 0.002, 0.02},
+        Candidate{"BOBYQA", 1e-09, 1e-06, 0.02}, Candidate{"PRAXIS", 0.001, 0.001, 1},
+        Candidate{"CRS2_LM", 0.08, 0.9, 25}, Candidate{"ESCH", 0.06, 0.9, 16},
+        Candidate{"ISRES", 0.11, 1.6, 35}, Candidate{"DIRECT", 0.01, 0.15, 11},
+        Candidate{"DIRECT_L", 0.04, 0.5, 12}, Candidate{"DIRECT_L_RAND", 0.006, 0.08, 7},
+        Candidate{"ORIG_DIRECT_L", 0.04, 0.5, 12}, Candidate{"MLSL_LDS", 0.006, 0.08, 5}),
     [](const auto& each) { return each.param.name; });
 
 class SeededOptimizer : public ::testing::TestWithParam<std::string> {};

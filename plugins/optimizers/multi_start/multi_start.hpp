@@ -46,6 +46,7 @@ class MultiStart : public Optimizer {
   MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
              const std::string& where = "multi_start");
 
+  bool needs_residuals() const override { return optimizer_->needs_residuals(); }
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;

@@ -18,6 +18,11 @@ Pipeline::Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evalu
   }
 }
 
+bool Pipeline::needs_residuals() const {
+  return std::ranges::any_of(
+      stages_, [](const PipelineStage& stage) { return stage.optimizer->needs_residuals(); });
+}
+
 OptimizerResult Pipeline::run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
                               const Budget& budget, std::uint64_t seed) {
   const auto named = [&](const std::exception& error) {

@@ -31,6 +31,7 @@ class Pipeline : public Optimizer {
   Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
            const std::string& where = "pipeline");
 
+  bool needs_residuals() const override;  ///< whether a stage does
   std::int64_t default_evaluations() const override { return default_evaluations_; }
   /// A ConfigError or DeviceError of a stage names the stage.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

@@ -1,0 +1,137 @@
+#include "least_squares_search.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hypotrack {
+
+LeastSquaresSearch::LeastSquaresSearch(ResidualCost& cost, const SearchRegion& region,
+                                       const Budget& budget, const LevenbergMarquardtParams& params)
+    : cost_(cost),
+      region_(region),
+      budget_(budget),
+      params_(params),
+      deadline_(budget.seconds),
+      x_(region.start),
+      difference_(params.difference),
+      damping_(params.damping) {}
+
+bool LeastSquaresSearch::may_go_on() const { return remaining() > 0 && !deadline_.passed(); }
+
+void LeastSquaresSearch::evaluate() {
+  residuals_.resize(cost_.count(), points_.cols());
+  costs_.resize(points_.cols());
+  cost_.evaluate(points_, residuals_, costs_);
+  best_.update(points_, costs_);
+}
+
+void LeastSquaresSearch::evaluate_start() {
+  points_ = x_;
+  evaluate();
+  move_to(0);
+}
+
+void LeastSquaresSearch::move_to(Eigen::Index trial) {
+  x_ = points_.col(trial);
+  at_x_ = residuals_.col(trial);
+  cost_at_x_ = costs_[trial];
+}
+
+bool LeastSquaresSearch::linearize() {
+  const Eigen::Index d = x_.size();
+  if (remaining() <= d) return false;  // nothing would be left for a step
+  points_ = x_.replicate(1, d);
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(d);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const double wanted = difference_ * region_.spread[i];
+    const double up = std::min(region_.upper[i] - x_[i], wanted);
+    const double down = std::min(x_[i] - region_.lower[i], wanted);
+    const bool ahead = sign_ > 0 ? up >= std::min(down, wanted) : up > down;
+    const double h = ahead ? up : -down;
+    points_(i, i) = x_[i] + h;
+    if (std::abs(h) > 1e-3 * wanted) scale[i] = region_.spread[i] / h;
+  }
+  evaluate();
+  for (Eigen::Index i = 0; i < d; ++i) {
+    if (!std::isfinite(costs_[i])) scale[i] = 0;
+  }
+  equations_ = normal_equations(at_x_, residuals_, scale);
+  sign_ = -sign_;
+  return true;
+}
+
+Eigen::VectorXd LeastSquaresSearch::step(double damping) const {
+  const Eigen::Index d = x_.size();
+  const Eigen::VectorXd diagonal = equations_.a.diagonal();
+  const double firm = params_.mean_share * diagonal.mean();
+  // Numbers that stand at a bound and want to leave stay; so do those that nothing depends on.
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const bool held = (x_[i] <= region_.lower[i] && equations_.g[i] > 0) ||
+                      (x_[i] >= region_.upper[i] && equations_.g[i] < 0);
+    if (!held && diagonal[i] > 0) free.push_back(i);
+  }
+  Eigen::VectorXd dx = Eigen::VectorXd::Zero(d);
+  if (free.empty()) return dx;
+  Eigen::MatrixXd a = equations_.a(free, free);
+  a.diagonal() += damping * (a.diagonal().array() + firm).matrix();
+  const Eigen::VectorXd solved = a.ldlt().solve(-equations_.g(free));
+  if (!solved.allFinite()) return dx;
+  dx(free) = solved.cwiseMax(-1.0).cwiseMin(1.0);
+  return dx;
+}
+
+bool LeastSquaresSearch::try_steps() {
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds && may_go_on(); ++round) {
+    const auto trials = std::min<std::int64_t>(params_.trials, remaining());
+    points_.resize(x_.size(), trials);
+    double damping = damping_ * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
+    for (Eigen::Index i = 0; i < trials; ++i) {
+      points_.col(i) = within_bounds(
+          x_ + step(damping * std::pow(params_.damping_factor, i)).cwiseProduct(region_.spread),
+          region_);
+    }
+    evaluate();
+    Eigen::Index best = 0;
+    if (costs_.minCoeff(&best) < cost_at_x_) {
+      damping_ = std::clamp(damping * std::pow(params_.damping_factor, best), 1e-7, 1e7);
+      moved_ = (points_.col(best) - x_).cwiseQuotient(region_.spread).cwiseAbs().maxCoeff();
+      move_to(best);
+      return true;
+    }
+    damping_ = std::min(damping * std::pow(params_.damping_factor, trials), 1e7);
+  }
+  return false;
+}
+
+void LeastSquaresSearch::leave_infeasible() {
+  Eigen::Index best = 0;
+  if (std::isfinite(costs_.minCoeff(&best))) move_to(best);
+}
+
+OptimizerResult LeastSquaresSearch::run() {
+  evaluate_start();
+  int failed = 0;
+  for (int i = 0; params_.iterations == 0 || i < params_.iterations; ++i) {
+    if (!may_go_on() || !linearize()) break;
+    if (!std::isfinite(cost_at_x_)) {
+      leave_infeasible();
+      if (!std::isfinite(cost_at_x_) && ++failed == 2) break;
+      continue;
+    }
+    if (try_steps() && moved_ > params_.tolerance) {
+      failed = 0;
+    } else if (++failed == 2) {
+      failed = 0;
+      difference_ *= 0.5;
+      if (difference_ < params_.finest * params_.difference) break;
+      damping_ = std::min(damping_, params_.damping);
+    }
+  }
+  return best_.result();
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "hypotrack/search.hpp"
+#include "levenberg_marquardt_params.hpp"
+#include "normal_equations.hpp"
+
+namespace hypotrack {
+
+/// One search of LevenbergMarquardt. It moves in units of the region's spread.
+class LeastSquaresSearch {
+ public:
+  /// Everything given must outlive the search.
+  LeastSquaresSearch(ResidualCost& cost, const SearchRegion& region, const Budget& budget,
+                     const LevenbergMarquardtParams& params);
+
+  OptimizerResult run();
+
+ private:
+  std::int64_t remaining() const { return budget_.evaluations - best_.result().evaluations; }
+  bool may_go_on() const;
+  void evaluate();
+  void evaluate_start();
+  bool linearize();
+  bool try_steps();
+  Eigen::VectorXd step(double damping) const;
+  void move_to(Eigen::Index trial);
+  void leave_infeasible();
+
+  ResidualCost& cost_;
+  const SearchRegion& region_;
+  const Budget budget_;
+  const LevenbergMarquardtParams params_;
+  const Deadline deadline_;
+  BestSoFar best_;
+
+  Eigen::VectorXd x_;     ///< where it is
+  Eigen::VectorXf at_x_;  ///< residuals there
+  double cost_at_x_ = 0;
+  double sign_ = 1;  ///< of the differences
+  double difference_;
+  double damping_;
+  NormalEquations equations_;  ///< at x, per spread
+  double moved_ = 0;           ///< largest component of the last step, in spreads
+
+  // The last batch.
+  Eigen::MatrixXd points_;
+  Eigen::MatrixXf residuals_;
+  Eigen::VectorXd costs_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+
+struct LevenbergMarquardtParams {
+  int evaluations = 512;
+  int iterations = 0;
+  int trials = 3;
+  double difference = 0.05;
+  double finest = 0.2;
+  double damping = 0.1;
+  double damping_factor = 4;
+  double mean_share = 0.05;
+  double tolerance = 1e-4;
+  void visit(ParamVisitor& v) {
+    v("evaluations", evaluations,
+      {.help = "evaluations where the scene names no budget", .min = 1, .max = 1 << 30});
+    v("iterations", iterations,
+      {.help = "Jacobians per search; 0: as many as the budget allows", .min = 0, .max = 1 << 20});
+    v("trials", trials,
+      {.help = "steps of different damping that are evaluated together, the best is taken",
+       .min = 1,
+       .max = 64});
+    v("difference", difference,
+      {.help = "the first finite differences, as a share of the search region's spread",
+       .min = 1e-6,
+       .max = 1});
+    v("finest", finest,
+      {.help = "where a step no longer helps, differences are halved; it ends below this share of "
+               "the first ones",
+       .min = 1e-3,
+       .max = 1});
+    v("damping", damping, {.help = "the first damping", .min = 1e-9, .max = 1e9});
+    v("damping_factor", damping_factor,
+      {.help = "between the dampings of neighbouring trials", .min = 1.01, .max = 1000});
+    v("mean_share", mean_share,
+      {.help = "share of the mean curvature in the damping of each number: how firmly one that "
+               "hardly matters stays where it is",
+       .min = 0,
+       .max = 1});
+    v("tolerance", tolerance,
+      {.help = "a step below this share of the spread in every number does not help",
+       .min = 0,
+       .max = 1});
+  }
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,151 @@
+#include "levenberg_marquardt/levenberg_marquardt.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "hypotrack/error.hpp"
+#include "levenberg_marquardt/normal_equations.hpp"
+#include "multi_start.hpp"
+#include "pipeline.hpp"
+#include "random_search/random_search.hpp"
+#include "search_problems.hpp"
+
+namespace hypotrack {
+namespace {
+
+using test::Problem;
+using test::RecordingCost;
+
+OptimizerResult minimize(RecordingCost& cost, const SearchRegion& region, std::int64_t budget,
+                         const LevenbergMarquardtParams& params = {}) {
+  return LevenbergMarquardt(params).minimize(cost, region, {budget}, 1);
+}
+
+TEST(NormalEquations, AreThoseOfTheDenseJacobian) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> normal;
+  for (const Eigen::Index rows : {1, 63, 64, 65, 500}) {
+    Eigen::VectorXf r(rows);
+    for (float& x : r) x = normal(random);
+    Eigen::MatrixXf beside = r.replicate(1, 7);
+    // Parameters that are felt everywhere, in a few rows, in one, and nowhere.
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      beside(i, 0) += normal(random);
+      if (i % 100 < 9) beside(i, 2) += normal(random);
+      if (i == rows / 2) beside(i, 3) += 1;
+      beside(i, 5) = std::numeric_limits<float>::infinity();  // its scale is 0
+    }
+    const Eigen::VectorXd scale = (Eigen::VectorXd(7) << 2, 1, -3, 0.5, 1, 0, 1).finished();
+    Eigen::MatrixXd j = (beside.colwise() - r).cast<double>() * scale.asDiagonal();
+    j.col(5).setZero();
+    const NormalEquations sums = normal_equations(r, beside, scale);
+    EXPECT_TRUE(sums.a.isApprox(j.transpose() * j, 1e-5)) << rows;
+    EXPECT_TRUE(sums.g.isApprox(j.transpose() * r.cast<double>(), 1e-5)) << rows;
+    EXPECT_EQ(sums.a.col(4), Eigen::VectorXd::Zero(7));
+  }
+}
+
+TEST(LevenbergMarquardt, SolvesALinearProblemWithOneJacobian) {
+  SearchRegion region = test::tracking_region(27);
+  region.lower.setConstant(-3);
+  region.upper.setConstant(3);
+  // A step goes no farther than one spread in any number.
+  const Eigen::VectorXd target = region.start + 0.9 * region.spread;
+  RecordingCost cost(27, test::ellipsoid(region, target));
+  LevenbergMarquardtParams params;
+  params.damping = 1e-6;
+  params.mean_share = 0;
+  const OptimizerResult result = minimize(cost, region, 1 + 27 + 3, params);
+  EXPECT_LT(result.cost, 1e-8 * cost.costs[0]);
+}
+
+TEST(LevenbergMarquardt, FollowsACurvedValley) {
+  const SearchRegion region = test::tracking_region(12);
+  RecordingCost cost(12, test::rosenbrock(region, test::hidden_target(region, 3)));
+  EXPECT_LT(minimize(cost, region, 2000).cost, 1e-6);
+}
+
+TEST(LevenbergMarquardt, EndsWhenItHasConverged) {
+  const SearchRegion region = test::tracking_region(27);
+  RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 3)));
+  const OptimizerResult result = minimize(cost, region, 100000);
+  EXPECT_LT(result.evaluations, 1000);
+  EXPECT_LT(result.cost, 1e-8);
+}
+
+TEST(LevenbergMarquardt, MakesNoMoreJacobiansThanItIsAllowed) {
+  const SearchRegion region = test::tracking_region(9);
+  RecordingCost cost(9, test::rosenbrock(region, test::hidden_target(region, 3)));
+  LevenbergMarquardtParams params;
+  params.iterations = 4;
+  minimize(cost, region, 100000, params);
+  EXPECT_EQ(std::ranges::count(cost.batches, 9), 4);
+}
+
+TEST(LevenbergMarquardt, DifferencesPointInwardsAtABound) {
+  SearchRegion region = test::tracking_region(8);
+  region.upper[7] = region.start[7];
+  region.lower[7] = -3;
+  Eigen::VectorXd target = region.start;
+  target[7] -= 0.5 * region.spread[7];
+  RecordingCost cost(8, test::sphere(region, target));
+  const OptimizerResult result = minimize(cost, region, 300);
+  EXPECT_NEAR(result.point[7], target[7], 1e-3 * region.spread[7]);
+  for (const Eigen::VectorXd& point : cost.points) EXPECT_LE(point[7], region.upper[7]);
+}
+
+TEST(LevenbergMarquardt, SolvesForTheOthersWhereOneIsHeldByItsBound) {
+  SearchRegion region = test::tracking_region(8);
+  Eigen::VectorXd target = test::hidden_target(region, 4);
+  region.upper[7] = region.start[7];
+  target[7] = region.start[7] + region.spread[7];
+  // Coupled: what the held number cannot do, the others must not try to make up for.
+  RecordingCost cost(8, Problem([=](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+                       Eigen::VectorXd u = test::offsets(region, target, x);
+                       u[6] += 0.5 * u[7];
+                       return u;
+                     }));
+  const OptimizerResult result = minimize(cost, region, 600);
+  EXPECT_EQ(result.point[7], region.upper[7]);
+  EXPECT_NEAR((result.point[6] - target[6]) / region.spread[6], 0.5, 1e-3);
+}
+
+TEST(LevenbergMarquardt, LeavesNumbersAloneThatNothingDependsOn) {
+  const SearchRegion region = test::tracking_region(10);
+  RecordingCost cost(10, Problem([&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+                       return (x - region.start).head(5).array() - 0.01;
+                     }));
+  const OptimizerResult result = minimize(cost, region, 500);
+  EXPECT_EQ(result.point.tail(5), region.start.tail(5));
+  EXPECT_LT(result.cost, cost.costs[0]);
+}
+
+TEST(LevenbergMarquardt, NeedsResidualsWithinOtherOptimizersToo) {
+  const auto least_squares = [] {
+    return std::make_unique<LevenbergMarquardt>(LevenbergMarquardtParams{});
+  };
+  EXPECT_TRUE(MultiStart({}, least_squares()).needs_residuals());
+  EXPECT_FALSE(
+      MultiStart({}, std::make_unique<RandomSearch>(RandomSearchParams{})).needs_residuals());
+  std::vector<PipelineStage> stages;
+  stages.push_back({"random_search", std::make_unique<RandomSearch>(RandomSearchParams{})});
+  stages.push_back({"levenberg_marquardt", least_squares()});
+  EXPECT_TRUE(Pipeline(std::move(stages), 100).needs_residuals());
+}
+
+TEST(LevenbergMarquardt, RefusesACostWithoutResiduals) {
+  const SearchRegion region = test::tracking_region(3);
+  RecordingCost cost(3, test::sphere(region, region.start));
+  cost.has_residuals = false;
+  EXPECT_THAT([&] { minimize(cost, region, 10); },
+              ::testing::ThrowsMessage<ConfigError>(
+                  "optimizer levenberg_marquardt: this cost has no residuals; take an optimizer "
+                  "that needs costs only, such as `optimizer: {type: pso}`"));
+}
+
+}  // namespace
+}  // namespace hypotrack
