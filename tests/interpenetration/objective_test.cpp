@@ -165,6 +165,26 @@ TEST(Interpenetration, OfStatesThatAreNoNumbersIsANumber) {
   }
 }
 
+TEST(Interpenetration, IsTheSumOfItsSquaredResiduals) {
+  const Scene scene = two_hands();
+  const Interpenetration objective({}, scene);
+  const ResidualTerm* term = objective.residual_term();
+  ASSERT_NE(term, nullptr);
+  std::vector<float> residuals(static_cast<std::size_t>(term->residual_count()));
+  std::mt19937_64 random(9);
+  int colliding = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Eigen::VectorXd state = test::random_state(scene, random, {0, 0, 0.5}, 0.03);
+    term->write_residuals({{state.data(), static_cast<std::size_t>(state.size())}, {}}, residuals);
+    double sum = 0;
+    for (const float r : residuals) sum += double{r} * r;
+    const double cost = cost_of(objective, state);
+    EXPECT_NEAR(sum, cost, 1e-6 * cost);
+    colliding += cost > 0;
+  }
+  EXPECT_GT(colliding, 10);
+}
+
 TEST(Interpenetration, RefusesModelsThatPoseThemselves) {
   class PosesItself final : public Model {
    public:

@@ -4,6 +4,7 @@
 
 #include <random>
 #include <stdexcept>
+#include <vector>
 
 #include "hypotrack/observation.hpp"
 #include "hypotrack/plugin.hpp"
@@ -89,6 +90,26 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
   EXPECT_NEAR(cost(params, state), 1, 1e-6);
   angle(state, "left.thumb_flexion_3") = 0.5;
   EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
+}
+
+TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
+  PlausibleMotion objective({}, scene_);
+  Observation observation;
+  observation.start = start_;
+  objective.prepare(observation);
+  const ResidualTerm* term = objective.residual_term();
+  ASSERT_NE(term, nullptr);
+  ASSERT_EQ(term->residual_count(), 2 * (20 + 4));
+  std::vector<float> residuals(static_cast<std::size_t>(term->residual_count()));
+  std::mt19937_64 random(9);
+  for (int round = 0; round < 20; ++round) {
+    const Eigen::VectorXd state = test::random_state(scene_, random);
+    const RenderedHypothesis hypothesis{{state.data(), static_cast<std::size_t>(state.size())}, {}};
+    term->write_residuals(hypothesis, residuals);
+    double sum = 0;
+    for (const float r : residuals) sum += double{r} * r;
+    EXPECT_NEAR(sum, objective.cost(hypothesis), 1e-5 * sum);
+  }
 }
 
 TEST_F(PlausibleMotionTest, FollowsTheStartOfEveryFrame) {

@@ -3,5 +3,5 @@
 
 namespace hypotrack::interpenetration {
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm&) { return nullptr; }
-const char* capabilities() { return ""; }
+const char* capabilities() { return "residuals"; }
 }  // namespace hypotrack::interpenetration

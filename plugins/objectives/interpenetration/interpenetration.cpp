@@ -26,6 +26,14 @@ double Interpenetration::cost(const RenderedHypothesis& hypothesis) const {
                     scratch_of(term_));
 }
 
+void Interpenetration::write_residuals(const RenderedHypothesis& hypothesis,
+                                       std::span<float> residuals) const {
+  const PosedShape* in_world = term_.pose(hypothesis.state.data(), OneThread{}, scratch_of(term_));
+  for (std::size_t i = 0; i < plan_.pairs.size(); ++i) {
+    residuals[i] = term_.excess(in_world, plan_.pairs[i]);
+  }
+}
+
 std::unique_ptr<cuda::DeviceObjective> Interpenetration::on_device() const {
   return interpenetration::on_device(term_);
 }

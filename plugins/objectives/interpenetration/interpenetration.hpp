@@ -32,9 +32,9 @@ struct InterpenetrationParams {
 ///
 ///   depth = max(0, penetration - tolerance - penetration at rest),
 ///
-/// the last only for pairs within a model, so that the rest pose costs nothing. Looks at the state
-/// only and costs no rendering.
-class Interpenetration : public Objective {
+/// the last only for pairs within a model, so that the rest pose costs nothing. The depths are its
+/// residuals, one per pair. Looks at the state only and costs no rendering.
+class Interpenetration : public Objective, public ResidualTerm {
  public:
   /// `where` is the place of the parameters in messages. Throws ConfigError where CollisionPlan
   /// does.
@@ -45,6 +45,11 @@ class Interpenetration : public Objective {
   void prepare(const Observation&) override {}
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return term_.pair_count; }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
 
   const CollisionPlan& plan() const { return plan_; }
 

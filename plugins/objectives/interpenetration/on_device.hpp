@@ -11,7 +11,7 @@ namespace hypotrack::interpenetration {
 /// it.
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term);
 
-/// What `plugins info` shows: "device", or nothing in a build without CUDA.
+/// What `plugins info` shows: "residuals", and "device" in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::interpenetration

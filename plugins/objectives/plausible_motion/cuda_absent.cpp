@@ -3,5 +3,5 @@
 
 namespace hypotrack::plausible_motion {
 std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame) { return nullptr; }
-const char* capabilities() { return ""; }
+const char* capabilities() { return "residuals"; }
 }  // namespace hypotrack::plausible_motion

@@ -15,6 +15,14 @@ double PlausibleMotion::cost(const RenderedHypothesis& hypothesis) const {
                     nullptr);
 }
 
+void PlausibleMotion::write_residuals(const RenderedHypothesis& hypothesis,
+                                      std::span<float> residuals) const {
+  for (std::int64_t i = 0; i < term_.count; ++i) {
+    residuals[static_cast<std::size_t>(i)] =
+        static_cast<float>(term_.residual(i, hypothesis.state.data()));
+  }
+}
+
 std::unique_ptr<cuda::DeviceObjective> PlausibleMotion::on_device() const {
   return plausible_motion::on_device(
       [residuals = residuals_](const Observation& observation) mutable {

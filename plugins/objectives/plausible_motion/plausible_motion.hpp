@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 
 #include "frame_residuals.hpp"
 #include "hypotrack/objective.hpp"
@@ -15,9 +17,9 @@ namespace hypotrack::plausible_motion {
 /// where a_start is the angle where the frame's search starts (Observation::start), and `last` and
 /// `middle` are the flexions of the two outer joints: tendons bend the last by about two thirds of
 /// the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based human grasping,
-/// 1991). Positions and rotations of models are free. Looks at the state only and costs no
-/// rendering.
-class PlausibleMotion : public Objective {
+/// 1991). Positions and rotations of models are free. What is squared are its residuals. Looks at
+/// the state only and costs no rendering.
+class PlausibleMotion : public Objective, public ResidualTerm {
  public:
   using Params = PlausibleMotionParams;
   PlausibleMotion(const Params& params, const Scene& scene) : residuals_(params, scene) {}
@@ -26,6 +28,11 @@ class PlausibleMotion : public Objective {
   void prepare(const Observation& observation) override;
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return term_.count; }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
 
  private:
   FrameResiduals residuals_;
