@@ -23,6 +23,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set);
 // Each adds one subcommand whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
+void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_evaluate_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code);

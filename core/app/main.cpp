@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   add_run_command(app, common, exit_code);
   add_validate_command(app, common, exit_code);
+  add_fit_shape_command(app, common, exit_code);
   add_synth_command(app, common, exit_code);
   add_evaluate_command(app, exit_code);
   add_compare_command(app, common, exit_code);

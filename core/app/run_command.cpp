@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
@@ -13,6 +14,7 @@
 #include "output/run_output.hpp"
 #include "progress.hpp"
 #include "session/session.hpp"
+#include "shape/estimated_session.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -91,15 +93,38 @@ void finish_after_error(RunOutput& output, const std::filesystem::path& out) {
   }
 }
 
+/// With the shape of the first seconds where the scene asks for it.
+EstimatedSession open_for_run(const RunOptions& options, const std::vector<std::string>& overrides,
+                              PluginLoader& plugins, const InterruptGuard& interrupt) {
+  if (load_scene(options.scene.scene, overrides).file.shape.seconds == 0) {
+    EstimatedSession opened;
+    opened.session = open_session(options.scene.scene, overrides, plugins);
+    return opened;
+  }
+  ShapeProgress progress;
+  progress.stop = [&] { return interrupt.interrupted(); };
+  EstimatedSession opened = open_estimated(options.scene.scene, overrides, plugins, progress);
+  std::string shape;
+  for (const ShapeParameter& p : opened.estimate.wanted)
+    shape += fmt::format(", {} {:.3f}", p.name, p.value);
+  fmt::print(stderr, "shape from {} frames{}\n", opened.estimate.used_frames, shape);
+  return opened;
+}
+
 int run(const RunOptions& options, const CommonOptions& common) {
   std::vector<std::string> overrides = options.scene.set;
   if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
   PluginLoader plugins(common.plugin_path);
-  Session session = open_session(options.scene.scene, overrides, plugins);
+  const InterruptGuard interrupt;
+  EstimatedSession opened = open_for_run(options, overrides, plugins, interrupt);
+  if (interrupt.interrupted()) {
+    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    return kInterruptedExitCode;
+  }
+  Session& session = opened.session;
   const std::vector<Frame> first = frames_up_to_a_usable(*session.source, options.frames);
   Tracker tracker(*session.scene, std::move(session.parts), initial_state(session, first.back()),
                   session.seed);
-  const InterruptGuard interrupt;
   RunOutput output(*session.scene, session.source->cameras().front(),
                    {.directory = options.out,
                     .overlay = session.output.overlay,

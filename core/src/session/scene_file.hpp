@@ -12,6 +12,7 @@
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
+#include "shape/shape_settings.hpp"
 #include "track/one_euro.hpp"
 #include "track/photometric.hpp"
 #include "track/search_space.hpp"
@@ -102,6 +103,7 @@ struct SceneFile {
   PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings tracker;
+  ShapeEstimateSettings shape;
   InitSettings init;
   OutputSettings output;
   std::int64_t seed = 1;
@@ -118,6 +120,7 @@ struct SceneFile {
     v("photometric", photometric, {.help = "how the views' colours are brought together"});
     v("search", search, {.help = "where the next solution is expected, and how far from there it may be"});
     v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
+    v("shape", shape, {.help = "how the models' shapes are estimated"});
     v("init", init, {.help = "where the first search starts"});
     v("output", output, {.help = "what a run writes"});
     v("seed", seed, {.help = "of all random numbers", .min = 0});

@@ -27,6 +27,7 @@ class Opening {
 
   void models();
   void source();
+  void source(std::unique_ptr<Source> open, const std::string& resolved);
   void objective();
   void images();
   void optimizer();
@@ -104,8 +105,14 @@ void Opening::models() {
 
 void Opening::source() {
   YamlDocument record;
-  session_.source = make<Source>(file_.source, {}, record);
-  record_.set("source", record);
+  auto made = make<Source>(file_.source, {}, record);
+  source(std::move(made), record.text());
+}
+
+void Opening::source(std::unique_ptr<Source> open, const std::string& resolved) {
+  session_.source = std::move(open);
+  session_.source_resolved = resolved;
+  record_.set("source", YamlDocument(resolved));
   session_.parts.cameras = session_.source->cameras();
 }
 
@@ -157,6 +164,7 @@ Session Opening::finish() {
   if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
   session_.init = file_.init;
   session_.output = file_.output;
+  session_.shape = file_.shape;
   session_.seed = static_cast<std::uint64_t>(file_.seed);
   session_.resolved = record_.text();
   return std::move(session_);
@@ -172,6 +180,18 @@ Session open_session(const std::filesystem::path& scene_file,
   opening.optimizer();
   opening.images();
   opening.source();
+  return opening.finish();
+}
+
+Session open_session(const std::filesystem::path& scene_file,
+                     std::span<const std::string> overrides, PluginLoader& plugins,
+                     std::unique_ptr<Source> source, const std::string& source_resolved) {
+  Opening opening(load_scene(scene_file, overrides), plugins);
+  opening.models();
+  opening.objective();
+  opening.optimizer();
+  opening.images();
+  opening.source(std::move(source), source_resolved);
   return opening.finish();
 }
 

@@ -25,7 +25,9 @@ struct Session {
   InitSettings init;
   OutputSettings output;
   std::uint64_t seed = 0;
-  std::string resolved;  ///< YAML that repeats the run: every parameter with its value
+  ShapeEstimateSettings shape;
+  std::string resolved;         ///< YAML that repeats the run: every parameter with its value
+  std::string source_resolved;  ///< the same of the source alone
 };
 
 /// Opens a scene: models first, then the source, the objective and the optimizer. Throws what is
@@ -36,6 +38,13 @@ HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
 /// Models and source only, for programs that look at a source (`hypotrack synth`).
 HYPOTRACK_API Session open_source(const std::filesystem::path& scene_file,
                                   std::span<const std::string> overrides, PluginLoader& plugins);
+
+/// A scene whose source is open already: that of another session of it (which must outlive this one
+/// if it made the source), as its `source` and `source_resolved`.
+HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
+                                   std::span<const std::string> overrides, PluginLoader& plugins,
+                                   std::unique_ptr<Source> source,
+                                   const std::string& source_resolved);
 
 /// The state that the first search starts from. `first` is the first usable frame of the source.
 /// Throws ConfigError if the scene asks for a ground truth that is not there.

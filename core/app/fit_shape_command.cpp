@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+#include "interrupt.hpp"
+#include "output/text_file.hpp"
+#include "progress.hpp"
+#include "session/session.hpp"
+#include "shape/shape_estimate.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct FitShapeOptions {
+  SceneOptions scene;
+  std::filesystem::path out = "shape.yaml";
+  std::optional<int> frames;
+  std::string from = "images";
+};
+
+void print_estimate(const ShapeEstimate& e) {
+  fmt::print("{:<12}{:>9}{:>10}{:>10}\n", "", "shape", "+-", "neutral");
+  for (std::size_t i = 0; i < e.wanted.size(); ++i) {
+    const double deviation = e.deviation[static_cast<Eigen::Index>(i)];
+    fmt::print("{:<12}{:>9.4f}{:>10}{:>10.4f}\n", e.wanted[i].name, e.wanted[i].value,
+               std::isfinite(deviation) ? fmt::format("{:.4f}", deviation) : "-",
+               e.wanted[i].neutral);
+  }
+}
+
+void warn_of_bounds(const ShapeEstimate& e) {
+  for (const ShapeParameter& p : e.wanted) {
+    if (p.value > p.lower && p.value < p.upper) continue;
+    fmt::print(stderr,
+               "hypotrack: {} ends at its bound, {:.4g}: the pictures do not determine it, or the "
+               "frames were not tracked (look at the overlay of a run)\n",
+               p.name, p.value);
+  }
+}
+
+/// Rounds with a source of their own, opened with the models as the scene has them: a synthetic one
+/// shows those, whatever is tracked.
+class Rounds {
+ public:
+  Rounds(const FitShapeOptions& options, PluginLoader& plugins)
+      : options_(options), plugins_(plugins) {}
+
+  Session open(const std::vector<std::string>& found) {
+    base_ = open_source(options_.scene.scene, options_.scene.set, plugins_);
+    std::vector<std::string> overrides = options_.scene.set;
+    overrides.insert(overrides.end(), found.begin(), found.end());
+    total_ = base_.source->frame_count();
+    return open_session(options_.scene.scene, overrides, plugins_, std::move(base_.source),
+                        base_.source_resolved);
+  }
+  std::optional<int> total() const {
+    if (!options_.frames || (total_ && *total_ < *options_.frames)) return total_;
+    return options_.frames;
+  }
+
+ private:
+  const FitShapeOptions& options_;
+  PluginLoader& plugins_;
+  Session base_;
+  std::optional<int> total_;
+};
+
+int finish(const ShapeEstimate& estimate, const FitShapeOptions& options) {
+  warn_of_bounds(estimate);
+  write_whole(options.out, shape_file_text(estimate));
+  fmt::print("shape in {}\n", options.out.string());
+  return 0;
+}
+
+int fit_to_labels(const FitShapeOptions& options, const CommonOptions& common) {
+  PluginLoader plugins(common.plugin_path);
+  Session session = open_source(options.scene.scene, options.scene.set, plugins);
+  const ShapeEstimateSettings settings = session.shape;
+  const ShapeEstimate estimate =
+      shape_of_labels(std::move(session), settings, options.frames.value_or(0));
+  fmt::print("{} of {} labelled frames\n", estimate.used_frames, estimate.tracked_frames);
+  print_estimate(estimate);
+  return finish(estimate, options);
+}
+
+int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
+  if (options.from == "truth") return fit_to_labels(options, common);
+  PluginLoader plugins(common.plugin_path);
+  Rounds rounds(options, plugins);
+  const InterruptGuard interrupt;
+  std::unique_ptr<Progress> bar;
+  const ShapeEstimateSettings settings =
+      load_scene(options.scene.scene, options.scene.set).file.shape;
+  ShapeProgress progress;
+  progress.tracked = [&](const Frame& frame, const Solution& solution) {
+    if (!bar) bar = std::make_unique<Progress>(rounds.total());
+    if (!frame.problem.empty()) bar->say(fmt::format("frame {}: {}", frame.index, frame.problem));
+    bar->advance(std::string(to_string(solution.status)));
+  };
+  progress.end_round = [&](int round, const ShapeEstimate& e) {
+    bar.reset();
+    fmt::print("round {} of {}: {} of {} tracked frames, cost {:.1f} to {:.1f}\n", round + 1,
+               settings.rounds, e.used_frames, e.tracked_frames, e.first_cost, e.cost);
+    print_estimate(e);
+  };
+  progress.stop = [&] { return interrupt.interrupted(); };
+  const auto open = [&](const auto& overrides) { return rounds.open(overrides); };
+  const ShapeEstimate estimate =
+      estimate_shape(open, settings, options.frames.value_or(0), progress);
+  if (interrupt.interrupted()) {
+    fmt::print(stderr, "hypotrack: interrupted; nothing was written\n");
+    return kInterruptedExitCode;
+  }
+  return finish(estimate, options);
+}
+
+}  // namespace
+
+void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+  auto options = std::make_shared<FitShapeOptions>();
+  CLI::App* command = app.add_subcommand(
+      "fit-shape", "Find how the models of a scene are built and write it for their shape_file");
+  add_scene_options(*command, options->scene);
+  command->add_option("--out", options->out, "File for the shape")->capture_default_str();
+  command->add_option("--frames", options->frames, "Look at the first frames only")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--from", options->from,
+                   "images: track and fit in turn; truth: fit to the landmarks that the source "
+                   "knows")
+      ->check(CLI::IsMember({"images", "truth"}))
+      ->capture_default_str();
+  command->callback([=, &common, &exit_code] { exit_code = fit_shape(*options, common); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,159 @@
+#include "shape/joint_fit.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+
+JointProblem::~JointProblem() = default;
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// A frame's part of the normal equations of the shape, its pose eliminated.
+struct Reduced {
+  MatrixXd hessian;        // PxP
+  VectorXd gradient;       // P
+  MatrixXd pose_by_shape;  // DxP: how the pose follows the shape
+  VectorXd pose_alone;     // D: its own step
+};
+
+/// Damps by a share of the diagonal and a little of the mean one, which holds what no pixel sees.
+MatrixXd damped(MatrixXd hessian, double damping) {
+  constexpr double kOfMean = 0.05;
+  const double floor = kOfMean * hessian.diagonal().mean() + 1e-12;
+  hessian.diagonal().array() += damping * (hessian.diagonal().array() + floor);
+  return hessian;
+}
+
+Reduced reduce(const FrameSystem& system, Index shapes, double damping) {
+  const Index d = system.gradient.size() - shapes;
+  const MatrixXd pose = damped(system.hessian.topLeftCorner(d, d), damping);
+  const MatrixXd mixed = system.hessian.topRightCorner(d, shapes);
+  const Eigen::LDLT<MatrixXd> solver(pose);
+  Reduced reduced;
+  reduced.pose_by_shape = -solver.solve(mixed);
+  reduced.pose_alone = -solver.solve(system.gradient.head(d));
+  reduced.hessian =
+      system.hessian.bottomRightCorner(shapes, shapes) + mixed.transpose() * reduced.pose_by_shape;
+  reduced.gradient = system.gradient.tail(shapes) + mixed.transpose() * reduced.pose_alone;
+  return reduced;
+}
+
+class Minimizer {
+ public:
+  Minimizer(JointProblem& problem, JointTrial start, const ShapePrior& prior)
+      : problem_(problem), prior_(prior), trial_(std::move(start)) {
+    trial_.shape = trial_.shape.cwiseMax(prior.lower).cwiseMin(prior.upper);
+    costs_ = problem_.costs(trial_);
+    keep_ = costs_.array().isFinite();
+    if (!keep_.any()) throw DataError("shape: no frame can be scored at the poses to start from");
+    cost_ = total(trial_, costs_);
+  }
+
+  double cost() const { return cost_; }
+  const JointTrial& trial() const { return trial_; }
+
+  /// One accepted step; what it gains, 0 if there is none.
+  double step() {
+    constexpr double kTooDamped = 1e4, kLongest = 8;
+    systems_ = problem_.systems(trial_);
+    const double before = cost_;
+    const JointTrial from = trial_;
+    for (; damping_ < kTooDamped; damping_ *= 4) {
+      const Step step = solve();
+      if (!accept(moved(from, step, 1))) continue;
+      double length = 2;
+      while (length <= kLongest && accept(moved(from, step, length))) length *= 2;
+      damping_ = std::max(1e-3, damping_ / 4);
+      return before - cost_;
+    }
+    return 0;
+  }
+
+ private:
+  MatrixXd prior_hessian() const {
+    return (2 * prior_.weight * prior_.deviation.array().square().inverse()).matrix().asDiagonal();
+  }
+  double total(const JointTrial& trial, const VectorXd& costs) const {
+    const VectorXd off = (trial.shape - prior_.mean).cwiseQuotient(prior_.deviation);
+    double sum = prior_.weight * off.squaredNorm();
+    for (Index k = 0; k < costs.size(); ++k)
+      if (keep_[k]) sum += costs[k];
+    return sum;
+  }
+
+  /// Makes it the trial if it is better.
+  bool accept(JointTrial next) {
+    const double cost = total(next, problem_.costs(next));
+    if (!(cost < cost_)) return false;
+    trial_ = std::move(next);
+    cost_ = cost;
+    return true;
+  }
+
+  /// A step of the shape, and how each pose follows.
+  struct Step {
+    VectorXd shape;
+    std::vector<Reduced> frames;
+  };
+
+  Step solve() const {
+    const Index p = trial_.shape.size();
+    MatrixXd hessian = prior_hessian();
+    VectorXd gradient = hessian * (trial_.shape - prior_.mean);
+    Step step;
+    for (Index k = 0; k < keep_.size(); ++k) {
+      step.frames.push_back(reduce(systems_[static_cast<std::size_t>(k)], p, damping_));
+      if (!keep_[k]) continue;
+      hessian += step.frames.back().hessian;
+      gradient += step.frames.back().gradient;
+    }
+    step.shape = -damped(hessian, damping_).ldlt().solve(gradient);
+    return step;
+  }
+
+  JointTrial moved(const JointTrial& from, const Step& step, double length) const {
+    JointTrial next = from;
+    next.shape = (from.shape + length * step.shape).cwiseMax(prior_.lower).cwiseMin(prior_.upper);
+    const VectorXd taken = next.shape - from.shape;  // what the bounds have left of it
+    for (std::size_t k = 0; k < step.frames.size(); ++k)
+      next.poses[k] = problem_.moved(
+          from.poses[k], length * step.frames[k].pose_alone + step.frames[k].pose_by_shape * taken);
+    return next;
+  }
+
+  JointProblem& problem_;
+  const ShapePrior& prior_;
+  JointTrial trial_;
+  VectorXd costs_;
+  Eigen::Array<bool, Eigen::Dynamic, 1> keep_;
+  double cost_ = 0;
+  double damping_ = 0.1;
+  std::vector<FrameSystem> systems_;
+};
+
+}  // namespace
+
+JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
+                     int iterations, const std::function<bool()>& stop) {
+  constexpr double kEnough = 1e-4;
+  Minimizer minimizer(problem, std::move(start), prior);
+  JointFit fit;
+  fit.first_cost = minimizer.cost();
+  while (fit.iterations < iterations && !(stop && stop())) {
+    ++fit.iterations;
+    if (minimizer.step() < kEnough * std::abs(minimizer.cost())) break;
+  }
+  fit.best = minimizer.trial();
+  fit.cost = minimizer.cost();
+  return fit;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "shape/joint_fit.hpp"
+#include "shape/shape_targets.hpp"
+#include "track/search_space.hpp"
+
+namespace hypotrack {
+
+/// What labelled landmarks say about shapes, in several frames: the sum of squared distances, in
+/// units of `kLabelDeviation`. With a prior of weight 1 the minimum is the most probable shape for
+/// labels that are off by that much.
+class HYPOTRACK_API LandmarkProblem final : public JointProblem {
+ public:
+  static constexpr double kLabelDeviation = 3e-3;  ///< metres, each axis
+
+  /// `landmarks`: world positions in the order of Scene::landmark_names(), 3xL, one entry per
+  /// frame; NaN columns are unknown. The scene must outlive the problem. Throws DataError if a
+  /// frame knows fewer than three landmarks of a model that is looked for.
+  LandmarkProblem(const Scene& scene, const ShapeTargets& targets,
+                  std::vector<Eigen::Matrix3Xd> landmarks);
+
+  /// The shape to start from and poses fitted with it, each from the one before.
+  JointTrial start() const;
+  /// Mean distance over known landmarks and frames, metres.
+  double mean_distance(const JointTrial& trial) const;
+
+  std::vector<FrameSystem> systems(const JointTrial& trial) override;
+  Eigen::VectorXd costs(const JointTrial& trial) override;
+  Eigen::VectorXd moved(const Eigen::VectorXd& pose, const Eigen::VectorXd& step) const override;
+
+ private:
+  Eigen::VectorXd residuals(const Scene& scene, std::size_t frame,
+                            const Eigen::VectorXd& pose) const;
+
+  const Scene& scene_;
+  const ShapeTargets& targets_;
+  SearchSpace space_;
+  std::vector<Eigen::Matrix3Xd> landmarks_;  // of other models: NaN
+};
+
+}  // namespace hypotrack

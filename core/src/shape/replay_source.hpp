@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/source.hpp"
+
+namespace hypotrack {
+
+/// Frames that have been read already, once more, and then what a source still has.
+class HYPOTRACK_API ReplaySource final : public Source {
+ public:
+  /// Only `frames`, as if they came from `from`.
+  ReplaySource(const Source& from, std::vector<Frame> frames);
+  /// `frames` and then the rest of `from`.
+  ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> frames);
+
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+  double frame_rate() const override { return frame_rate_; }
+  std::optional<int> frame_count() const override { return count_; }
+  std::optional<Frame> next() override;
+
+ private:
+  std::vector<Camera> cameras_;
+  double frame_rate_;
+  std::optional<int> count_;
+  std::unique_ptr<Source> rest_;
+  std::vector<Frame> frames_;
+  std::size_t next_ = 0;
+};
+
+/// The frames of a source before `seconds`, missing ones included.
+HYPOTRACK_API std::vector<Frame> first_seconds(Source& source, double seconds);
+
+}  // namespace hypotrack

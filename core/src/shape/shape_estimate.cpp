@@ -1,0 +1,226 @@
+#include "shape/shape_estimate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/shape.hpp"
+#include "shape/frame_sample.hpp"
+#include "shape/image_problem.hpp"
+#include "shape/landmark_problem.hpp"
+
+namespace hypotrack {
+namespace {
+
+using Eigen::VectorXd;
+
+std::vector<std::string> overrides_of(const ShapeTargets& targets,
+                                      const std::vector<ShapeParameter>& shape) {
+  std::string map;
+  for (const ShapeParameter& p : shape)
+    map += fmt::format("{}{}: {}", map.empty() ? "" : ", ", p.name, p.value);
+  std::vector<std::string> overrides = {"shape.estimate_s=0"};
+  for (const int i : targets.models())
+    overrides.push_back(fmt::format("models.{}.shape={{{}}}", i, map));
+  return overrides;
+}
+
+void take(const JointFit& fit, const ShapeTargets& targets, ShapeEstimate& estimate) {
+  estimate.shape = targets.with(fit.best.shape);
+  estimate.wanted = targets.wanted();
+  for (std::size_t i = 0; i < estimate.wanted.size(); ++i)
+    estimate.wanted[i].value = fit.best.shape[static_cast<Eigen::Index>(i)];
+  estimate.first_cost = fit.first_cost;
+  estimate.cost = fit.cost;
+  estimate.deviation =
+      VectorXd::Constant(fit.best.shape.size(), std::numeric_limits<double>::quiet_NaN());
+  estimate.overrides = overrides_of(targets, estimate.shape);
+}
+
+/// What one round is made of.
+class Round {
+ public:
+  Round(Session session, const ShapeEstimateSettings& settings, const ShapeProgress& progress)
+      : session_(std::move(session)),
+        settings_(settings),
+        progress_(progress),
+        targets_(*session_.scene, settings.models, settings.parameters) {
+    for (const ObjectiveTerm& term : session_.parts.objective) {
+      if (term.weight == 0 || term.objective->residual_term()) continue;
+      throw ConfigError(
+          fmt::format("shape: objective {}, as it is set up, offers no residuals, which fitting a "
+                      "shape needs (`hypotrack plugins info {}` says what it offers)",
+                      term.name, term.name));
+    }
+  }
+
+  /// `deviations`: how sure the shape is, too; it takes as long again.
+  ShapeEstimate run(int limit, bool deviations) {
+    ImageProblemParts parts{.cameras = session_.parts.cameras,
+                            .objective = session_.parts.objective,
+                            .tile = session_.parts.tile,
+                            .evaluate = session_.parts.evaluate,
+                            .coverage = settings_.coverage};
+    parts.evaluate.backend = Backend::cpu;  // where residuals are
+    std::vector<TrackedFrame> frames = track(limit);
+    if (progress_.stop()) return estimate_;
+    if (frames.size() < 2) {
+      throw DataError(
+          fmt::format("shape: {} of {} frames were tracked, expected at least 2 to fit a shape to",
+                      estimate_.tracked_frames, looked_at_));
+    }
+    frames = believable(parts, std::move(frames));
+    estimate_.used_frames = static_cast<int>(frames.size());
+    take(fit(parts, frames, targets_.values()), targets_, estimate_);
+    if (deviations) estimate_.deviation = deviation(parts, frames);
+    return estimate_;
+  }
+
+ private:
+  std::vector<TrackedFrame> track(int limit) {
+    FrameSample sample(settings_.frames);
+    std::optional<Tracker> tracker;
+    for (int i = 0; (limit == 0 || i < limit) && !progress_.stop(); ++i) {
+      const auto frame = session_.source->next();
+      if (!frame) break;
+      ++looked_at_;
+      if (!tracker && frame->views.empty()) continue;
+      if (!tracker)
+        tracker.emplace(*session_.scene, std::move(session_.parts), initial_state(session_, *frame),
+                        session_.seed);
+      const Solution solution = tracker->track(*frame);
+      if (solution.status == Status::tracked) ++estimate_.tracked_frames;
+      sample.add(*frame, solution);
+      progress_.tracked(*frame, solution);
+    }
+    return sample.take();
+  }
+
+  /// Without those that explain much less than the others do: they are not where the model is.
+  std::vector<TrackedFrame> believable(const ImageProblemParts& parts,
+                                       std::vector<TrackedFrame> frames) const {
+    constexpr double kMuchLess = 0.6;
+    const ImageProblem problem(*session_.scene, targets_, parts, frames);
+    std::vector<double> sorted = problem.explained();
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double limit = kMuchLess * sorted[sorted.size() / 2];
+    std::vector<TrackedFrame> kept;
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      if (problem.explained()[k] >= limit) kept.push_back(std::move(frames[k]));
+    return kept;
+  }
+
+  /// First with long steps of the derivatives, then with short ones.
+  JointFit fit(const ImageProblemParts& parts, std::vector<TrackedFrame> frames,
+               const VectorXd& shape) const {
+    ImageProblem problem(*session_.scene, targets_, parts, std::move(frames));
+    const ShapePrior known = prior(problem);
+    JointFit fit;
+    fit.best = problem.start();
+    fit.best.shape = shape;
+    double first_cost = 0;
+    for (const double length : {4.0, 2.0, 1.0}) {
+      problem.set_steps(length);
+      fit = fit_jointly(problem, std::move(fit.best), known, settings_.iterations, progress_.stop);
+      if (length == 4) first_cost = fit.first_cost;
+    }
+    fit.first_cost = first_cost;
+    return fit;
+  }
+
+  /// The standard error of the shape, from fits to a few parts of the frames.
+  VectorXd deviation(const ImageProblemParts& parts,
+                     const std::vector<TrackedFrame>& frames) const {
+    constexpr std::size_t kParts = 4, kFewest = 2;
+    const std::size_t count = std::min(kParts, frames.size() / kFewest);
+    VectorXd none = VectorXd::Constant(static_cast<Eigen::Index>(targets_.wanted().size()),
+                                       std::numeric_limits<double>::quiet_NaN());
+    if (count < 2) return none;
+    Eigen::MatrixXd found(none.size(), static_cast<Eigen::Index>(count));
+    for (std::size_t part = 0; part < count; ++part) {
+      std::vector<TrackedFrame> some;
+      for (std::size_t k = part; k < frames.size(); k += count) some.push_back(frames[k]);
+      found.col(static_cast<Eigen::Index>(part)) = fit(parts, some, targets_.values()).best.shape;
+    }
+    found.colwise() -= VectorXd(found.rowwise().mean());
+    const auto n = static_cast<double>(count);
+    return (found.rowwise().squaredNorm() / (n * (n - 1))).cwiseSqrt();
+  }
+
+  ShapePrior prior(const ImageProblem& problem) const {
+    double weight = 0;
+    for (const double pixel : problem.explained()) weight += settings_.prior * std::max(pixel, 0.0);
+    return targets_.prior(weight);
+  }
+
+  Session session_;
+  const ShapeEstimateSettings& settings_;
+  const ShapeProgress& progress_;
+  ShapeTargets targets_;
+  int looked_at_ = 0;
+  ShapeEstimate estimate_;
+};
+
+}  // namespace
+
+ShapeEstimate estimate_shape(const OpenShaped& open, const ShapeEstimateSettings& settings,
+                             int limit, const ShapeProgress& progress) {
+  ShapeEstimate estimate;
+  for (int round = 0; round < settings.rounds && !progress.stop(); ++round) {
+    progress.begin_round(round);
+    estimate = Round(open(estimate.overrides), settings, progress)
+                   .run(limit, round + 1 == settings.rounds);
+    if (!progress.stop()) progress.end_round(round, estimate);
+  }
+  return estimate;
+}
+
+ShapeEstimate shape_of_labels(Session session, const ShapeEstimateSettings& settings, int limit) {
+  const Scene& scene = *session.scene;
+  const ShapeTargets targets(scene, settings.models, settings.parameters);
+  std::vector<Eigen::Matrix3Xd> labelled;
+  ShapeEstimate estimate;
+  for (int i = 0; limit == 0 || i < limit; ++i) {
+    const auto frame = session.source->next();
+    if (!frame) break;
+    if (!frame->truth) continue;
+    const GroundTruth& truth = *frame->truth;
+    if (truth.landmarks.size() > 0)
+      labelled.push_back(truth.landmarks);
+    else if (truth.state.size() > 0)
+      labelled.push_back(scene.landmarks(truth.state));
+  }
+  estimate.tracked_frames = static_cast<int>(labelled.size());
+  if (labelled.size() < 2) {
+    throw DataError(fmt::format("shape: {} frames of the source have a truth, expected at least 2",
+                                labelled.size()));
+  }
+  const std::size_t count = std::min(labelled.size(), static_cast<std::size_t>(settings.frames));
+  std::vector<Eigen::Matrix3Xd> used;
+  for (std::size_t i = 0; i < count; ++i) used.push_back(labelled[i * labelled.size() / count]);
+  estimate.used_frames = static_cast<int>(count);
+  LandmarkProblem problem(scene, targets, std::move(used));
+  take(fit_jointly(problem, problem.start(), targets.prior(1), settings.iterations), targets,
+       estimate);
+  return estimate;
+}
+
+std::string shape_file_text(const ShapeEstimate& estimate) {
+  std::string text = fmt::format(
+      "# The shape of a model, for its `shape_file`. Written by hypotrack fit-shape from {} of {} "
+      "tracked frames.\n",
+      estimate.used_frames, estimate.tracked_frames);
+  for (std::size_t i = 0; i < estimate.wanted.size(); ++i) {
+    const double deviation = estimate.deviation[static_cast<Eigen::Index>(i)];
+    text += fmt::format("#   {:<10} {:.4f}{}\n", estimate.wanted[i].name, estimate.wanted[i].value,
+                        std::isfinite(deviation) ? fmt::format(" +- {:.4f}", deviation) : "");
+  }
+  return text + shape_yaml(estimate.shape);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+
+/// `shape:` of a scene: how shapes are estimated.
+struct ShapeEstimateSettings {
+  double seconds = 0;
+  std::vector<std::string> models;
+  std::vector<std::string> parameters;
+  int frames = 16;
+  int rounds = 2;
+  int iterations = 12;
+  double coverage = 0.3;
+  double prior = 0.3;
+  void visit(ParamVisitor& v) {
+    v("estimate_s", seconds,
+      {.help = "`run` holds the frames of this time back, fits the shape to them and then tracks "
+               "with it from the first; 0: it takes the shapes as they are given",
+       .min = 0,
+       .max = 60,
+       .unit = "s"});
+    v("models", models, {.help = "models of one shape; default: all that have shape parameters"});
+    v("parameters", parameters, {.help = "what to look for; default: all shape parameters"});
+    v("frames", frames, {.help = "frames that are fitted together", .min = 2, .max = 1000});
+    v("rounds", rounds, {.help = "how often to track and fit in turn", .min = 1, .max = 20});
+    v("iterations", iterations, {.help = "steps of each joint fit", .min = 1, .max = 1000});
+    v("coverage", coverage,
+      {.help = "what a covered pixel must explain to be worth covering, as a share of what the "
+               "mean one does; 0: sizes grow wherever anything looks alike",
+       .min = 0,
+       .max = 1});
+    v("prior", prior,
+      {.help = "what one standard deviation off the neutral shape costs per frame, in pixels that "
+               "are left unexplained",
+       .min = 0,
+       .max = 1e6});
+  }
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,92 @@
+#include <algorithm>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A hand that bends its fingers in small pictures, drawn 6 % larger than the tracked one and with
+/// an index finger 4 % longer.
+const char* const kHand = R"(
+models: [{name: hand, type: hand}]
+source:
+  type: synthetic
+  frames: 8
+  cameras: {width: 160, height: 120, focal_px: 150, baseline_mm: 60}
+  gestures: {bent: {"*_flexion_?": 40}}
+  render_models: {hand: {type: hand, shape: {scale: 1.06, index: 1.04}}}
+  keyframes:
+    - {frame: 0, pose: {hand: {position_mm: [0, 80, 450], rotation_deg: [180, 0, 0]}}}
+    - {frame: 7, gesture: bent, pose: {hand: {position_mm: [10, 70, 450], rotation_deg: [170, 20, 0]}}}
+objective: {type: stereo_color}
+optimizer: {type: pso, particles: 8, generations: 4}
+evaluate: {backend: cpu}
+output: {overlay: false, worst_frames: 0}
+init: {from: truth}
+)";
+
+class FitShapeTest : public AppTest {
+ protected:
+  Outcome fit(const std::string& text, std::vector<std::string> more = {}) const {
+    more.insert(more.begin(), {"fit-shape", scene(text), "--out", path("out").string()});
+    return run_program(more);
+  }
+};
+
+TEST_F(FitShapeTest, FromTruthFindsWhatTheLabelsHaveAndRunTakesIt) {
+  const Outcome outcome =
+      fit(kHand, {"--from", "truth", "--set", "shape.parameters=[scale, index]"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string file = read_text(path("out"));
+  EXPECT_THAT(file, testing::ContainsRegex("\nscale: 1\\.0(59|60|61)"));
+  // What is known beforehand draws it towards 1 by a tenth of the way.
+  EXPECT_THAT(file, testing::ContainsRegex("\nindex: 1\\.(03[5-9]|04[0-5])"));
+  EXPECT_THAT(file, HasSubstr("\nring: 1.0000\n"));
+  const Outcome tracked =
+      run_program({"run", path("scene.yaml").string(), "--out", path("tracked").string(),
+                   "--frames", "1", "--set", "models.0.shape_file=" + path("out").string()});
+  EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
+}
+
+TEST_F(FitShapeTest, TracksAndFitsInRoundsAndSaysWhatItFinds) {
+  const Outcome outcome =
+      fit(kHand, {"--frames", "4", "--set", "shape={rounds: 1, frames: 4, iterations: 2}"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("round 1 of 1: "));
+  for (const char* name : {"scale", "thumb", "little", "width"}) {
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("\n") + name + " "));
+    EXPECT_THAT(read_text(path("out")), HasSubstr(std::string("\n") + name + ": "));
+  }
+}
+
+TEST_F(FitShapeTest, ARunThatEstimatesTracksAllFramesAndCanBeRepeated) {
+  const Outcome outcome =
+      run(kHand, {"--set", "shape={estimate_s: 0.1, rounds: 1, frames: 3, iterations: 1}"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("shape from 3 frames, scale "));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), testing::SizeIs(9));
+  const Outcome again =
+      run_program({"run", path("out/run.yaml").string(), "--out", path("again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(track_without_times(path("again")), track_without_times(path("out")));
+}
+
+TEST_F(FitShapeTest, RefusesAModelWithoutAShape) {
+  expect_refusal(fit(box_scene()), {"no model of this scene has shape parameters"});
+}
+
+TEST_F(FitShapeTest, RefusesAnObjectiveWithoutResiduals) {
+  expect_refusal(fit(replaced(kHand, "{type: stereo_color}",
+                              "{type: stereo_color, aggregation: sum_per_sqrt}")),
+                 {"objective stereo_color", "offers no residuals, which fitting a shape needs"});
+}
+
+TEST_F(FitShapeTest, RefusesASourceOfOneFrame) {
+  expect_refusal(fit(replaced(kHand, "frames: 8", "frames: 1")),
+                 {"1 of 1 frames were tracked, expected at least 2"});
+}
+
+}  // namespace
+}  // namespace hypotrack::test

@@ -1,0 +1,116 @@
+#include "shape/joint_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Frames whose residuals are A pose + B shape - b: the answer is known.
+class Linear final : public JointProblem {
+ public:
+  Linear(int frames, int poses, int shapes, const VectorXd& shape, double noise) : poses_(poses) {
+    std::mt19937_64 random(7);
+    std::normal_distribution<double> normal;
+    for (int k = 0; k < frames; ++k) {
+      const MatrixXd j = MatrixXd::NullaryExpr(3 * (poses + shapes), poses + shapes,
+                                               [&] { return normal(random); });
+      const VectorXd pose = VectorXd::NullaryExpr(poses, [&] { return normal(random); });
+      VectorXd all(poses + shapes);
+      all << pose, shape;
+      const VectorXd error = VectorXd::NullaryExpr(j.rows(), [&] { return normal(random); });
+      jacobians_.push_back(j);
+      targets_.push_back(j * all + noise * error);
+    }
+  }
+  std::vector<FrameSystem> systems(const JointTrial& trial) override {
+    ++systems_asked;
+    std::vector<FrameSystem> systems;
+    for (std::size_t k = 0; k < targets_.size(); ++k) {
+      const VectorXd r = residuals(trial, k);
+      systems.push_back({r.squaredNorm(), 2 * jacobians_[k].transpose() * r,
+                         2 * jacobians_[k].transpose() * jacobians_[k]});
+    }
+    return systems;
+  }
+  VectorXd costs(const JointTrial& trial) override {
+    VectorXd costs(static_cast<Eigen::Index>(targets_.size()));
+    for (std::size_t k = 0; k < targets_.size(); ++k)
+      costs[static_cast<Eigen::Index>(k)] = static_cast<int>(k) == blind
+                                                ? std::numeric_limits<double>::infinity()
+                                                : residuals(trial, k).squaredNorm();
+    return costs;
+  }
+  VectorXd moved(const VectorXd& pose, const VectorXd& step) const override { return pose + step; }
+  JointTrial start(int shapes) const {
+    return {VectorXd::Ones(shapes), std::vector<VectorXd>(targets_.size(), VectorXd::Zero(poses_))};
+  }
+  int blind = -1;
+  int systems_asked = 0;
+
+ private:
+  VectorXd residuals(const JointTrial& trial, std::size_t k) const {
+    VectorXd all(trial.poses[k].size() + trial.shape.size());
+    all << trial.poses[k], trial.shape;
+    return jacobians_[k] * all - targets_[k];
+  }
+  int poses_;
+  std::vector<MatrixXd> jacobians_;
+  std::vector<VectorXd> targets_;
+};
+
+ShapePrior wide_prior(int shapes, double weight = 0) {
+  return {VectorXd::Ones(shapes), VectorXd::Constant(shapes, 0.1), VectorXd::Constant(shapes, -9),
+          VectorXd::Constant(shapes, 9), weight};
+}
+
+const VectorXd kTrue = Eigen::Vector3d(1.1, 0.9, 1.02);
+
+TEST(JointFit, FindsTheShapeThatAllFramesShare) {
+  Linear problem(6, 5, 3, kTrue, 0);
+  const JointFit fit = fit_jointly(problem, problem.start(3), wide_prior(3), 50);
+  EXPECT_TRUE(fit.best.shape.isApprox(kTrue, 1e-3)) << fit.best.shape.transpose();
+  EXPECT_LT(fit.cost, 1e-4 * fit.first_cost);
+  EXPECT_LT(fit.iterations, 50);
+}
+
+TEST(JointFit, StaysNearThePriorAndWithinTheBounds) {
+  Linear problem(6, 5, 3, kTrue, 0);
+  const JointFit free = fit_jointly(problem, problem.start(3), wide_prior(3), 50);
+  const JointFit held = fit_jointly(problem, problem.start(3), wide_prior(3, 1e6), 50);
+  EXPECT_LT((held.best.shape - VectorXd::Ones(3)).norm(),
+            0.1 * (free.best.shape - VectorXd::Ones(3)).norm());
+  ShapePrior bounded = wide_prior(3);
+  bounded.upper[0] = 1.05;
+  const JointFit clipped = fit_jointly(problem, problem.start(3), bounded, 50);
+  EXPECT_DOUBLE_EQ(clipped.best.shape[0], 1.05);
+}
+
+TEST(JointFit, LeavesOutFramesWithoutACost) {
+  Linear problem(6, 5, 3, kTrue, 0);
+  problem.blind = 2;
+  const JointFit fit = fit_jointly(problem, problem.start(3), wide_prior(3), 50);
+  EXPECT_TRUE(fit.best.shape.isApprox(kTrue, 1e-3));
+  Linear one(1, 5, 3, kTrue, 0);
+  one.blind = 0;
+  EXPECT_THROW(fit_jointly(one, one.start(3), wide_prior(3), 5), DataError);
+}
+
+TEST(JointFit, StopsWhenItIsTold) {
+  Linear problem(6, 5, 3, kTrue, 0);
+  const JointFit fit =
+      fit_jointly(problem, problem.start(3), wide_prior(3), 50, [] { return true; });
+  EXPECT_EQ(fit.iterations, 0);
+  EXPECT_EQ(fit.best.shape, VectorXd::Ones(3));
+}
+
+}  // namespace
+}  // namespace hypotrack

@@ -1,0 +1,52 @@
+#include "shape/replay_source.hpp"
+
+#include <gtest/gtest.h>
+
+namespace hypotrack {
+namespace {
+
+/// Ten frames at 5 Hz.
+class Counting final : public Source {
+ public:
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+  double frame_rate() const override { return 5; }
+  std::optional<int> frame_count() const override { return 10; }
+  std::optional<Frame> next() override {
+    if (next_ == 10) return std::nullopt;
+    Frame frame;
+    frame.index = next_++;
+    return frame;
+  }
+
+ private:
+  std::vector<Camera> cameras_{Camera{}};
+  int next_ = 0;
+};
+
+std::vector<int> indices_of(Source& source) {
+  std::vector<int> indices;
+  while (const auto frame = source.next()) indices.push_back(frame->index);
+  return indices;
+}
+
+TEST(ReplaySource, GivesTheFirstSecondsAgainAndThenTheRest) {
+  auto source = std::make_unique<Counting>();
+  const std::vector<Frame> first = first_seconds(*source, 0.6);
+  ASSERT_EQ(first.size(), 3u);
+  ReplaySource again(*source, first);
+  EXPECT_EQ(again.frame_count(), 3);
+  EXPECT_EQ(again.frame_rate(), 5);
+  EXPECT_EQ(indices_of(again), (std::vector{0, 1, 2}));
+  ReplaySource all(std::move(source), first);
+  EXPECT_EQ(all.frame_count(), 10);
+  EXPECT_EQ(all.cameras().size(), 1u);
+  EXPECT_EQ(indices_of(all), (std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(ReplaySource, TakesAShortSourceAsItIs) {
+  Counting source;
+  EXPECT_EQ(first_seconds(source, 60).size(), 10u);
+}
+
+}  // namespace
+}  // namespace hypotrack
