@@ -66,7 +66,7 @@ SharedLayers::~SharedLayers() {
 MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
     : resource_(layers.resource()), stream_(stream) {
   // Taking over should wait for OpenGL by itself, but has been seen to wait for ever (driver
-  // 580.159), and not once since OpenGL finishes first.
+  // 580.159) half the time, and rarely to fail since OpenGL finishes first.
   glFinish();
   check(cudaGraphicsMapResources(1, &resource_, native(stream)), "taking over from OpenGL");
   try {
