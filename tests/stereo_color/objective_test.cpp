@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "expect_error.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
 #include "on_device.hpp"
@@ -12,24 +13,15 @@
 namespace hypotrack::stereo_color {
 namespace {
 
+using test::message_of;
 using testing::HasSubstr;
-
-template <class Body>
-std::string message_of(Body body) {
-  try {
-    body();
-  } catch (const DataError& e) {
-    return e.what();
-  }
-  return "no DataError";
-}
 
 TEST(StereoColor, OneViewIsAnErrorThatSaysWhatIsExpected) {
   RandomPair pair({.size = 32});
   pair.observation.views.pop_back();
   pair.observation.frame = 17;
   StereoColor objective({});
-  const std::string message = message_of([&] { objective.prepare(pair.observation); });
+  const std::string message = message_of<DataError>([&] { objective.prepare(pair.observation); });
   EXPECT_THAT(message, HasSubstr("objective stereo_color"));
   EXPECT_THAT(message, HasSubstr("frame 17 has 1 view;"));
   EXPECT_THAT(message, HasSubstr("expected two calibrated views"));
@@ -39,15 +31,15 @@ TEST(StereoColor, ImagesOfAnotherSizeOrTypeThanTheTileAreErrors) {
   StereoColor objective({});
   RandomPair small({.size = 32});
   small.observation.views[1].color = cv::Mat3b(31, 32);
-  EXPECT_THAT(message_of([&] { objective.prepare(small.observation); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.prepare(small.observation); }),
               HasSubstr("the colour image of view 1 is 32x31"));
   RandomPair grey({.size = 32});
   grey.observation.views[0].color = cv::Mat1b(32, 32);
-  EXPECT_THAT(message_of([&] { objective.prepare(grey.observation); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.prepare(grey.observation); }),
               HasSubstr("the colour image of view 0 is 32x32 of OpenCV type 0"));
   RandomPair mask({.mask = true, .size = 32});
   mask.observation.views[1].mask = cv::Mat1b(8, 8);
-  EXPECT_THAT(message_of([&] { objective.prepare(mask.observation); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.prepare(mask.observation); }),
               HasSubstr("the mask of view 1 is 8x8"));
 }
 
@@ -56,7 +48,7 @@ TEST(StereoColor, AViewWithoutColourIsAnErrorThatSaysWhatToDo) {
   pair.observation.views[1].color.release();
   pair.observation.views[1].depth = cv::Mat1f(32, 32, 0.5f);
   StereoColor objective({});
-  EXPECT_THAT(message_of([&] { objective.prepare(pair.observation); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.prepare(pair.observation); }),
               HasSubstr("objective stereo_color: view 1 has no colour; expected colour images of "
                         "both cameras. Use a stereo source"));
 }
@@ -65,9 +57,9 @@ TEST(StereoColor, TilesOfAnotherSizeThanThePreparedFrameAreErrors) {
   const RandomPair pair({.size = 32}), other({.size = 48});
   StereoColor objective({});
   objective.prepare(pair.observation);
-  EXPECT_THAT(message_of([&] { objective.cost(other.hypothesis()); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.cost(other.hypothesis()); }),
               HasSubstr("expected a 32x32 tile as view 0"));
-  const std::string none = message_of([&] { objective.cost({}); });
+  const std::string none = message_of<DataError>([&] { objective.cost({}); });
   EXPECT_THAT(none, HasSubstr("drawn in 0 views"));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "patch_pair.hpp"
 #include "stereo_patch.hpp"
@@ -11,23 +12,14 @@
 namespace hypotrack::stereo_patch {
 namespace {
 
+using test::message_of;
 using testing::HasSubstr;
-
-template <class Body>
-std::string message_of(Body body) {
-  try {
-    body();
-  } catch (const DataError& e) {
-    return e.what();
-  }
-  return "no DataError";
-}
 
 TEST(StereoPatch, OneViewIsAnErrorThatSaysWhatIsExpected) {
   PatchPair pair({.size = 32});
   pair.observation.views.pop_back();
   StereoPatch objective({});
-  const std::string message = message_of([&] { objective.prepare(pair.observation); });
+  const std::string message = message_of<DataError>([&] { objective.prepare(pair.observation); });
   EXPECT_THAT(message, HasSubstr("objective stereo_patch"));
   EXPECT_THAT(message, HasSubstr("expected two calibrated views"));
 }
@@ -36,9 +28,10 @@ TEST(StereoPatch, TilesOfAnotherSizeThanThePreparedFrameAreErrors) {
   const PatchPair pair({.size = 32}), other({.size = 48});
   StereoPatch objective({});
   objective.prepare(pair.observation);
-  EXPECT_THAT(message_of([&] { objective.cost(other.hypothesis()); }),
+  EXPECT_THAT(message_of<DataError>([&] { objective.cost(other.hypothesis()); }),
               HasSubstr("objective stereo_patch"));
-  EXPECT_THAT(message_of([&] { objective.cost({}); }), HasSubstr("expected a 32x32 tile"));
+  EXPECT_THAT(message_of<DataError>([&] { objective.cost({}); }),
+              HasSubstr("expected a 32x32 tile"));
 }
 
 TEST(StereoPatch, NothingCoveredCostsNothing) {
