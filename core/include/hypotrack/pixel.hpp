@@ -72,7 +72,8 @@ namespace pixel {
 
 // exp(x) = 2^n exp(r), n = round(x / ln 2), |r| <= ln 2 / 2, exp(r) by its Taylor polynomial of
 // degree 6 with the last coefficient adjusted to the interval: relative error below 3e-7. All lane
-// types share these numbers and the order of operations, so they agree up to rounding.
+// types share these numbers and the order of operations, so they agree up to rounding; GPUs have a
+// 2^x of their own, as exact.
 inline constexpr float kExpLowest = -80.0f;  // below, exp() is exp(-80) = 1.8e-35
 inline constexpr float kExpHighest = 88.0f;
 inline constexpr float kLog2E = 1.44269504f;
