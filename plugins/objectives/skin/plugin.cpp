@@ -3,4 +3,4 @@
 #include "skin.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::skin::Skin,
-                 "coverage of what looks like foreground, by colour, mask or depth", "")
+                 "coverage of what looks like foreground, by colour, mask or depth", "residuals")

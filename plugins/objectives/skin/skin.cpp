@@ -2,6 +2,7 @@
 
 #include "checks.hpp"
 #include "hypotrack/observation_checks.hpp"
+#include "residuals.hpp"
 #include "score.hpp"
 
 namespace hypotrack::skin {
@@ -19,9 +20,14 @@ void Skin::prepare(const Observation& observation) {
   while (tellers_.size() < observation.views.size()) tellers_.emplace_back(params_);
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     ViewForeground foreground = tellers_[i].tell(observation, i);
-    if (foreground.pixels.width() > 0) views_.push_back({i, std::move(foreground)});
+    if (foreground.pixels.width() > 0) views_.push_back({i, std::move(foreground), {}});
+  }
+  for (PreparedView& view : views_) {
+    view.uncovered = uncovered_residuals(view.foreground.pixels, share());
   }
 }
+
+float Skin::share() const { return 1.0f / static_cast<float>(views_.size()); }
 
 double Skin::cost(const RenderedHypothesis& hypothesis) const {
   double sum = 0;
@@ -32,6 +38,26 @@ double Skin::cost(const RenderedHypothesis& hypothesis) const {
            sum_covered(plane, hypothesis.views[view.index], static_cast<float>(params_.spill));
   }
   return sum / static_cast<double>(views_.size());
+}
+
+std::int64_t Skin::residual_count() const {
+  std::int64_t count = 0;
+  for (const PreparedView& view : views_) {
+    count += std::int64_t{view.uncovered.width()} * view.uncovered.height();
+  }
+  return count;
+}
+
+void Skin::write_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const {
+  const float covered_share = static_cast<float>(params_.spill) * share();
+  for (const PreparedView& view : views_) {
+    const auto& plane = view.foreground.pixels;
+    check_drawn_tile("skin", hypothesis, view.index, plane.width(), plane.height());
+    const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
+    skin::write_residuals(plane, hypothesis.views[view.index], covered_share, view.uncovered,
+                          residuals.first(size));
+    residuals = residuals.subspan(size);
+  }
 }
 
 }  // namespace hypotrack::skin

@@ -18,7 +18,11 @@ namespace hypotrack::skin {
 /// what has the models' colours and pays for lying on what has not, which a comparison of two views
 /// cannot see. P comes from the colours under the first frames' poses, from the frame's mask or
 /// from its depth (foreground.hpp). All models of a scene are foreground together.
-class Skin : public Objective {
+///
+/// The cost is a sum of squares: every pixel of a view has the residual sqrt(P) where it is
+/// uncovered and sqrt(spill (1 - P)) where it is covered (0 where it is invalid), divided by the
+/// root of the number of views.
+class Skin : public Objective, public ResidualTerm {
  public:
   using Params = skin::Params;
 
@@ -30,11 +34,20 @@ class Skin : public Objective {
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
 
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override;
+  /// Throws DataError as cost().
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+
  private:
   struct PreparedView {
     std::size_t index;  ///< among the observation's views
     ViewForeground foreground;
+    PixelPlane<float> uncovered;  ///< residuals where nothing is covered
   };
+
+  float share() const;  ///< of each view
 
   Params params_;
   std::vector<ForegroundTeller> tellers_;  ///< one per view of the observation

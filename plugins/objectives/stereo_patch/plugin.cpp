@@ -3,4 +3,5 @@
 #include "stereo_patch.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::stereo_patch::StereoPatch,
-                 "patch consistency of the two views of a stereo pair (ZNCC or census)", "")
+                 "patch consistency of the two views of a stereo pair (ZNCC or census)",
+                 "residuals")

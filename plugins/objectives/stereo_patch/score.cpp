@@ -10,43 +10,27 @@
 #define HWY_TARGET_INCLUDE "score.cpp"
 #include <hwy/foreach_target.h>
 
-#include "hypotrack/stereo_pixels-inl.hpp"
-#include "patch_similarity-inl.hpp"
+#include "volume_lookup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_patch::HWY_NAMESPACE {
 
-using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
-
 struct PatchTerm {
   static constexpr bool kVisitsUncovered = false;
 
-  const Volume& volume;
-  Lanes first, planes_per_unit, last;
+  VolumeLookup volume;
   LaneSum sum;
 
   HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
-    const Lanes position = (p.inverse_depth - first) * planes_per_unit;
-    const LaneMask counts = p.seen && between_planes(position, last);
-    if (!any(counts)) return;
-    const auto at = plane_share(select(counts, position, Lanes(0.0f)), last);
-    const IntLanes index =
-        to_int(at.before) * int_lanes(volume.width) + to_int(count_from(static_cast<float>(p.x)));
-    const WordLanes pair = gather(volume.row(p.y), index);
-    const Lanes before = unorm16_low(pair), after = unorm16_high(pair);
-    sum.add(counts, mul_add(after - before, at.share, before));
+    const LaneMask counts = volume.counting(p);
+    if (any(counts)) sum.add(counts, volume.similarity(p, counts));
   }
   HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };
 
 double sum_on_target(const Volume& volume, const DepthTile& left, const DepthTile& right,
                      const StereoMap& map, float tolerance) {
-  const Planes& planes = volume.planes;
-  PatchTerm term{volume,
-                 Lanes(planes.first),
-                 Lanes(1.0f / planes.step),
-                 Lanes(static_cast<float>(planes.count - 1)),
-                 {}};
+  PatchTerm term{VolumeLookup(volume), {}};
   for_each_stereo_pixel(left, right, map, tolerance, covered_box(left), term);
   return term.sum.total();
 }

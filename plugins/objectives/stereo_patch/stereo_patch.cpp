@@ -1,6 +1,7 @@
 #include "stereo_patch.hpp"
 
 #include "hypotrack/observation_checks.hpp"
+#include "residuals.hpp"
 #include "score.hpp"
 
 namespace hypotrack::stereo_patch {
@@ -18,11 +19,26 @@ void StereoPatch::prepare(const Observation& observation) {
   make_volume(observation, params_, volume_);
 }
 
-double StereoPatch::cost(const RenderedHypothesis& hypothesis) const {
+void StereoPatch::check_tiles(const RenderedHypothesis& hypothesis) const {
   check_drawn_tile("stereo_patch", hypothesis, 0, volume_.width, volume_.height);
   check_drawn_tile("stereo_patch", hypothesis, 1, map_.width, map_.height);
+}
+
+double StereoPatch::cost(const RenderedHypothesis& hypothesis) const {
+  check_tiles(hypothesis);
   return 0.0 - sum_similarity(volume_, hypothesis.views[0], hypothesis.views[1], map_,
                               static_cast<float>(params_.r));  // not -0.0
+}
+
+std::int64_t StereoPatch::residual_count() const {
+  return std::int64_t{volume_.width} * volume_.height;
+}
+
+void StereoPatch::write_residuals(const RenderedHypothesis& hypothesis,
+                                  std::span<float> residuals) const {
+  check_tiles(hypothesis);
+  stereo_patch::write_residuals(volume_, hypothesis.views[0], hypothesis.views[1], map_,
+                                static_cast<float>(params_.r), residuals);
 }
 
 }  // namespace hypotrack::stereo_patch

@@ -24,7 +24,11 @@ namespace hypotrack::stereo_patch {
 /// pairs are resampled by the general projection.
 ///
 /// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
-class StereoPatch : public Objective {
+///
+/// The cost is a sum of squares, up to a constant of the frame: every pixel of the left tile within
+/// the mask, covered or not, has the residual sqrt(1 - s), where s is 0 unless both views see its
+/// surface.
+class StereoPatch : public Objective, public ResidualTerm {
  public:
   using Params = stereo_patch::Params;
 
@@ -36,7 +40,15 @@ class StereoPatch : public Objective {
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
 
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override;
+  /// Throws DataError as cost().
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+
  private:
+  void check_tiles(const RenderedHypothesis& hypothesis) const;
+
   Params params_;
   StereoMap map_{};
   Volume volume_;

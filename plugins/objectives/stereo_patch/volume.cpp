@@ -26,9 +26,9 @@ void make_volume(const Observation& observation, const Settings& settings, Volum
   volume.width = left.camera.width;
   volume.height = left.camera.height;
   volume.words.resize(volume.row_stride() * static_cast<std::size_t>(volume.height) + kPadding);
+  volume.weight = weights(left, settings.use_mask);
   const int margin = left.camera.width;
-  fill_volume({stereo_map(observation, 0, 1), gray_tile(left, 0), gray_tile(right, margin), margin,
-               weights(left, settings.use_mask)},
+  fill_volume({stereo_map(observation, 0, 1), gray_tile(left, 0), gray_tile(right, margin), margin},
               settings, volume);
 }
 

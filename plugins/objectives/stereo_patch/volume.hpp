@@ -6,6 +6,7 @@
 
 #include "hypotrack/observation.hpp"
 #include "hypotrack/stereo_pixels.hpp"
+#include "hypotrack/view_pixels.hpp"
 #include "planes.hpp"
 #include "settings.hpp"
 
@@ -17,6 +18,7 @@ namespace hypotrack::stereo_patch {
 struct Volume {
   Planes planes;
   int width = 0, height = 0;
+  PixelPlane<float> weight;  ///< 0 or 1: what a pixel counts; its similarities are times this
   std::vector<std::uint32_t> words;
 
   std::size_t row_stride() const {

@@ -51,8 +51,8 @@ class RowWriter {
 
 /// All rows of one plane, from the second view as that plane shows it.
 template <class Comparer>
-void fill_plane(const VolumeJob& job, const Settings& settings, const PixelPlane<float>& warped,
-                int plane, Comparer& comparer, Volume& volume) {
+void fill_plane(const Settings& settings, const PixelPlane<float>& warped, int plane,
+                Comparer& comparer, Volume& volume) {
   const int r = settings.radius;
   const int x0 = std::min(r, volume.width), x1 = std::max(volume.width - r, x0);
   const Lanes sharpness(static_cast<float>(settings.sharpness));
@@ -67,7 +67,7 @@ void fill_plane(const VolumeJob& job, const Settings& settings, const PixelPlane
     comparer.start_row(warped, y);
     for (int x = x0; x < x1; x += kLanes) {
       const Lanes s = similarity(comparer.correlation_at(warped, x, y), sharpness);
-      out.write(x, std::min(kLanes, x1 - x), s * load(job.weight.row(y) + x));
+      out.write(x, std::min(kLanes, x1 - x), s * load(volume.weight.row(y) + x));
     }
   }
 }
@@ -78,7 +78,7 @@ void fill_with(const VolumeJob& job, const Settings& settings, Comparer comparer
   for (int plane = 0; plane < volume.planes.count; ++plane) {
     const float w = volume.planes.first + static_cast<float>(plane) * volume.planes.step;
     warp(job, w, warped);
-    fill_plane(job, settings, warped, plane, comparer, volume);
+    fill_plane(settings, warped, plane, comparer, volume);
   }
 }
 

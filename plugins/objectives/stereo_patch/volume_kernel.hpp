@@ -10,14 +10,14 @@ namespace hypotrack::stereo_patch {
 
 /// What the filling of a volume reads.
 struct VolumeJob {
-  StereoMap map;             ///< from the first view into the second
-  PixelPlane<float> left;    ///< gray_tile() of the first view, no margin
-  PixelPlane<float> right;   ///< of the second view
-  int margin;                ///< of `right`
-  PixelPlane<float> weight;  ///< 0 or 1 per pixel of the first view
+  StereoMap map;            ///< from the first view into the second
+  PixelPlane<float> left;   ///< gray_tile() of the first view, no margin
+  PixelPlane<float> right;  ///< of the second view
+  int margin;               ///< of `right`
 };
 
-/// Fills volume.words, which have the size that planes, width and height ask for.
+/// Fills volume.words, which have the size that planes, width and height ask for, and whose other
+/// members are set.
 void fill_volume(const VolumeJob& job, const Settings& settings, Volume& volume);
 
 /// The instruction sets that fill_volume() is compiled for, as Highway's bits.

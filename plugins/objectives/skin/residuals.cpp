@@ -1,0 +1,73 @@
+#include "residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+// As in score.cpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "residuals.cpp"
+#include <hwy/foreach_target.h>
+
+#include "hypotrack/view_pixels-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::skin::HWY_NAMESPACE {
+
+using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
+
+struct ResidualWriter {
+  static constexpr bool kVisitsUncovered = false;
+
+  const PixelPlane<std::uint32_t>& foreground;
+  const PixelPlane<float>& uncovered;
+  Lanes share;
+  float* out;
+
+  HYPOTRACK_PIXEL void pixels(const ViewPixels& p) {
+    const Lanes r = sqrt(share * unorm16_high(p.here(foreground)));
+    store(select(p.covered, r, p.here(uncovered)), p.pixels,
+          out + static_cast<std::ptrdiff_t>(p.y) * foreground.width() + p.x);
+  }
+  HYPOTRACK_PIXEL void end_row() {}
+};
+
+void write_covered(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile, float share,
+                   const PixelPlane<float>& uncovered, float* out) {
+  ResidualWriter writer{foreground, uncovered, Lanes(share), out};
+  for_each_view_pixel(tile, covered_box(tile), writer);
+}
+
+}  // namespace hypotrack::skin::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::skin {
+
+HWY_EXPORT(write_covered);
+
+PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foreground, float share) {
+  constexpr float kUnit = 1.0f / 65535.0f;
+  PixelPlane<float> plane(foreground.width(), foreground.height());
+  for (int y = 0; y < plane.height(); ++y) {
+    std::transform(foreground.row(y), foreground.row(y) + plane.width(), plane.row(y),
+                   [&](std::uint32_t word) {
+                     return std::sqrt(share * (static_cast<float>(word & 0xFFFF) * kUnit));
+                   });
+  }
+  return plane;
+}
+
+void write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
+                     float covered_share, const PixelPlane<float>& uncovered,
+                     std::span<float> residuals) {
+  std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
+  HWY_DYNAMIC_DISPATCH(write_covered)
+  (foreground, tile, covered_share, uncovered, residuals.data());
+}
+
+}  // namespace hypotrack::skin
+#endif

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "hypotrack/objective.hpp"
+#include "hypotrack/view_pixels.hpp"
+
+namespace hypotrack::skin {
+
+/// sqrt(share P) of every pixel: the residuals of a hypothesis that covers nothing. `foreground` is
+/// ViewForeground::pixels.
+PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foreground, float share);
+
+/// Writes the residual of every pixel of the tile, rows without gaps: sqrt(covered_share (1 - P))
+/// where it is covered, `uncovered` elsewhere. SIMD, as sum_covered().
+void write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
+                     float covered_share, const PixelPlane<float>& uncovered,
+                     std::span<float> residuals);
+
+}  // namespace hypotrack::skin

@@ -1,0 +1,58 @@
+#include "residuals.hpp"
+
+#include <algorithm>
+
+// As in score.cpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "residuals.cpp"
+#include <hwy/foreach_target.h>
+
+#include "volume_lookup-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::stereo_patch::HWY_NAMESPACE {
+
+struct ResidualWriter {
+  static constexpr bool kVisitsUncovered = false;
+
+  VolumeLookup volume;
+  const PixelPlane<float>& weight;
+  float* out;
+
+  HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
+    const LaneMask counts = volume.counting(p);
+    if (!any(counts)) return;
+    const Lanes s = select(counts, volume.similarity(p, counts), Lanes(0.0f));
+    store(sqrt(max(p.here(weight) - s, Lanes(0.0f))), p.pixels,
+          out + static_cast<std::ptrdiff_t>(p.y) * weight.width() + p.x);
+  }
+  HYPOTRACK_PIXEL void end_row() {}
+};
+
+void write_counting(const Volume& volume, const DepthTile& left, const DepthTile& right,
+                    const StereoMap& map, float tolerance, float* out) {
+  ResidualWriter writer{VolumeLookup(volume), volume.weight, out};
+  for_each_stereo_pixel(left, right, map, tolerance, covered_box(left), writer);
+}
+
+}  // namespace hypotrack::stereo_patch::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::stereo_patch {
+
+HWY_EXPORT(write_counting);
+
+void write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
+                     const StereoMap& map, float tolerance, std::span<float> residuals) {
+  // The root of 0 or 1.
+  std::copy_n(volume.weight.row(0), residuals.size(), residuals.data());
+  HWY_DYNAMIC_DISPATCH(write_counting)(volume, left, right, map, tolerance, residuals.data());
+}
+
+}  // namespace hypotrack::stereo_patch
+#endif
