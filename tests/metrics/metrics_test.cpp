@@ -47,7 +47,7 @@ TEST(Metrics, StatisticsOfHandMadeErrors) {
   EXPECT_NEAR(m.p95_error_mm, 46.6, 1e-9);
   EXPECT_NEAR(m.max_error_mm, 51, 1e-9);
   EXPECT_NEAR(m.auc_20_50, (3 + 21.0 / 30) / 5, 1e-9);
-  EXPECT_THAT(m.success, ElementsAre(0.4, 0.6, 0.8, 0.8, 0.8));
+  EXPECT_THAT(m.success, ElementsAre(0.2, 0.4, 0.6, 0.8, 0.8, 0.8));
 }
 
 TEST(Metrics, AFrameIsLostBeyond40MmOrWhenTheTrackerSaysSo) {

@@ -16,7 +16,7 @@ namespace hypotrack {
 inline constexpr double kLostErrorMm = 40;
 inline constexpr double kAucLowMm = 20;
 inline constexpr double kAucHighMm = 50;
-inline constexpr std::array<int, 5> kSuccessThresholdsMm{10, 20, 30, 40, 50};
+inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
 
 /// What a tracker says of a frame, apart from where the landmarks are.
 enum class FrameVerdict {

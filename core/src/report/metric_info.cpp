@@ -17,6 +17,7 @@ const std::vector<MetricInfo>& known_metrics() {
       {"p95_error_mm", "95th percentile", "mm", 1, 2, Better::lower},
       {"max_error_mm", "largest error", "mm", 1, 1, Better::lower},
       {"auc_20_50", "AUC 20–50 mm", "", 1, 3, Better::higher},
+      {"success_5mm", "below 5 mm", "%", 100, 1, Better::higher},
       {"success_10mm", "below 10 mm", "%", 100, 1, Better::higher},
       {"success_20mm", "below 20 mm", "%", 100, 1, Better::higher},
       {"success_30mm", "below 30 mm", "%", 100, 1, Better::higher},
