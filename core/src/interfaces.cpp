@@ -20,6 +20,11 @@ OutputError::~OutputError() = default;
 ResidualTerm::~ResidualTerm() = default;
 Objective::~Objective() = default;
 const ResidualTerm* Objective::residual_term() const { return nullptr; }
+double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                     std::span<float> residuals) const {
+  residual_term()->write_residuals(hypothesis, residuals);
+  return cost(hypothesis);
+}
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
 cuda::DeviceCost::~DeviceCost() = default;

@@ -44,7 +44,11 @@ void expect_cost_as_squares(const PairOptions& options, const Params& params) {
   on_every_target([&] {
     const double cost = objective.cost(pair.hypothesis());
     ASSERT_LT(cost, 0);
-    const double squares = sum_of_squares(residuals(objective, pair.hypothesis()));
+    const std::vector<float> all = residuals(objective, pair.hypothesis());
+    std::vector<float> beside_cost(all.size());
+    EXPECT_NEAR(objective.cost_and_residuals(pair.hypothesis(), beside_cost) / cost, 1, 1e-6);
+    EXPECT_EQ(beside_cost, all);
+    const double squares = sum_of_squares(all);
     EXPECT_NEAR((squares - of_nothing(objective, pair)) / cost, 1, 1e-4);
   });
 }

@@ -73,6 +73,11 @@ class HYPOTRACK_API Objective {
   /// Lives as long as this one (an objective may derive from ResidualTerm and return itself).
   virtual const ResidualTerm* residual_term() const;
 
+  /// What cost() returns (up to rounding) and residual_term()->write_residuals() writes, for
+  /// objectives that have residuals. Worth overriding where one walk over the pixels gives both.
+  virtual double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                    std::span<float> residuals) const;
+
   /// The same objective for the GPU (hypotrack/cuda/device_objective.hpp), null if it has none or
   /// was built without CUDA: then scenes with it are evaluated on the CPU. Outlived by this one.
   virtual std::unique_ptr<cuda::DeviceObjective> on_device() const;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "evaluate/evaluation.hpp"
 #include "evaluate/hypothesis_renderer.hpp"
@@ -33,7 +34,9 @@ class HostEvaluation final : public Evaluation {
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
-      costs[index] = cost(index, hypothesis);
+      costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
+        return terms_[t].objective->cost(drawn);
+      });
     });
   }
 
@@ -43,21 +46,26 @@ class HostEvaluation final : public Evaluation {
                           Eigen::Ref<Eigen::VectorXd> costs) override {
     const auto count = static_cast<std::size_t>(residuals.rows());
     renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
-      costs[index] = cost(index, hypothesis);
-      residuals_->write(hypothesis, {residuals.col(index).data(), count});
+      std::span<float> rest(residuals.col(index).data(), count);
+      costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
+        return residuals_->write(t, drawn, rest);
+      });
     });
   }
 
   std::string description() const override { return renderer_->description(); }
 
  private:
-  double cost(Eigen::Index index, const RenderedHypothesis& hypothesis) const {
+  /// The weighted sum of what `cost_of(index of a term, hypothesis as it wants it)` returns.
+  template <class CostOf>
+  double sum_up(Eigen::Index index, const RenderedHypothesis& hypothesis,
+                const CostOf& cost_of) const {
     double sum = 0;
-    for (const ObjectiveTerm& term : terms_) {
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+      const ObjectiveTerm& term = terms_[t];
       if (term.weight == 0) continue;  // also keeps 0 * infinity out
       const bool draws = term.objective->needs_rendering();
-      const double cost =
-          term.objective->cost(draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
+      const double cost = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
       sum += term.weight * cost;
       if (std::isnan(cost)) refuse_cost(term, index, "returned NaN");
       if (std::isnan(sum)) refuse_cost(term, index, "adds an infinity to its opposite");

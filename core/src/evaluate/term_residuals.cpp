@@ -29,31 +29,30 @@ std::string TermResiduals::why_none(const std::vector<ObjectiveTerm>& terms) {
 
 TermResiduals::TermResiduals(const std::vector<ObjectiveTerm>& terms) {
   for (const ObjectiveTerm& term : terms) {
-    if (term.weight == 0) continue;
-    parts_.push_back({term.objective->residual_term(), term.objective->needs_rendering(),
-                      static_cast<float>(std::sqrt(term.weight))});
+    parts_.push_back({term.objective.get(), static_cast<float>(std::sqrt(term.weight))});
   }
 }
 
 void TermResiduals::prepare() {
   count_ = 0;
   for (Part& part : parts_) {
-    const std::int64_t count = part.term->residual_count();
+    if (part.factor == 0) continue;
+    const std::int64_t count = part.objective->residual_term()->residual_count();
     part.count = static_cast<std::size_t>(count);
     count_ += count;
   }
 }
 
-void TermResiduals::write(const RenderedHypothesis& hypothesis, std::span<float> residuals) const {
-  for (const Part& part : parts_) {
-    const std::span<float> own = residuals.first(part.count);
-    part.term->write_residuals(part.draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}},
-                               own);
-    if (part.factor != 1) {
-      for (float& r : own) r *= part.factor;
-    }
-    residuals = residuals.subspan(part.count);
+double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothesis,
+                            std::span<float>& rest) const {
+  const Part& part = parts_[term];
+  const std::span<float> own = rest.first(part.count);
+  rest = rest.subspan(part.count);
+  const double cost = part.objective->cost_and_residuals(hypothesis, own);
+  if (part.factor != 1) {
+    for (float& r : own) r *= part.factor;
   }
+  return cost;
 }
 
 }  // namespace hypotrack

@@ -23,17 +23,18 @@ class TermResiduals {
   /// Asks the terms for the counts of the frame that they are prepared for.
   void prepare();
   Eigen::Index count() const { return count_; }
-  /// Writes count() numbers. May be called from several threads at once.
-  void write(const RenderedHypothesis& hypothesis, std::span<float> residuals) const;
+  /// Cost of one of the terms, without its weight; its residuals go to the front of `rest`, which
+  /// then begins behind them. May be called from several threads at once.
+  double write(std::size_t term, const RenderedHypothesis& hypothesis,
+               std::span<float>& rest) const;
 
  private:
   struct Part {
-    const ResidualTerm* term;
-    bool draws;
+    const Objective* objective;
     float factor;
     std::size_t count = 0;
   };
-  std::vector<Part> parts_;
+  std::vector<Part> parts_;  // one per term
   Eigen::Index count_ = 0;
 };
 

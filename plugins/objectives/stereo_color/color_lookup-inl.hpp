@@ -30,16 +30,21 @@ HYPOTRACK_PIXEL ColorSample<Lanes> sample_at(const Features& features, const Ste
   return unpack(p.at(features.channels_01, x, y), p.at(features.channel_2_weight, x, y));
 }
 
+/// Interpolated between two pixels of a row.
+HYPOTRACK_PIXEL ColorSample<Lanes> blend_row(const Features& features, const StereoPixels& p,
+                                             const BilinearLanes& b, IntLanes row) {
+  return blend(sample_at(features, p, b.x0, row), sample_at(features, p, b.x0 + int_lanes(1), row),
+               b.fx);
+}
+
 /// Any value where not seen.
 template <bool kBilinear>
 HYPOTRACK_PIXEL ColorSample<Lanes> sample_there(const Features& features, const StereoPixels& p) {
   if constexpr (!kBilinear) return sample_at(features, p, p.column, p.row);
   const BilinearLanes b = p.bilinear();
-  const auto at = [&](IntLanes x, IntLanes y) HWY_ATTR { return sample_at(features, p, x, y); };
-  const IntLanes x1 = b.x0 + int_lanes(1), y1 = b.y0 + int_lanes(1);
-  if (p.same_row) return blend(at(b.x0, p.row), at(x1, p.row), b.fx);
-  const auto upper = blend(at(b.x0, b.y0), at(x1, b.y0), b.fx);
-  return blend(upper, blend(at(b.x0, y1), at(x1, y1), b.fx), b.fy);
+  if (p.same_row) return blend_row(features, p, b, p.row);
+  return blend(blend_row(features, p, b, b.y0), blend_row(features, p, b, b.y0 + int_lanes(1)),
+               b.fy);
 }
 
 }  // namespace hypotrack::stereo_color::HWY_NAMESPACE

@@ -27,35 +27,43 @@ struct ResidualWriter {
   Lanes share;
   float* out;
   int width;
+  LaneSum sum;
+  std::int64_t seen = 0;
+  std::int64_t rendered = 0;
 
   HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
     const auto here = sample_here(left, p);
     const Lanes s = select(p.seen, color_consistency(here, sample_there<kBilinear>(right, p), beta),
                            Lanes(0.0f));
+    rendered += count(p.seen || p.occluded);
+    seen += count(p.seen);
+    sum.add(p.seen, s);
     // s <= C, up to the rounding of exp().
     const Lanes rest = max(here.weight - s, Lanes(0.0f));
     store(sqrt(share * rest), p.pixels, out + static_cast<std::ptrdiff_t>(p.y) * width + p.x);
   }
-  HYPOTRACK_PIXEL void end_row() {}
+  HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };
 
 template <bool kBilinear>
-void run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
-         const Params& params, float share, float* out) {
-  ResidualWriter<kBilinear> writer{
-      here.features, there.features, Lanes(static_cast<float>(params.beta)), Lanes(share),
-      out,           here.tile.width};
+Similarity run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+               const Params& params, float share, float* out) {
+  ResidualWriter<kBilinear> writer{here.features,
+                                   there.features,
+                                   Lanes(static_cast<float>(params.beta)),
+                                   Lanes(share),
+                                   out,
+                                   here.tile.width,
+                                   {}};
   for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
                         covered_box(here.tile), writer);
+  return {writer.sum.total(), writer.seen, writer.rendered};
 }
 
-void write_covered(const ScoredView& here, const ScoredView& there, const StereoMap& map,
-                   const Params& params, float share, float* out) {
-  if (params.lookup == Lookup::bilinear) {
-    run<true>(here, there, map, params, share, out);
-  } else {
-    run<false>(here, there, map, params, share, out);
-  }
+Similarity write_covered(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                         const Params& params, float share, float* out) {
+  return params.lookup == Lookup::bilinear ? run<true>(here, there, map, params, share, out)
+                                           : run<false>(here, there, map, params, share, out);
 }
 
 }  // namespace hypotrack::stereo_color::HWY_NAMESPACE
@@ -79,11 +87,11 @@ PixelPlane<float> uncovered_residuals(const Features& features, float share) {
   return plane;
 }
 
-void write_residuals(const ScoredView& here, const ScoredView& there, const StereoMap& map,
-                     const Params& params, float share, const PixelPlane<float>& uncovered,
-                     std::span<float> residuals) {
+Similarity write_residuals(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                           const Params& params, float share, const PixelPlane<float>& uncovered,
+                           std::span<float> residuals) {
   std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
-  HWY_DYNAMIC_DISPATCH(write_covered)(here, there, map, params, share, residuals.data());
+  return HWY_DYNAMIC_DISPATCH(write_covered)(here, there, map, params, share, residuals.data());
 }
 
 }  // namespace hypotrack::stereo_color

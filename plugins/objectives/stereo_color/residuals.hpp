@@ -15,9 +15,9 @@ PixelPlane<float> uncovered_residuals(const Features& features, float share);
 
 /// Writes sqrt(share (C - s)) for every pixel of `here`, rows without gaps: s is what measure()
 /// adds up, 0 where the pixel is uncovered or occluded (`uncovered` of the features and the share).
-/// The sum of squares is share (sum of C - S). SIMD, as measure().
-void write_residuals(const ScoredView& here, const ScoredView& there, const StereoMap& map,
-                     const Params& params, float share, const PixelPlane<float>& uncovered,
-                     std::span<float> residuals);
+/// The sum of squares is share (sum of C - S). Returns what measure() does. SIMD, as measure().
+Similarity write_residuals(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                           const Params& params, float share, const PixelPlane<float>& uncovered,
+                           std::span<float> residuals);
 
 }  // namespace hypotrack::stereo_color

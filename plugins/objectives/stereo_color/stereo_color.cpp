@@ -51,15 +51,13 @@ void StereoColor::check_tiles(const RenderedHypothesis& hypothesis) const {
 
 double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
-  switch (params_.direction) {
-    case Direction::left_to_right:
-      return 0.0 - score(hypothesis, 0, 1);  // not -0.0
-    case Direction::right_to_left:
-      return 0.0 - score(hypothesis, 1, 0);
-    case Direction::both:
-      return 0.0 - 0.5 * (score(hypothesis, 0, 1) + score(hypothesis, 1, 0));
+  double sum = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!uses(i)) continue;
+    sum += score(measure({features_[i], hypothesis.views[i]},
+                         {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], params_));
   }
-  return 0;
+  return cost_of(sum);
 }
 
 std::unique_ptr<cuda::DeviceObjective> StereoColor::on_device() const {
@@ -87,25 +85,33 @@ std::int64_t StereoColor::residual_count() const {
 
 void StereoColor::write_residuals(const RenderedHypothesis& hypothesis,
                                   std::span<float> residuals) const {
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double StereoColor::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                       std::span<float> residuals) const {
   check_tiles(hypothesis);
+  double sum = 0;
   for (std::size_t i = 0; i < 2; ++i) {
     if (!uses(i)) continue;
     const auto& plane = uncovered_[i];
     const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
-    stereo_color::write_residuals({features_[i], hypothesis.views[i]},
-                                  {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], params_,
-                                  share(), uncovered_[i], residuals.first(size));
+    const Similarity similarity = stereo_color::write_residuals(
+        {features_[i], hypothesis.views[i]}, {features_[1 - i], hypothesis.views[1 - i]}, maps_[i],
+        params_, share(), uncovered_[i], residuals.first(size));
+    sum += score(similarity);
     residuals = residuals.subspan(size);
   }
+  return cost_of(sum);
 }
 
-double StereoColor::score(const RenderedHypothesis& hypothesis, int from, int to) const {
-  const auto a = static_cast<std::size_t>(from);
-  const auto b = static_cast<std::size_t>(to);
-  const Similarity similarity = measure({features_[a], hypothesis.views[a]},
-                                        {features_[b], hypothesis.views[b]}, maps_[a], params_);
+double StereoColor::score(const Similarity& similarity) const {
   return aggregate(params_.aggregation, similarity.sum, static_cast<double>(similarity.seen),
                    static_cast<double>(similarity.rendered));
+}
+
+double StereoColor::cost_of(double scores) const {
+  return 0.0 - double{share()} * scores;  // not -0.0
 }
 
 }  // namespace hypotrack::stereo_color

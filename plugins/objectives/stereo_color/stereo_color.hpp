@@ -57,12 +57,15 @@ class StereoColor : public Objective, public ResidualTerm {
   /// Throws DataError as cost().
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
 
  private:
   void check_tiles(const RenderedHypothesis& hypothesis) const;
-  double score(const RenderedHypothesis& hypothesis, int from, int to) const;
-  bool uses(std::size_t from) const;  ///< whether pixels of this view are summed up
-  float share() const;                ///< of each of the directions that are
+  double score(const Similarity& similarity) const;
+  double cost_of(double scores) const;  ///< the sum of those of the directions that are used
+  bool uses(std::size_t from) const;    ///< whether pixels of this view are summed up
+  float share() const;                  ///< of each of the directions that are
 
   Params params_;
   std::array<Features, 2> features_;
