@@ -26,6 +26,7 @@ void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_evaluate_command(CLI::App& app, int& exit_code);
+void add_reliability_command(CLI::App& app, int& exit_code);
 void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_bench_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code);

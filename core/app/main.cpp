@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   add_fit_shape_command(app, common, exit_code);
   add_synth_command(app, common, exit_code);
   add_evaluate_command(app, exit_code);
+  add_reliability_command(app, exit_code);
   add_compare_command(app, common, exit_code);
   add_bench_command(app, common, exit_code);
   add_report_command(app, common, exit_code);

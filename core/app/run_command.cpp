@@ -52,6 +52,12 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
         "joint error: mean {:.2f} mm, median {:.2f} mm, 95 % below {:.2f} mm, {:.1f} % of the "
         "frames below 10 mm\n",
         m.mean_error_mm, m.median_error_mm, m.p95_error_mm, 100 * m.success.front());
+  if (s.mean_sigma) fmt::print("sigma: mean {:.2f} mm", 1000 * *s.mean_sigma);
+  if (s.reliability.count() > 0)
+    fmt::print(", {:.0f} % of the landmarks within one, {:.0f} % within two, {:.0f} % within three",
+               100 * s.reliability.within(1), 100 * s.reliability.within(2),
+               100 * s.reliability.within(3));
+  if (s.mean_sigma) fmt::print("\n");
   fmt::print("results in {}\n", out.string());
 }
 

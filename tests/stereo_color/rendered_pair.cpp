@@ -55,7 +55,8 @@ std::vector<Camera> rectified_cameras() {
   return cameras;
 }
 
-// Palm to the cameras, fingers up, everything bent a little.
+}  // namespace
+
 Eigen::VectorXd slightly_bent(const Scene& scene) {
   Eigen::VectorXd state = scene.rest_state();
   state.head<7>() << -0.005, 0.085, kDistance, 0, 1, 0, 0;  // half a turn about x
@@ -66,15 +67,13 @@ Eigen::VectorXd slightly_bent(const Scene& scene) {
   return state;
 }
 
-}  // namespace
-
-RenderedPair::RenderedPair() {
+RenderedPair::RenderedPair(const Pose& pose) {
   cv::RNG rng(7);
   scene_ =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
           {"hand", std::make_shared<Model>(textured_hand(rng))}});
   Renderer renderer(*scene_);
-  truth_ = slightly_bent(*scene_);
+  truth_ = pose(*scene_);
   observation_.scene = scene_.get();
   observation_.rectified = true;
   for (const Camera& c : rectified_cameras()) {

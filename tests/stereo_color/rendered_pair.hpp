@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "hypotrack/objective.hpp"
@@ -7,12 +8,17 @@
 
 namespace hypotrack::stereo_color {
 
+/// Palm to the cameras, fingers up, everything bent a little.
+Eigen::VectorXd slightly_bent(const Scene& scene);
+
 /// A textured hand before noise as a rectified pair of tiles sees it, drawn with OpenGL, and
 /// costs of hypotheses of it.
 class RenderedPair {
  public:
+  using Pose = std::function<Eigen::VectorXd(const Scene&)>;
+
   /// Throws DeviceError where there is no OpenGL.
-  RenderedPair();
+  explicit RenderedPair(const Pose& pose = slightly_bent);
 
   const Observation& observation() const { return observation_; }
   const Scene& scene() const { return *scene_; }

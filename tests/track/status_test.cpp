@@ -7,55 +7,71 @@
 namespace hypotrack {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
 StatusMonitor experienced_monitor(const StatusSettings& settings = {}) {
   StatusMonitor monitor(settings);
-  for (int i = 0; i < 20; ++i) EXPECT_EQ(monitor.judge(-100 + i % 3, 1.0), Status::tracked);
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(monitor.judge(-100 + i % 3, 1.0, kUnknown), Status::tracked);
   return monitor;
 }
 
 TEST(Status, AnUsualCostIsTracked) {
-  EXPECT_EQ(experienced_monitor().judge(-98, 1.0), Status::tracked);
+  EXPECT_EQ(experienced_monitor().judge(-98, 1.0, kUnknown), Status::tracked);
 }
 
 TEST(Status, AnOutlierOfTheCostIsUncertain) {
-  EXPECT_EQ(experienced_monitor().judge(-60, 1.0), Status::uncertain);
+  EXPECT_EQ(experienced_monitor().judge(-60, 1.0, kUnknown), Status::uncertain);
 }
 
 TEST(Status, ABetterCostThanEverIsTracked) {
-  EXPECT_EQ(experienced_monitor().judge(-500, 1.0), Status::tracked);
+  EXPECT_EQ(experienced_monitor().judge(-500, 1.0, kUnknown), Status::tracked);
 }
 
 TEST(Status, UncertaintyThatLastsIsLost) {
   StatusSettings settings;
   settings.patience = 4;
   StatusMonitor monitor = experienced_monitor(settings);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(monitor.judge(0, 1.0), Status::uncertain);
-  EXPECT_EQ(monitor.judge(0, 1.0), Status::lost);
-  EXPECT_EQ(monitor.judge(-99, 1.0), Status::tracked);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(monitor.judge(0, 1.0, kUnknown), Status::uncertain);
+  EXPECT_EQ(monitor.judge(0, 1.0, kUnknown), Status::lost);
+  EXPECT_EQ(monitor.judge(-99, 1.0, kUnknown), Status::tracked);
 }
 
 TEST(Status, ACostThatStaysBecomesWhatIsExpected) {
   StatusMonitor monitor = experienced_monitor();
   int uncertain = 0;
-  while (monitor.judge(-60, 1.0) != Status::tracked) ASSERT_LT(++uncertain, 40);
+  while (monitor.judge(-60, 1.0, kUnknown) != Status::tracked) ASSERT_LT(++uncertain, 40);
   EXPECT_GT(uncertain, 3);
-  EXPECT_EQ(monitor.judge(-60, 1.0), Status::tracked);
+  EXPECT_EQ(monitor.judge(-60, 1.0, kUnknown), Status::tracked);
 }
 
 TEST(Status, OutOfViewIsLostAndHalfOutIsUncertain) {
-  EXPECT_EQ(experienced_monitor().judge(-99, 0.1), Status::lost);
-  EXPECT_EQ(experienced_monitor().judge(-99, 0.5), Status::uncertain);
+  EXPECT_EQ(experienced_monitor().judge(-99, 0.1, kUnknown), Status::lost);
+  EXPECT_EQ(experienced_monitor().judge(-99, 0.5, kUnknown), Status::uncertain);
 }
 
 TEST(Status, AnInfeasibleSolutionIsLost) {
-  EXPECT_EQ(experienced_monitor().judge(std::numeric_limits<double>::infinity(), 1.0),
+  EXPECT_EQ(experienced_monitor().judge(std::numeric_limits<double>::infinity(), 1.0, kUnknown),
             Status::lost);
+}
+
+TEST(Status, ALargeSigmaIsUncertainHoweverLongItLastsAndALargerOneLost) {
+  StatusSettings settings;
+  settings.uncertain_sigma = 0.008;
+  settings.lost_sigma = 0.050;
+  StatusMonitor monitor = experienced_monitor(settings);
+  EXPECT_EQ(monitor.judge(-99, 1.0, 0.007), Status::tracked);
+  for (int i = 0; i < 3 * settings.patience; ++i)
+    EXPECT_EQ(monitor.judge(-99, 1.0, 0.009), Status::uncertain);
+  EXPECT_EQ(monitor.judge(-99, 1.0, 0.051), Status::lost);
+  EXPECT_EQ(monitor.judge(-99, 1.0, std::numeric_limits<double>::infinity()), Status::lost);
+  EXPECT_EQ(monitor.judge(-99, 1.0, 0.007), Status::tracked);
 }
 
 TEST(Status, TheFirstFramesHaveNothingToCompareWith) {
   StatusMonitor monitor({});
-  EXPECT_EQ(monitor.judge(-1, 1.0), Status::tracked);
-  EXPECT_EQ(monitor.judge(1000, 1.0), Status::tracked);
+  EXPECT_EQ(monitor.judge(-1, 1.0, kUnknown), Status::tracked);
+  EXPECT_EQ(monitor.judge(1000, 1.0, kUnknown), Status::tracked);
 }
 
 }  // namespace

@@ -8,13 +8,18 @@
 #include <random>
 #include <utility>
 
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
 namespace {
 
+using testing::AllOf;
+using testing::HasSubstr;
+
 /// Distance of the model's position from a target that moves 5 mm per frame along x.
-class MovingTarget final : public Objective {
+class MovingTarget final : public Objective, public ResidualTerm {
  public:
   bool needs_rendering() const override { return false; }
   void prepare(const Observation& observation) override { x_ = 0.005 * observation.frame; }
@@ -22,7 +27,15 @@ class MovingTarget final : public Objective {
     if (infeasible) return std::numeric_limits<double>::infinity();
     return std::hypot(h.state[0] - x_, h.state[1], h.state[2] - 0.5);
   }
+  const ResidualTerm* residual_term() const override { return offers_residuals ? this : nullptr; }
+  std::int64_t residual_count() const override { return 3; }
+  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+    for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
+    residuals[0] -= static_cast<float>(x_);
+    residuals[2] -= 0.5F;
+  }
   bool infeasible = false;
+  bool offers_residuals = true;
 
  private:
   double x_ = 0;
@@ -58,6 +71,7 @@ struct Fixture {
   Sampling* optimizer = nullptr;
   SearchSettings search;
   SmoothingSettings smoothing;
+  StatusSettings status;
 
   Eigen::VectorXd start() const {
     Eigen::VectorXd state = scene.rest_state();
@@ -78,6 +92,7 @@ struct Fixture {
     parts.budget.evaluations = evaluations;
     parts.search = search;
     parts.smoothing = smoothing;
+    parts.status = status;
     return Tracker(scene, std::move(parts), start(), seed);
   }
 };
@@ -212,6 +227,49 @@ TEST(Tracker, AMissingFrameKeepsTheState) {
   EXPECT_EQ(solution.status, Status::missing);
   EXPECT_EQ(solution.state, before.state);
   EXPECT_TRUE(std::isnan(solution.cost));
+}
+
+TEST(Tracker, SaysHowFarOffEveryLandmarkMayBeIfItIsToldTo) {
+  Fixture fixture;
+  EXPECT_EQ(fixture.make(1).track(grey_frame(0)).sigma.size(), 0);
+  fixture.status.uncertainty.enabled = true;
+  Tracker tracker = fixture.make(1);
+  const Solution solution = tracker.track(grey_frame(0));
+  ASSERT_EQ(solution.sigma.size(), 3);
+  EXPECT_TRUE(solution.sigma.allFinite());
+  // The target has no rotation, so only the centre is known: the ends of the axes keep the prior.
+  EXPECT_LT(solution.sigma[0], 0.5 * solution.sigma[1]);
+  Frame missing;
+  missing.index = 1;
+  EXPECT_TRUE(tracker.track(missing).sigma.array().isNaN().all());
+}
+
+TEST(Tracker, TakesWhatSigmasNeedOffTheBudgetOfTheSearch) {
+  Fixture fixture;
+  fixture.status.uncertainty.enabled = true;
+  Tracker tracker = fixture.make(1, 100);
+  EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 100);
+  EXPECT_EQ(fixture.optimizer->budgets.front(), 100 - 13);  // 2 * 6 numbers of a box, and one
+  EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1, 25); }),
+              AllOf(HasSubstr("tracker.uncertainty takes 13 evaluations"), HasSubstr("which is 25"),
+                    HasSubstr("budget.evaluations 26 or more")));
+}
+
+TEST(Tracker, NeedsResidualsToSayHowFarOffLandmarksMayBe) {
+  Fixture fixture;
+  fixture.status.uncertainty.enabled = true;
+  fixture.target->offers_residuals = false;
+  EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1); }),
+              AllOf(HasSubstr("offers no residuals"), HasSubstr("leave tracker.uncertainty off")));
+}
+
+TEST(Tracker, IsUncertainWhereSigmasAreLarge) {
+  Fixture fixture;
+  fixture.status.uncertainty.enabled = true;
+  fixture.status.uncertain_sigma = 1e-6;
+  EXPECT_EQ(fixture.make(1).track(grey_frame(0)).status, Status::uncertain);
+  fixture.status.lost_sigma = 1e-6;
+  EXPECT_EQ(fixture.make(1).track(grey_frame(0)).status, Status::lost);
 }
 
 TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
@@ -18,6 +19,20 @@ void write_caption(cv::Mat& image, const std::string& text) {
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {0, 0, 0}, 4, cv::LINE_AA);
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {255, 255, 255}, 1,
               cv::LINE_AA);
+}
+
+/// A ring about every landmark, as large as it may be off.
+void draw_sigmas(cv::Mat& image, const Camera& camera, const Eigen::Matrix3Xd& landmarks,
+                 const Eigen::VectorXd& sigmas) {
+  for (Eigen::Index i = 0; i < sigmas.size(); ++i) {
+    const Eigen::Vector2d at = project(camera, landmarks.col(i));
+    const double radius = camera.fx * sigmas[i] / (camera.camera_from_world * landmarks.col(i)).z();
+    // NaN fails both: nothing is known, or the landmark is behind the camera.
+    if (!(at.cwiseAbs().maxCoeff() < 1e4) || !(radius > 0 && radius < camera.width)) continue;
+    const cv::Point center(cvRound(at.x()), cvRound(at.y()));
+    cv::circle(image, center, cvRound(radius), {0, 0, 0}, 3, cv::LINE_AA);
+    cv::circle(image, center, cvRound(radius), {80, 230, 255}, 1, cv::LINE_AA);
+  }
 }
 
 }  // namespace
@@ -44,6 +59,7 @@ void OverlayVideo::add(const Frame& frame, const Solution& solution) {
     image =
         draw_overlay(*renderer_, *scene_, picture_of(frame.views.front()), camera_, solution.state);
     caption += fmt::format("  cost {:.4g}", solution.cost);
+    draw_sigmas(image, camera_, scene_->landmarks(solution.state), solution.sigma);
   }
   write_caption(image, caption);
   writer_.write(image);

@@ -24,13 +24,15 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     : scene_(&scene),
       camera_(camera),
       options_(std::move(options)),
-      directory_(options_.directory, {"track.csv", "joints.csv", "truth_states.csv",
-                                      "truth_landmarks.csv", "errors.csv", "overlay.mp4",
-                                      "worst_#.jpg", "run.yaml", "metrics.json", "summary.json"}),
+      directory_(options_.directory,
+                 {"track.csv", "joints.csv", "truth_states.csv", "truth_landmarks.csv",
+                  "errors.csv", "uncertainty.csv", "overlay.mp4", "worst_#.jpg", "run.yaml",
+                  "metrics.json", "summary.json"}),
       track_(directory_.part("track.csv")),
       joints_(directory_.part("joints.csv")),
       metrics_(landmark_layout(scene.landmark_names())),
       truth_(scene, metrics_.layout(), directory_),
+      uncertainty_(scene, directory_),
       worst_(options_.worst_frames) {
   TextFile(directory_.part("run.yaml")).write(options_.resolved);
   if (options_.overlay)
@@ -68,6 +70,7 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
     truth_.add(frame, *truth, error);
     remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
   }
+  uncertainty_.add(solution, error.landmarks);
   if (overlay_) overlay_->add(frame, solution);
 
   ++frames_;
@@ -94,6 +97,8 @@ Summary RunOutput::summarize(bool complete) const {
   summary.uncertain_frames = uncertain_frames_;
   summary.backend = options_.backend;
   summary.metrics = metrics_.metrics();
+  summary.mean_sigma = uncertainty_.mean_sigma();
+  summary.reliability = uncertainty_.reliability();
   if (seconds_ > 0) {
     summary.fps = (frames_ - summary.metrics.missing_frames) / seconds_;
     summary.evaluations_per_second = static_cast<double>(evaluations_) / seconds_;

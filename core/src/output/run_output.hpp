@@ -13,6 +13,7 @@
 #include "output/summary.hpp"
 #include "output/text_file.hpp"
 #include "output/truth_output.hpp"
+#include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"
 #include "track/tracker.hpp"
 
@@ -21,8 +22,8 @@ namespace hypotrack {
 class OverlayVideo;
 
 /// Writes what a run leaves behind: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json;
-/// with ground truth also truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and
-/// worst_<frame>.jpg.
+/// uncertainty.csv if the tracker says how far off landmarks may be; with ground truth also
+/// truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
 class HYPOTRACK_API RunOutput {
  public:
   struct Options {
@@ -66,6 +67,7 @@ class HYPOTRACK_API RunOutput {
   std::unique_ptr<OverlayVideo> overlay_;
   MetricsCollector metrics_;
   TruthOutput truth_;
+  UncertaintyOutput uncertainty_;
   WorstFrames worst_;
   int frames_ = 0;
   int uncertain_frames_ = 0;

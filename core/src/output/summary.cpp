@@ -22,6 +22,12 @@ std::string to_json(const Summary& s) {
     for (const std::size_t mm : {5, 10, 20, 40})
       json[fmt::format("fraction_below_{}mm", mm)] = s.metrics.success_curve[mm];
   }
+  if (s.mean_sigma) json["mean_sigma_mm"] = 1000 * *s.mean_sigma;
+  if (s.reliability.count() > 0) {
+    json["error_over_sigma"] = s.reliability.error_over_sigma();
+    for (const int sigmas : {1, 2, 3})
+      json[fmt::format("within_{}_sigma", sigmas)] = s.reliability.within(sigmas);
+  }
   return json.dump(2) + "\n";
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "hypotrack/export.hpp"
 #include "metrics/metrics.hpp"
+#include "metrics/reliability.hpp"
 
 namespace hypotrack {
 
@@ -15,9 +17,11 @@ struct Summary {
   double evaluations_per_second = 0;
   std::string backend;
   Metrics metrics;
+  std::optional<double> mean_sigma;  ///< m; nothing if the tracker was not told to say
+  Reliability reliability;
 };
 
-/// Error statistics are left out where no frame has an error.
+/// Error statistics are left out where no frame has an error, those of sigma where there is none.
 HYPOTRACK_API std::string to_json(const Summary& summary);
 
 }  // namespace hypotrack

@@ -35,8 +35,8 @@ bool StatusMonitor::is_outlier(double cost) const {
   return cost > expected + settings_.outlier * deviation;
 }
 
-Status StatusMonitor::judge(double cost, double visible) {
-  if (!std::isfinite(cost) || visible < settings_.min_visible) {
+Status StatusMonitor::judge(double cost, double visible, double sigma) {
+  if (!std::isfinite(cost) || visible < settings_.min_visible || sigma > settings_.lost_sigma) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
@@ -48,7 +48,8 @@ Status StatusMonitor::judge(double cost, double visible) {
   if (outlier || visible < 2 * settings_.min_visible)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
-  return Status::tracked;
+  // A sigma that stays large, of hidden fingers, is no reason to give up.
+  return sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 
 }  // namespace hypotrack

@@ -1,13 +1,19 @@
 #include "track/tracker.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "hypotrack/error.hpp"
+
 namespace hypotrack {
 namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Costs of search points: points become states, states are evaluated.
 class StateCost final : public CostFunction, public ResidualCost {
@@ -56,6 +62,18 @@ PhotometricSettings of_pictures(PhotometricSettings settings,
   return settings;
 }
 
+/// Takes the evaluations that sigmas need off the budget of a search. Throws ConfigError if that
+/// would leave it less than half.
+void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
+  const std::int64_t needed = uncertainty.evaluations();
+  if (budget.evaluations < 2 * needed)
+    throw ConfigError(fmt::format(
+        "tracker.uncertainty takes {} evaluations of a frame's budget, which is {}; give "
+        "budget.evaluations {} or more, or leave tracker.uncertainty.enabled off",
+        needed, budget.evaluations, 2 * needed));
+  budget.evaluations -= needed;
+}
+
 }  // namespace
 
 Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
@@ -64,8 +82,10 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
       photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
       visible_(scene, parts_.cameras),
       space_(scene, parts_.search),
-      evaluator_(scene, parts_.objective, parts_.evaluate, parts_.optimizer->needs_residuals()),
+      evaluator_(scene, parts_.objective, parts_.evaluate,
+                 parts_.optimizer->needs_residuals() || parts_.status.uncertainty.enabled),
       monitor_(parts_.status),
+      landmarks_(landmark_layout(scene.landmark_names())),
       predictor_(scene, parts_.search.prediction),
       smoother_(scene, parts_.smoothing),
       state_(std::move(start)),
@@ -74,6 +94,8 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
   output_ = state_;
   if (parts_.budget.evaluations == 0)
     parts_.budget.evaluations = parts_.optimizer->default_evaluations();
+  if (parts_.status.uncertainty.enabled)
+    reserve_for(uncertainty_.emplace(scene, parts_.status.uncertainty), parts_.budget);
 }
 
 Tracker::~Tracker() = default;
@@ -82,7 +104,9 @@ Solution Tracker::track(const Frame& frame) {
   Solution solution;
   solution.frame = frame.index;
   solution.time = frame.time;
-  solution.cost = std::numeric_limits<double>::quiet_NaN();
+  solution.cost = kUnknown;
+  if (uncertainty_)
+    solution.sigma.setConstant(static_cast<Eigen::Index>(landmarks_.names.size()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
     const Eigen::MatrixXd starts = possible_starts(frame.time);
@@ -96,7 +120,11 @@ Solution Tracker::track(const Frame& frame) {
     const double visible = visible_.of(found);
     solution.cost = result.cost;
     solution.evaluations = result.evaluations;
-    solution.status = monitor_.judge(result.cost, visible);
+    if (uncertainty_) {
+      solution.sigma = uncertainty_->of(evaluator_, found);
+      solution.evaluations += uncertainty_->evaluations();
+    }
+    solution.status = monitor_.judge(result.cost, visible, largest_sigma(solution.sigma));
     // Where nothing was feasible, or the answer has left every image, the last state is the better
     // place to search the next frame from.
     if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame, plan);
@@ -135,6 +163,11 @@ Eigen::VectorXd Tracker::smoothed(const Solution& solution) {
   if (solution.status == Status::lost) smoother_.begin_anew();
   if (solution.status != Status::missing) output_ = smoother_.filter(state_, solution.time);
   return output_;
+}
+
+double Tracker::largest_sigma(const Eigen::VectorXd& sigma) const {
+  if (sigma.size() == 0) return kUnknown;
+  return std::ranges::max(model_means(landmarks_, sigma));
 }
 
 void Tracker::check(const Frame& frame) {

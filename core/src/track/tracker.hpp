@@ -12,11 +12,13 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "metrics/landmark_errors.hpp"
 #include "track/one_euro.hpp"
 #include "track/photometric.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
 #include "track/status.hpp"
+#include "track/uncertainty.hpp"
 #include "track/visible_share.hpp"
 
 namespace hypotrack {
@@ -30,6 +32,9 @@ struct Solution {
   std::int64_t evaluations = 0;
   double seconds = 0;     ///< from the frame to the answer: tiles, features and search
   Eigen::VectorXd state;  ///< normalised; smoothed if the tracker was told to
+  /// How far off each landmark of the scene may be, in metres: the root of the expected square.
+  /// Empty if the tracker was not told to say, NaN if the frame was missing.
+  Eigen::VectorXd sigma;
 };
 
 /// What a tracker is put together from.
@@ -72,6 +77,8 @@ class HYPOTRACK_API Tracker {
   Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
   void go_on_from(const Eigen::VectorXd& found, const Frame& frame, const TilePlan& plan);
   Eigen::VectorXd smoothed(const Solution& solution);
+  /// Mean over a model's landmarks, of the model where it is largest; NaN without sigmas.
+  double largest_sigma(const Eigen::VectorXd& sigma) const;
   /// Searches the prepared frame with what `evaluated` hypotheses have left of its budget.
   OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior, std::int64_t evaluated);
 
@@ -82,6 +89,8 @@ class HYPOTRACK_API Tracker {
   SearchSpace space_;
   Evaluator evaluator_;
   StatusMonitor monitor_;
+  LandmarkLayout landmarks_;
+  std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;
   Eigen::VectorXd state_;   ///< the last solution as it was found

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+#include "metrics/statistics.hpp"
+#include "output/reliability_tables.hpp"
+#include "output/text_file.hpp"
+#include "report/reliability_plot.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct ReliabilityOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path out = "reliability.svg";
+  std::string title = "How far off, and how far expected";
+};
+
+void print_bins(const Reliability& reliability) {
+  fmt::print("{:>16} {:>9} {:>12} {:>12} {:>8}\n", "sigma (mm)", "landmarks", "rms sigma",
+             "rms error", "ratio");
+  for (const ReliabilityBin& bin : reliability.bins()) {
+    if (bin.count == 0) continue;
+    fmt::print("{:>16} {:>9} {:>12.2f} {:>12.2f} {:>8.2f}\n",
+               fmt::format("{:g} to {:g}", 1000 * bin.low, 1000 * bin.high), bin.count,
+               1000 * bin.sigma, 1000 * bin.error, bin.error / bin.sigma);
+  }
+  fmt::print("\nroot mean square of error / sigma: {:.2f}\n", reliability.error_over_sigma());
+  for (const int sigmas : {1, 2, 3})
+    fmt::print("within {} sigma: {:.1f} %\n", sigmas, 100 * reliability.within(sigmas));
+}
+
+void print_statuses(const SelfJudgement& judgement) {
+  fmt::print("\n{:>16} {:>9} {:>12} {:>12} {:>12}\n", "status", "frames", "median error",
+             "95 % below", "largest");
+  for (const char* status : {"tracked", "uncertain", "lost"}) {
+    const auto found = judgement.errors_by_status.find(status);
+    if (found == judgement.errors_by_status.end()) continue;
+    const std::vector<double>& errors = found->second;
+    fmt::print("{:>16} {:>9} {:>12.2f} {:>12.2f} {:>12.2f}\n", status, errors.size(),
+               1000 * percentile(errors, 0.5), 1000 * percentile(errors, 0.95),
+               1000 * percentile(errors, 1));
+  }
+}
+
+int print_reliability(const ReliabilityOptions& options) {
+  SelfJudgement judgement;
+  for (const std::filesystem::path& run : options.runs) add_run(run, judgement);
+  if (judgement.reliability.count() == 0)
+    throw DataError(fmt::format("{}: no landmark has both a sigma and a known error",
+                                options.runs.front().string()));
+  print_bins(judgement.reliability);
+  print_statuses(judgement);
+  write_whole(options.out, reliability_svg(judgement.reliability, options.title));
+  fmt::print("\nplot in {}\n", options.out.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_reliability_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ReliabilityOptions>();
+  CLI::App* command = app.add_subcommand(
+      "reliability", "Compare how far landmarks may be off, as runs say, with how far they are");
+  command
+      ->add_option("runs", options->runs,
+                   "Folders of runs with tracker.uncertainty.enabled and a known truth")
+      ->required();
+  command->add_option("--out", options->out, "Where to draw it (SVG)")->capture_default_str();
+  command->add_option("--title", options->title, "What to write above the plot");
+  command->callback([=, &exit_code] { exit_code = print_reliability(*options); });
+}
+
+}  // namespace hypotrack::app

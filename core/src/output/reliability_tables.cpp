@@ -1,0 +1,101 @@
+#include "output/reliability_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/tables.hpp"
+#include "metrics/landmark_errors.hpp"
+#include "output/csv.hpp"
+
+namespace hypotrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path table_in(const fs::path& run, const char* name, const char* why_not) {
+  const fs::path file = run / name;
+  if (fs::exists(file)) return file;
+  throw DataError(fmt::format("{}: has no {}; expected a folder of 'hypotrack run'{}", run.string(),
+                              name, why_not));
+}
+
+std::map<int, Eigen::Matrix3Xd> landmarks_by_frame(const fs::path& file,
+                                                   const std::vector<std::string>& names) {
+  std::map<int, Eigen::Matrix3Xd> frames;
+  for (LandmarkRow& row : read_landmarks(file, names))
+    frames.emplace(row.frame, std::move(row.landmarks));
+  return frames;
+}
+
+/// The sigmas of a table, in metres.
+class SigmaTable {
+ public:
+  explicit SigmaTable(const fs::path& file) : table_(file), frame_(table_.find("frame")) {
+    for (const std::string_view name : table_.columns()) {
+      if (name == "frame" || name == "time") continue;
+      names_.emplace_back(name);
+      columns_.push_back(table_.find(name));
+    }
+    if (frame_ < 0 || names_.empty())
+      throw DataError(
+          fmt::format("{}: expected frame, time and a column for each landmark", file.string()));
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  std::map<int, Eigen::VectorXd> by_frame() const {
+    std::map<int, Eigen::VectorXd> frames;
+    for (const CsvTable::Row& row : table_.rows()) {
+      Eigen::VectorXd& sigma = frames[table_.frame(row, frame_)];
+      sigma.resize(static_cast<Eigen::Index>(columns_.size()));
+      for (std::size_t i = 0; i < columns_.size(); ++i)
+        sigma[static_cast<Eigen::Index>(i)] = 1e-3 * table_.number(row, columns_[i], true);
+    }
+    return frames;
+  }
+
+ private:
+  CsvTable table_;
+  int frame_;
+  std::vector<std::string> names_;
+  std::vector<int> columns_;
+};
+
+std::map<int, std::string> status_by_frame(const fs::path& file) {
+  const CsvTable table(file);
+  const int frame = table.find("frame"), status = table.find("status");
+  if (frame < 0 || status < 0)
+    throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
+                                file.string(), frame < 0 ? "frame" : "status"));
+  std::map<int, std::string> frames;
+  for (const CsvTable::Row& row : table.rows())
+    frames[table.frame(row, frame)] = row.cells[static_cast<std::size_t>(status)];
+  return frames;
+}
+
+}  // namespace
+
+void add_run(const fs::path& run, SelfJudgement& judgement) {
+  const SigmaTable sigmas(
+      table_in(run, "uncertainty.csv", " with tracker.uncertainty.enabled, which has ended"));
+  const auto estimates = landmarks_by_frame(table_in(run, "joints.csv", ""), sigmas.names());
+  const auto truths = landmarks_by_frame(
+      table_in(run, "truth_landmarks.csv", " whose source knows the truth"), sigmas.names());
+  const auto statuses = status_by_frame(table_in(run, "track.csv", ""));
+  const LandmarkLayout layout = landmark_layout(sigmas.names());
+  for (const auto& [frame, sigma] : sigmas.by_frame()) {
+    const auto estimate = estimates.find(frame), truth = truths.find(frame);
+    const auto status = statuses.find(frame);
+    if (estimate == estimates.end() || truth == truths.end() || status == statuses.end()) continue;
+    if (status->second == "missing") continue;
+    const FrameError error = frame_error(layout, estimate->second, truth->second);
+    judgement.reliability.add(sigma, error.landmarks);
+    if (!std::isnan(error.mean)) judgement.errors_by_status[status->second].push_back(error.mean);
+  }
+}
+
+}  // namespace hypotrack

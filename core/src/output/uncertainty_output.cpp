@@ -1,0 +1,35 @@
+#include "output/uncertainty_output.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <string>
+
+namespace hypotrack {
+
+void UncertaintyOutput::add(const Solution& solution, const Eigen::VectorXd& errors) {
+  if (solution.sigma.size() == 0) return;
+  if (!file_) {
+    file_.emplace(directory_->part("uncertainty.csv"));
+    std::string header = "frame,time";
+    for (const std::string& name : scene_->landmark_names()) header += "," + name;
+    file_->write(header + "\n");
+  }
+  std::string line = fmt::format("{},{}", solution.frame, solution.time);
+  for (const double sigma : solution.sigma) {
+    fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * sigma);
+    if (!std::isfinite(sigma)) continue;
+    sum_ += sigma;
+    ++count_;
+  }
+  file_->write(line + "\n");
+  reliability_.add(solution.sigma, errors);
+}
+
+std::optional<double> UncertaintyOutput::mean_sigma() const {
+  if (count_ == 0) return std::nullopt;
+  return sum_ / static_cast<double>(count_);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,113 @@
+#include "track/uncertainty.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "test_models.hpp"
+#include "track/tangent.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Residuals of a box: `pixels` readings of its position along some axes, each with noise of its
+/// own.
+class Readings final : public Objective, public ResidualTerm {
+ public:
+  Readings(std::vector<int> axes, int pixels, double noise) : axes_(std::move(axes)) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < pixels / 2; ++i) {
+      noise_.push_back(noise * normal(random));
+      noise_.push_back(-noise_.back());  // so that the middle is the minimum
+    }
+  }
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& h) const override {
+    double sum = 0;
+    for (const int axis : axes_)
+      for (const double noise : noise_) sum += std::pow(position(h, axis) + noise, 2);
+    return sum;
+  }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override {
+    return static_cast<std::int64_t>(axes_.size() * noise_.size());
+  }
+  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+    std::size_t i = 0;
+    for (const int axis : axes_)
+      for (const double noise : noise_)
+        residuals[i++] = static_cast<float>(position(h, axis) + noise);
+  }
+
+ private:
+  static double position(const RenderedHypothesis& h, int axis) {
+    return h.state[static_cast<std::size_t>(axis)];
+  }
+  std::vector<int> axes_;
+  std::vector<double> noise_;
+};
+
+struct Fixture {
+  Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
+  UncertaintySettings settings{.noise = 1, .floor = 0, .position = 0.05, .rotation = 1e-6};
+
+  /// Sigma of the box's centre, `away` from the middle along x.
+  double sigma(std::vector<int> axes, int pixels, double noise, double away = 0) const {
+    Evaluator evaluator(scene, {{1.0, std::make_shared<Readings>(axes, pixels, noise)}},
+                        {.backend = Backend::cpu, .threads = 1}, true);
+    evaluator.prepare(Observation{});
+    Eigen::VectorXd state = scene.rest_state();
+    state[0] = away;
+    return PoseUncertainty(scene, settings).of(evaluator, state)[0];
+  }
+};
+
+TEST(PoseUncertainty, IsWhatTheScatterOfTheResidualsLeavesOpen) {
+  const Fixture f;
+  // 400 readings per axis with noise of 20 mm: 1 mm per axis.
+  EXPECT_NEAR(f.sigma({0, 1, 2}, 400, 0.020), std::sqrt(3.0) * 0.001, 0.0002);
+  EXPECT_NEAR(f.sigma({0, 1, 2}, 1600, 0.020), std::sqrt(3.0) * 0.0005, 0.0001);
+  EXPECT_NEAR(f.sigma({0, 1, 2}, 400, 0.040), std::sqrt(3.0) * 0.002, 0.0004);
+}
+
+TEST(PoseUncertainty, GrowsByTheSettingsFactor) {
+  Fixture f;
+  const double before = f.sigma({0, 1, 2}, 400, 0.020);
+  f.settings.noise = 5;
+  EXPECT_NEAR(f.sigma({0, 1, 2}, 400, 0.020), 5 * before, 0.1 * before);
+}
+
+TEST(PoseUncertainty, OfWhatNothingIsSeenIsWhatTheSettingsSay) {
+  const Fixture f;
+  const double seen = f.sigma({0, 1, 2}, 400, 0.020);
+  EXPECT_NEAR(f.sigma({0, 1}, 400, 0.020), std::hypot(seen * std::sqrt(2.0 / 3), 0.05), 0.001);
+  EXPECT_NEAR(f.sigma({}, 400, 0.020), std::sqrt(3.0) * 0.05, 0.001);
+}
+
+TEST(PoseUncertainty, GrowsWhereASearchEndedBesideTheMinimum) {
+  const Fixture f;
+  const double away = f.sigma({0, 1, 2}, 400, 0.020, 0.015);
+  EXPECT_GT(away, 0.014);
+  EXPECT_LT(away, 0.018);
+}
+
+TEST(PoseUncertainty, HasAValueForEveryLandmarkAtTheBoundsToo) {
+  const Scene scene({{"hand", std::make_shared<Model>(test::make_test_hand())}});
+  Evaluator evaluator(scene, {{1.0, std::make_shared<Readings>(std::vector{0, 1, 2}, 50, 0.01)}},
+                      {.backend = Backend::cpu, .threads = 1}, true);
+  evaluator.prepare(Observation{});
+  Eigen::VectorXd state = scene.rest_state();
+  for (Eigen::Index i = 7; i < state.size(); ++i)
+    state[i] = scene.parameters()[static_cast<std::size_t>(i)].upper;
+  const Eigen::VectorXd sigma = PoseUncertainty(scene, {}).of(evaluator, state);
+  ASSERT_EQ(sigma.size(), 21);
+  EXPECT_TRUE(sigma.allFinite());
+  EXPECT_GT(sigma.minCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace hypotrack
