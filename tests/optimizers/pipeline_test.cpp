@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -130,6 +131,32 @@ TEST_F(PipelineTest, StagesWithoutAnEvaluationArePassedOver) {
   test::RecordingCost cost = away_from(3);
   EXPECT_EQ(minimize(cost, {1}).evaluations, 1);
   EXPECT_THAT(budgets(), ElementsAre(1));
+}
+
+TEST_F(PipelineTest, ARescueIsLeftOutWhereTheBestCostsNoMoreThanUsual) {
+  for (const double usual : {2.0, 1.9}) {  // the best of stage a costs 2
+    calls_.clear();
+    stages_.clear();
+    add("a", 1, 1, 1, 2);
+    add("b", 1, 1);
+    add("c", 1, 1);
+    stages_[1].rescue = true;
+    test::RecordingCost cost = away_from(3);
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(minimize(cost, {90, infinite, usual}).evaluations, 90);
+    const std::vector<std::int64_t> without{30, 88}, with{30, 44, 44};
+    EXPECT_EQ(budgets(), usual == 2 ? without : with);
+    for (const Call& call : calls_) EXPECT_EQ(call.budget.usual_cost, usual);
+  }
+}
+
+TEST_F(PipelineTest, WithoutAUsualCostEveryRescueRuns) {
+  add("a", 1, 1);
+  add("b", 1, 1);
+  stages_[1].rescue = true;
+  test::RecordingCost cost = away_from(0);
+  minimize(cost, {10});
+  EXPECT_THAT(budgets(), ElementsAre(5, 5));
 }
 
 TEST_F(PipelineTest, StagesHaveSeedsOfTheirOwn) {

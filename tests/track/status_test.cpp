@@ -28,6 +28,12 @@ TEST(Status, ABetterCostThanEverIsTracked) {
   EXPECT_EQ(experienced_monitor().judge(-500, 1.0, kUnknown), Status::tracked);
 }
 
+TEST(Status, WhatIsUsualLiesBetweenUsualCostsAndOutliers) {
+  EXPECT_GT(experienced_monitor().usual_cost(), -98);
+  EXPECT_LT(experienced_monitor().usual_cost(), -60);
+  EXPECT_EQ(StatusMonitor({}).usual_cost(), -std::numeric_limits<double>::infinity());
+}
+
 TEST(Status, UncertaintyThatLastsIsLost) {
   StatusSettings settings;
   settings.patience = 4;

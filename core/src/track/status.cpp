@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace hypotrack {
@@ -21,9 +22,9 @@ std::string_view to_string(Status status) {
   return names[static_cast<std::size_t>(status)];
 }
 
-bool StatusMonitor::is_outlier(double cost) const {
+double StatusMonitor::usual_cost() const {
   constexpr std::size_t kEnough = 5;  // below that there is nothing to compare with
-  if (costs_.size() < kEnough) return false;
+  if (costs_.size() < kEnough) return -std::numeric_limits<double>::infinity();
   const std::vector<double> costs(costs_.begin(), costs_.end());
   const double expected = median(costs);
   std::vector<double> deviations;
@@ -32,7 +33,7 @@ bool StatusMonitor::is_outlier(double cost) const {
   // 1.4826 MAD estimates a normal distribution's standard deviation; the floor keeps a nearly
   // constant cost from making every frame an outlier.
   const double deviation = std::max(1.4826 * median(deviations), 0.02 * std::abs(expected));
-  return cost > expected + settings_.outlier * deviation;
+  return expected + settings_.outlier * deviation;
 }
 
 Status StatusMonitor::judge(double cost, double visible, double sigma) {
@@ -40,7 +41,8 @@ Status StatusMonitor::judge(double cost, double visible, double sigma) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
-  const bool outlier = is_outlier(cost);
+  const double usual = usual_cost();
+  const bool outlier = std::isfinite(usual) && cost > usual;
   // Outliers are remembered, too: a closing fist changes the cost for good, and must become what is
   // expected.
   costs_.push_back(cost);

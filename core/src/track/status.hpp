@@ -65,8 +65,10 @@ class HYPOTRACK_API StatusMonitor {
   /// over a model's landmarks, of the model where it is largest; NaN where it is not known.
   Status judge(double cost, double visible, double sigma);
 
+  /// Above it a cost is an outlier of the recent past; -infinity before there is one.
+  double usual_cost() const;
+
  private:
-  bool is_outlier(double cost) const;
   StatusSettings settings_;
   std::deque<double> costs_;  ///< of past frames, newest last
   int uncertain_in_a_row_ = 0;

@@ -179,6 +179,7 @@ OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior
   StateCost cost(space_, prior, evaluator_);
   Budget budget = parts_.budget;
   budget.evaluations -= evaluated;
+  budget.usual_cost = monitor_.usual_cost();
   OptimizerResult result = parts_.optimizer->minimize(cost, space_.region(prior), budget,
                                                       frame_seed(seed_, frame.index));
   result.evaluations += evaluated;

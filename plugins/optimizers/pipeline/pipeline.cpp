@@ -51,15 +51,17 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
   for (std::size_t k = 0; k < stages_.size(); ++k) {
     const std::int64_t left = budget.evaluations - best.evaluations;
     if (left == 0 || (best.evaluations > 0 && deadline.passed())) break;
+    const bool needed = !stages_[k].rescue || best.evaluations == 0 ||
+                        best.cost > budget.usual_cost;
     const double share = k + 1 < stages_.size() ? stages_[k].share / shares : 1;
     shares -= stages_[k].share;
     const auto evaluations =
         std::min(left, static_cast<std::int64_t>(share * static_cast<double>(left)));
-    if (evaluations == 0) continue;
+    if (evaluations == 0 || !needed) continue;
 
     around.spread = stages_[k].spread * region.spread;
-    const OptimizerResult found =
-        run(k, cost, around, {evaluations, std::max(0.0, share * deadline.left())}, seed);
+    const Budget part{evaluations, std::max(0.0, share * deadline.left()), budget.usual_cost};
+    const OptimizerResult found = run(k, cost, around, part, seed);
     const std::int64_t all = best.evaluations + found.evaluations;
     if (best.evaluations == 0 || found.cost < best.cost) best = found;
     best.evaluations = all;

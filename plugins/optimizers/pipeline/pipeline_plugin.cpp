@@ -9,6 +9,7 @@ struct StageParams {
   hypotrack::ConfigNode optimizer;
   double share = 1;
   double spread = 1;
+  bool rescue = false;
   void visit(ParamVisitor& v) {
     v("optimizer", optimizer,
       {.help = "the stage's optimizer: {type: ..., its parameters}", .required = true});
@@ -21,6 +22,9 @@ struct StageParams {
                "best so far",
        .min = 1e-3,
        .max = 1e3});
+    v("rescue", rescue,
+      {.help = "whether this stage is left out where those before it have found what costs no more "
+               "than recent frames lead to expect; its budget goes to those after it"});
   }
 };
 
@@ -43,8 +47,8 @@ std::vector<hypotrack::PipelineStage> make_stages(const PipelineParams& params,
   std::vector<hypotrack::PipelineStage> stages;
   for (const StageParams& stage : params.stages) {
     auto optimizer = context.make<hypotrack::Optimizer>(stage.optimizer);
-    stages.push_back(
-        {stage.optimizer.get("type").scalar(), std::move(optimizer), stage.share, stage.spread});
+    stages.push_back({stage.optimizer.get("type").scalar(), std::move(optimizer), stage.share,
+                      stage.spread, stage.rescue});
   }
   return stages;
 }
