@@ -37,20 +37,25 @@ void choose_valid(cv::Mat1b& valid, int count, std::mt19937& random) {
   }
 }
 
-std::vector<std::uint32_t> packed(const TileView& view) {
-  std::vector<std::uint32_t> out;
-  for (int y = 0; y < view.camera.height; ++y) {
-    for (int x = 0; x < view.camera.width; ++x) {
-      const auto& p = view.color.at<cv::Vec3b>(y, x);
-      std::uint32_t word = p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16;
-      if (view.valid.at<uchar>(y, x) != 0) {
-        word |= cuda::kValidFlag;
-        if (!view.mask.empty() && view.mask.at<uchar>(y, x) != 0) word |= cuda::kForegroundFlag;
-      }
-      out.push_back(word);
-    }
+/// A pixel as layout.hpp has it.
+std::uint32_t packed(const TileView& view, int y, int x) {
+  std::uint32_t word = 0;
+  if (view.valid.at<uchar>(y, x) != 0) {
+    word |= cuda::kValidFlag;
+    if (!view.mask.empty() && view.mask.at<uchar>(y, x) != 0) word |= cuda::kForegroundFlag;
   }
-  return out;
+  if (view.color.empty()) return word;
+  const auto& p = view.color.at<cv::Vec3b>(y, x);
+  return word | p[0] | std::uint32_t{p[1]} << 8 | std::uint32_t{p[2]} << 16;
+}
+
+template <class T>
+const T* upload(cuda::DeviceBuffer<T>& to, const std::vector<T>& from, cuda::Stream stream) {
+  to.reserve(from.size());
+  cuda::check(cudaMemcpyAsync(to.data(), from.data(), from.size() * sizeof(T),
+                              cudaMemcpyHostToDevice, cuda::native(stream)),
+              "uploading a tile");
+  return to.data();
 }
 
 }  // namespace
@@ -78,16 +83,20 @@ TileView made_up_view(const ViewOptions& options) {
 
 DeviceFrame::DeviceFrame(const Observation& observation, cuda::Stream stream) {
   observation_.header = &observation;
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (std::size_t i = 0; i < observation.views.size(); ++i) {
     const TileView& view = observation.views[i];
-    const std::vector<std::uint32_t> pixels = packed(view);
-    pixels_[i].reserve(pixels.size());
-    cuda::check(cudaMemcpyAsync(pixels_[i].data(), pixels.data(), pixels.size() * 4,
-                                cudaMemcpyHostToDevice, cuda::native(stream)),
-                "uploading a tile");
-    observation_.tiles[i] = {{view.camera.width, view.camera.height, pixels_[i].data(), nullptr},
-                             true,
-                             !view.mask.empty()};
+    const int width = view.camera.width, height = view.camera.height;
+    cuda::DeviceTile& tile = observation_.tiles[i];
+    std::vector<std::uint32_t> words;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) words.push_back(packed(view, y, x));
+    tile.layout = {width, height, upload(pixels_[i], words, stream), nullptr};
+    tile.has_color = !view.color.empty();
+    tile.has_mask = !view.mask.empty();
+    if (view.depth.empty()) continue;
+    const auto* first = view.depth.ptr<float>();
+    tile.layout.depth =
+        upload(depth_[i], std::vector<float>(first, first + view.depth.total()), stream);
   }
   cuda::check(cudaStreamSynchronize(cuda::native(stream)), "uploading a tile");
 }

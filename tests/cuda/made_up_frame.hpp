@@ -22,7 +22,7 @@ struct ViewOptions {
 /// A tile with colour and, if wanted, mask.
 TileView made_up_view(const ViewOptions& options);
 
-/// Tiles of an observation in device memory.
+/// An observation in device memory: pixels and, where a view has it, depth (without gaps).
 class DeviceFrame {
  public:
   /// Waits until they are there.
@@ -31,7 +31,8 @@ class DeviceFrame {
 
  private:
   cuda::DeviceObservation observation_;
-  cuda::DeviceBuffer<std::uint32_t> pixels_[2];
+  cuda::DeviceBuffer<std::uint32_t> pixels_[cuda::kMaxViews];
+  cuda::DeviceBuffer<float> depth_[cuda::kMaxViews];
 };
 
 /// The first `count` objects of device memory, after all that is enqueued.

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <opencv2/core.hpp>
 #include <random>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "expect_error.hpp"
 #include "foreground.hpp"
 #include "hypotrack/error.hpp"
+#include "made_up_frame.hpp"
 #include "on_device.hpp"
 #include "params.hpp"
 
@@ -51,64 +51,10 @@ TileView noisy_view(int size, unsigned seed) {
   return view;
 }
 
-/// A frame in device memory, packed as layout.hpp says.
-class Uploaded {
- public:
-  explicit Uploaded(const Observation& observation) {
-    frame_.header = &observation;
-    for (std::size_t i = 0; i < observation.views.size(); ++i) {
-      const TileView& view = observation.views[i];
-      cuda::DeviceTile& tile = frame_.tiles[i];
-      std::vector<std::uint32_t> words;
-      for (int y = 0; y < view.camera.height; ++y)
-        for (int x = 0; x < view.camera.width; ++x) words.push_back(word(view, y, x));
-      tile.layout = {view.camera.width, view.camera.height, upload(pixels_[i], words), nullptr};
-      tile.has_color = !view.color.empty();
-      tile.has_mask = !view.mask.empty();
-      if (view.depth.empty()) continue;
-      const auto* first = view.depth.ptr<float>();
-      tile.layout.depth = upload(depth_[i], std::vector<float>(first, first + view.depth.total()));
-    }
-  }
-  const cuda::DeviceObservation& frame() const { return frame_; }
-
- private:
-  static std::uint32_t word(const TileView& view, int y, int x) {
-    std::uint32_t bits = 0;
-    const bool valid = view.valid.at<uchar>(y, x) != 0;
-    if (valid) bits |= cuda::kValidFlag;
-    if (valid && !view.mask.empty() && view.mask.at<uchar>(y, x) != 0) {
-      bits |= cuda::kForegroundFlag;
-    }
-    if (view.color.empty()) return bits;
-    const auto& bgr = view.color.at<cv::Vec3b>(y, x);
-    return bits | bgr[0] | static_cast<std::uint32_t>(bgr[1] << 8 | bgr[2] << 16);
-  }
-  template <class T>
-  static const T* upload(cuda::DeviceBuffer<T>& to, const std::vector<T>& from) {
-    to.reserve(from.size());
-    cuda::check(cudaMemcpy(to.data(), from.data(), from.size() * sizeof(T), cudaMemcpyHostToDevice),
-                "uploading a test's frame");
-    return to.data();
-  }
-
-  cuda::DeviceObservation frame_;
-  cuda::DeviceBuffer<std::uint32_t> pixels_[cuda::kMaxViews];
-  cuda::DeviceBuffer<float> depth_[cuda::kMaxViews];
-};
-
-template <class T>
-std::vector<T> downloaded(const T* from, std::size_t count) {
-  std::vector<T> to(count);
-  cuda::check(cudaMemcpy(to.data(), from, count * sizeof(T), cudaMemcpyDeviceToHost),
-              "downloading a test's result");
-  return to;
-}
-
 void expect_what_the_cpu_observes(DeviceFrame& frame, const Observation& observation,
                                   const Settings& settings) {
-  const Uploaded uploaded(observation);
-  frame.enqueue(uploaded.frame(), {});
+  const test::DeviceFrame uploaded(observation, {});
+  frame.enqueue(uploaded.observation(), {});
   std::int64_t foreground = 0, measured = 0;
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     SCOPED_TRACE("view " + std::to_string(i));
@@ -121,12 +67,12 @@ void expect_what_the_cpu_observes(DeviceFrame& frame, const Observation& observa
     const ObservedView expected = observe(view, settings.foreground, range);
     foreground += expected.foreground;
     measured += expected.measured;
-    const std::vector<float> plane = downloaded(found, view.depth.total());
+    const std::vector<float> plane = test::download(found, view.depth.total(), {});
     EXPECT_TRUE(std::equal(plane.begin(), plane.end(), expected.pixels.row(0)));
   }
   EXPECT_GT(measured, 0);
   EXPECT_GT(foreground, measured - 1);
-  const Counts counts = downloaded(frame.counts(), 1)[0];
+  const Counts counts = test::download(frame.counts(), 1, {})[0];
   EXPECT_EQ(counts.foreground, foreground);
   EXPECT_EQ(counts.measured, measured);
 }
@@ -155,13 +101,13 @@ TEST(RgbdDepthOnDevice, ItsMemoryStaysWhereItIs) {
   DeviceFrame frame({});
   Observation observation = blank_observation(4);
   observation.views = {noisy_view(128, 1)};
-  const Uploaded large(observation);
-  frame.enqueue(large.frame(), {});
+  const test::DeviceFrame large(observation, {});
+  frame.enqueue(large.observation(), {});
   const float* plane = frame.observed(0);
   const Counts* counts = frame.counts();
   observation.views = {noisy_view(61, 2)};
-  const Uploaded small(observation);
-  frame.enqueue(small.frame(), {});
+  const test::DeviceFrame small(observation, {});
+  frame.enqueue(small.observation(), {});
   EXPECT_EQ(frame.observed(0), plane);
   EXPECT_EQ(frame.counts(), counts);
 }

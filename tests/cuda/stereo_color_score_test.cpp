@@ -1,64 +1,15 @@
 #include <gtest/gtest.h>
 
 #include "device.hpp"
-#include "evaluate/evaluator.hpp"
-#include "made_up_frame.hpp"
+#include "device_scores.hpp"
 #include "observations.hpp"
 #include "stereo_color.hpp"
-#include "test_models.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {
 
-constexpr int kHypotheses = 200;
-
-Eigen::MatrixXd random_states(const Scene& scene) {
-  std::mt19937_64 random(11);
-  Eigen::MatrixXd states(scene.dimension(), kHypotheses);
-  for (auto state : states.colwise()) {
-    state = test::random_state(scene, random, {0, 0, 0.5}, 0.05);
-    scene.normalize(state);
-  }
-  return states;
-}
-
-// A foreground of wide stripes.
-cv::Mat1b striped_mask(int width, int height) {
-  cv::Mat1b mask(height, width, uchar{255});
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) mask(y, x) = (8 * (x + y) / width) % 3 == 0 ? 0 : 255;
-  }
-  return mask;
-}
-
-// The same waves in both views: colours that are near each other, though not equal.
-Observation colored(Observation observation) {
-  for (TileView& view : observation.views) {
-    const int width = view.camera.width, height = view.camera.height;
-    view.color = test::made_up_view({.width = width, .height = height}).color;
-    view.mask = striped_mask(width, height);
-  }
-  return observation;
-}
-
-Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation& observation,
-                         const Params& params, const Eigen::MatrixXd& states) {
-  Evaluator evaluator(scene, {{1, std::make_shared<StereoColor>(params)}}, {.backend = backend});
-  evaluator.prepare(observation);
-  Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
-  return costs;
-}
-
-void expect_like_the_cpu(const Scene& scene, const Observation& observation, const Params& params) {
-  const Eigen::MatrixXd states = random_states(scene);
-  const Eigen::VectorXd cpu = costs_on(Backend::cpu, scene, observation, params, states);
-  const Eigen::VectorXd gpu = costs_on(Backend::cuda, scene, observation, params, states);
-  ASSERT_LT(cpu.maxCoeff(), 0);  // every hypothesis is seen
-  const Eigen::ArrayXd difference = (gpu - cpu).array().abs() / -cpu.minCoeff();
-  EXPECT_LT(difference.maxCoeff(), 1e-3);
-  EXPECT_LT(difference.mean(), 5e-5);
-  EXPECT_EQ(costs_on(Backend::cuda, scene, observation, params, states), gpu);
+test::MakeObjective stereo_color(const Params& params) {
+  return [params] { return std::make_shared<StereoColor>(params); };
 }
 
 class StereoColorOnDevice : public testing::Test {
@@ -70,9 +21,10 @@ class StereoColorOnDevice : public testing::Test {
   static void expect_like_the_cpu_everywhere(Params params) {
     params.beta = 2;  // the made-up views are not that alike
     const Scene hand = test::hand_scene(), both = test::hand_and_box_scene();
-    expect_like_the_cpu(hand, colored(test::rectified_pair(hand, 256)), params);
-    expect_like_the_cpu(both, colored(test::rectified_pair(both, 512)), params);
-    expect_like_the_cpu(both, colored(test::general_pair(both, 256)), params);
+    const auto make = stereo_color(params);
+    test::expect_like_the_cpu(hand, test::colored(test::rectified_pair(hand, 256)), make);
+    test::expect_like_the_cpu(both, test::colored(test::rectified_pair(both, 512)), make);
+    test::expect_like_the_cpu(both, test::colored(test::general_pair(both, 256)), make);
   }
 };
 
@@ -112,7 +64,7 @@ TEST_F(StereoColorOnDevice, ScoresAsTheCpuInEveryColorSpace) {
 
 TEST_F(StereoColorOnDevice, CostsNothingWhereNothingIsSeen) {
   const Scene scene = test::hand_scene();
-  Eigen::MatrixXd states = random_states(scene).leftCols(2);
+  Eigen::MatrixXd states = test::scored_states(scene).leftCols(2);
   states(2, 0) = -0.5;  // behind the cameras
   states(0, 1) = 30;    // beside the tiles
   for (const auto aggregation : {Aggregation::sum, Aggregation::mean_seen,
@@ -120,7 +72,8 @@ TEST_F(StereoColorOnDevice, CostsNothingWhereNothingIsSeen) {
     Params params;
     params.aggregation = aggregation;
     const Eigen::VectorXd costs =
-        costs_on(Backend::cuda, scene, colored(test::rectified_pair(scene)), params, states);
+        test::costs_on(Backend::cuda, scene, test::colored(test::rectified_pair(scene)),
+                       stereo_color(params), states);
     EXPECT_EQ(costs, Eigen::Vector2d::Zero());
   }
 }

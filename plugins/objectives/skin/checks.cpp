@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "foreground.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/observation_checks.hpp"
 
@@ -23,26 +24,43 @@ const char* what_is_missing(Foreground foreground) {
   return "";
 }
 
+/// The rules of all views; rule(i) is that of view i.
+template <class RuleOf>
+void check_any(const Observation& observation, Foreground foreground, const RuleOf& rule) {
+  const std::size_t count = observation.views.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (rule(i) != Rule::none) return;
+  }
+  throw DataError(fmt::format("objective skin: frame {} has {} view{}, none with {}",
+                              observation.frame, count, count == 1 ? "" : "s",
+                              what_is_missing(foreground)));
+}
+
 }  // namespace
 
 void check(const Observation& observation, Foreground foreground) {
-  bool any = false;
+  const auto rule = [&](std::size_t i) {
+    const TileView& view = observation.views[i];
+    return rule_of(foreground, !view.color.empty(), !view.mask.empty(), !view.depth.empty());
+  };
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     const TileView& view = observation.views[i];
-    const Rule rule =
-        rule_of(foreground, !view.color.empty(), !view.mask.empty(), !view.depth.empty());
-    if (rule == Rule::none) continue;
-    any = true;
+    if (rule(i) == Rule::none) continue;
     check_tile_image("skin", view.valid, CV_8UC1, view, i, "valid image");
-    if (rule == Rule::color) check_tile_image("skin", view.color, CV_8UC3, view, i, "colour image");
-    if (rule == Rule::mask) check_tile_image("skin", view.mask, CV_8UC1, view, i, "mask");
-    if (rule == Rule::depth) check_tile_image("skin", view.depth, CV_32FC1, view, i, "depth image");
+    if (rule(i) == Rule::color) {
+      check_tile_image("skin", view.color, CV_8UC3, view, i, "colour image");
+    }
+    if (rule(i) == Rule::mask) check_tile_image("skin", view.mask, CV_8UC1, view, i, "mask");
+    if (rule(i) == Rule::depth) {
+      check_tile_image("skin", view.depth, CV_32FC1, view, i, "depth image");
+    }
   }
-  if (any) return;
-  throw DataError(fmt::format("objective skin: frame {} has {} view{}, none with {}",
-                              observation.frame, observation.views.size(),
-                              observation.views.size() == 1 ? "" : "s",
-                              what_is_missing(foreground)));
+  check_any(observation, foreground, rule);
+}
+
+void check(const cuda::DeviceObservation& observation, Foreground foreground) {
+  check_any(*observation.header, foreground,
+            [&](std::size_t i) { return rule_of(foreground, observation.tiles[i]); });
 }
 
 }  // namespace hypotrack::skin

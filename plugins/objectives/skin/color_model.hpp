@@ -1,24 +1,11 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "hypotrack/pixel.hpp"
+#include "color_bins.hpp"
 
 namespace hypotrack::skin {
-
-/// Colours fall into kLevels^3 bins.
-inline constexpr int kLevels = 32;
-inline constexpr std::size_t kBins = std::size_t{kLevels} * kLevels * kLevels;
-
-/// The bin of an 8-bit colour.
-HYPOTRACK_PIXEL int bin_of(int blue, int green, int red) {
-  constexpr int kWidth = 256 / kLevels;
-  return (blue / kWidth * kLevels + green / kWidth) * kLevels + red / kWidth;
-}
 
 /// How likely a colour is foreground: P = f / (f + b), f and b its frequencies among the foreground
 /// and the background pixels seen so far (Jones and Rehg, "Statistical color models with

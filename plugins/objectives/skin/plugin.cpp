@@ -1,6 +1,8 @@
 #include "hypotrack/plugin.hpp"
 
+#include "on_device.hpp"
 #include "skin.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::skin::Skin,
-                 "coverage of what looks like foreground, by colour, mask or depth", "residuals")
+                 "coverage of what looks like foreground, by colour, mask or depth",
+                 hypotrack::skin::capabilities())

@@ -1,7 +1,9 @@
 #include "skin.hpp"
 
 #include "checks.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation_checks.hpp"
+#include "on_device.hpp"
 #include "residuals.hpp"
 #include "score.hpp"
 
@@ -38,6 +40,10 @@ double Skin::cost(const RenderedHypothesis& hypothesis) const {
            sum_covered(plane, hypothesis.views[view.index], static_cast<float>(params_.spill));
   }
   return sum / static_cast<double>(views_.size());
+}
+
+std::unique_ptr<cuda::DeviceObjective> Skin::on_device() const {
+  return make_device_objective(params_);
 }
 
 std::int64_t Skin::residual_count() const {

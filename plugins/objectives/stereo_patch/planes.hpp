@@ -1,17 +1,10 @@
 #pragma once
 
 #include "hypotrack/observation.hpp"
+#include "planes_layout.hpp"
 #include "settings.hpp"
 
 namespace hypotrack::stereo_patch {
-
-/// The depths that are compared: inverse depths first + k step of the reference view, 0 <= k <
-/// count. In a rectified pair they are equidistant in disparity.
-struct Planes {
-  float first = 0;  ///< 1/m
-  float step = 0;   ///< 1/m
-  int count = 0;    ///< 2 or more
-};
 
 /// No more planes than this, however far apart they come to lie.
 inline constexpr int kMostPlanes = 256;

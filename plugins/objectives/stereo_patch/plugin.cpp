@@ -1,7 +1,8 @@
 #include "hypotrack/plugin.hpp"
 
+#include "on_device.hpp"
 #include "stereo_patch.hpp"
 
 HYPOTRACK_PLUGIN(hypotrack::stereo_patch::StereoPatch,
                  "patch consistency of the two views of a stereo pair (ZNCC or census)",
-                 "residuals")
+                 hypotrack::stereo_patch::capabilities())

@@ -1,6 +1,8 @@
 #include "stereo_patch.hpp"
 
+#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation_checks.hpp"
+#include "on_device.hpp"
 #include "residuals.hpp"
 #include "score.hpp"
 
@@ -28,6 +30,10 @@ double StereoPatch::cost(const RenderedHypothesis& hypothesis) const {
   check_tiles(hypothesis);
   return 0.0 - sum_similarity(volume_, hypothesis.views[0], hypothesis.views[1], map_,
                               static_cast<float>(params_.r));  // not -0.0
+}
+
+std::unique_ptr<cuda::DeviceObjective> StereoPatch::on_device() const {
+  return make_device_objective(params_);
 }
 
 std::int64_t StereoPatch::residual_count() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "hypotrack/objective.hpp"
 #include "hypotrack/stereo_pixels.hpp"
 #include "params.hpp"
@@ -39,6 +41,7 @@ class StereoPatch : public Objective, public ResidualTerm {
   void prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
   const ResidualTerm* residual_term() const override { return this; }
   std::int64_t residual_count() const override;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "color_model.hpp"
+#include "hypotrack/observation.hpp"
+#include "settings.hpp"
+
+namespace hypotrack::skin {
+
+/// Learns one view's colours on the first settings.learn_frames frames: those inside the silhouette
+/// of the scene as it is posed in observation.start, against those outside, give or take
+/// settings.pose_error (ColorModel::add()).
+class ColorLearner {
+ public:
+  explicit ColorLearner(const Settings& settings) : settings_(settings) {}
+
+  /// Whether it has something to learn from this frame (observation.frame): the same frame again
+  /// teaches nothing new.
+  bool wants(const Observation& observation) const {
+    return learned_ < settings_.learn_frames && last_learned_ != observation.frame;
+  }
+  /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Of the observation's images
+  /// none is looked at.
+  void learn(const Observation& observation, const TileCamera& camera, const cv::Mat3b& color,
+             const cv::Mat1b& valid);
+
+  /// P of every bin (bin_of()); empty before the first frame.
+  const std::vector<float>& probabilities() const { return probabilities_; }
+
+ private:
+  Settings settings_;
+  ColorModel colors_;
+  std::vector<float> probabilities_;
+  std::optional<int> last_learned_;
+  int learned_ = 0;
+};
+
+}  // namespace hypotrack::skin

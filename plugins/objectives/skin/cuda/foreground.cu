@@ -1,0 +1,64 @@
+#include <algorithm>
+
+#include "color_bins.hpp"
+#include "cuda/foreground_job.hpp"
+#include "hypotrack/cuda/block.cuh"
+#include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/unorm16.hpp"
+
+namespace hypotrack::skin {
+namespace {
+
+constexpr int kThreads = 256;
+
+__device__ float probability(const ViewJob& view, int i, std::uint32_t pixel) {
+  switch (view.rule) {
+    case Rule::mask:
+      return pixel & cuda::kForegroundFlag ? 1.0f : 0.0f;
+    case Rule::depth: {
+      const float z = view.tile.depth[i];
+      return z > 0 && z >= view.range.nearest && z <= view.range.farthest ? 1.0f : 0.0f;
+    }
+    default:
+      return view
+          .probabilities[bin_of(static_cast<int>(pixel & 0xFF), static_cast<int>(pixel >> 8 & 0xFF),
+                                static_cast<int>(pixel >> 16 & 0xFF))];
+  }
+}
+
+/// A row of blocks per view.
+__global__ void __launch_bounds__(kThreads) foreground(const __grid_constant__ ForegroundJob job) {
+  const ViewJob& view = job.views[blockIdx.y];
+  const int i = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);
+  std::uint32_t word = 0;
+  if (i < view.tile.width * view.tile.height) {
+    const std::uint32_t pixel = view.tile.pixels[i];
+    if (pixel & cuda::kValidFlag) {
+      const float p = probability(view, i, pixel);
+      word = pack_unorm16(p, 1 - p);
+    }
+    view.pixels[i] = word;
+  }
+  // Integers, below 2^24 in a warp: their sum does not depend on the order of blocks.
+  const float sum = cuda::warp_sum(static_cast<float>(word & 0xFFFF));
+  if (threadIdx.x % cuda::kWarp == 0 && sum > 0) {
+    atomicAdd(job.sum, static_cast<unsigned long long>(sum));
+  }
+}
+
+}  // namespace
+
+void enqueue_foreground(const ForegroundJob& job, cuda::Stream stream) {
+  cuda::check(cudaMemsetAsync(job.sum, 0, sizeof *job.sum, cuda::native(stream)),
+              "clearing memory");
+  int most = 0;
+  for (int i = 0; i < job.view_count; ++i) {
+    const cuda::TileLayout& tile = job.views[static_cast<std::size_t>(i)].tile;
+    most = std::max(most, tile.width * tile.height);
+  }
+  const dim3 blocks(static_cast<unsigned>((most + kThreads - 1) / kThreads),
+                    static_cast<unsigned>(job.view_count));
+  cuda::launch(foreground, blocks, kThreads, 0, stream, false, job);
+}
+
+}  // namespace hypotrack::skin

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "coverage-inl.hpp"
+#include "hypotrack/cuda/pixel_walk.cuh"
+
+namespace hypotrack::skin {
+
+/// The objective's part for one pixel and for one hypothesis (hypotrack/cuda/pixel_objective.cuh).
+struct SkinTerm {
+  static constexpr bool kStereo = false;
+  static constexpr bool kVisitsUncovered = false;
+  static constexpr int kSums = 1;  ///< of change_if_covered()
+
+  const std::uint32_t* foreground[cuda::kMaxViews];  ///< null for views that are not looked at
+  const unsigned long long*
+      uncovered;               ///< what a hypothesis costs that covers nothing, in 1 / 65535
+  int width[cuda::kMaxViews];  ///< of the tiles
+  int view_bits;               ///< bit v: view v is looked at
+  int view_count;              ///< of these
+  float spill;
+
+  __device__ int views() const { return view_bits; }
+
+  __device__ void pixel(const cuda::ViewPixel& p, float (&sums)[kSums]) const {
+    constexpr float kUnit = 1.0f / 65535.0f;
+    const std::uint32_t here = foreground[p.view][p.y * width[p.view] + p.x];
+    sums[0] += scalar::change_if_covered(cuda::exact_low_half(here) * kUnit,
+                                         cuda::exact_high_half(here) * kUnit, spill);
+  }
+
+  __device__ double cost(const double (&sums)[kSums], const float*) const {
+    return (static_cast<double>(*uncovered) / 65535 + sums[0]) / view_count;
+  }
+};
+
+}  // namespace hypotrack::skin

@@ -1,0 +1,10 @@
+// Stands in for cuda/ in a build without a CUDA toolkit.
+#include "hypotrack/cuda/device_objective.hpp"
+#include "on_device.hpp"
+
+namespace hypotrack::skin {
+
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings&) { return nullptr; }
+const char* capabilities() { return "residuals"; }
+
+}  // namespace hypotrack::skin

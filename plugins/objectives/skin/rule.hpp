@@ -1,0 +1,23 @@
+#pragma once
+
+#include "settings.hpp"
+
+namespace hypotrack::cuda {
+struct DeviceTile;
+}
+
+namespace hypotrack::skin {
+
+/// What tells foreground in a view, for the CPU and for CUDA.
+enum class Rule { none, color, mask, depth };
+
+/// The rule for a view; `none` where it lacks what the rule needs.
+Rule rule_of(Foreground foreground, bool has_color, bool has_mask, bool has_depth);
+Rule rule_of(Foreground foreground, const cuda::DeviceTile& tile);
+
+/// Depths z along a camera's axis, metres.
+struct DepthRange {
+  float nearest = 0, farthest = 0;
+};
+
+}  // namespace hypotrack::skin

@@ -1,0 +1,38 @@
+#include <memory>
+
+#include "cuda/device_volume.hpp"
+#include "cuda/patch_term.cuh"
+#include "hypotrack/cuda/pixel_objective.cuh"
+#include "on_device.hpp"
+
+namespace hypotrack::stereo_patch {
+namespace {
+
+class DeviceStereoPatch final : public cuda::PixelObjective<PatchTerm> {
+ public:
+  explicit DeviceStereoPatch(const Settings& settings) : settings_(settings), volume_(settings) {}
+
+ private:
+  PatchTerm make_term(const cuda::DeviceObservation& observation, cuda::Stream stream) override {
+    volume_.enqueue(observation, stream);
+    PatchTerm term{};
+    term.words = volume_.words();
+    term.planes = volume_.planes();
+    term.width = observation.tiles[0].layout.width;
+    term.tolerance = static_cast<float>(settings_.r);
+    return term;
+  }
+
+  Settings settings_;
+  DeviceVolume volume_;
+};
+
+}  // namespace
+
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings) {
+  return std::make_unique<DeviceStereoPatch>(settings);
+}
+
+const char* capabilities() { return "device residuals"; }
+
+}  // namespace hypotrack::stereo_patch

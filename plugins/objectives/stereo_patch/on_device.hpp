@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "settings.hpp"
+
+namespace hypotrack {
+namespace cuda {
+class DeviceObjective;
+}
+}  // namespace hypotrack
+
+namespace hypotrack::stereo_patch {
+
+/// The objective on the GPU; null in a build without CUDA. Touches no device before it prepares a
+/// frame.
+std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
+
+/// What `plugins info` shows: "residuals", and "device" in a build with CUDA.
+const char* capabilities();
+
+}  // namespace hypotrack::stereo_patch
