@@ -26,7 +26,8 @@ std::vector<float> residuals(const StereoPatch& objective, const RenderedHypothe
   // What is not written stays NaN; nothing may be written behind the end.
   const auto count = static_cast<std::size_t>(objective.residual_count());
   std::vector<float> all(count + 32, NAN);
-  objective.write_residuals(hypothesis, {all.data(), count});
+  const double cost = objective.cost_and_residuals(hypothesis, {all.data(), count});
+  EXPECT_NEAR(cost, objective.cost(hypothesis), 1e-6 * std::abs(cost));
   for (std::size_t i = count; i < all.size(); ++i) EXPECT_TRUE(std::isnan(all[i]));
   all.resize(count);
   return all;

@@ -12,6 +12,7 @@
 #define HWY_TARGET_INCLUDE "residuals.cpp"
 #include <hwy/foreach_target.h>
 
+#include "coverage-inl.hpp"
 #include "hypotrack/view_pixels-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -24,21 +25,26 @@ struct ResidualWriter {
 
   const PixelPlane<std::uint32_t>& foreground;
   const PixelPlane<float>& uncovered;
-  Lanes share;
+  Lanes spill, share;
   float* out;
+  LaneSum sum;
 
   HYPOTRACK_PIXEL void pixels(const ViewPixels& p) {
-    const Lanes r = sqrt(share * unorm16_high(p.here(foreground)));
+    const WordLanes here = p.here(foreground);
+    const Lanes background = unorm16_high(here);
+    sum.add(p.covered, change_if_covered(unorm16_low(here), background, spill));
+    const Lanes r = sqrt(share * spill * background);
     store(select(p.covered, r, p.here(uncovered)), p.pixels,
           out + static_cast<std::ptrdiff_t>(p.y) * foreground.width() + p.x);
   }
-  HYPOTRACK_PIXEL void end_row() {}
+  HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };
 
-void write_covered(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile, float share,
-                   const PixelPlane<float>& uncovered, float* out) {
-  ResidualWriter writer{foreground, uncovered, Lanes(share), out};
+double write_covered(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
+                     float spill, float share, const PixelPlane<float>& uncovered, float* out) {
+  ResidualWriter writer{foreground, uncovered, Lanes(spill), Lanes(share), out, {}};
   for_each_view_pixel(tile, covered_box(tile), writer);
+  return writer.sum.total();
 }
 
 }  // namespace hypotrack::skin::HWY_NAMESPACE
@@ -61,12 +67,12 @@ PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foregroun
   return plane;
 }
 
-void write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
-                     float covered_share, const PixelPlane<float>& uncovered,
-                     std::span<float> residuals) {
+double write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
+                       float spill, float share, const PixelPlane<float>& uncovered,
+                       std::span<float> residuals) {
   std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
-  HWY_DYNAMIC_DISPATCH(write_covered)
-  (foreground, tile, covered_share, uncovered, residuals.data());
+  return HWY_DYNAMIC_DISPATCH(write_covered)(foreground, tile, spill, share, uncovered,
+                                             residuals.data());
 }
 
 }  // namespace hypotrack::skin

@@ -12,10 +12,10 @@ namespace hypotrack::skin {
 /// ViewForeground::pixels.
 PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foreground, float share);
 
-/// Writes the residual of every pixel of the tile, rows without gaps: sqrt(covered_share (1 - P))
-/// where it is covered, `uncovered` elsewhere. SIMD, as sum_covered().
-void write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
-                     float covered_share, const PixelPlane<float>& uncovered,
-                     std::span<float> residuals);
+/// Writes the residual of every pixel of the tile, rows without gaps: sqrt(share spill (1 - P))
+/// where it is covered, `uncovered` elsewhere. Returns what sum_covered() does. SIMD, as that.
+double write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
+                       float spill, float share, const PixelPlane<float>& uncovered,
+                       std::span<float> residuals);
 
 }  // namespace hypotrack::skin

@@ -55,15 +55,22 @@ std::int64_t Skin::residual_count() const {
 }
 
 void Skin::write_residuals(const RenderedHypothesis& hypothesis, std::span<float> residuals) const {
-  const float covered_share = static_cast<float>(params_.spill) * share();
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double Skin::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                std::span<float> residuals) const {
+  double sum = 0;
   for (const PreparedView& view : views_) {
     const auto& plane = view.foreground.pixels;
     check_drawn_tile("skin", hypothesis, view.index, plane.width(), plane.height());
     const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
-    skin::write_residuals(plane, hypothesis.views[view.index], covered_share, view.uncovered,
-                          residuals.first(size));
+    sum += view.foreground.sum + skin::write_residuals(plane, hypothesis.views[view.index],
+                                                       static_cast<float>(params_.spill), share(),
+                                                       view.uncovered, residuals.first(size));
     residuals = residuals.subspan(size);
   }
+  return sum / static_cast<double>(views_.size());
 }
 
 }  // namespace hypotrack::skin

@@ -22,21 +22,24 @@ struct ResidualWriter {
   VolumeLookup volume;
   const PixelPlane<float>& weight;
   float* out;
+  LaneSum sum;
 
   HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
     const LaneMask counts = volume.counting(p);
     if (!any(counts)) return;
     const Lanes s = select(counts, volume.similarity(p, counts), Lanes(0.0f));
+    sum.add(counts, s);
     store(sqrt(max(p.here(weight) - s, Lanes(0.0f))), p.pixels,
           out + static_cast<std::ptrdiff_t>(p.y) * weight.width() + p.x);
   }
-  HYPOTRACK_PIXEL void end_row() {}
+  HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };
 
-void write_counting(const Volume& volume, const DepthTile& left, const DepthTile& right,
-                    const StereoMap& map, float tolerance, float* out) {
-  ResidualWriter writer{VolumeLookup(volume), volume.weight, out};
+double write_counting(const Volume& volume, const DepthTile& left, const DepthTile& right,
+                      const StereoMap& map, float tolerance, float* out) {
+  ResidualWriter writer{VolumeLookup(volume), volume.weight, out, {}};
   for_each_stereo_pixel(left, right, map, tolerance, covered_box(left), writer);
+  return writer.sum.total();
 }
 
 }  // namespace hypotrack::stereo_patch::HWY_NAMESPACE
@@ -47,11 +50,12 @@ namespace hypotrack::stereo_patch {
 
 HWY_EXPORT(write_counting);
 
-void write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
-                     const StereoMap& map, float tolerance, std::span<float> residuals) {
+double write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
+                       const StereoMap& map, float tolerance, std::span<float> residuals) {
   // The root of 0 or 1.
   std::copy_n(volume.weight.row(0), residuals.size(), residuals.data());
-  HWY_DYNAMIC_DISPATCH(write_counting)(volume, left, right, map, tolerance, residuals.data());
+  return HWY_DYNAMIC_DISPATCH(write_counting)(volume, left, right, map, tolerance,
+                                              residuals.data());
 }
 
 }  // namespace hypotrack::stereo_patch

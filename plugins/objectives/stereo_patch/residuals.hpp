@@ -10,8 +10,8 @@ namespace hypotrack::stereo_patch {
 
 /// Writes sqrt(weight - s) for every pixel of `left`, rows without gaps: s is what sum_similarity()
 /// adds up, 0 where the pixel is uncovered, occluded or between no planes. The sum of squares is
-/// that of the weights minus sum_similarity(). SIMD, as that.
-void write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
-                     const StereoMap& map, float tolerance, std::span<float> residuals);
+/// that of the weights minus sum_similarity(), which is returned. SIMD, as that.
+double write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
+                       const StereoMap& map, float tolerance, std::span<float> residuals);
 
 }  // namespace hypotrack::stereo_patch

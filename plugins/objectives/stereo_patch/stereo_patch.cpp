@@ -42,9 +42,14 @@ std::int64_t StereoPatch::residual_count() const {
 
 void StereoPatch::write_residuals(const RenderedHypothesis& hypothesis,
                                   std::span<float> residuals) const {
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double StereoPatch::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                       std::span<float> residuals) const {
   check_tiles(hypothesis);
-  stereo_patch::write_residuals(volume_, hypothesis.views[0], hypothesis.views[1], map_,
-                                static_cast<float>(params_.r), residuals);
+  return 0.0 - stereo_patch::write_residuals(volume_, hypothesis.views[0], hypothesis.views[1],
+                                             map_, static_cast<float>(params_.r), residuals);
 }
 
 }  // namespace hypotrack::stereo_patch

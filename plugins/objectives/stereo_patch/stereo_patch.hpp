@@ -45,9 +45,11 @@ class StereoPatch : public Objective, public ResidualTerm {
 
   const ResidualTerm* residual_term() const override { return this; }
   std::int64_t residual_count() const override;
-  /// Throws DataError as cost().
+  /// Both throw DataError as cost().
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
 
  private:
   void check_tiles(const RenderedHypothesis& hypothesis) const;
