@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Mean joint error over particles x generations: bench/budgets.sh SCENE... (SEEDS=5, BUDGETS="16 32 64",
+# Mean joint error of the paper's method over particles x generations: bench/budgets.sh SCENE... (SEEDS=5, BUDGETS="16 32 64",
 # HYPOTRACK=build/release/bin/hypotrack). Renders each scene once, then tracks the recording with every
 # budget N x N and seed; prints one line per scene and budget.
 set -euo pipefail
@@ -17,8 +17,9 @@ for scene in "$@"; do
     errors=() fps=() lost=0
     for seed in $(seq "${SEEDS:-5}"); do
       "$hypotrack" run "$scratch/$name/scene.yaml" --out "$scratch/run" --seed "$seed" \
-        --set output.overlay=false --set "optimizer.particles=$n" \
-        --set "optimizer.generations=$n" >"$scratch/log" 2>&1
+        --set output.overlay=false --set 'objective={type: stereo_color}' --set photometric.match=false \
+        --set "optimizer={type: pso, particles: $n, generations: $n}" \
+        --set 'search={rotation_as: quaternion}' --set budget.evaluations=0 >"$scratch/log" 2>&1
       errors+=("$(value mean_joint_error_mm "$scratch/run/summary.json")")
       fps+=("$(value fps "$scratch/run/summary.json")")
       lost=$((lost + $(value lost_frames "$scratch/run/summary.json")))

@@ -29,7 +29,7 @@ bool page_locked(const cv::Mat& image) {
 /// The first frame's first image of a scene that is evaluated with this backend.
 cv::Mat first_image(const std::string& backend) {
   PluginLoader plugins;
-  const std::vector<std::string> overrides{"evaluate.backend=" + backend};
+  const std::vector<std::string> overrides{"evaluate.backend=" + backend, "optimizer={type: pso}"};
   const Session session =
       open_session(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
   return session.source->next().value().views.at(0).color;

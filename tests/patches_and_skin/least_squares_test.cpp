@@ -41,7 +41,7 @@ Found search(PluginLoader& plugins, const std::string& objective, const std::str
   Session session = open_session(
       test::source_dir() / "configs" / "demo.yaml",
       std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
-                               "budget.evaluations=512", "search.rotation_as=tangent",
+                               "budget.evaluations=512", "search={rotation_as: tangent}",
                                "source.sensor.gain=[1, 1.16]", "evaluate.backend=cpu",
                                "init.away_mm=6", "init.away_deg=3", fmt::format("seed={}", seed)},
       plugins);
