@@ -18,6 +18,10 @@ DeviceError::~DeviceError() = default;
 OutputError::~OutputError() = default;
 
 ResidualTerm::~ResidualTerm() = default;
+void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::span<float>,
+                                std::span<float>) const {
+  throw Error("this objective has no slopes of residuals");
+}
 Objective::~Objective() = default;
 const ResidualTerm* Objective::residual_term() const { return nullptr; }
 double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
@@ -29,6 +33,10 @@ std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nul
 cuda::DeviceObjective::~DeviceObjective() = default;
 cuda::DeviceCost::~DeviceCost() = default;
 ResidualCost::~ResidualCost() = default;
+NormalEquations ResidualCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>&,
+                                        const Eigen::Ref<const Eigen::VectorXd>&, double) {
+  throw Error("this cost cannot be linearised");
+}
 CostFunction::~CostFunction() = default;
 Optimizer::~Optimizer() = default;
 Source::~Source() = default;

@@ -63,6 +63,55 @@ TEST(LevenbergMarquardt, SolvesALinearProblemWithOneJacobian) {
   EXPECT_LT(result.cost, 1e-8 * cost.costs[0]);
 }
 
+TEST(LevenbergMarquardt, TakesOneEvaluationForAJacobianWhereTheCostLinearizes) {
+  SearchRegion region = test::tracking_region(27);
+  region.lower.setConstant(-3);
+  region.upper.setConstant(3);
+  RecordingCost cost(27, test::ellipsoid(region, region.start + 0.9 * region.spread));
+  cost.linearizes = true;
+  LevenbergMarquardtParams params;
+  params.damping = 1e-6;
+  params.mean_share = 0;
+  const OptimizerResult result = minimize(cost, region, 1 + 1 + 3, params);
+  EXPECT_LT(result.cost, 1e-8 * cost.costs[0]);
+  EXPECT_EQ(result.evaluations, 5);
+  EXPECT_THAT(cost.batches, ::testing::ElementsAre(1, 3));
+  EXPECT_THAT(cost.blurs, ::testing::ElementsAre(params.blur));
+}
+
+TEST(LevenbergMarquardt, MakesItsOwnJacobianWhereItIsToldTo) {
+  const SearchRegion region = test::tracking_region(9);
+  RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));
+  cost.linearizes = true;
+  LevenbergMarquardtParams params;
+  params.jacobian = Jacobian::numerical;
+  minimize(cost, region, 100, params);
+  EXPECT_TRUE(cost.blurs.empty());
+  EXPECT_GT(std::ranges::count(cost.batches, 9), 0);
+}
+
+TEST(LevenbergMarquardt, SharpensSilhouettesWhereAStepNoLongerHelps) {
+  const SearchRegion region = test::tracking_region(9);
+  RecordingCost cost(9, test::sphere(region, region.start));
+  cost.linearizes = true;
+  LevenbergMarquardtParams params;
+  params.blur = 2;
+  params.finest = 0.25;
+  const OptimizerResult result = minimize(cost, region, 1000, params);
+  EXPECT_THAT(cost.blurs, ::testing::ElementsAre(2, 1, 0.5));
+  EXPECT_LT(result.evaluations, 100);
+}
+
+TEST(LevenbergMarquardt, RefusesAnAnalyticJacobianThatIsNotThere) {
+  const SearchRegion region = test::tracking_region(3);
+  RecordingCost cost(3, test::sphere(region, region.start));
+  LevenbergMarquardtParams params;
+  params.jacobian = Jacobian::analytic;
+  EXPECT_THAT([&] { minimize(cost, region, 10, params); },
+              ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
+                  "optimizer levenberg_marquardt: jacobian: analytic: a term of this cost")));
+}
+
 TEST(LevenbergMarquardt, FollowsACurvedValley) {
   const SearchRegion region = test::tracking_region(12);
   RecordingCost cost(12, test::rosenbrock(region, test::hidden_target(region, 3)));

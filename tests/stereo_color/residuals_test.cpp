@@ -1,5 +1,6 @@
 #include "residuals.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "every_target.hpp"
+#include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "random_pair.hpp"
 #include "stereo_color.hpp"
 
@@ -102,6 +104,68 @@ TEST(Residuals, OfOneDirectionAreThoseOfItsView) {
     const float one = i < left.size() ? left[i] : right[i - left.size()];
     EXPECT_NEAR(both[i], one * std::sqrt(0.5), 1e-6);
   }
+}
+
+TEST(Residuals, HaveSlopesThatAreTheirDifferencesOverDepth) {
+  for (const bool rectified : {true, false}) {
+    const RandomPair pair({.rectified = rectified, .size = 96});
+    Params params;
+    params.beta = 3;
+    params.distinctiveness = Distinctiveness::none;
+    params.r = 0.1;  // so generous that what is seen stays seen
+    params.direction = Direction::both;
+    params.lookup = Lookup::bilinear;
+    StereoColor objective(params);
+    objective.prepare(pair.observation);
+    ASSERT_THAT(objective.pixel_views(), testing::ElementsAre(0, 1));
+    const StereoMap map = stereo_map(pair.observation, 0, 1);
+    // The inverse depth that makes half a pixel of parallax.
+    const auto step = [&](std::size_t i) {
+      const auto x = static_cast<float>(i % 96), y = static_cast<float>(i / 96);
+      const float w = pair.depth[0][i];
+      const auto there = scalar::map_pixel<false>(map, x, y, w);
+      const auto beyond = scalar::map_pixel<false>(map, x, y, w + 0.01f);
+      return 0.5f * 0.01f / std::hypot(beyond.u - there.u, beyond.v - there.v);
+    };
+    const auto shifted = [&](float steps) {
+      std::vector<float> depth[2] = {pair.depth[0], pair.depth[1]};
+      for (std::size_t i = 0; i < depth[0].size(); ++i) {
+        if (depth[0][i] > 0) depth[0][i] += steps * step(i);
+      }
+      DepthTile tiles[2] = {pair.tiles[0], pair.tiles[1]};
+      for (std::size_t i = 0; i < 2; ++i) tiles[i].inverse_depth = depth[i].data();
+      return residuals(objective, {{}, tiles});
+    };
+    on_every_target([&] {
+      const auto near = shifted(1), far = shifted(-1);
+      const auto expected = residuals(objective, pair.hypothesis());
+      std::vector<float> found(96 * 96), slopes(found.size(), NAN);
+      objective.write_slopes(pair.hypothesis(), 0, found, slopes);
+      int compared = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_NEAR(found[i], expected[i], 1e-5);
+        const float rest = std::sqrt(0.5f) - 1e-4f;  // of what one view sees
+        if (slopes[i] == 0 || near[i] > rest || far[i] > rest) continue;
+        EXPECT_NEAR(slopes[i] * 2 * step(i), near[i] - far[i], 3e-3) << i;
+        ++compared;
+      }
+      EXPECT_GT(compared, 1000);
+    });
+  }
+}
+
+TEST(Residuals, HaveNoSlopesWhereNothingIsSeenTwice) {
+  const RandomPair pair({.size = 64});
+  StereoColor objective({});
+  objective.prepare(pair.observation);
+  ASSERT_THAT(objective.pixel_views(), testing::ElementsAre(0));
+  DepthTile tiles[2] = {pair.tiles[0], pair.tiles[1]};
+  const std::vector<float> empty(pair.depth[1].size(), 0.0f);
+  tiles[1].inverse_depth = empty.data();
+  std::vector<float> found(64 * 64), slopes(found.size(), NAN);
+  objective.write_slopes({{}, tiles}, 0, found, slopes);
+  EXPECT_EQ(found, residuals(objective, {{}, tiles}));
+  EXPECT_EQ(slopes, std::vector<float>(slopes.size(), 0.0f));
 }
 
 TEST(Residuals, AreOfferedForTheSumOnly) {

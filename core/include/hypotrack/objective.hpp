@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -47,6 +48,19 @@ class HYPOTRACK_API ResidualTerm {
   /// several threads at once; equal inputs give equal results.
   virtual void write_residuals(const RenderedHypothesis& hypothesis,
                                std::span<float> residuals) const = 0;
+
+  /// Views whose pixels the residuals belong to, in the order of the residuals: one per pixel of
+  /// the view's tile, rows without gaps. None if they belong to something else, or if
+  /// write_slopes() is not there. The same before and after every `prepare`.
+  virtual std::span<const int> pixel_views() const { return {}; }
+
+  /// The residuals of the i-th of pixel_views(), and how each of them changes with the surface that
+  /// is drawn at its pixel: d r / d(1/z) in metres, 0 where nothing is drawn. That is all that
+  /// optimizers need of a term to have its Jacobian: how surfaces and silhouettes move is known
+  /// without it. Differences over half a pixel of what is looked up make better slopes than
+  /// derivatives at a point: pixels are noisy. Called from several threads at once.
+  virtual void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                            std::span<float> residuals, std::span<float> slopes) const;
 };
 
 /// Says how badly a hypothesis explains a frame. A scene adds several up with weights.

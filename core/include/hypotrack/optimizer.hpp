@@ -14,6 +14,12 @@ namespace cuda {
 class DeviceCost;
 }
 
+/// The normal equations of a linearised sum of squares, |r + J dx|^2: A = J^T J, g = J^T r.
+struct NormalEquations {
+  Eigen::MatrixXd a;  ///< DxD
+  Eigen::VectorXd g;  ///< D
+};
+
 /// A cost function that is a sum of squares, seen square by square.
 class HYPOTRACK_API ResidualCost {
  public:
@@ -27,6 +33,15 @@ class HYPOTRACK_API ResidualCost {
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::MatrixXf> residuals,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
+
+  /// Whether linearize() is there.
+  virtual bool can_linearize() const { return false; }
+  /// The normal equations at points.col(0) without evaluating what lies beside it: points.col(1 +
+  /// i) is a point off by steps[i] in dimension i, for which surfaces are posed and not drawn.
+  /// Columns of J are per unit of a point; those of steps 0 are 0. `blur`: a silhouette that passes
+  /// a pixel changes its residual over this many pixels of the way. Counts as one evaluation.
+  virtual NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                    const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
 };
 
 /// What an optimizer minimises. One search point is a column of D numbers; what they mean (and how

@@ -28,6 +28,11 @@ class FallenBack final : public Evaluation {
                           Eigen::Ref<Eigen::VectorXd> costs) override {
     host_->evaluate_residuals(states, residuals, costs);
   }
+  bool can_linearize() const override { return host_->can_linearize(); }
+  NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
+                            double blur) override {
+    return host_->linearize(states, steps, blur);
+  }
   std::string description() const override {
     return fmt::format("{}; {}", host_->description(), why_);
   }
@@ -72,6 +77,10 @@ std::unique_ptr<Evaluation> make_cuda_evaluation(const Scene& scene,
 void Evaluation::evaluate_residuals(const Eigen::MatrixXd&, Eigen::Ref<Eigen::MatrixXf>,
                                     Eigen::Ref<Eigen::VectorXd>) {
   throw Error("evaluate: this backend has no residuals");
+}
+
+NormalEquations Evaluation::linearize(const Eigen::MatrixXd&, const Eigen::VectorXd&, double) {
+  throw Error("evaluate: this backend cannot linearise");
 }
 
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,

@@ -42,6 +42,11 @@ class Evaluation {
                                   Eigen::Ref<Eigen::MatrixXf> residuals,
                                   Eigen::Ref<Eigen::VectorXd> costs);
 
+  /// See ResidualCost, for normalised states.
+  virtual bool can_linearize() const { return false; }
+  virtual NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
+                                    double blur);
+
   /// For Evaluator::backend(): `cpu (AVX3, 2 threads)`.
   virtual std::string description() const = 0;
 

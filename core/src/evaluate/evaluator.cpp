@@ -102,6 +102,14 @@ void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
   impl_->evaluation->evaluate_residuals(impl_->normalized, residuals, costs);
 }
 
+bool Evaluator::can_linearize() const { return impl_->evaluation->can_linearize(); }
+
+NormalEquations Evaluator::linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                                     const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) {
+  impl_->normalize(states, steps.size() + 1);
+  return impl_->evaluation->linearize(impl_->normalized, steps, blur);
+}
+
 cuda::DeviceCost* Evaluator::device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) {
   if (!impl_->prepared) throw Error("evaluate: no frame has been prepared");
   return impl_->evaluation->device_cost(prior, rotation_vectors);

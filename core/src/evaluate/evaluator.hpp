@@ -75,6 +75,13 @@ class HYPOTRACK_API Evaluator {
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs);
 
+  /// Whether linearize() is there: each term's residuals belong to pixels and have slopes, or the
+  /// term needs no rendering.
+  bool can_linearize() const;
+  /// Normal equations at states.col(0), with columns per step (ResidualCost::linearize).
+  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
+
   /// Costs of search points that stay on the GPU, for the prepared frame; null on other backends.
   /// Points are states or, with `rotation_vectors`, states in which every model's quaternion is
   /// replaced by a rotation vector (3 numbers) applied to that of `prior` (SearchSpace).

@@ -6,6 +6,7 @@
 
 #include "evaluate/evaluation.hpp"
 #include "evaluate/hypothesis_renderer.hpp"
+#include "evaluate/linearizer.hpp"
 #include "evaluate/term_residuals.hpp"
 
 namespace hypotrack {
@@ -23,6 +24,9 @@ class HostEvaluation final : public Evaluation {
                  const EvaluateSettings& settings)
       : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {
     if (TermResiduals::why_none(terms).empty()) residuals_.emplace(terms);
+    if (residuals_ && Linearizer::can_linearize(terms)) {
+      linearizer_ = std::make_unique<Linearizer>(scene, terms, settings.threads);
+    }
   }
 
   using Evaluation::prepare;
@@ -30,6 +34,7 @@ class HostEvaluation final : public Evaluation {
     for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
+    if (linearizer_) linearizer_->prepare(observation);
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -51,6 +56,12 @@ class HostEvaluation final : public Evaluation {
         return residuals_->write(t, drawn, rest);
       });
     });
+  }
+
+  bool can_linearize() const override { return linearizer_ != nullptr; }
+  NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
+                            double blur) override {
+    return linearizer_->linearize(states, steps, blur);
   }
 
   std::string description() const override { return renderer_->description(); }
@@ -76,6 +87,7 @@ class HostEvaluation final : public Evaluation {
   std::vector<ObjectiveTerm> terms_;
   std::optional<TermResiduals> residuals_;  // if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
+  std::unique_ptr<Linearizer> linearizer_;  // if the terms have what it needs
 };
 
 }  // namespace

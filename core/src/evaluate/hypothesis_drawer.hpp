@@ -37,6 +37,10 @@ class HYPOTRACK_API HypothesisDrawer {
   std::span<const DepthTile> draw(std::span<const double> state);
 
   std::span<const DepthTile> tiles() const { return tiles_; }
+  /// Projected vertices of the posed state as a view sees them: of one view, or of both views of a
+  /// rectified pair (kRecord).
+  const float* records(std::size_t view) const { return records_[frame_->pair ? 0 : view].get(); }
+  const VisibleTriangles& visible(std::size_t view) const { return visible_[view]; }
   void clear();                              ///< empties what was drawn before
   void pose(std::span<const double> state);  ///< kinematics and skinning
   void project();

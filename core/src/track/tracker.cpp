@@ -37,6 +37,11 @@ class StateCost final : public CostFunction, public ResidualCost {
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
     evaluator_.evaluate(space_.states(points, prior_), residuals, costs);
   }
+  bool can_linearize() const override { return evaluator_.can_linearize(); }
+  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
+    return evaluator_.linearize(space_.states(points, prior_), steps, blur);
+  }
 
  private:
   const SearchSpace& space_;

@@ -1,5 +1,6 @@
 #include "stereo_color.hpp"
 
+#include <array>
 #include <cstddef>
 
 #include "aggregation-inl.hpp"
@@ -7,6 +8,7 @@
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
+#include "slopes.hpp"
 
 namespace hypotrack::stereo_color {
 std::span<const std::string_view> enum_names(ColorSpace) {
@@ -103,6 +105,22 @@ double StereoColor::cost_and_residuals(const RenderedHypothesis& hypothesis,
     residuals = residuals.subspan(size);
   }
   return cost_of(sum);
+}
+
+std::span<const int> StereoColor::pixel_views() const {
+  static constexpr std::array<int, 2> kViews{0, 1};
+  const std::span<const int> views(kViews);
+  if (params_.direction == Direction::both) return views;
+  return views.subspan(uses(0) ? 0 : 1, 1);
+}
+
+void StereoColor::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                               std::span<float> residuals, std::span<float> slopes) const {
+  check_tiles(hypothesis);
+  const auto here = static_cast<std::size_t>(pixel_views()[i]);
+  stereo_color::write_slopes({features_[here], hypothesis.views[here]},
+                             {features_[1 - here], hypothesis.views[1 - here]}, maps_[here],
+                             params_, share(), uncovered_[here], residuals, slopes);
 }
 
 double StereoColor::score(const Similarity& similarity) const {

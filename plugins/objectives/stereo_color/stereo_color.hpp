@@ -57,6 +57,10 @@ class StereoColor : public Objective, public ResidualTerm {
   /// Throws DataError as cost().
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  std::span<const int> pixel_views() const override;
+  /// Throws DataError as cost().
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
 

@@ -7,23 +7,30 @@
 
 namespace hypotrack {
 
-LeastSquaresSearch::LeastSquaresSearch(ResidualCost& cost, const SearchRegion& region,
-                                       const Budget& budget, const LevenbergMarquardtParams& params)
+LeastSquaresSearch::LeastSquaresSearch(CostFunction& cost, ResidualCost& residuals,
+                                       const SearchRegion& region, const Budget& budget,
+                                       const LevenbergMarquardtParams& params)
     : cost_(cost),
+      residual_cost_(residuals),
       region_(region),
       budget_(budget),
       params_(params),
       deadline_(budget.seconds),
       x_(region.start),
-      difference_(params.difference),
+      analytic_(params.jacobian == Jacobian::analytic ||
+                (params.jacobian == Jacobian::automatic && residuals.can_linearize())),
       damping_(params.damping) {}
 
 bool LeastSquaresSearch::may_go_on() const { return remaining() > 0 && !deadline_.passed(); }
 
 void LeastSquaresSearch::evaluate() {
-  residuals_.resize(cost_.count(), points_.cols());
   costs_.resize(points_.cols());
-  cost_.evaluate(points_, residuals_, costs_);
+  if (analytic_) {
+    cost_.evaluate(points_, costs_);
+  } else {
+    residuals_.resize(residual_cost_.count(), points_.cols());
+    residual_cost_.evaluate(points_, residuals_, costs_);
+  }
   best_.update(points_, costs_);
 }
 
@@ -35,30 +42,51 @@ void LeastSquaresSearch::evaluate_start() {
 
 void LeastSquaresSearch::move_to(Eigen::Index trial) {
   x_ = points_.col(trial);
-  at_x_ = residuals_.col(trial);
+  if (!analytic_) at_x_ = residuals_.col(trial);
   cost_at_x_ = costs_[trial];
 }
 
-bool LeastSquaresSearch::linearize() {
-  const Eigen::Index d = x_.size();
-  if (remaining() <= d) return false;  // nothing would be left for a step
-  points_ = x_.replicate(1, d);
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(d);
-  for (Eigen::Index i = 0; i < d; ++i) {
-    const double wanted = difference_ * region_.spread[i];
+Eigen::VectorXd LeastSquaresSearch::differences(double share) const {
+  Eigen::VectorXd steps = Eigen::VectorXd::Zero(x_.size());
+  for (Eigen::Index i = 0; i < x_.size(); ++i) {
+    const double wanted = share * region_.spread[i];
     const double up = std::min(region_.upper[i] - x_[i], wanted);
     const double down = std::min(x_[i] - region_.lower[i], wanted);
     const bool ahead = sign_ > 0 ? up >= std::min(down, wanted) : up > down;
     const double h = ahead ? up : -down;
-    points_(i, i) = x_[i] + h;
-    if (std::abs(h) > 1e-3 * wanted) scale[i] = region_.spread[i] / h;
+    if (std::abs(h) > 1e-3 * wanted) steps[i] = h;
   }
+  return steps;
+}
+
+bool LeastSquaresSearch::linearize() {
+  const Eigen::Index d = x_.size();
+  if (analytic_) return linearize_by_slopes();
+  if (remaining() <= d) return false;  // nothing would be left for a step
+  const Eigen::VectorXd steps = differences(params_.difference * fineness_);
+  points_ = x_.replicate(1, d);
+  points_.diagonal() += steps;
   evaluate();
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(d);
   for (Eigen::Index i = 0; i < d; ++i) {
-    if (!std::isfinite(costs_[i])) scale[i] = 0;
+    if (steps[i] != 0 && std::isfinite(costs_[i])) scale[i] = region_.spread[i] / steps[i];
   }
   equations_ = normal_equations(at_x_, residuals_, scale);
   sign_ = -sign_;
+  return true;
+}
+
+bool LeastSquaresSearch::linearize_by_slopes() {
+  if (remaining() <= 1) return false;
+  constexpr double kShare = 0.01;  // surfaces move by a fraction of a pixel, far above rounding
+  const Eigen::VectorXd steps = differences(kShare);
+  points_ = x_.replicate(1, x_.size() + 1);
+  points_.rightCols(x_.size()).diagonal() += steps;
+  equations_ = residual_cost_.linearize(points_, steps, params_.blur * fineness_);
+  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));  // it counts
+  const auto spread = region_.spread.asDiagonal();
+  equations_.a = spread * equations_.a * spread;
+  equations_.g = spread * equations_.g;
   return true;
 }
 
@@ -114,6 +142,7 @@ void LeastSquaresSearch::leave_infeasible() {
 
 OptimizerResult LeastSquaresSearch::run() {
   evaluate_start();
+  const int patience = analytic_ ? 1 : 2;  // Jacobians by differences have two signs
   int failed = 0;
   for (int i = 0; params_.iterations == 0 || i < params_.iterations; ++i) {
     if (!may_go_on() || !linearize()) break;
@@ -124,10 +153,10 @@ OptimizerResult LeastSquaresSearch::run() {
     }
     if (try_steps() && moved_ > params_.tolerance) {
       failed = 0;
-    } else if (++failed == 2) {
+    } else if (++failed == patience) {
       failed = 0;
-      difference_ *= 0.5;
-      if (difference_ < params_.finest * params_.difference) break;
+      fineness_ *= 0.5;
+      if (fineness_ < params_.finest) break;
       damping_ = std::min(damping_, params_.damping);
     }
   }

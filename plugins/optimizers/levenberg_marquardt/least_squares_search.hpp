@@ -13,8 +13,8 @@ namespace hypotrack {
 class LeastSquaresSearch {
  public:
   /// Everything given must outlive the search.
-  LeastSquaresSearch(ResidualCost& cost, const SearchRegion& region, const Budget& budget,
-                     const LevenbergMarquardtParams& params);
+  LeastSquaresSearch(CostFunction& cost, ResidualCost& residuals, const SearchRegion& region,
+                     const Budget& budget, const LevenbergMarquardtParams& params);
 
   OptimizerResult run();
 
@@ -24,12 +24,16 @@ class LeastSquaresSearch {
   void evaluate();
   void evaluate_start();
   bool linearize();
+  bool linearize_by_slopes();
+  /// Steps of a share of the spread, inwards at bounds; 0 where there is no room.
+  Eigen::VectorXd differences(double share) const;
   bool try_steps();
   Eigen::VectorXd step(double damping) const;
   void move_to(Eigen::Index trial);
   void leave_infeasible();
 
-  ResidualCost& cost_;
+  CostFunction& cost_;
+  ResidualCost& residual_cost_;
   const SearchRegion& region_;
   const Budget budget_;
   const LevenbergMarquardtParams params_;
@@ -40,7 +44,8 @@ class LeastSquaresSearch {
   Eigen::VectorXf at_x_;  ///< residuals there
   double cost_at_x_ = 0;
   double sign_ = 1;  ///< of the differences
-  double difference_;
+  const bool analytic_;
+  double fineness_ = 1;  ///< of differences, or of the blur: shares of the first
   double damping_;
   NormalEquations equations_;  ///< at x, per spread
   double moved_ = 0;           ///< largest component of the last step, in spreads

@@ -1,9 +1,16 @@
 #include "levenberg_marquardt.hpp"
 
+#include <array>
+
 #include "hypotrack/error.hpp"
 #include "least_squares_search.hpp"
 
 namespace hypotrack {
+
+std::span<const std::string_view> enum_names(Jacobian) {
+  static constexpr std::array<std::string_view, 3> kNames{"automatic", "numerical", "analytic"};
+  return kNames;
+}
 
 OptimizerResult LevenbergMarquardt::minimize(CostFunction& cost, const SearchRegion& region,
                                              const Budget& budget, std::uint64_t) {
@@ -14,7 +21,12 @@ OptimizerResult LevenbergMarquardt::minimize(CostFunction& cost, const SearchReg
         "optimizer levenberg_marquardt: this cost has no residuals; take an optimizer that needs "
         "costs only, such as `optimizer: {type: pso}`");
   }
-  return LeastSquaresSearch(*residuals, region, budget, params_).run();
+  if (params_.jacobian == Jacobian::analytic && !residuals->can_linearize()) {
+    throw ConfigError(
+        "optimizer levenberg_marquardt: jacobian: analytic: a term of this cost has no slopes of "
+        "its residuals, or the backend does not draw on the CPU; write `jacobian: automatic`");
+  }
+  return LeastSquaresSearch(cost, *residuals, region, budget, params_).run();
 }
 
 }  // namespace hypotrack

@@ -13,13 +13,14 @@ namespace hypotrack {
 ///
 ///   (A + mu (diag(A) + mean_share mean(diag(A)) I)) dx = -J^T r,   A = J^T J
 ///
-/// J by forward differences (one evaluation per number), their sign alternating from Jacobian to
-/// Jacobian, inwards at bounds. With each Jacobian, `trials` steps of different mu are evaluated
-/// together; the one of lowest cost is taken if it is below the cost so far, and its mu is the
-/// middle of the next. If none is, more damped ones are tried; if neither they nor a Jacobian of
-/// the other sign helps, differences are halved, so that what is coarse is found first and what is
-/// fine afterwards. Numbers at a bound that want to leave stay there, the others are solved for
-/// without them. No number moves farther than its spread in one step.
+/// J from ResidualCost::linearize where the cost has that; otherwise by forward differences (one
+/// evaluation per number), their sign alternating from Jacobian to Jacobian, inwards at bounds.
+/// With each Jacobian, `trials` steps of different mu are evaluated together; the one of lowest
+/// cost is taken if it is below the cost so far, and its mu is the middle of the next. If none is,
+/// more damped ones are tried; if neither they nor (of differences) a Jacobian of the other sign
+/// helps, differences or the blur of silhouettes are halved, so that what is coarse is found first
+/// and what is fine afterwards. Numbers at a bound that want to leave stay there, the others are
+/// solved for without them. No number moves farther than its spread in one step.
 ///
 /// It refines: what is many pixels off is beyond what residuals of pixels tell.
 class LevenbergMarquardt : public Optimizer {

@@ -1,12 +1,25 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
 
+/// Where Jacobians come from.
+enum class Jacobian {
+  automatic,  ///< analytic where the cost can be linearised, otherwise numerical
+  numerical,  ///< an evaluation per number
+  analytic,   ///< ResidualCost::linearize
+};
+std::span<const std::string_view> enum_names(Jacobian);
+
 struct LevenbergMarquardtParams {
   int evaluations = 512;
   int iterations = 0;
+  Jacobian jacobian = Jacobian::automatic;
+  double blur = 1.5;
   int trials = 3;
   double difference = 0.05;
   double finest = 0.2;
@@ -19,6 +32,16 @@ struct LevenbergMarquardtParams {
       {.help = "evaluations where the scene names no budget", .min = 1, .max = 1 << 30});
     v("iterations", iterations,
       {.help = "Jacobians per search; 0: as many as the budget allows", .min = 0, .max = 1 << 20});
+    v("jacobian", jacobian,
+      {.help =
+           "numerical: by an evaluation per number; analytic: by the slopes of pixels and the "
+           "motion of what is drawn, which takes one; automatic: analytic where all terms allow "
+           "it"});
+    v("blur_px", blur,
+      {.help = "for analytic Jacobians: pixels over which a passing silhouette is felt at first; "
+               "halved where differences would be",
+       .min = 1e-2,
+       .max = 100});
     v("trials", trials,
       {.help = "steps of different damping that are evaluated together, the best is taken",
        .min = 1,
@@ -28,7 +51,8 @@ struct LevenbergMarquardtParams {
        .min = 1e-6,
        .max = 1});
     v("finest", finest,
-      {.help = "where a step no longer helps, differences are halved; it ends below this share of "
+      {.help = "where a step no longer helps, differences (or the blur) are halved; it ends below "
+               "this share of "
                "the first ones",
        .min = 1e-3,
        .max = 1});

@@ -11,6 +11,7 @@ class LevenbergMarquardtPlugin final : public hypotrack::LevenbergMarquardt {
 
 }  // namespace
 
-HYPOTRACK_PLUGIN(LevenbergMarquardtPlugin,
-                 "damped least squares (Levenberg 1944, Marquardt 1963) with numerical Jacobians",
-                 "batches needs_residuals")
+HYPOTRACK_PLUGIN(
+    LevenbergMarquardtPlugin,
+    "damped least squares (Levenberg 1944, Marquardt 1963) with analytic or numerical Jacobians",
+    "batches needs_residuals")

@@ -2,17 +2,13 @@
 
 #include <Eigen/Core>
 
+#include "hypotrack/optimizer.hpp"
+
 namespace hypotrack {
 
-/// The normal equations of a linearised sum of squares, |r + J dx|^2: A = J^T J, g = J^T r.
-struct NormalEquations {
-  Eigen::MatrixXd a;  ///< DxD
-  Eigen::VectorXd g;  ///< D
-};
-
-/// Builds them from the residuals r at a point (M) and those beside it (MxD): column d of J is
-/// (beside.col(d) - r) * scale[d]. Columns of scale 0 are left out, whatever they hold. Most
-/// residuals do not feel most parameters: what is equal costs a comparison only.
+/// Builds the normal equations from the residuals r at a point (M) and those beside it (MxD):
+/// column d of J is (beside.col(d) - r) * scale[d]. Columns of scale 0 are left out, whatever they
+/// hold. Most residuals do not feel most parameters: what is equal costs a comparison only.
 NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
                                  const Eigen::Ref<const Eigen::MatrixXf>& beside,
                                  const Eigen::VectorXd& scale);

@@ -152,6 +152,33 @@ void check_residuals(const Setting& setting) {
   require(same, setting.name + ": four threads writing at once differ from one");
 }
 
+void check_slopes(const Setting& setting) {
+  const ResidualTerm* term = setting.objective->residual_term();
+  if (!term || term->pixel_views().empty()) throw Skipped("it offers none");
+  const std::vector<float> expected = residuals(setting, 0.0f);
+  const auto count = static_cast<std::size_t>(term->residual_count());
+  for (std::size_t k = 0; k < setting.hypotheses.size(); ++k) {
+    std::size_t first = k * count;
+    for (std::size_t i = 0; i < term->pixel_views().size(); ++i) {
+      const auto view = static_cast<std::size_t>(term->pixel_views()[i]);
+      const TileCamera& tile = setting.observation.views.at(view).camera;
+      const auto size =
+          static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
+      require(first + size <= (k + 1) * count, setting.at(k) + ": fewer residuals than pixels");
+      std::vector<float> own(size, NAN), slopes(size, NAN);
+      term->write_slopes(as_drawn_for(*setting.objective, setting.hypotheses[k]), i, own, slopes);
+      for (std::size_t p = 0; p < size; ++p) {
+        require(std::abs(own[p] - expected[first + p]) <= 1e-4f * (1 + std::abs(own[p])),
+                setting.at(k) + ": with slopes, residual " + std::to_string(first + p) +
+                    " is another one");
+        require(std::isfinite(slopes[p]), setting.at(k) + ": a slope is not a finite number");
+      }
+      first += size;
+    }
+    require(first == (k + 1) * count, setting.at(k) + ": more residuals than pixels");
+  }
+}
+
 }  // namespace
 
 void check_objective(Report& report, const Subject& subject) {
@@ -175,6 +202,8 @@ void check_objective(Report& report, const Subject& subject) {
   });
   report.row("residuals are finite, complete and the same from several threads",
              [&] { each(check_residuals); });
+  report.row("residuals of pixels have finite slopes, and are the same with them",
+             [&] { each(check_slopes); });
   check_on_device(report, subject);
 }
 

@@ -71,7 +71,22 @@ class RecordingCost final : public CostFunction, public ResidualCost {
     }
   }
 
+  /// By differences: exact where residuals are linear.
+  bool can_linearize() const override { return linearizes; }
+  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& beside,
+                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
+    blurs.push_back(blur);
+    const Eigen::VectorXd r = function_.residuals(beside.col(0));
+    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(r.size(), steps.size());
+    for (Eigen::Index i = 0; i < steps.size(); ++i) {
+      if (steps[i] != 0) j.col(i) = (function_.residuals(beside.col(i + 1)) - r) / steps[i];
+    }
+    return {j.transpose() * j, j.transpose() * r};
+  }
+
   bool has_residuals = true;
+  bool linearizes = false;
+  std::vector<double> blurs;  ///< of every linearisation
   std::vector<Eigen::VectorXd> points;
   std::vector<double> costs;
   std::vector<int> batches;

@@ -1,0 +1,109 @@
+#include "slopes.hpp"
+
+#include <algorithm>
+
+// As in score.cpp.
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS \
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "slopes.cpp"
+#include <hwy/foreach_target.h>
+
+#include "color_lookup-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::stereo_color::HWY_NAMESPACE {
+
+template <bool kBilinear>
+struct SlopeWriter {
+  static constexpr bool kVisitsUncovered = false;
+  static constexpr float kReach = 0.5f;  // pixels to either side
+
+  const Features& left;
+  const Features& right;
+  const StereoMap& map;
+  Lanes beta;
+  Lanes share;
+  float* residuals;
+  float* slopes;
+  int width;
+
+  template <bool kInterpolated>
+  HYPOTRACK_PIXEL Lanes residual(const ColorSample<Lanes>& here, const StereoPixels& p) const {
+    const Lanes s = color_consistency(here, sample_there<kInterpolated>(right, p), beta);
+    return sqrt(share * max(here.weight - s, Lanes(0.0f)));
+  }
+
+  HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(p.y) * width + p.x;
+    const auto here = sample_here(left, p);
+    const Lanes zero(0.0f);
+    store(select(p.seen, residual<kBilinear>(here, p), sqrt(share * here.weight)), p.pixels,
+          residuals + at);
+    if (!any(p.seen)) return;
+    // With q = a2 . (x, y, 1) + b2 w, du/dw = (b0 - u b2) / q and dv/dw = (b1 - v b2) / q.
+    Lanes along_u(map.b[0] < 0 ? -1.0f : 1.0f), along_v = zero;
+    Lanes speed(map.b[0] < 0 ? -map.b[0] : map.b[0]);
+    if (!p.same_row) {
+      const Lanes x = count_from(static_cast<float>(p.x));
+      const Lanes q = mul_add(Lanes(map.a[2][0]), x,
+                              mul_add(Lanes(map.b[2]), p.inverse_depth,
+                                      Lanes(map.a[2][1] * static_cast<float>(p.y) + map.a[2][2])));
+      const Lanes du = (Lanes(map.b[0]) - p.u * Lanes(map.b[2])) / q;
+      const Lanes dv = (Lanes(map.b[1]) - p.v * Lanes(map.b[2])) / q;
+      speed = max(sqrt(du * du + dv * dv), Lanes(1e-6f));
+      along_u = du / speed;
+      along_v = dv / speed;
+    }
+    StereoPixels near = p, far = p;
+    near.u = mul_add(along_u, Lanes(kReach), p.u);
+    near.v = mul_add(along_v, Lanes(kReach), p.v);
+    far.u = mul_add(along_u, Lanes(-kReach), p.u);
+    far.v = mul_add(along_v, Lanes(-kReach), p.v);
+    const Lanes slope =
+        (residual<true>(here, near) - residual<true>(here, far)) * speed * Lanes(0.5f / kReach);
+    store(select(p.seen, slope, zero), p.pixels, slopes + at);
+  }
+  HYPOTRACK_PIXEL void end_row() {}
+};
+
+template <bool kBilinear>
+void run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+         const Params& params, float share, float* residuals, float* slopes) {
+  SlopeWriter<kBilinear> writer{
+      here.features, there.features, map,    Lanes(static_cast<float>(params.beta)),
+      Lanes(share),  residuals,      slopes, here.tile.width};
+  for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
+                        covered_box(here.tile), writer);
+}
+
+void write_slopes_covered(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                          const Params& params, float share, float* residuals, float* slopes) {
+  if (params.lookup == Lookup::bilinear) {
+    run<true>(here, there, map, params, share, residuals, slopes);
+  } else {
+    run<false>(here, there, map, params, share, residuals, slopes);
+  }
+}
+
+}  // namespace hypotrack::stereo_color::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack::stereo_color {
+
+HWY_EXPORT(write_slopes_covered);
+
+void write_slopes(const ScoredView& here, const ScoredView& there, const StereoMap& map,
+                  const Params& params, float share, const PixelPlane<float>& uncovered,
+                  std::span<float> residuals, std::span<float> slopes) {
+  std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
+  std::fill(slopes.begin(), slopes.end(), 0.0f);
+  HWY_DYNAMIC_DISPATCH(write_slopes_covered)
+  (here, there, map, params, share, residuals.data(), slopes.data());
+}
+
+}  // namespace hypotrack::stereo_color
+#endif

@@ -1,0 +1,292 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include "evaluate/evaluator.hpp"
+#include "hypotrack/error.hpp"
+#include "observations.hpp"
+#include "test_models.hpp"
+#include "track/tangent.hpp"
+
+namespace hypotrack {
+namespace {
+
+// A made-up residual per pixel of both views, smooth in the depth of what is drawn there.
+class DepthPattern : public Objective, public ResidualTerm {
+ public:
+  DepthPattern(float per_inverse_depth, float uncovered)
+      : factor_(per_inverse_depth), uncovered_(uncovered) {}
+
+  void prepare(const Observation& observation) override {
+    count_ = 0;
+    for (const TileView& view : observation.views) {
+      count_ += std::int64_t{view.camera.width} * view.camera.height;
+    }
+  }
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    double sum = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+          const double r = residual(tile, x, y);
+          sum += r * r;
+        }
+      }
+    }
+    return sum;
+  }
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return count_; }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override {
+    std::size_t i = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) residuals[i++] = residual(tile, x, y);
+      }
+    }
+  }
+  std::span<const int> pixel_views() const override { return kViews; }
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const override {
+    const DepthTile& tile = hypothesis.views[i];
+    std::size_t at = 0;
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x, ++at) {
+        residuals[at] = residual(tile, x, y);
+        slopes[at] = tile.inverse_depth[y * tile.stride + x] > 0 ? factor_ : 0;
+      }
+    }
+  }
+
+ private:
+  static constexpr std::array<int, 2> kViews{0, 1};
+
+  float residual(const DepthTile& tile, int x, int y) const {
+    const float w = tile.inverse_depth[y * tile.stride + x];
+    if (w == 0) return uncovered_;
+    const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+    return 0.5f + 0.4f * std::sin(0.05f * fx + 0.02f * fy - 4.2f) + factor_ * (w - 2);
+  }
+
+  float factor_, uncovered_;
+  std::int64_t count_ = 0;
+};
+
+// Residuals that are the first three numbers of a state.
+class Position : public Objective, public ResidualTerm {
+ public:
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& h) const override {
+    return h.state[0] * h.state[0] + h.state[1] * h.state[1] + h.state[2] * h.state[2];
+  }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return 3; }
+  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+    for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
+  }
+};
+
+/// A state moved along each dimension of a difference in turn.
+Eigen::MatrixXd moved_states(const Scene& scene, const Eigen::VectorXd& state,
+                             const Eigen::VectorXd& steps) {
+  Eigen::MatrixXd states(state.size(), steps.size() + 1);
+  states.col(0) = state;
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+    states.col(i + 1) = moved(scene, state, steps[i] * Eigen::VectorXd::Unit(steps.size(), i));
+  }
+  return states;
+}
+
+Eigen::VectorXd hand_state(const Scene& scene) {
+  Eigen::VectorXd state = scene.rest_state();
+  state[0] = 0.01;
+  state[2] = 0.5;
+  state.segment<4>(3) << 0.05, 0.99, 0.1, 0.05;
+  for (Eigen::Index i = 7; i < state.size(); ++i) {
+    const Parameter& p = scene.parameters()[static_cast<std::size_t>(i)];
+    state[i] = 0.7 * p.lower + 0.3 * p.upper;
+  }
+  scene.normalize(state);
+  return state;
+}
+
+/// Derivatives of half a cost by central differences.
+Eigen::VectorXd half_gradient(Evaluator& evaluator, const Scene& scene,
+                              const Eigen::VectorXd& state, const Eigen::VectorXd& steps) {
+  const Eigen::MatrixXd forth = moved_states(scene, state, steps);
+  const Eigen::MatrixXd back = moved_states(scene, state, -steps);
+  Eigen::VectorXd plus(forth.cols()), minus(back.cols());
+  evaluator.evaluate(forth, plus);
+  evaluator.evaluate(back, minus);
+  return (plus - minus).tail(steps.size()).cwiseQuotient(4 * steps);
+}
+
+Eigen::VectorXd metres_and_radians(Eigen::Index size, double metres, double radians) {
+  Eigen::VectorXd steps = Eigen::VectorXd::Constant(size, radians);
+  steps.head<3>().setConstant(metres);
+  return steps;
+}
+
+NormalEquations linearize(Evaluator& evaluator, const Scene& scene, const Eigen::VectorXd& state,
+                          double blur = 1) {
+  const Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
+  return evaluator.linearize(moved_states(scene, state, steps), steps, blur);
+}
+
+class Linearize : public testing::TestWithParam<bool> {
+ protected:
+  Observation observation(const Scene& scene) const {
+    return GetParam() ? test::rectified_pair(scene) : test::general_pair(scene);
+  }
+};
+
+TEST_P(Linearize, IsTheNumericalJacobianWhereNoSilhouetteIsInSight) {
+  const Scene wall({{"wall", std::make_shared<Model>(test::make_test_box({0.8, 0.8, 0.1}))}});
+  Eigen::VectorXd state = wall.rest_state();
+  state[2] = 0.6;
+  state.segment<4>(3) << 0.98, 0.1, -0.15, 0.05;
+  wall.normalize(state);
+  Evaluator evaluator(wall, {{1, std::make_shared<DepthPattern>(0.5f, 0.5f)}},
+                      {.backend = Backend::cpu, .threads = 1}, true);
+  const Observation frame = observation(wall);
+  evaluator.prepare(frame);
+  ASSERT_TRUE(evaluator.can_linearize());
+  const NormalEquations found = linearize(evaluator, wall, state);
+
+  const Eigen::VectorXd steps = metres_and_radians(6, 1e-3, 2e-3);
+  const Eigen::MatrixXd forth = moved_states(wall, state, steps);
+  const Eigen::MatrixXd back = moved_states(wall, state, -steps);
+  Eigen::MatrixXf plus(evaluator.residual_count(), 7), minus = plus;
+  Eigen::VectorXd costs(7);
+  evaluator.evaluate(forth, plus, costs);
+  evaluator.evaluate(back, minus, costs);
+  const Eigen::MatrixXd j =
+      (plus - minus).rightCols(6).cast<double>() * (0.5 * steps.cwiseInverse()).asDiagonal();
+  const Eigen::VectorXd r = plus.col(0).cast<double>();
+  EXPECT_TRUE(found.a.isApprox(j.transpose() * j, 1e-2)) << found.a << "\n\n" << j.transpose() * j;
+  EXPECT_TRUE(found.g.isApprox(j.transpose() * r, 1e-2)) << found.g << "\n\n" << j.transpose() * r;
+}
+
+TEST_P(Linearize, KnowsWhatMovingSilhouettesChange) {
+  const Scene scene = test::hand_scene();
+  // Without slopes there is nothing else.
+  for (const float slope : {0.0f, 0.2f}) {
+    Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(slope, 0.5f)}},
+                        {.backend = Backend::cpu, .threads = 1}, true);
+    const Observation frame = observation(scene);
+    evaluator.prepare(frame);
+    // Means over how the silhouette lies on the grid of pixels, and over lengths of differences.
+    const Eigen::VectorXd middle = hand_state(scene);
+    const Eigen::Index size = middle.size() - 1;
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(size), expected = found;
+    for (int i = 0; i < 8; ++i) {
+      Eigen::VectorXd state = middle;
+      state[0] += 0.7e-3 * i;
+      state[1] += 1.1e-3 * (i % 3);
+      found += linearize(evaluator, scene, state).g;
+      const double length = 0.8 + 0.2 * i;
+      expected += half_gradient(evaluator, scene, state,
+                                metres_and_radians(size, length * 1e-3, length * 0.015));
+    }
+    // Numbers in units that make them alike.
+    const Eigen::VectorXd unit = metres_and_radians(size, 0.02, 0.2);
+    const double error = (found - expected).cwiseProduct(unit).norm();
+    EXPECT_LT(error, 0.08 * expected.cwiseProduct(unit).norm())
+        << slope << "\n"
+        << found.cwiseProduct(unit).transpose() << "\n"
+        << expected.cwiseProduct(unit).transpose();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, Linearize, testing::Bool(),
+                         [](const auto& pair) { return pair.param ? "Rectified" : "General"; });
+
+TEST(Linearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
+  const Scene scene = test::hand_scene();
+  Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.0f, 0.5f)}},
+                      {.backend = Backend::cpu, .threads = 1}, true);
+  const Observation frame = test::rectified_pair(scene);
+  evaluator.prepare(frame);
+  const NormalEquations sharp = linearize(evaluator, scene, hand_state(scene), 1);
+  const NormalEquations soft = linearize(evaluator, scene, hand_state(scene), 2);
+  EXPECT_TRUE(soft.g.isApprox(sharp.g, 1e-5));
+  EXPECT_TRUE((2 * soft.a).isApprox(sharp.a, 1e-5));
+}
+
+TEST(Linearizer, AddsTermsUpWithTheirWeights) {
+  const Scene scene = test::hand_scene();
+  const Observation frame = test::rectified_pair(scene);
+  const auto of = [&](const std::vector<ObjectiveTerm>& terms) {
+    Evaluator evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, true);
+    evaluator.prepare(frame);
+    return linearize(evaluator, scene, hand_state(scene));
+  };
+  const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);
+  const auto other = std::make_shared<DepthPattern>(0.5f, 0.7f);
+  const auto position = std::make_shared<Position>();
+  const NormalEquations p = of({{1, pattern}}), o = of({{1, other}}), x = of({{1, position}});
+  const NormalEquations all = of({{4, pattern}, {0.5, other}, {3, position}, {0, position}});
+  EXPECT_TRUE(all.a.isApprox(4 * p.a + 0.5 * o.a + 3 * x.a, 1e-5));
+  EXPECT_TRUE(all.g.isApprox(4 * p.g + 0.5 * o.g + 3 * x.g, 1e-5));
+  Eigen::MatrixXd identity = Eigen::MatrixXd::Zero(x.a.rows(), x.a.cols());
+  identity.topLeftCorner<3, 3>().setIdentity();
+  EXPECT_TRUE(x.a.isApprox(identity, 1e-3));
+}
+
+TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
+  const Scene scene = test::hand_scene();
+  const Observation frame = test::rectified_pair(scene);
+  NormalEquations expected;
+  for (const int threads : {1, 2, 5}) {
+    Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                        {.backend = Backend::cpu, .threads = threads}, true);
+    evaluator.prepare(frame);
+    const NormalEquations found = linearize(evaluator, scene, hand_state(scene));
+    if (threads == 1) expected = found;
+    EXPECT_EQ(found.a, expected.a);
+    EXPECT_EQ(found.g, expected.g);
+  }
+}
+
+TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
+  const Scene scene = test::hand_scene();
+  Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                      {.backend = Backend::cpu, .threads = 1}, true);
+  const Observation frame = test::rectified_pair(scene);
+  evaluator.prepare(frame);
+  const Eigen::VectorXd state = hand_state(scene);
+  Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
+  const NormalEquations all = linearize(evaluator, scene, state);
+  steps[1] = 0;
+  const NormalEquations some = evaluator.linearize(moved_states(scene, state, steps), steps, 1);
+  EXPECT_EQ(some.a.col(1).norm() + some.a.row(1).norm() + some.g[1], 0);
+  EXPECT_EQ(some.g[2], all.g[2]);
+}
+
+// Residuals of both tiles, but no slopes.
+class WithoutSlopes : public DepthPattern {
+ public:
+  using DepthPattern::DepthPattern;
+  std::span<const int> pixel_views() const override { return {}; }
+};
+
+TEST(Linearizer, NeedsSlopesOfEveryTermThatIsDrawn) {
+  const Scene scene = test::hand_scene();
+  const auto can = [&](const std::vector<ObjectiveTerm>& terms) {
+    return Evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, true).can_linearize();
+  };
+  const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);
+  const auto without = std::make_shared<WithoutSlopes>(0.2f, 0.5f);
+  EXPECT_TRUE(can({{1, pattern}, {1, std::make_shared<Position>()}}));
+  EXPECT_FALSE(can({{1, pattern}, {1, without}}));
+  EXPECT_TRUE(can({{1, pattern}, {0, without}}));
+}
+
+}  // namespace
+}  // namespace hypotrack
