@@ -17,8 +17,10 @@ class FallenBack final : public Evaluation {
   FallenBack(std::unique_ptr<Evaluation> host, std::string why)
       : host_(std::move(host)), why_(std::move(why)) {}
 
-  using Evaluation::prepare;
   void prepare(const Observation& observation) override { host_->prepare(observation); }
+  void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    host_->prepare(tiles, frame, plan);
+  }
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
     host_->evaluate(states, costs);
   }

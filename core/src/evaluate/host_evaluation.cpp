@@ -1,3 +1,6 @@
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,16 +25,22 @@ class HostEvaluation final : public Evaluation {
  public:
   HostEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                  const EvaluateSettings& settings)
-      : terms_(terms), renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))) {
+      : terms_(terms),
+        renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))),
+        arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
     if (TermResiduals::why_none(terms).empty()) residuals_.emplace(terms);
     if (residuals_ && Linearizer::can_linearize(terms)) {
       linearizer_ = std::make_unique<Linearizer>(scene, terms, settings.threads);
     }
   }
 
-  using Evaluation::prepare;
+  void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    arena_.execute([&] { Evaluation::prepare(tiles, frame, plan); });
+  }
   void prepare(const Observation& observation) override {
-    for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
+    arena_.execute([&] {
+      for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
+    });
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
     if (linearizer_) linearizer_->prepare(observation);
@@ -88,6 +97,7 @@ class HostEvaluation final : public Evaluation {
   std::optional<TermResiduals> residuals_;  // if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // if the terms have what it needs
+  tbb::task_arena arena_;                   // of what a frame takes before hypotheses
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "geometry/tiles.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -134,10 +135,10 @@ TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const
 
 Observation TileMaker::cut(const Frame& frame, const TilePlan& plan) const {
   Observation observation = plan.header;
-  for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
+  tbb::parallel_for(std::size_t{0}, plan.cuts.size(), [&](std::size_t i) {
     const TileCamera& tile = plan.header.views[i].camera;
     observation.views[i] = impl_->resamplers[i].cut(frame.views[i], tile, plan.cuts[i]);
-  }
+  });
   return observation;
 }
 

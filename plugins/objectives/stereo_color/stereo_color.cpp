@@ -1,5 +1,7 @@
 #include "stereo_color.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <array>
 #include <cstddef>
 
@@ -37,11 +39,11 @@ StereoColor::StereoColor(const Params& params) : params_(params) {}
 
 void StereoColor::prepare(const Observation& observation) {
   check(observation);
-  for (std::size_t i = 0; i < 2; ++i) {
+  tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
     features_[i] = make_features(observation.views[i], params_);
     maps_[i] = stereo_map(observation, static_cast<int>(i), static_cast<int>(1 - i));
     if (residual_term() && uses(i)) uncovered_[i] = uncovered_residuals(features_[i], share());
-  }
+  });
 }
 
 void StereoColor::check_tiles(const RenderedHypothesis& hypothesis) const {
