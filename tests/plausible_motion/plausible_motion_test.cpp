@@ -49,6 +49,7 @@ TEST_F(PlausibleMotionTest, OfNoMotionAndCoupledFingersIsNothing) {
   for (const char* hand : {"right.", "left."}) {
     for (const char* finger : {"index", "middle", "ring", "little"}) {
       const std::string name = std::string(hand) + finger;
+      angle(start_, name + "_flexion_1") = 0.6;
       angle(start_, name + "_flexion_2") = 0.6;
       angle(start_, name + "_flexion_3") = 0.4;
     }
@@ -57,7 +58,8 @@ TEST_F(PlausibleMotionTest, OfNoMotionAndCoupledFingersIsNothing) {
 }
 
 TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
-  const PlausibleMotionParams params{.motion_sigma = 0.2, .coupling_sigma = kOff};
+  const PlausibleMotionParams params{
+      .motion_sigma = 0.2, .coupling_sigma = kOff, .curl_sigma = kOff};
   Eigen::VectorXd state = start_;
   angle(state, "right.index_flexion_1") += 0.2;
   EXPECT_NEAR(cost(params, state), 1, 1e-6);
@@ -76,7 +78,8 @@ TEST_F(PlausibleMotionTest, LeavesPositionsAndRotationsFree) {
 }
 
 TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
-  const PlausibleMotionParams params{.motion_sigma = kOff, .coupling_sigma = 0.1, .coupling = 0.5};
+  const PlausibleMotionParams params{
+      .motion_sigma = kOff, .coupling_sigma = 0.1, .coupling = 0.5, .curl_sigma = kOff};
   Eigen::VectorXd state = start_;
   for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
     if (scene_.parameters()[i].kind == ParameterKind::angle)
@@ -92,6 +95,23 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
   EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
 }
 
+TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsCurledBySigmaMoreThanItsKnuckle) {
+  const PlausibleMotionParams params{
+      .motion_sigma = kOff, .coupling_sigma = kOff, .curl_sigma = 0.2, .curl = 1.5};
+  Eigen::VectorXd state = start_;
+  for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
+    if (scene_.parameters()[i].kind == ParameterKind::angle)
+      state[static_cast<Eigen::Index>(i)] = 0;
+  }
+  angle(state, "left.index_flexion_1") = 0.4;
+  angle(state, "left.index_flexion_2") = 0.6;
+  EXPECT_NEAR(cost(params, state), 0, 1e-6);
+  angle(state, "left.index_flexion_2") = 0.8;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6);
+  angle(state, "right.thumb_flexion_2") = 0.5;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
+}
+
 TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
   PlausibleMotion objective({}, scene_);
   Observation observation;
@@ -99,7 +119,7 @@ TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
   objective.prepare(observation);
   const ResidualTerm* term = objective.residual_term();
   ASSERT_NE(term, nullptr);
-  ASSERT_EQ(term->residual_count(), 2 * (20 + 4));
+  ASSERT_EQ(term->residual_count(), 2 * (20 + 8));
   std::vector<float> residuals(static_cast<std::size_t>(term->residual_count()));
   std::mt19937_64 random(9);
   for (int round = 0; round < 20; ++round) {
@@ -113,7 +133,8 @@ TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
 }
 
 TEST_F(PlausibleMotionTest, FollowsTheStartOfEveryFrame) {
-  const PlausibleMotionParams params{.coupling_sigma = kOff};
+  const PlausibleMotionParams params{
+      .motion_sigma = 0.2, .coupling_sigma = kOff, .curl_sigma = kOff};
   PlausibleMotion objective(params, scene_);
   Observation first, second;
   first.start = start_;

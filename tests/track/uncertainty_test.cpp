@@ -16,7 +16,8 @@ namespace {
 /// own.
 class Readings final : public Objective, public ResidualTerm {
  public:
-  Readings(std::vector<int> axes, int pixels, double noise) : axes_(std::move(axes)) {
+  Readings(std::vector<int> axes, int pixels, double noise, bool draws = false)
+      : axes_(std::move(axes)), draws_(draws) {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (int i = 0; i < pixels / 2; ++i) {
@@ -24,7 +25,7 @@ class Readings final : public Objective, public ResidualTerm {
       noise_.push_back(-noise_.back());  // so that the middle is the minimum
     }
   }
-  bool needs_rendering() const override { return false; }
+  bool needs_rendering() const override { return draws_; }
   void prepare(const Observation&) override {}
   double cost(const RenderedHypothesis& h) const override {
     double sum = 0;
@@ -48,6 +49,7 @@ class Readings final : public Objective, public ResidualTerm {
     return h.state[static_cast<std::size_t>(axis)];
   }
   std::vector<int> axes_;
+  bool draws_;
   std::vector<double> noise_;
 };
 
@@ -57,8 +59,10 @@ struct Fixture {
 
   /// Sigma of the box's centre, `away` from the middle along x.
   double sigma(std::vector<int> axes, int pixels, double noise, double away = 0) const {
-    Evaluator evaluator(scene, {{1.0, std::make_shared<Readings>(axes, pixels, noise)}},
-                        {.backend = Backend::cpu, .threads = 1}, true);
+    return sigma({{1.0, std::make_shared<Readings>(axes, pixels, noise)}}, away);
+  }
+  double sigma(std::vector<ObjectiveTerm> terms, double away = 0) const {
+    Evaluator evaluator(scene, std::move(terms), {.backend = Backend::cpu, .threads = 1}, true);
     evaluator.prepare(Observation{});
     Eigen::VectorXd state = scene.rest_state();
     state[0] = away;
@@ -93,6 +97,14 @@ TEST(PoseUncertainty, GrowsWhereASearchEndedBesideTheMinimum) {
   const double away = f.sigma({0, 1, 2}, 400, 0.020, 0.015);
   EXPECT_GT(away, 0.014);
   EXPECT_LT(away, 0.018);
+}
+
+TEST(PoseUncertainty, IsNotLessForATermThatLooksAtThePoseOnly) {
+  const Fixture f;
+  const auto seen = [] { return std::make_shared<Readings>(std::vector{0, 1}, 400, 0.020, true); };
+  const auto held = std::make_shared<Readings>(std::vector{2}, 400, 0.020);
+  EXPECT_NEAR(f.sigma({{1.0, seen()}, {1.0, held}}), f.sigma({{1.0, seen()}}), 1e-9);
+  EXPECT_LT(f.sigma({{1.0, held}}), 0.08) << "where nothing looks at pictures, it counts";
 }
 
 TEST(PoseUncertainty, HasAValueForEveryLandmarkAtTheBoundsToo) {

@@ -37,6 +37,8 @@ class Evaluation {
   virtual bool has_residuals() const { return false; }
   /// Residuals of every hypothesis of the prepared frame.
   virtual Eigen::Index residual_count() const { return 0; }
+  /// Evaluator::pose_only_residuals().
+  virtual std::vector<ResidualRows> pose_only_residuals() const { return {}; }
   /// The costs and the residuals (residual_count() x N); only where has_residuals().
   virtual void evaluate_residuals(const Eigen::MatrixXd& states,
                                   Eigen::Ref<Eigen::MatrixXf> residuals,

@@ -92,6 +92,10 @@ Eigen::Index Evaluator::residual_count() const {
   return impl_->evaluation->residual_count();
 }
 
+std::vector<ResidualRows> Evaluator::pose_only_residuals() const {
+  return impl_->evaluation->pose_only_residuals();
+}
+
 void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                          Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) {
   impl_->normalize(states, costs.size());

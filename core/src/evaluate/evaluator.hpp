@@ -42,6 +42,11 @@ struct ObjectiveTerm {
   std::string name = {};  ///< for messages
 };
 
+/// Residuals that follow each other.
+struct ResidualRows {
+  Eigen::Index first = 0, count = 0;
+};
+
 /// Turns hypotheses into costs: normalise, pose, skin, draw both views' depth tiles, score. Whole
 /// batches at a time, over threads; the result does not depend on the number of threads.
 class HYPOTRACK_API Evaluator {
@@ -71,6 +76,8 @@ class HYPOTRACK_API Evaluator {
   bool has_residuals() const;
   /// Number M of residuals of every state, for the prepared frame.
   Eigen::Index residual_count() const;
+  /// Those of them that belong to terms that look at no picture, where others do.
+  std::vector<ResidualRows> pose_only_residuals() const;
   /// The same costs (N), and residuals (MxN) whose squares add up to them (ResidualTerm).
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs);

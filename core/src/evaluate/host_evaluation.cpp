@@ -56,6 +56,9 @@ class HostEvaluation final : public Evaluation {
 
   bool has_residuals() const override { return residuals_.has_value(); }
   Eigen::Index residual_count() const override { return residuals_ ? residuals_->count() : 0; }
+  std::vector<ResidualRows> pose_only_residuals() const override {
+    return residuals_ ? residuals_->pose_only() : std::vector<ResidualRows>();
+  }
   void evaluate_residuals(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
                           Eigen::Ref<Eigen::VectorXd> costs) override {
     const auto count = static_cast<std::size_t>(residuals.rows());

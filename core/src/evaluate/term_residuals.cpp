@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hypotrack {
@@ -42,6 +43,19 @@ void TermResiduals::prepare() {
     part.count = static_cast<std::size_t>(count);
     count_ += count;
   }
+}
+
+std::vector<ResidualRows> TermResiduals::pose_only() const {
+  std::vector<ResidualRows> rows;
+  Eigen::Index first = 0;
+  for (const Part& part : parts_) {
+    const auto count = static_cast<Eigen::Index>(part.count);
+    if (count > 0 && !part.objective->needs_rendering()) rows.push_back({first, count});
+    first += count;
+  }
+  const bool all = rows.size() == static_cast<std::size_t>(std::ranges::count_if(
+                                      parts_, [](const Part& part) { return part.count > 0; }));
+  return all ? std::vector<ResidualRows>() : rows;
 }
 
 double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothesis,

@@ -23,6 +23,8 @@ class TermResiduals {
   /// Asks the terms for the counts of the frame that they are prepared for.
   void prepare();
   Eigen::Index count() const { return count_; }
+  /// Evaluator::pose_only_residuals().
+  std::vector<ResidualRows> pose_only() const;
   /// Cost of one of the terms, without its weight; its residuals go to the front of `rest`, which
   /// then begins behind them. May be called from several threads at once.
   double write(std::size_t term, const RenderedHypothesis& hypothesis,

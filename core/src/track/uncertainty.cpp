@@ -95,6 +95,8 @@ Eigen::VectorXd PoseUncertainty::of(Evaluator& evaluator, const Eigen::VectorXd&
   if (!costs.allFinite() || !residuals.allFinite())
     return Eigen::VectorXd::Constant(landmarks, std::numeric_limits<double>::infinity());
 
+  for (const ResidualRows& rows : evaluator.pose_only_residuals())
+    residuals.middleRows(rows.first, rows.count).setZero();
   const ResidualInformation info = residual_information(residuals, around.width);
   const double noise = settings_.noise * settings_.noise;
   Eigen::MatrixXd precision = info.a / noise;

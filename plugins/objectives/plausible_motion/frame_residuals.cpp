@@ -20,6 +20,21 @@ std::size_t find(const std::vector<Parameter>& parameters, const std::string& na
 
 }  // namespace
 
+void FrameResiduals::couple(const std::vector<Parameter>& parameters, std::string_view joint,
+                            std::string_view before, double share, double sigma) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const std::string& name = parameters[i].name;
+    if (!name.ends_with(joint)) continue;
+    const std::string finger = name.substr(0, name.size() - joint.size());
+    const std::size_t other = find(parameters, finger + std::string(before));
+    if (finger.ends_with("thumb") || other == parameters.size()) continue;
+    LinearResidual coupled = residual(i, sigma);
+    coupled.index[1] = static_cast<std::int32_t>(other);
+    coupled.factor[1] = -share / sigma;
+    residuals_.push_back(coupled);
+  }
+}
+
 FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene& scene) {
   const std::vector<Parameter>& parameters = scene.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -27,18 +42,8 @@ FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene&
     residuals_.push_back(residual(i, params.motion_sigma));
   }
   angles_ = residuals_.size();
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string& name = parameters[i].name;
-    constexpr std::string_view kLast = "_flexion_3";
-    if (!name.ends_with(kLast) || name.ends_with("thumb_flexion_3")) continue;
-    const std::string finger = name.substr(0, name.size() - kLast.size());
-    const std::size_t before = find(parameters, finger + "_flexion_2");
-    if (before == parameters.size()) continue;
-    LinearResidual coupled = residual(i, params.coupling_sigma);
-    coupled.index[1] = static_cast<std::int32_t>(before);
-    coupled.factor[1] = -params.coupling / params.coupling_sigma;
-    residuals_.push_back(coupled);
-  }
+  couple(parameters, "_flexion_3", "_flexion_2", params.coupling, params.coupling_sigma);
+  couple(parameters, "_flexion_2", "_flexion_1", params.curl, params.curl_sigma);
 }
 
 MotionTerm FrameResiduals::at(const Eigen::VectorXd& start) {

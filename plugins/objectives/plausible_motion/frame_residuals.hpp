@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/scene.hpp"
@@ -9,11 +10,11 @@
 
 namespace hypotrack::plausible_motion {
 
-/// Makes the residuals of a scene's frames: first one per joint angle, then one per finger.
+/// Makes the residuals of a scene's frames: first one per joint angle, then two per finger.
 class FrameResiduals {
  public:
-  /// A model has fingers where it has parameters NAME_flexion_2 and NAME_flexion_3; the joints of a
-  /// thumb do not move together.
+  /// A model has fingers where it has parameters NAME_flexion_1, _2 and _3; the joints of a thumb
+  /// do not move together.
   FrameResiduals(const PlausibleMotionParams& params, const Scene& scene);
 
   /// The term of a frame whose search starts at a state of the scene. Points into this object,
@@ -21,6 +22,10 @@ class FrameResiduals {
   MotionTerm at(const Eigen::VectorXd& start);
 
  private:
+  /// A residual for every finger with both joints: one flexion should be a share of the other.
+  void couple(const std::vector<Parameter>& parameters, std::string_view joint,
+              std::string_view before, double share, double sigma);
+
   std::size_t angles_ = 0;
   std::vector<LinearResidual> residuals_;
 };

@@ -5,9 +5,11 @@
 namespace hypotrack::plausible_motion {
 
 struct PlausibleMotionParams {
-  double motion_sigma = 15 * kDegree;
-  double coupling_sigma = 20 * kDegree;
+  double motion_sigma = 45 * kDegree;
+  double coupling_sigma = 10 * kDegree;
   double coupling = 2.0 / 3.0;
+  double curl_sigma = 30 * kDegree;
+  double curl = 1;
   void visit(ParamVisitor& v) {
     v("motion_sigma_deg", motion_sigma,
       {.help = "how far a joint turns from one frame to the next: there it costs 1",
@@ -24,6 +26,16 @@ struct PlausibleMotionParams {
        .to_si = kDegree});
     v("coupling", coupling,
       {.help = "flexion of a finger's last joint for that of the one before", .min = 0, .max = 2});
+    v("curl_sigma_deg", curl_sigma,
+      {.help =
+           "how far a finger's middle joint strays from `curl` times the knuckle: there it costs "
+           "1",
+       .min = 0.01,
+       .max = 1e6,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("curl", curl,
+      {.help = "flexion of a finger's middle joint for that of its knuckle", .min = 0, .max = 4});
   }
 };
 
