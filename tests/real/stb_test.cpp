@@ -89,7 +89,6 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
   parts.cameras = stb.session.parts.cameras;
   parts.objective = stb.session.parts.objective;
   parts.tile = stb.session.parts.tile;
-  parts.search = stb.session.parts.search;
   parts.photometric.match = false;  // as the caller has left the frame
   parts.optimizer = plugins.make<Optimizer>(ConfigNode::parse(
       fmt::format("{{type: pso, particles: {0}, generations: {0}}}", size), "stb test"));
@@ -257,7 +256,7 @@ double mean_found(PluginLoader& plugins, int away_mm, int away_deg, int draws) {
     const Eigen::VectorXd start = stb.fitted;
     Tracker tracker(*stb.session.scene, std::move(stb.session.parts), start, stb.session.seed);
     const Solution solution = tracker.track(stb.frame);
-    EXPECT_EQ(solution.evaluations, 1024);
+    EXPECT_LE(solution.evaluations, 1024);
     mean += 1e3 * stb.distance(solution.state) / draws;
   }
   return mean;
@@ -269,7 +268,7 @@ TEST(StbPair, IsFoundByPatchesAndSkinFromFarAway) {
   for (const int steps : {1, 2, 3}) {
     const double found = mean_found(plugins, 10 * steps, 5 * steps, 8);
     fmt::print("from {} mm, {} degrees: {:.1f} mm\n", 10 * steps, 5 * steps, found);
-    EXPECT_LE(found, 9) << "from " << 10 * steps << " mm away";
+    EXPECT_LE(found, 8) << "from " << 10 * steps << " mm away";
   }
 }
 
