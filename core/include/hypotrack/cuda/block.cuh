@@ -26,6 +26,15 @@ __device__ __forceinline__ float warp_sum(float x) {
 
 __device__ __forceinline__ int warp_max(int x) { return -warp_min(-x); }
 
+__device__ __forceinline__ unsigned warp_or(unsigned x) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_or_sync(kWholeWarp, x);
+#else
+  for (int step = kWarp / 2; step > 0; step /= 2) x |= __shfl_xor_sync(kWholeWarp, x, step);
+  return x;
+#endif
+}
+
 /// The sum of a lane's x and those of all lanes before it.
 __device__ __forceinline__ int warp_scan(int x) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;

@@ -31,7 +31,6 @@ struct BlockPlan {
   PoseMemory pose{};
   int vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
   int histogram_shift = 0;  ///< 2^this rows are a bin of the histogram
-  int tall = -1;            ///< a list of tall triangles as large as `list`; -1: they go there, too
   int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
   /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
   /// before still runs.
@@ -107,7 +106,6 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
-  p.tall = bands > 1 ? take(p.chunk) : -1;
   p.histogram = bands > 1 ? take(kHistogramBins) : 0;
   while (r.tile_height > kHistogramBins << p.histogram_shift) ++p.histogram_shift;
   const int floats = bytes / 4;

@@ -9,10 +9,9 @@ namespace hypotrack::cuda {
 
 /// Triangles with less area (twice, pixels^2) are noise of single precision.
 inline constexpr float kSmallestArea = 1e-6f;
-/// Triangles with more rows or columns are drawn by a whole warp instead of one thread.
+/// Triangles with more rows or columns are drawn by a whole warp, pixel by pixel; those with fewer
+/// by a thread per row.
 inline constexpr int kPixelsPerThread = 8;
-/// What VisibleList::flat_rows is where there is room for a list of tall ones.
-inline constexpr int kFlatRows = 2;
 
 /// The corners of a triangle in one view.
 struct Corners {
@@ -65,21 +64,17 @@ __device__ __forceinline__ CornerRecords load_corners(const TriangleCorners& cor
 }
 
 /// Visible triangles of a chunk in one view or a pair: 2 * (number within the chunk) + view. Those
-/// for one thread each grow from the front, those for a warp each from the back. With `flat_rows`
-/// below kPixelsPerThread those for one thread that have more rows are a list of their own, so that
-/// the threads of a warp have equally much to do.
+/// of few pixels grow from the front, those for a warp each from the back.
 struct VisibleList {
   std::uint16_t* entries;
   int capacity;
-  int flat_rows;
-  std::uint16_t* tall;
   struct Counts {
-    int flat, tall, large;
-    __device__ void reset() { flat = tall = large = 0; }
+    int few, many;
+    __device__ void reset() { few = many = 0; }
   } * counts;
 };
 
-enum class Coverage { none, flat, tall, large };
+enum class Coverage { none, few, many };
 
 /// Appends an entry per view that is wanted; called by whole warps.
 __device__ __forceinline__ void append(std::uint16_t* first, int step, int& count, bool left,
@@ -105,22 +100,20 @@ __device__ __forceinline__ void append(const VisibleList& list, Coverage left, C
   const auto append_those = [&](Coverage wanted, std::uint16_t* first, int step, int& count) {
     append(first, step, count, left == wanted, right == wanted, entry);
   };
-  append_those(Coverage::flat, list.entries, 1, list.counts->flat);
-  if (!__any_sync(kWholeWarp, left > Coverage::flat || right > Coverage::flat)) return;
-  append_those(Coverage::tall, list.tall, 1, list.counts->tall);
-  append_those(Coverage::large, list.entries + list.capacity - 1, -1, list.counts->large);
+  append_those(Coverage::few, list.entries, 1, list.counts->few);
+  if (!__any_sync(kWholeWarp, left == Coverage::many || right == Coverage::many)) return;
+  append_those(Coverage::many, list.entries + list.capacity - 1, -1, list.counts->many);
 }
 
 /// How many pixels of `rows` a triangle may cover in a view `width` pixels wide.
-__device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width, Span rows,
-                                             int flat_rows) {
+__device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width,
+                                             Span rows) {
   const float area = -twice_area(t);
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
   if (!((two_sided ? fabsf(area) : area) > kSmallestArea)) return Coverage::none;
   if (columns.first > columns.last) return Coverage::none;
-  const int height = rows.last - rows.first;
-  if (max(columns.last - columns.first, height) >= kPixelsPerThread) return Coverage::large;
-  return height < flat_rows ? Coverage::flat : Coverage::tall;
+  const int longest = max(columns.last - columns.first, rows.last - rows.first);
+  return longest < kPixelsPerThread ? Coverage::few : Coverage::many;
 }
 
 /// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in
@@ -148,9 +141,9 @@ __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
       const Corners t = records.in_view(false);
       if (least(t.aw, t.bw, t.cw) > 0.0f) {
         const bool two_sided = (triangle >> (3 * kVertexBits)) != 0;
-        left = coverage(t, two_sided, width, rows, list.flat_rows);
+        left = coverage(t, two_sided, width, rows);
         if (kPair) {
-          right = coverage(records.in_view(true), two_sided, width2, rows, list.flat_rows);
+          right = coverage(records.in_view(true), two_sided, width2, rows);
         }
       }
     }

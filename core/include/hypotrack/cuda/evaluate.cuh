@@ -144,13 +144,8 @@ class BlockEvaluation {
   template <bool kPair, bool kSharedDepth>
   __device__ void draw(int view, const DepthBuffer<kSharedDepth>& left,
                        const DepthBuffer<kSharedDepth>& right) {
-    const bool tall = plan_.tall >= 0;
-    const auto entries = [](int at) {
-      return reinterpret_cast<std::uint16_t*>(shared_floats() + at);
-    };
-    const VisibleList list{entries(plan_.list), 2 * plan_.chunk,
-                           tall ? kFlatRows : kPixelsPerThread, entries(tall ? plan_.tall : 0),
-                           &state_.counts};
+    const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
+                           2 * plan_.chunk, &state_.counts};
     const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);

@@ -72,38 +72,106 @@ struct Crossing {
   }
 };
 
-/// Draws a triangle of few pixels with each thread of a warp: what of every row lies within all
-/// three edges. The threads wait for each other after every row: left alone, they would run ahead
-/// into their next rows one by one, at a fraction of a warp's width.
-template <bool kShared>
-__device__ __forceinline__ void fill_few(const Planes& p, Span rows,
-                                         const DepthBuffer<kShared>& buffer) {
-  const Crossing a(p.a, p.a_dx, p.a_dy), b(p.b, p.b_dx, p.b_dy);
-  const Crossing c(1.0f - p.a - p.b, -(p.a_dx + p.b_dx), -(p.a_dy + p.b_dy));
-  const float w_dx = fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc);
-  const float w_dy = fmaf(p.a_dy, p.w_ac, p.b_dy * p.w_bc);
-  const float w_first = fmaf(p.a, p.w_ac, fmaf(p.b, p.w_bc, p.w_c));
-  const float last_column = exact_float(p.x1 - p.x0);
-  float dy = exact_float(rows.first - p.y0);
-  int row = buffer.index(p.x0, rows.first);
-  const int count = rows.last - rows.first + 1, most = warp_max(count);
+/// The rows of a thread's triangle of few pixels, for the threads of its warp: what of every row
+/// lies within all three edges.
+class FewRows {
+ public:
+  /// `rows` are those to be drawn, `pixel` where the z-buffers have the first of them at p.x0.
+  __device__ __forceinline__ FewRows(const Planes& p, Span rows, int pixel, bool second)
+      : a_(p.a, p.a_dx, p.a_dy),
+        b_(p.b, p.b_dx, p.b_dy),
+        c_(1.0f - p.a - p.b, -(p.a_dx + p.b_dx), -(p.a_dy + p.b_dy)),
+        w_(fmaf(p.a, p.w_ac, fmaf(p.b, p.w_bc, p.w_c))),
+        w_dx_(fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc)),
+        w_dy_(fmaf(p.a_dy, p.w_ac, p.b_dy * p.w_bc)),
+        pixel_(pixel),
+        count_(rows.last - rows.first + 1),
+        shape_(pack(a_.right, 0) | pack(b_.right, 1) | pack(c_.right, 2) | pack(second, kSecond) |
+               pack(p.x1 - p.x0, kLast) | pack(rows.first - p.y0, kSkipped)) {}
+
+  /// Draws the rows of all the warp's triangles, a row per thread at a time. `is_there`: this
+  /// thread has one. `pitches` are those of the two views.
+  template <bool kShared>
+  __device__ __forceinline__ void draw(bool is_there, int2 pitches,
+                                       const Floats<kShared>& depth) {
+    const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    const int end = warp_scan(is_there ? count_ : 0);
+    const int begin = is_there ? end - count_ : end;
+    shape_ |= pack(begin, kBegin);
+    const int total = __shfl_sync(kWholeWarp, end, kWarp - 1);
 #pragma unroll 1
-  for (int y = 0; y < most; ++y) {
-    float first = 0.0f, last = last_column;
-    a.cut(dy, first, last);
-    b.cut(dy, first, last);
-    c.cut(dy, first, last);
-    // At most one column beyond either end: a thin triangle's edges may meet far away.
-    const int begin = round_up(fminf(first, last_column + 1.0f));
-    const int end = y < count ? round_down(fmaxf(last, -1.0f)) : -1;
-    float w = fmaf(exact_float(begin), w_dx, fmaf(dy, w_dy, w_first));
-#pragma unroll 1  // one or two pixels in most rows
-    for (int i = row + begin; i <= row + end; ++i, w += w_dx) put(buffer.inverse_depth, i, w);
-    dy += 1.0f;
-    row += buffer.box.width();
-    __syncwarp();
+    for (int first = 0; first < total; first += kWarp) {
+      // Every triangle has a row: as many of them as have begun are those up to a row's own.
+      const int at = begin - first;
+      const unsigned begins = warp_or(at >= 0 && at < kWarp ? 1u << at : 0u);
+      const int earlier = __popc(__ballot_sync(kWholeWarp, at < 0));
+      const int owner = earlier + __popc(begins & ((2u << lane) - 1u)) - 1;
+      const bool is_row = first + lane < total;
+      FewRows of_owner = *this;
+      of_owner.fetch(owner);
+      of_owner.draw_row(first + lane, is_row, pitches, depth);
+    }
   }
-}
+
+ private:
+  // Bits of shape_, from here on.
+  static constexpr int kSecond = 3, kLast = 4, kBegin = 7, kSkipped = 16;
+  static_assert(kPixelsPerThread <= 8 && kWarp * kPixelsPerThread < 1 << (kSkipped - kBegin));
+
+  __device__ __forceinline__ static unsigned pack(int value, int bit) {
+    return static_cast<unsigned>(value) << bit;
+  }
+  __device__ __forceinline__ int unpack(int bit, int bits) const {
+    return static_cast<int>(shape_ >> bit & ((1u << bits) - 1u));
+  }
+
+  /// Becomes what another thread of the warp has.
+  __device__ __forceinline__ void fetch(int lane) {
+    const auto get = [&](auto& value) { value = __shfl_sync(kWholeWarp, value, lane); };
+    get(shape_);
+    for (Crossing* crossing : {&a_, &b_, &c_}) {
+      get(crossing->at);
+      get(crossing->per_row);
+    }
+    a_.right = unpack(0, 1) != 0;
+    b_.right = unpack(1, 1) != 0;
+    c_.right = unpack(2, 1) != 0;
+    get(w_);
+    get(w_dx_);
+    get(w_dy_);
+    get(pixel_);
+  }
+
+  /// Number `number` of the warp's rows. The threads of the warp stay together: left alone, they
+  /// would leave the loop one by one, at a fraction of a warp's width.
+  template <bool kShared>
+  __device__ __forceinline__ void draw_row(int number, bool is_row, int2 pitches,
+                                           const Floats<kShared>& depth) const {
+    const int row = number - unpack(kBegin, kSkipped - kBegin);
+    const float dy = exact_float(row + unpack(kSkipped, 32 - kSkipped));
+    const float last_column = exact_float(unpack(kLast, kBegin - kLast));
+    float left = 0.0f, right = last_column;
+    a_.cut(dy, left, right);
+    b_.cut(dy, left, right);
+    c_.cut(dy, left, right);
+    // At most one column beyond either end: a thin triangle's edges may meet far away.
+    const int first = round_up(fminf(left, last_column + 1.0f));
+    const int last = round_down(fmaxf(right, -1.0f));
+    const int count = is_row ? last - first + 1 : 0, most = warp_max(count);
+    float w = fmaf(exact_float(first), w_dx_, fmaf(dy, w_dy_, w_));
+    const int pitch = unpack(kSecond, 1) != 0 ? pitches.y : pitches.x;
+    int i = pixel_ + row * pitch + first;
+#pragma unroll 1  // one or two pixels in most rows
+    for (int k = 0; k < most; ++k, ++i, w += w_dx_) {
+      if (k < count) put(depth, i, w);
+    }
+  }
+
+  Crossing a_, b_, c_;
+  float w_, w_dx_, w_dy_;  ///< 1/z at Planes::x0, y0, and its slopes
+  int pixel_, count_;
+  unsigned shape_;
+};
 
 /// Draws a triangle of many pixels with a warp.
 template <bool kShared>
@@ -144,24 +212,19 @@ struct Filler {
          Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)}, buffer);
   }
 
-  /// What threads draw, the tall ones first: two threads share the rows of one.
+  /// What threads draw.
   __device__ __forceinline__ void few(const VisibleList& list) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
-    const int warps = static_cast<int>(blockDim.x) / kWarp;
-    const int flat = list.counts->flat, tall = 2 * list.counts->tall;
-    const int tall_warps = (tall + kWarp - 1) / kWarp;
-    const int end = tall_warps + (flat + kWarp - 1) / kWarp;
-    for (int i = static_cast<int>(threadIdx.x) / kWarp; i < end; i += warps) {
-      const bool is_tall = i < tall_warps;
-      const int wanted = (is_tall ? i : i - tall_warps) * kWarp + lane;
-      const int place = min(wanted, (is_tall ? tall : flat) - 1);  // of the last one: no rows
-      const int entry = is_tall ? list.tall[place / 2] : list.entries[place];
-      prepared(entry, [&](const auto& p, Span rows, const auto& buffer) {
-        const int middle = (rows.first + rows.last) / 2;
-        if (is_tall && place % 2 == 0) rows.last = middle;
-        if (is_tall && place % 2 != 0) rows.first = middle + 1;
-        if (place < wanted) rows.last = rows.first - 1;
-        fill_few(p, rows, buffer);
+    const int count = list.counts->few;
+    for (int base = static_cast<int>(threadIdx.x) - lane; base < count;
+         base += static_cast<int>(blockDim.x)) {
+      const int place = min(base + lane, count - 1);
+      const int entry = list.entries[place];
+      prepared(entry, [&](const Planes& p, Span rows, const auto& buffer) {
+        const int pixel = buffer.inverse_depth.offset + buffer.index(p.x0, rows.first);
+        FewRows few_rows(p, rows, pixel, kPair && entry % 2 != 0);
+        few_rows.draw(place == base + lane, {left.box.width(), right.box.width()},
+                      Floats<kSharedDepth>{left.inverse_depth.global, 0});
       });
     }
   }
@@ -169,7 +232,7 @@ struct Filler {
   /// What a warp each draws.
   __device__ __forceinline__ void many(const VisibleList& list) const {
     const int warps = static_cast<int>(blockDim.x) / kWarp;
-    const int count = list.counts->large;
+    const int count = list.counts->many;
     for (int i = static_cast<int>(threadIdx.x) / kWarp; i < count; i += warps) {
       prepared(list.entries[list.capacity - 1 - i],
                [](const auto& p, Span rows, const auto& buffer) { fill_many(p, rows, buffer); });
