@@ -13,12 +13,12 @@ struct HostTile {
     if (!view.mask.empty()) mask = view.mask(plan.touched).clone();
     const cuda::ImagePart& m = cut.measured;
     if (!view.depth.empty()) measured = view.depth(cv::Rect(m.x, m.y, m.width, m.height)).clone();
-    cut.color = rows_of<unsigned char>(color);
-    cut.mask = rows_of<unsigned char>(mask);
-    cut.depth = rows_of<float>(measured);
+    cut.color = color.empty() ? nullptr : color.ptr();
+    cut.mask = mask.empty() ? nullptr : mask.ptr();
+    cut.depth = measured.empty() ? nullptr : measured.ptr<float>();
     const int columns = cut.touched.width / cut.blocks;
     const int rows = cut.touched.height / cut.blocks;
-    if (cut.color.first || cut.mask.first) {
+    if (cut.color || cut.mask) {
       means.resize(static_cast<std::size_t>(columns * rows));
       cut.means = means.data();
       for (int i = 0; i < columns * rows; ++i) {
@@ -31,15 +31,9 @@ struct HostTile {
     for (int v = 0; v < cut.height; ++v) {
       for (int u = 0; u < cut.width; ++u) {
         pixels.push_back(cuda::tile_pixel(cut, map, u, v));
-        if (cut.depth.first) depth.push_back(cuda::tile_depth(cut, map(u, v), u, v));
+        if (cut.depth) depth.push_back(cuda::tile_depth(cut, map(u, v), u, v));
       }
     }
-  }
-
-  template <class Pixel>
-  static cuda::Rows<Pixel> rows_of(const cv::Mat& image) {
-    if (image.empty()) return {};
-    return {image.ptr(), static_cast<std::int32_t>(image.step)};
   }
 
   cv::Mat color, mask, measured;

@@ -11,7 +11,6 @@ constexpr int kSide = 16;         // of the square of pixels that a thread block
 constexpr int kWide = kSide + 2;  // with the pixel around it
 
 __global__ void __launch_bounds__(kSide* kSide) reduce(const __grid_constant__ FrameCut frame) {
-  wait_for_previous();
   let_next_start();
   const ViewCut& cut = frame.views[blockIdx.z];
   const int column = static_cast<int>(blockIdx.x) * kSide + static_cast<int>(threadIdx.x);
@@ -64,11 +63,10 @@ void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream strea
   const dim3 square(kSide, kSide);
   const bool reduces = columns > 0;
   if (reduces) {
-    launch(reduce, dim3(groups(columns), groups(rows), views), square, 0, stream,
-           overlaps_launches(limits), frame);
+    launch(reduce, dim3(groups(columns), groups(rows), views), square, 0, stream, false, frame);
   }
   launch(resample, dim3(groups(width), groups(height), views), square, 0, stream,
-         overlaps_launches(limits), frame);
+         reduces && overlaps_launches(limits), frame);
 }
 
 }  // namespace hypotrack::cuda

@@ -17,17 +17,8 @@ struct ImagePart {
   std::int32_t x, y, width, height;
 };
 
-/// Rows of pixels, `pitch` bytes from one to the next; null if there are none.
-template <class Pixel>
-struct Rows {
-  const unsigned char* first;
-  std::int32_t pitch;
-  HYPOTRACK_PIXEL const Pixel* at(int y) const {
-    return reinterpret_cast<const Pixel*>(first + static_cast<std::int64_t>(y) * pitch);
-  }
-};
-
-/// How a tile is cut out of one view, and what it is cut from: parts of the view's images.
+/// How a tile is cut out of one view, and what it is cut from. Images are parts of the view's, row
+/// by row without gaps.
 struct ViewCut {
   LensMap lens;
   TileIntrinsics camera;
@@ -38,11 +29,11 @@ struct ViewCut {
   float means_scale;     ///< from image coordinates to those of the means
   float means_x, means_y;
   ColorMap colors;
-  ImagePart touched;          ///< what `color` and `mask` hold, whole blocks
-  ImagePart measured;         ///< what `depth` holds
-  Rows<unsigned char> color;  ///< BGR
-  Rows<unsigned char> mask;
-  Rows<float> depth;
+  ImagePart touched;           ///< what `color` and `mask` hold, whole blocks
+  ImagePart measured;          ///< what `depth` holds
+  const unsigned char* color;  ///< BGR; null if the view has none
+  const unsigned char* mask;   ///< null if the view has none
+  const float* depth;          ///< null if the view has none
   std::uint32_t* means;        ///< of the blocks of `touched`; null without colour and mask
   std::uint32_t* tile_pixels;  ///< TileLayout
   float* tile_depth;           ///< TileLayout; null without depth
@@ -76,13 +67,13 @@ HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewCut& cut, int column, int row
   std::uint32_t b = 0, g = 0, r = 0, mask = 0;
   for (int y = row * blocks; y < (row + 1) * blocks; ++y) {
     for (int x = column * blocks; x < (column + 1) * blocks; ++x) {
-      if (cut.color.first) {
-        const unsigned char* bgr = cut.color.at(y) + 3 * x;
-        b += bgr[0];
-        g += bgr[1];
-        r += bgr[2];
+      const int at = y * cut.touched.width + x;
+      if (cut.color) {
+        b += cut.color[3 * at];
+        g += cut.color[3 * at + 1];
+        r += cut.color[3 * at + 2];
       }
-      if (cut.mask.first) mask += cut.mask.at(y)[x] ? 255u : 0u;
+      if (cut.mask) mask += cut.mask[at] ? 255u : 0u;
     }
   }
   return rounded_mean(b, blocks) | rounded_mean(g, blocks) << 8 | rounded_mean(r, blocks) << 16 |
@@ -159,7 +150,7 @@ HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int
   if (!cut.means) return word;
   const std::uint32_t color_and_mask = sampled(cut, map, u, v);
   if (valid && (color_and_mask >> 31) != 0) word |= kForegroundFlag;
-  return cut.color.first ? word | mapped_colors(cut.colors, color_and_mask) : word;
+  return cut.color ? word | mapped_colors(cut.colors, color_and_mask) : word;
 }
 
 /// Depth of a tile's pixel that lies at `p` in the image: that of the nearest pixel; 0 where there
@@ -169,7 +160,7 @@ HYPOTRACK_PIXEL float tile_depth(const ViewCut& cut, ImagePoint p, int u, int v)
   const ImagePart& part = cut.measured;
   const int column = clamped(nearest_pixel(p.x, cut.image_width) - part.x, part.width);
   const int row = clamped(nearest_pixel(p.y, cut.image_height) - part.y, part.height);
-  const float depth = cut.depth.at(row)[column];
+  const float depth = cut.depth[row * part.width + column];
   const float along = depth_along_tile(cut.lens, cut.camera, u, v, depth);
   constexpr float kLargest = 3.4e38f;
   return along > 0.0f && along < kLargest ? along : 0.0f;

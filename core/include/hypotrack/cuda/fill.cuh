@@ -92,7 +92,8 @@ class FewRows {
   /// Draws the rows of all the warp's triangles, a row per thread at a time. `is_there`: this
   /// thread has one. `pitches` are those of the two views.
   template <bool kShared>
-  __device__ __forceinline__ void draw(bool is_there, int2 pitches, const Floats<kShared>& depth) {
+  __device__ __forceinline__ void draw(bool is_there, int2 pitches,
+                                       const Floats<kShared>& depth) {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int end = warp_scan(is_there ? count_ : 0);
     const int begin = is_there ? end - count_ : end;
