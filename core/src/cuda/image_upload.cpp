@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "cuda/pooled_mat_allocator.hpp"
+
 namespace hypotrack::cuda {
 namespace {
 
@@ -18,6 +20,13 @@ bool page_locked(const void* address) {
     return false;
   }
   return attributes.type == cudaMemoryTypeHost;
+}
+
+/// Whether rows of `width` bytes lie in page-locked memory, as images from the pool do: asking the
+/// driver takes longer.
+bool page_locked(const cv::Mat& rows, std::size_t width) {
+  if (rows.u && dynamic_cast<const PooledMatAllocator*>(rows.u->currAllocator)) return true;
+  return page_locked(rows.ptr()) && page_locked(rows.ptr(rows.rows - 1) + width - 1);
 }
 
 /// Rows without gaps. One core reads images that it has not in its cache at a fraction of what the
@@ -49,7 +58,7 @@ const unsigned char* ImageUpload::add(const cv::Mat& image, const cv::Rect& part
   const std::size_t width = rows.elemSize() * static_cast<std::size_t>(rows.cols);
   const auto height = static_cast<std::size_t>(rows.rows);
   const std::size_t at = end_;
-  if (page_locked(rows.ptr()) && page_locked(rows.ptr(rows.rows - 1) + width - 1)) {
+  if (page_locked(rows, width)) {
     flush(stream);
     check(cudaMemcpy2DAsync(device_.data() + at, width, rows.ptr(), rows.step, width, height,
                             cudaMemcpyHostToDevice, native(stream)),
