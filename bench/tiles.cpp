@@ -14,7 +14,6 @@
 #include "hypotrack/cuda/runtime.cuh"
 #include "test_models.hpp"
 #include "track/photometric.hpp"
-#include "track/visible_share.hpp"
 
 namespace hypotrack {
 namespace {
@@ -33,6 +32,8 @@ struct Setup {
     tiles = std::make_unique<TileMaker>(scene, cameras, TileSettings{});
     state = scene.rest_state();
     state[2] = 0.5;
+    other_state = state;
+    other_state[2] = 0.501;
     frames.resize(kFrames);
   }
 
@@ -53,23 +54,41 @@ struct Setup {
   Scene scene;
   std::vector<Camera> cameras;
   std::unique_ptr<TileMaker> tiles;
-  Eigen::VectorXd state;
+  Eigen::VectorXd state, other_state;
   std::vector<Frame> frames;
 };
 
+/// Around another state each time.
 void plan(benchmark::State& run) {
   Setup setup;
   setup.make_frames();
-  for (auto _ : run) benchmark::DoNotOptimize(setup.tiles->plan(setup.frames[0], setup.state));
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(setup.tiles->plan(setup.frames[0], setup.state));
+    setup.state.swap(setup.other_state);
+  }
 }
 BENCHMARK(plan)->Unit(benchmark::kMicrosecond);
 
 void visible_share(benchmark::State& run) {
   Setup setup;
-  VisibleShare share(setup.scene, setup.cameras);
-  for (auto _ : run) benchmark::DoNotOptimize(share.of(setup.state));
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(setup.tiles->visible_share(setup.state));
+    setup.state.swap(setup.other_state);
+  }
 }
 BENCHMARK(visible_share)->Unit(benchmark::kMicrosecond);
+
+/// As a tracker without prediction asks: tiles around the last solution, the share of the next one.
+void plan_and_visible_share(benchmark::State& run) {
+  Setup setup;
+  setup.make_frames();
+  for (auto _ : run) {
+    benchmark::DoNotOptimize(setup.tiles->plan(setup.frames[0], setup.state));
+    setup.state.swap(setup.other_state);
+    benchmark::DoNotOptimize(setup.tiles->visible_share(setup.state));
+  }
+}
+BENCHMARK(plan_and_visible_share)->Unit(benchmark::kMicrosecond);
 
 void cut_on_the_cpu(benchmark::State& run) {
   Setup setup;

@@ -34,6 +34,17 @@ struct SkinBlocks {
 HYPOTRACK_API void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y,
                                float* z);
 
+/// Where points lie on the plane z = 1 of a camera, and the smallest z: NaN if any coordinate is
+/// not finite.
+struct PlaneBounds {
+  float x0, x1, y0, y1;
+  float nearest;
+};
+
+/// Bounds `count` (a multiple of kBlock) aligned points, seen by a camera (3x4 row-major).
+HYPOTRACK_API void bound_points(const float* x, const float* y, const float* z, std::size_t count,
+                                const float* camera_from_first, PlaneBounds& bounds);
+
 /// A camera looking at points given in the frame of the first one.
 struct ViewProjection {
   float camera_from_first[12];  ///< 3x4 row-major

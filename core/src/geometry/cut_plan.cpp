@@ -32,11 +32,16 @@ bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
   const TileIntrinsics camera = intrinsics(tile);
   const float step_u = static_cast<float>(tile.width + 1) / (kGrid - 1);
   const float step_v = static_cast<float>(tile.height + 1) / (kGrid - 1);
+  std::array<float, kGrid> u;
+  std::array<float, kGrid> v;
+  for (std::size_t i = 0; i < kGrid; ++i) {
+    u[i] = (static_cast<float>(i) * step_u - 1.0f - camera.cx) / camera.fx;
+    v[i] = (static_cast<float>(i) * step_v - 1.0f - camera.cy) / camera.fy;
+  }
   bool seen = true;
   for (std::size_t j = 0; j < kGrid; ++j) {
     for (std::size_t i = 0; i < kGrid; ++i) {
-      const ImagePoint p = image_point(map, camera, static_cast<float>(i) * step_u - 1.0f,
-                                       static_cast<float>(j) * step_v - 1.0f);
+      const ImagePoint p = image_point_along(map, u[i], v[j]);
       x[j][i] = p.x;
       y[j][i] = p.y;
       seen = seen && p.x != kUnseen;
@@ -62,15 +67,17 @@ float bend(const Grid& grid) {
 /// Whole blocks of 0 .. end around the positions, or around the image's border where they lie
 /// beyond it.
 cv::Range block_range(const Grid& grid, double margin, int end, int blocks) {
-  const auto within = [end](float a) { return std::clamp(double{a}, 0.0, end - 1.0); };
-  double low = within(grid[0][0]);
-  double high = low;
+  float lowest = grid[0][0];
+  float highest = lowest;
   for (const auto& row : grid) {
     for (const float a : row) {
-      low = std::min(low, within(a));
-      high = std::max(high, within(a));
+      lowest = std::min(lowest, a);
+      highest = std::max(highest, a);
     }
   }
+  const auto within = [end](float a) { return std::clamp(double{a}, 0.0, end - 1.0); };
+  const double low = within(lowest);
+  const double high = within(highest);
   const int last = end / blocks;
   const auto block = [blocks, last](double a) {
     return static_cast<int>(std::clamp(a / blocks, 0.0, static_cast<double>(last)));

@@ -34,12 +34,9 @@ struct ImagePoint {
 /// cv::remap.
 inline constexpr float kUnseen = -1e4f;
 
-/// Image coordinates of a position in the tile, in pixels.
-HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics& tile, float column,
-                                       float row) {
+/// Image coordinates of what the ideal camera sees along (u, v, 1), in pixels.
+HYPOTRACK_PIXEL ImagePoint image_point_along(const LensMap& map, float u, float v) {
   const float* r = map.camera_from_ideal;
-  const float u = (column - tile.cx) / tile.fx;
-  const float v = (row - tile.cy) / tile.fy;
   const float z = r[6] * u + (r[7] * v + r[8]);
   const float x = (r[0] * u + (r[1] * v + r[2])) / z;
   const float y = (r[3] * u + (r[4] * v + r[5])) / z;
@@ -55,6 +52,12 @@ HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics&
   }
   const bool seen = z > 0.0f && r2 < map.largest_r2;
   return {seen ? xd * map.fx + map.cx : kUnseen, seen ? yd * map.fy + map.cy : kUnseen};
+}
+
+/// Image coordinates of a position in the tile, in pixels.
+HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics& tile, float column,
+                                       float row) {
+  return image_point_along(map, (column - tile.cx) / tile.fx, (row - tile.cy) / tile.fy);
 }
 
 /// What a depth measured along the camera's axis is along the tile's, for a pixel of the tile.

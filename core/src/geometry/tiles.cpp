@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "geometry/crop.hpp"
+#include "geometry/posed_scene.hpp"
 #include "geometry/rectification.hpp"
+#include "geometry/visible_share.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -69,7 +71,8 @@ struct TileMaker::Impl {
         cameras(checked(std::move(c))),
         settings(t),
         rig(make_ideal_rig(cameras)),
-        bounds(scene, rig) {
+        posed(scene, rig),
+        visible(cameras, rig) {
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       resamplers.emplace_back(cameras[i], rig.camera_from_ideal[i]);
     }
@@ -82,7 +85,8 @@ struct TileMaker::Impl {
   std::vector<Camera> cameras;
   TileSettings settings;
   IdealRig rig;
-  SceneBounds bounds;
+  PosedScene posed;
+  VisibleShare visible;
   std::vector<Resampler> resamplers;
 };
 
@@ -115,12 +119,19 @@ TileMaker::~TileMaker() = default;
 bool TileMaker::rectifies() const { return impl_->rig.rectified; }
 std::span<const Resampler> TileMaker::resamplers() const { return impl_->resamplers; }
 
+double TileMaker::visible_share(const Eigen::VectorXd& state) const {
+  impl_->posed.pose(state);
+  return impl_->visible.of(impl_->posed);
+}
+
 TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {
   Impl& self = *impl_;
   self.check(frame);
   const double largest_focal = kLargestZoom * sharpest(self.cameras);
-  const std::vector<TileCamera> tiles = crop(self.bounds.of(state), self.rig, self.settings.size,
-                                             self.settings.padding, largest_focal);
+  self.posed.pose(state);
+  self.posed.check_in_front();
+  const std::vector<TileCamera> tiles =
+      crop(self.posed.bounds(), self.rig, self.settings.size, self.settings.padding, largest_focal);
   TilePlan plan;
   plan.header.frame = frame.index;
   plan.header.time = frame.time;

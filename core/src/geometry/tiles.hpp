@@ -50,6 +50,12 @@ class HYPOTRACK_API TileMaker {
   /// One per camera.
   std::span<const Resampler> resamplers() const;
 
+  /// How much of the scene posed in `state` the cameras see, whatever hides it: the share of the
+  /// models' vertices that every image shows; 0 if any lies behind a camera, so that no tile can be
+  /// cut. Not from several threads at once. This and plan() cost next to nothing for the state that
+  /// either was asked about last.
+  double visible_share(const Eigen::VectorXd& state) const;
+
   /// Where the tiles around the scene posed in `state` lie; looks at no pixel. Throws DataError if
   /// the frame's views do not match the cameras in number or size, or if the posed scene lies at or
   /// behind a camera. Not from several threads at once.

@@ -85,7 +85,6 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
     : parts_(std::move(parts)),
       tiles_(scene, parts_.cameras, parts_.tile),
       photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
-      visible_(scene, parts_.cameras),
       space_(scene, parts_.search),
       evaluator_(scene, parts_.objective, parts_.evaluate,
                  parts_.optimizer->needs_residuals() || parts_.status.uncertainty.enabled),
@@ -122,7 +121,7 @@ Solution Tracker::track(const Frame& frame) {
     const Eigen::VectorXd prior = cheapest(starts);
     const OptimizerResult result = search(frame, prior, starts.cols() > 1 ? starts.cols() : 0);
     const Eigen::VectorXd found = space_.states(result.point, prior);
-    const double visible = visible_.of(found);
+    const double visible = tiles_.visible_share(found);
     solution.cost = result.cost;
     solution.evaluations = result.evaluations;
     if (uncertainty_) {
@@ -144,7 +143,7 @@ Solution Tracker::track(const Frame& frame) {
 Eigen::MatrixXd Tracker::possible_starts(double time) {
   const Eigen::MatrixXd states = predictor_.at(time);
   // Tiles can be cut around what is seen only.
-  if (states.cols() == 0 || visible_.of(states.col(0)) == 0) return state_;
+  if (states.cols() == 0 || tiles_.visible_share(states.col(0)) == 0) return state_;
   return states.cols() < parts_.budget.evaluations ? states : states.leftCols(1);
 }
 

@@ -19,7 +19,6 @@
 #include "track/search_space.hpp"
 #include "track/status.hpp"
 #include "track/uncertainty.hpp"
-#include "track/visible_share.hpp"
 
 namespace hypotrack {
 
@@ -85,7 +84,6 @@ class HYPOTRACK_API Tracker {
   TrackerParts parts_;
   TileMaker tiles_;
   PhotometricMatch photometric_;
-  VisibleShare visible_;
   SearchSpace space_;
   Evaluator evaluator_;
   StatusMonitor monitor_;

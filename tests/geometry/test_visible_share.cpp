@@ -1,10 +1,9 @@
-#include "track/visible_share.hpp"
-
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <random>
 
+#include "geometry/tiles.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "test_models.hpp"
 
@@ -61,12 +60,12 @@ TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
   int partly = 0;
   for (const int lens : {0, 8, -4}) {
     const std::vector<Camera> cameras = {lens_camera(lens, 0, 0.02), lens_camera(lens, 0.1, -0.1)};
-    VisibleShare share(scene, cameras);
+    const TileMaker tiles(scene, cameras, {});
     for (int i = 0; i < 100; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random, {0.05, 0, 0.5}, 0.35);
       const double expected = reference(scene, cameras, state);
       // A vertex within rounding of the border may fall on either side.
-      EXPECT_NEAR(share.of(state), expected, 1.5 / 1508) << lens;
+      EXPECT_NEAR(tiles.visible_share(state), expected, 1.5 / 1508) << lens;
       partly += expected > 0.05 && expected < 0.95;
     }
   }
@@ -76,21 +75,21 @@ TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
 TEST(VisibleShare, IsNothingIfAnyVertexLiesBehindACamera) {
   const Scene scene = hand_and_box();
   const std::vector<Camera> cameras = {lens_camera(0, 0, 0)};
-  VisibleShare share(scene, cameras);
+  const TileMaker tiles(scene, cameras, {});
   Eigen::VectorXd state = scene.rest_state();
   for (const auto& item : scene.items()) state[item.offset + 2] = 0.5;
-  EXPECT_GT(share.of(state), 0.5);
+  EXPECT_GT(tiles.visible_share(state), 0.5);
   state[2] = 0.01;  // the box reaches behind the camera, the hand does not
-  EXPECT_EQ(share.of(state), 0);
+  EXPECT_EQ(tiles.visible_share(state), 0);
 }
 
 TEST(VisibleShare, IsOneWhereEverythingIsSeen) {
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
   const std::vector<Camera> cameras = {lens_camera(8, 0, 0), lens_camera(8, 0.1, 0)};
-  VisibleShare share(scene, cameras);
+  const TileMaker tiles(scene, cameras, {});
   Eigen::VectorXd state = scene.rest_state();
   state[2] = 0.6;
-  EXPECT_EQ(share.of(state), 1);
+  EXPECT_EQ(tiles.visible_share(state), 1);
 }
 
 }  // namespace
