@@ -34,8 +34,9 @@ std::vector<Camera> turned_apart() {
 Session open(const RecordedCase& c, PluginLoader& plugins) {
   const auto scene = source_dir() / "configs" / fmt::format("{}.yaml", c.scene);
   std::vector<std::string> overrides{
-      "source.depth=true", "optimizer.particles=32", "optimizer.generations=32",
-      fmt::format("objective.type={}", c.objective), fmt::format("tile.size={}", c.tile)};
+      "source.depth=true", "optimizer={type: pso, particles: 32, generations: 32}",
+      "search={rotation_as: quaternion}", fmt::format("objective={{type: {}}}", c.objective),
+      fmt::format("tile.size={}", c.tile)};
   const TemporaryDirectory folder;
   if (c.rig == Rig::general) {
     const auto file = folder.path() / "rig.yaml";
