@@ -1,5 +1,6 @@
 #include "geometry/cut_plan.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +26,7 @@ Lens lens_of(DistortionModel model) {
 
 /// One image coordinate of the positions of a grid over a tile, and the pixel around it that the
 /// map's interpolation looks at.
-using Grid = std::array<std::array<float, kGrid>, kGrid>;
+using Grid = Eigen::Array<float, kGrid, kGrid>;
 
 /// Samples the map; false if some position is not seen.
 bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
@@ -34,16 +35,16 @@ bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
   const float step_v = static_cast<float>(tile.height + 1) / (kGrid - 1);
   std::array<float, kGrid> u;
   std::array<float, kGrid> v;
-  for (std::size_t i = 0; i < kGrid; ++i) {
+  for (int i = 0; i < kGrid; ++i) {
     u[i] = (static_cast<float>(i) * step_u - 1.0f - camera.cx) / camera.fx;
     v[i] = (static_cast<float>(i) * step_v - 1.0f - camera.cy) / camera.fy;
   }
   bool seen = true;
-  for (std::size_t j = 0; j < kGrid; ++j) {
-    for (std::size_t i = 0; i < kGrid; ++i) {
+  for (int i = 0; i < kGrid; ++i) {
+    for (int j = 0; j < kGrid; ++j) {
       const ImagePoint p = image_point_along(map, u[i], v[j]);
-      x[j][i] = p.x;
-      y[j][i] = p.y;
+      x(j, i) = p.x;
+      y(j, i) = p.y;
       seen = seen && p.x != kUnseen;
     }
   }
@@ -53,31 +54,20 @@ bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
 /// The largest second differences along rows and columns. Between the positions the map differs
 /// from straight lines by an eighth of them.
 float bend(const Grid& grid) {
-  float rows = 0;
-  float columns = 0;
-  for (std::size_t j = 0; j < kGrid; ++j) {
-    for (std::size_t i = 1; i + 1 < kGrid; ++i) {
-      rows = std::max(rows, std::abs(grid[j][i - 1] - 2 * grid[j][i] + grid[j][i + 1]));
-      columns = std::max(columns, std::abs(grid[i - 1][j] - 2 * grid[i][j] + grid[i + 1][j]));
-    }
-  }
-  return rows + columns;
+  constexpr int kInner = kGrid - 2;
+  const auto along_rows =
+      grid.leftCols<kInner>() - 2 * grid.middleCols<kInner>(1) + grid.rightCols<kInner>();
+  const auto along_columns =
+      grid.topRows<kInner>() - 2 * grid.middleRows<kInner>(1) + grid.bottomRows<kInner>();
+  return along_rows.abs().maxCoeff() + along_columns.abs().maxCoeff();
 }
 
 /// Whole blocks of 0 .. end around the positions, or around the image's border where they lie
 /// beyond it.
 cv::Range block_range(const Grid& grid, double margin, int end, int blocks) {
-  float lowest = grid[0][0];
-  float highest = lowest;
-  for (const auto& row : grid) {
-    for (const float a : row) {
-      lowest = std::min(lowest, a);
-      highest = std::max(highest, a);
-    }
-  }
   const auto within = [end](float a) { return std::clamp(double{a}, 0.0, end - 1.0); };
-  const double low = within(lowest);
-  const double high = within(highest);
+  const double low = within(grid.minCoeff());
+  const double high = within(grid.maxCoeff());
   const int last = end / blocks;
   const auto block = [blocks, last](double a) {
     return static_cast<int>(std::clamp(a / blocks, 0.0, static_cast<double>(last)));
