@@ -47,9 +47,10 @@ Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation&
   return costs;
 }
 
-void expect_like_the_cpu(const Scene& scene, const Observation& observation,
-                         const MakeObjective& make, double worst, double mean) {
+void expect_like_the_cpu(const Scene& scene, Observation observation, const MakeObjective& make,
+                         double worst, double mean) {
   const Eigen::MatrixXd states = scored_states(scene);
+  observation.start = states.col(0);
   const Eigen::VectorXd cpu = costs_on(Backend::cpu, scene, observation, make, states);
   const Eigen::VectorXd gpu = costs_on(Backend::cuda, scene, observation, make, states);
   const double largest = cpu.array().abs().maxCoeff();
