@@ -127,11 +127,12 @@ TEST_F(StereoPatchOnDevice, ScoresAsTheCpu) {
 TEST_F(StereoPatchOnDevice, CostsNothingWhereNothingIsSeen) {
   const Scene scene = test::hand_scene();
   Eigen::MatrixXd states = test::scored_states(scene).leftCols(2);
+  Observation observation = test::colored(test::rectified_pair(scene));
+  observation.start = states.col(0);
   states(2, 0) = -0.5;  // behind the cameras
   states(0, 1) = 30;    // beside the tiles
-  EXPECT_EQ(test::costs_on(
-                Backend::cuda, scene, test::colored(test::rectified_pair(scene)),
-                [] { return std::make_shared<StereoPatch>(Params{}); }, states),
+  const auto make = [] { return std::make_shared<StereoPatch>(Params{}); };
+  EXPECT_EQ(test::costs_on(Backend::cuda, scene, observation, make, states),
             Eigen::Vector2d::Zero());
 }
 
