@@ -1,5 +1,5 @@
-// Out-of-line destructors anchor vtables and type information in libhypotrack.so, so that exceptions
-// and dynamic casts work across plugin libraries.
+// Out-of-line destructors anchor vtables and type information in libhypotrack.so, so that
+// exceptions and dynamic casts work across plugin libraries.
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"

@@ -1,5 +1,5 @@
-// The motions of configs/datasets: as long as the paper's, no faster than its search can follow (one
-// a little faster), in view, and without bodies that pass through each other.
+// The motions of configs/datasets: as long as the paper's, no faster than its search can follow
+// (one a little faster), in view, and without bodies that pass through each other.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -23,13 +23,12 @@ TEST(MetricsJson, NumbersComeFirstAndNestedTablesLast) {
   const auto json = json_of(8.5, false);
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_THAT(keys,
-              testing::ElementsAre("frames", "evaluated_frames", "missing_frames", "mean_error_mm",
-                                   "sd_error_mm", "median_error_mm", "p75_error_mm", "p90_error_mm",
-                                   "p95_error_mm", "max_error_mm", "auc_20_50", "success_5mm",
-                                   "success_10mm", "success_20mm", "success_30mm", "success_40mm",
-                                   "success_50mm", "lost_frames", "lost_share", "time_to_loss_s",
-                                   "frames_to_loss", "jitter_mm", "models", "landmarks",
-                                   "success_curve"));
+              testing::ElementsAre(
+                  "frames", "evaluated_frames", "missing_frames", "mean_error_mm", "sd_error_mm",
+                  "median_error_mm", "p75_error_mm", "p90_error_mm", "p95_error_mm", "max_error_mm",
+                  "auc_20_50", "success_5mm", "success_10mm", "success_20mm", "success_30mm",
+                  "success_40mm", "success_50mm", "lost_frames", "lost_share", "time_to_loss_s",
+                  "frames_to_loss", "jitter_mm", "models", "landmarks", "success_curve"));
 }
 
 TEST(MetricsJson, WhatIsUnknownIsNull) {

@@ -1,3 +1,5 @@
+#include "track/uncertainty.hpp"
+
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -5,7 +7,6 @@
 
 #include "rendered_pair.hpp"
 #include "stereo_color.hpp"
-#include "track/uncertainty.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {

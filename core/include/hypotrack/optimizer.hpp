@@ -86,8 +86,8 @@ struct SearchRegion {
 struct Budget {
   std::int64_t evaluations = 0;
   double seconds = std::numeric_limits<double>::infinity();
-  /// What recent searches lead to expect of a good answer's cost: what only searches gone wrong need
-  /// may be left out at or below it. -infinity where nothing is known.
+  /// What recent searches lead to expect of a good answer's cost: what only searches gone wrong
+  /// need may be left out at or below it. -infinity where nothing is known.
   double usual_cost = -std::numeric_limits<double>::infinity();
 };
 

@@ -118,7 +118,8 @@ struct SceneFile {
     v("tile", tile, {.help = "the piece of each view that is looked at"});
     v("evaluate", evaluate, {.help = "how hypotheses are evaluated"});
     v("photometric", photometric, {.help = "how the views' colours are brought together"});
-    v("search", search, {.help = "where the next solution is expected, and how far from there it may be"});
+    v("search", search,
+      {.help = "where the next solution is expected, and how far from there it may be"});
     v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
     v("shape", shape, {.help = "how the models' shapes are estimated"});
     v("init", init, {.help = "where the first search starts"});

@@ -22,8 +22,8 @@ namespace hypotrack {
 ///   sigma^2 = trace(L C L^T) + |d|^2 + floor^2
 ///
 /// is the expected square of its distance from the truth. A finger that no pixel shows moves no
-/// residual and keeps P. Beside terms that look at pictures, those that look at the pose only do not
-/// count: to be held where it was tells a finger nothing about where it is.
+/// residual and keeps P. Beside terms that look at pictures, those that look at the pose only do
+/// not count: to be held where it was tells a finger nothing about where it is.
 class HYPOTRACK_API PoseUncertainty {
  public:
   /// The scene must outlive it.

@@ -54,7 +54,8 @@ OptimizerResult MultiStart::minimize(CostFunction& cost, const SearchRegion& reg
     if (evaluations == 0) break;
     around.start = candidates.col(starts[k]);
     const OptimizerResult found = optimizer_->minimize(
-        cost, around, {evaluations, deadline.left() / static_cast<double>(searches), budget.usual_cost},
+        cost, around,
+        {evaluations, deadline.left() / static_cast<double>(searches), budget.usual_cost},
         seed_of_part(seed, static_cast<std::uint32_t>(k)));
     const std::int64_t all = best.evaluations + found.evaluations;
     if (found.cost < best.cost) best = found;

@@ -51,8 +51,8 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
   for (std::size_t k = 0; k < stages_.size(); ++k) {
     const std::int64_t left = budget.evaluations - best.evaluations;
     if (left == 0 || (best.evaluations > 0 && deadline.passed())) break;
-    const bool needed = !stages_[k].rescue || best.evaluations == 0 ||
-                        best.cost > budget.usual_cost;
+    const bool needed =
+        !stages_[k].rescue || best.evaluations == 0 || best.cost > budget.usual_cost;
     const double share = k + 1 < stages_.size() ? stages_[k].share / shares : 1;
     shares -= stages_[k].share;
     const auto evaluations =

@@ -13,8 +13,8 @@ namespace hypotrack {
 struct PipelineStage {
   std::string name;  ///< for messages
   std::unique_ptr<Optimizer> optimizer;
-  double share = 1;   ///< of the budget, in proportion to the other stages'; > 0
-  double spread = 1;  ///< factor of the region's spread for this stage; > 0
+  double share = 1;     ///< of the budget, in proportion to the other stages'; > 0
+  double spread = 1;    ///< factor of the region's spread for this stage; > 0
   bool rescue = false;  ///< passed over where the best so far costs no more than usual
 };
 
@@ -24,9 +24,9 @@ struct PipelineStage {
 /// A stage gets its share of what the stages before it left of the budget, evaluations (rounded
 /// down, the last stage all that is left) and seconds alike, so that what one does not use goes to
 /// those after it. A stage without an evaluation of its own is passed over, and so is one that is a
-/// rescue where the best of the stages before it is at or below Budget::usual_cost. Each evaluates where it
-/// begins, so every later stage spends one evaluation on the best point so far. Stage k searches
-/// with seed_of_part(seed, k).
+/// rescue where the best of the stages before it is at or below Budget::usual_cost. Each evaluates
+/// where it begins, so every later stage spends one evaluation on the best point so far. Stage k
+/// searches with seed_of_part(seed, k).
 class Pipeline : public Optimizer {
  public:
   /// Throws ConfigError, naming `where`, without stages.

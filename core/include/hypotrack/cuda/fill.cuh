@@ -92,8 +92,7 @@ class FewRows {
   /// Draws the rows of all the warp's triangles, a row per thread at a time. `is_there`: this
   /// thread has one. `pitches` are those of the two views.
   template <bool kShared>
-  __device__ __forceinline__ void draw(bool is_there, int2 pitches,
-                                       const Floats<kShared>& depth) {
+  __device__ __forceinline__ void draw(bool is_there, int2 pitches, const Floats<kShared>& depth) {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int end = warp_scan(is_there ? count_ : 0);
     const int begin = is_there ? end - count_ : end;
@@ -114,7 +113,9 @@ class FewRows {
   }
 
  private:
-  // Bits of shape_, from here on.
+  // shape_: three bits for the edges that have the inside to their right; then, from these bits on,
+  // whether it is the second view, the last column, the first of the warp's rows that is its own,
+  // and how many rows of it lie above those to be drawn.
   static constexpr int kSecond = 3, kLast = 4, kBegin = 7, kSkipped = 16;
   static_assert(kPixelsPerThread <= 8 && kWarp * kPixelsPerThread < 1 << (kSkipped - kBegin));
 
