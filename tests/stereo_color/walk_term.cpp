@@ -1,12 +1,8 @@
 // The header guide's functor in full: what an objective outside the project would write.
 #include "walk_term.hpp"
 
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "walk_term.cpp"
-#include <hwy/foreach_target.h>
+#include <hypotrack/foreach_target-inl.hpp>
 
 #include "hypotrack/stereo_pixels-inl.hpp"
 

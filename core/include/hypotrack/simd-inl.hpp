@@ -21,16 +21,14 @@
 #define HYPOTRACK_PIXEL_END() HWY_AFTER_NAMESPACE()
 
 #if HWY_HAVE_SCALABLE
-#error "Lanes holds a vector as a member: disable HWY_SVE* and HWY_RVV (HWY_DISABLED_TARGETS)"
+#error "Lanes holds a vector as a member: include <hypotrack/foreach_target-inl.hpp> first"
 #endif
 
-/// SIMD vectors with the vocabulary of pixel.hpp. For sources that use Highway's foreach_target, as
-/// my_term.cpp does (its folder has to be on the include path):
+/// SIMD vectors with the vocabulary of pixel.hpp. For sources that are compiled once for every
+/// instruction set, as my_term.cpp is (its folder has to be on the include path):
 ///
-///   #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-///   #undef HWY_TARGET_INCLUDE
 ///   #define HWY_TARGET_INCLUDE "my_term.cpp"  // is included again for every instruction set
-///   #include <hwy/foreach_target.h>
+///   #include <hypotrack/foreach_target-inl.hpp>
 ///   #include "my_term-inl.hpp"                // per-pixel functions
 ///   HWY_BEFORE_NAMESPACE();
 ///   namespace my::HWY_NAMESPACE {

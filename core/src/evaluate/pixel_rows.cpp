@@ -1,16 +1,11 @@
-// As in raster_kernel.cpp.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "evaluate/pixel_rows.cpp"
 #include "evaluate/pixel_rows.hpp"
 
-#include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cmath>
+#include <hypotrack/foreach_target-inl.hpp>
+
+#include "evaluate/block_vectors-inl.hpp"
 
 #ifndef HYPOTRACK_PIXEL_ROWS_ONCE
 #define HYPOTRACK_PIXEL_ROWS_ONCE
@@ -35,12 +30,6 @@ struct Work {
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using F = hn::CappedTag<float, kBlock>;
-using Vec = hn::Vec<F>;
-constexpr F f;
-constexpr std::size_t kLanes = hn::MaxLanes(F());
 
 constexpr std::size_t kRows = 64;  // that are multiplied together
 // Beyond this step in depth (metres) a neighbour is another surface, behind this one.

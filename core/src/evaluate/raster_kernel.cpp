@@ -7,32 +7,20 @@
 // through the pixels of their bounding boxes together, and the rest one by one with one pixel per
 // lane.
 
-// Vectors of a length known only at run time do not fit kBlock; SSSE3 is too near to SSE4 to be
-// worth compiling.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "evaluate/raster_kernel.cpp"
-#include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
+#include <hypotrack/foreach_target-inl.hpp>
 
+#include "evaluate/block_vectors-inl.hpp"
 #include "evaluate/simd_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using F = hn::CappedTag<float, kBlock>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
-using Vec = hn::Vec<F>;
-using Mask = hn::Mask<F>;
-constexpr F f;
 constexpr I s32;
 constexpr U u32;
-constexpr std::size_t kLanes = hn::MaxLanes(F());
 
 // Triangles with less area (twice, pixels^2) are noise of single precision.
 constexpr float kSmallestArea = 1e-6f;

@@ -1,27 +1,14 @@
 // Compiled once for every instruction set: the include below includes this file again.
 
-// Vectors of a length known only at run time do not fit kBlock; SSSE3 is too near to SSE4 to be
-// worth compiling.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "evaluate/skin_kernel.cpp"
-#include <hwy/foreach_target.h>  // must come before highway.h
-#include <hwy/highway.h>
+#include <hypotrack/foreach_target-inl.hpp>
 
+#include "evaluate/block_vectors-inl.hpp"
 #include "evaluate/simd_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
-using F = hn::CappedTag<float, kBlock>;
-using Vec = hn::Vec<F>;
-using Mask = hn::Mask<F>;
-constexpr F f;
-constexpr std::size_t kLanes = hn::MaxLanes(F());
 
 // Row of a 3x4 matrix times (x y z w), added to `sum`.
 HWY_INLINE Vec transform(const float* row, Vec x, Vec y, Vec z, Vec w, Vec sum) {
@@ -53,19 +40,8 @@ void skin(const SkinBlocks& blocks, const float* bones, float* out_x, float* out
   }
 }
 
-// Minimum and maximum of the coordinates that count.
-struct Range {
-  Vec low, high;
-  HWY_INLINE void add(Mask valid, Vec value) {
-    low = hn::Min(low, hn::IfThenElse(valid, value, low));
-    high = hn::Max(high, hn::IfThenElse(valid, value, high));
-  }
-  HWY_INLINE float lowest() const { return hn::GetLane(hn::MinOfLanes(f, low)); }
-  HWY_INLINE float highest() const { return hn::GetLane(hn::MaxOfLanes(f, high)); }
-};
-
-// No default member values: a constructor that the compiler writes is not compiled for the target.
-HWY_INLINE Range no_range() { return {hn::Set(f, 2 * kGuard), hn::Set(f, -2 * kGuard)}; }
+// Beyond all coordinates that count.
+constexpr float kBeyond = 2 * kGuard;
 
 HWY_INLINE Mask within_guard(Vec value) {
   return hn::Le(hn::Abs(value), hn::Set(f, kGuard));  // false for NaN
@@ -79,7 +55,7 @@ void project_one(const float* in_x, const float* in_y, const float* in_z, std::s
                  const ViewProjection& view, float* records, PixelRange& range) {
   const float* m = view.camera_from_first;
   const Vec one = hn::Set(f, 1.0f), zero = hn::Zero(f);
-  Range range_x = no_range(), range_y = no_range();
+  Range range_x = no_range(kBeyond), range_y = no_range(kBeyond);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Vec px = hn::Load(f, in_x + i), py = hn::Load(f, in_y + i), pz = hn::Load(f, in_z + i);
     const Vec z = transform(m + 8, px, py, pz, one, zero);
@@ -105,7 +81,8 @@ void project_both(const float* in_x, const float* in_y, const float* in_z, std::
   // x_right = cx_right + fx (X + t) / Z = x_left + (cx_right - cx_left) + fx t / Z.
   const Vec shift = hn::Set(f, right.cx - left.cx);
   const Vec parallax = hn::Set(f, right.fx * right.camera_from_first[3]);
-  Range range_left = no_range(), range_right = no_range(), range_y = no_range();
+  Range range_left = no_range(kBeyond), range_right = no_range(kBeyond),
+        range_y = no_range(kBeyond);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Vec z = hn::Load(f, in_z + i);
     const Vec w = hn::Div(one, z);

@@ -3,14 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-// As in score.cpp.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "residuals.cpp"
-#include <hwy/foreach_target.h>
+#include <hypotrack/foreach_target-inl.hpp>
 
 #include "coverage-inl.hpp"
 #include "hypotrack/view_pixels-inl.hpp"

@@ -5,15 +5,8 @@
 #include <limits>
 #include <vector>
 
-// Too little between neighbours to be worth compiling all of them; the scalable ones do not fit
-// simd-inl.hpp.
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
-
-#undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "volume_kernel.cpp"
-#include <hwy/foreach_target.h>
+#include <hypotrack/foreach_target-inl.hpp>
 
 #include "patch_compare-inl.hpp"
 #include "plane_warp-inl.hpp"
