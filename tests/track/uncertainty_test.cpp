@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -105,6 +106,30 @@ TEST(PoseUncertainty, IsNotLessForATermThatLooksAtThePoseOnly) {
   const auto held = std::make_shared<Readings>(std::vector{2}, 400, 0.020);
   EXPECT_NEAR(f.sigma({{1.0, seen()}, {1.0, held}}), f.sigma({{1.0, seen()}}), 1e-9);
   EXPECT_LT(f.sigma({{1.0, held}}), 0.08) << "where nothing looks at pictures, it counts";
+}
+
+/// Readings of x + y, without any noise.
+class ExactSum final : public Objective, public ResidualTerm {
+ public:
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& h) const override {
+    return static_cast<double>(residual_count()) * reading(h) * reading(h);
+  }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return 400; }
+  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
+    std::ranges::fill(residuals, static_cast<float>(reading(h)));
+  }
+
+ private:
+  static double reading(const RenderedHypothesis& h) { return 1000 * (h.state[0] + h.state[1]); }
+};
+
+TEST(PoseUncertainty, OfWhatAnExactReadingLeavesOpenIsWhatTheSettingsSay) {
+  const Fixture f;
+  EXPECT_NEAR(f.sigma({{1.0, std::make_shared<ExactSum>()}}), std::sqrt(2.0) * 0.05, 0.001)
+      << "z, and x against y";
 }
 
 TEST(PoseUncertainty, HasAValueForEveryLandmarkAtTheBoundsToo) {

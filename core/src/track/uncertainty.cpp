@@ -1,6 +1,6 @@
 #include "track/uncertainty.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -76,13 +76,55 @@ Eigen::MatrixXd landmark_jacobian(const Scene& scene, const Neighbours& around) 
   return out;
 }
 
+/// The information of the residuals and a prior of given widths together. In units of the prior's
+/// widths, where the prior's information is the identity, and by the eigenvectors of the residuals'
+/// information: directions of which they say nothing come out as the prior has them, however much
+/// they say of others.
+class Posterior {
+ public:
+  Posterior(const ResidualInformation& info, const Eigen::VectorXd& width, double noise)
+      : width_(width) {
+    const double factor = 1 / (noise * noise);
+    const Eigen::MatrixXd a = factor * (width.asDiagonal() * info.a * width.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a);
+    const Eigen::VectorXd& known = solver.eigenvalues();
+    directions_ = solver.eigenvectors();
+    gradient_ = factor * (directions_.transpose() * (width.asDiagonal() * info.g));
+    // What rounding leaves of an eigenvalue 0.
+    const double rounding = static_cast<double>(known.size()) *
+                            std::numeric_limits<double>::epsilon() * known.cwiseAbs().maxCoeff();
+    open_ = Eigen::VectorXd::Ones(known.size());
+    for (Eigen::Index i = 0; i < known.size(); ++i) {
+      if (known[i] > rounding)
+        open_[i] = 1 / (1 + known[i]);
+      else
+        gradient_[i] = 0;
+    }
+  }
+
+  /// trace(L C L^T) is the squared norm of this for a Jacobian L and the covariance C.
+  Eigen::MatrixXd root(const Eigen::MatrixXd& jacobian) const {
+    return open_.cwiseSqrt().asDiagonal() *
+           (directions_.transpose() * (width_.asDiagonal() * jacobian.transpose()));
+  }
+  Eigen::VectorXd way_to_minimum() const {
+    return -(width_.asDiagonal() * (directions_ * open_.cwiseProduct(gradient_)));
+  }
+
+ private:
+  const Eigen::VectorXd& width_;
+  Eigen::MatrixXd directions_;
+  Eigen::VectorXd open_;      // variance along each, of the prior's
+  Eigen::VectorXd gradient_;  // J^T r along each
+};
+
 }  // namespace
 
 PoseUncertainty::PoseUncertainty(const Scene& scene, const UncertaintySettings& settings)
     : scene_(&scene),
       settings_(settings),
       steps_(per_kind(scene, kPositionStep, kRotationStep, kAngleStep)),
-      precision_(prior_width(scene, settings).array().square().inverse()) {}
+      width_(prior_width(scene, settings)) {}
 
 Eigen::VectorXd PoseUncertainty::of(Evaluator& evaluator, const Eigen::VectorXd& state) const {
   const Neighbours around(*scene_, state, steps_);
@@ -98,13 +140,9 @@ Eigen::VectorXd PoseUncertainty::of(Evaluator& evaluator, const Eigen::VectorXd&
   for (const ResidualRows& rows : evaluator.pose_only_residuals())
     residuals.middleRows(rows.first, rows.count).setZero();
   const ResidualInformation info = residual_information(residuals, around.width);
-  const double noise = settings_.noise * settings_.noise;
-  Eigen::MatrixXd precision = info.a / noise;
-  precision.diagonal() += precision_;
-  const Eigen::LLT<Eigen::MatrixXd> llt(precision);
-  // trace(L C L^T) is the squared norm of L times the inverse of the precision's root.
-  const Eigen::MatrixXd root = llt.matrixL().solve(landmark_jacobian(*scene_, around).transpose());
-  const Eigen::VectorXd step = llt.solve(-info.g / noise);
+  const Posterior posterior(info, width_, settings_.noise);
+  const Eigen::MatrixXd root = posterior.root(landmark_jacobian(*scene_, around));
+  const Eigen::VectorXd step = posterior.way_to_minimum();
   const Eigen::Matrix3Xd way =
       scene_->landmarks(moved(*scene_, state, step)) - scene_->landmarks(state);
   Eigen::VectorXd sigma(landmarks);

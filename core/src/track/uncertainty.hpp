@@ -39,8 +39,8 @@ class HYPOTRACK_API PoseUncertainty {
  private:
   const Scene* scene_;
   UncertaintySettings settings_;
-  Eigen::VectorXd steps_;      ///< of the differences, per number of the tangent space
-  Eigen::VectorXd precision_;  ///< 1 / diagonal of P
+  Eigen::VectorXd steps_;  ///< of the differences, per number of the tangent space
+  Eigen::VectorXd width_;  ///< roots of the diagonal of P
 };
 
 }  // namespace hypotrack
