@@ -101,6 +101,8 @@ TEST(PluginLoader, UnknownPluginListsNamesAndFolders) {
             HasSubstr("sample, "), HasSubstr("wrapper"),
             HasSubstr("Searched for libhypotrack_optimizer_smaple.so in " +
                       fixtures("good").string() + ", " + fixtures("bad").string() + ", ")));
+  EXPECT_THAT(plugin_error("nothing_like_it"),
+              HasSubstr("there is no optimizer 'nothing_like_it'; there are: "));
   PluginLoader loader({fixtures("good")});
   EXPECT_THAT(
       message_of<PluginError>([&] { loader.make<Source>(config("optimizer: {type: sample}")); }),

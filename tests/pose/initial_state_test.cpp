@@ -43,6 +43,20 @@ TEST(InitialState, IsTheRestStateChangedByThePose) {
   EXPECT_EQ(state[3], 1);
 }
 
+TEST(InitialState, RefusesAPoseThatIsNone) {
+  Session session = box_session();
+  const auto message = [&](const std::string& pose) {
+    session.init.pose = ConfigNode::parse("{box: {" + pose + "}}", "test");
+    return message_of(session, {});
+  };
+  EXPECT_THAT(message("position_mm: [1, 2]"), HasSubstr("position_mm has 2 numbers, expected 3"));
+  EXPECT_THAT(message("position_mm: []"), HasSubstr("position_mm has 0 numbers, expected 3"));
+  EXPECT_THAT(message("position_mm: [.inf, 0, 0]"), HasSubstr("out of range"));
+  EXPECT_THAT(message("rotation_deg: [0, -.inf, 0]"), HasSubstr("out of range"));
+  EXPECT_THAT(message("quaternion: [.inf, 0, 0, 0]"), HasSubstr("out of range"));
+  EXPECT_THAT(message("quaternion: [0, 0, 0, 0]"), HasSubstr("is no rotation"));
+}
+
 TEST(InitialState, IsTheTruthOfTheFirstFrame) {
   Session session = box_session();
   session.init.from = InitFrom::truth;

@@ -91,12 +91,14 @@ struct PluginLoader::Impl {
       if (std::filesystem::exists(file)) return file;
     }
     const auto names = detail::plugin_names(kind, search_path);
-    throw PluginError(fmt::format(
-        "{}: {}: there is no {} '{}'{} {}. Searched for {} in {}", type.where(), type.path(), kind,
-        name, names.empty() ? "" : detail::did_you_mean(name, names) + " There are:",
-        names.empty() ? fmt::format("and no other {} either", kind)
-                      : fmt::format("{}", fmt::join(names, ", ")),
-        detail::library_file_name(kind, name), join_paths(search_path)));
+    const std::string meant = detail::did_you_mean(name, names);
+    const std::string others =
+        names.empty() ? fmt::format(" and no other {} either", kind)
+                      : fmt::format("{} {}", meant.empty() ? "; there are:" : meant + " There are:",
+                                    fmt::join(names, ", "));
+    throw PluginError(fmt::format("{}: {}: there is no {} '{}'{}. Searched for {} in {}",
+                                  type.where(), type.path(), kind, name, others,
+                                  detail::library_file_name(kind, name), join_paths(search_path)));
   }
 
   const HypotrackPlugin& get(std::string_view kind, const std::string& name,

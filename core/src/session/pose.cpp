@@ -17,10 +17,16 @@ struct PoseParams {
   std::vector<double> position, rotation, quaternion;
   ConfigNode angles;
   void visit(ParamVisitor& v) {
-    v("position_mm", position, {.help = "x y z in the world", .unit = "mm", .to_si = kMillimetre});
+    v("position_mm", position,
+      {.help = "x y z in the world", .min = -1e9, .max = 1e9, .unit = "mm", .to_si = kMillimetre});
     v("rotation_deg", rotation,
-      {.help = "rotation vector: axis times angle", .unit = "deg", .to_si = kDegree});
-    v("quaternion", quaternion, {.help = "w x y z, instead of rotation_deg"});
+      {.help = "rotation vector: axis times angle",
+       .min = -1e6,
+       .max = 1e6,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("quaternion", quaternion,
+      {.help = "w x y z, instead of rotation_deg", .min = -1e6, .max = 1e6});
     v("angles_deg", angles, {.help = "joint angles by name", .unit = "deg"});
   }
 };
@@ -42,7 +48,7 @@ struct Angles {
 
 void expect_length(const ConfigNode& node, const char* key, const std::vector<double>& values,
                    std::size_t length) {
-  if (values.empty() || values.size() == length) return;
+  if (!node.get(key).defined() || values.size() == length) return;
   throw ConfigError(fmt::format("{}: {} has {} numbers, expected {}", node.get(key).where(), key,
                                 values.size(), length));
 }
