@@ -10,17 +10,12 @@
 #include "every_target.hpp"
 #include "rgbd_depth.hpp"
 #include "test_models.hpp"
+#include "written_residuals.hpp"
 
 namespace hypotrack::rgbd_depth {
 namespace {
 
 constexpr float kNear = 0.45f, kFar = 0.47f;  // half of d_M apart
-
-std::vector<float> residuals(const RgbdDepth& objective, const RenderedHypothesis& hypothesis) {
-  std::vector<float> all(static_cast<std::size_t>(objective.residual_count()), NAN);
-  objective.write_residuals(hypothesis, all);
-  return all;
-}
 
 Observation observe_row(const Grid& depth, const std::vector<int>& foreground) {
   Observation observation = blank_observation(4);
@@ -47,7 +42,7 @@ TEST(Residuals, AreWhatEveryPixelIsOff) {
   const std::vector<double> expected = {
       0, 0.5 * wrong, wrong, wrong, std::sqrt(2.0), 0, 0, 0, wrong, 0, 0, 0, 0, 0, 0, 0};
   test::on_every_target(compiled_targets(), [&] {
-    const std::vector<float> found = residuals(objective, hypothesis.hypothesis());
+    const std::vector<float> found = test::written_residuals(objective, hypothesis.hypothesis());
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-5) << i;
   });
@@ -58,8 +53,8 @@ TEST(Residuals, ChangeSignWithTheSurface) {
   const Observation observation = observe_row(depth, {5, 6});
   RgbdDepth objective({});
   objective.prepare(observation);
-  const auto far = residuals(objective, Drawn({behind}).hypothesis());
-  const auto near = residuals(objective, Drawn({before}).hypothesis());
+  const auto far = test::written_residuals(objective, Drawn({behind}).hypothesis());
+  const auto near = test::written_residuals(objective, Drawn({before}).hypothesis());
   EXPECT_GT(far[5], 0);
   EXPECT_NEAR(far[5], -near[5], 1e-5);
 }
@@ -69,7 +64,8 @@ TEST(Residuals, AreZeroOutsideOfTheImage) {
   observation.views[0].valid.setTo(0);
   RgbdDepth objective({});
   objective.prepare(observation);
-  for (const float r : residuals(objective, Drawn({Grid(16, kFar)}).hypothesis())) EXPECT_EQ(r, 0);
+  for (const float r : test::written_residuals(objective, Drawn({Grid(16, kFar)}).hypothesis()))
+    EXPECT_EQ(r, 0);
 }
 
 TEST(Residuals, OfAFingerThatCrossesAnotherAreSquaredItsTermAtATenthOfARadian) {
@@ -86,8 +82,9 @@ TEST(Residuals, OfAFingerThatCrossesAnotherAreSquaredItsTermAtATenthOfARadian) {
   for (const FingerPair& pair : pairs) state[pair.first] = state[pair.second] = 0;
   state[pairs.back().second] += 0.1;
   const Drawn drawn({Grid(16, kNear)});
-  const auto found = residuals(objective, {{state.data(), static_cast<std::size_t>(state.size())},
-                                           drawn.hypothesis().views});
+  const auto found = test::written_residuals(
+      objective,
+      {{state.data(), static_cast<std::size_t>(state.size())}, drawn.hypothesis().views});
   EXPECT_NEAR(found.back() * found.back(), 10 * 0.1, 1e-5);
   EXPECT_EQ(found[found.size() - 2], 0);
 }

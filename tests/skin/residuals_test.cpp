@@ -11,26 +11,10 @@
 #include "every_target.hpp"
 #include "score.hpp"
 #include "skin.hpp"
+#include "written_residuals.hpp"
 
 namespace hypotrack::skin {
 namespace {
-
-std::vector<float> residuals(const Skin& objective, const RenderedHypothesis& hypothesis) {
-  // What is not written stays NaN; nothing may be written behind the end.
-  const auto count = static_cast<std::size_t>(objective.residual_count());
-  std::vector<float> all(count + 32, NAN);
-  const double cost = objective.cost_and_residuals(hypothesis, {all.data(), count});
-  EXPECT_NEAR(cost, objective.cost(hypothesis), 1e-6 * std::abs(cost));
-  for (std::size_t i = count; i < all.size(); ++i) EXPECT_TRUE(std::isnan(all[i]));
-  all.resize(count);
-  return all;
-}
-
-double sum_of_squares(const std::vector<float>& residuals) {
-  double sum = 0;
-  for (const float r : residuals) sum += static_cast<double>(r) * r;
-  return sum;
-}
 
 TEST(SkinResiduals, SquaredAddUpToTheCost) {
   Observation observation = colored_box();
@@ -48,7 +32,8 @@ TEST(SkinResiduals, SquaredAddUpToTheCost) {
       SCOPED_TRACE(testing::Message() << "spill " << spill << ", " << covered);
       const Rectangle hypothesis(observation, covered);
       test::on_every_target(compiled_targets(), [&] {
-        const double squares = sum_of_squares(residuals(objective, hypothesis.hypothesis()));
+        const double squares =
+            test::sum_of_squares(test::written_residuals(objective, hypothesis.hypothesis()));
         EXPECT_NEAR(squares / objective.cost(hypothesis.hypothesis()), 1, 1e-3);
       });
     }
@@ -65,7 +50,8 @@ TEST(SkinResiduals, AreOneWhereTheHypothesisIsWrong) {
   Skin objective({});
   objective.prepare(observation);
   const cv::Rect foreground(10, 10, 20, 30), covered(17, 5, 20, 30);
-  const auto found = residuals(objective, Rectangle(observation, covered).hypothesis());
+  const auto found =
+      test::written_residuals(objective, Rectangle(observation, covered).hypothesis());
   for (int y = 0; y < 96; ++y) {
     for (int x = 0; x < 96; ++x) {
       const bool wrong = foreground.contains({x, y}) != covered.contains({x, y});

@@ -11,31 +11,16 @@
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "random_pair.hpp"
 #include "stereo_color.hpp"
+#include "written_residuals.hpp"
 
 namespace hypotrack::stereo_color {
 namespace {
-
-std::vector<float> residuals(const StereoColor& objective, const RenderedHypothesis& hypothesis) {
-  // What is not written stays NaN; nothing may be written behind the end.
-  const auto count = static_cast<std::size_t>(objective.residual_count());
-  std::vector<float> all(count + 32, NAN);
-  objective.write_residuals(hypothesis, {all.data(), count});
-  for (std::size_t i = count; i < all.size(); ++i) EXPECT_TRUE(std::isnan(all[i]));
-  all.resize(count);
-  return all;
-}
-
-double sum_of_squares(const std::vector<float>& residuals) {
-  double sum = 0;
-  for (const float r : residuals) sum += static_cast<double>(r) * r;
-  return sum;
-}
 
 // The same observation with nothing drawn.
 double of_nothing(const StereoColor& objective, const RandomPair& pair) {
   DepthTile empty[2] = {pair.tiles[0], pair.tiles[1]};
   for (DepthTile& tile : empty) tile.x0 = tile.y0 = tile.x1 = tile.y1 = 0;
-  return sum_of_squares(residuals(objective, {{}, empty}));
+  return test::sum_of_squares(test::written_residuals(objective, {{}, empty}));
 }
 
 void expect_cost_as_squares(const PairOptions& options, const Params& params) {
@@ -46,11 +31,8 @@ void expect_cost_as_squares(const PairOptions& options, const Params& params) {
   on_every_target([&] {
     const double cost = objective.cost(pair.hypothesis());
     ASSERT_LT(cost, 0);
-    const std::vector<float> all = residuals(objective, pair.hypothesis());
-    std::vector<float> beside_cost(all.size());
-    EXPECT_NEAR(objective.cost_and_residuals(pair.hypothesis(), beside_cost) / cost, 1, 1e-6);
-    EXPECT_EQ(beside_cost, all);
-    const double squares = sum_of_squares(all);
+    const std::vector<float> all = test::written_residuals(objective, pair.hypothesis());
+    const double squares = test::sum_of_squares(all);
     EXPECT_NEAR((squares - of_nothing(objective, pair)) / cost, 1, 1e-4);
   });
 }
@@ -81,7 +63,7 @@ TEST(Residuals, AreThereForEveryPixelOfTilesOfAnySize) {
     objective.prepare(pair.observation);
     EXPECT_EQ(objective.residual_count(), 2 * size * size);
     on_every_target([&] {
-      for (const float r : residuals(objective, pair.hypothesis())) {
+      for (const float r : test::written_residuals(objective, pair.hypothesis())) {
         EXPECT_TRUE(r >= 0 && r <= 1) << r;
       }
     });
@@ -95,7 +77,7 @@ TEST(Residuals, OfOneDirectionAreThoseOfItsView) {
     params.direction = direction;
     StereoColor objective(params);
     objective.prepare(pair.observation);
-    return residuals(objective, pair.hypothesis());
+    return test::written_residuals(objective, pair.hypothesis());
   };
   const auto left = of(Direction::left_to_right), right = of(Direction::right_to_left);
   const auto both = of(Direction::both);
@@ -134,11 +116,11 @@ TEST(Residuals, HaveSlopesThatAreTheirDifferencesOverDepth) {
       }
       DepthTile tiles[2] = {pair.tiles[0], pair.tiles[1]};
       for (std::size_t i = 0; i < 2; ++i) tiles[i].inverse_depth = depth[i].data();
-      return residuals(objective, {{}, tiles});
+      return test::written_residuals(objective, {{}, tiles});
     };
     on_every_target([&] {
       const auto near = shifted(1), far = shifted(-1);
-      const auto expected = residuals(objective, pair.hypothesis());
+      const auto expected = test::written_residuals(objective, pair.hypothesis());
       std::vector<float> found(96 * 96), slopes(found.size(), NAN);
       objective.write_slopes(pair.hypothesis(), 0, found, slopes);
       int compared = 0;
@@ -164,7 +146,7 @@ TEST(Residuals, HaveNoSlopesWhereNothingIsSeenTwice) {
   tiles[1].inverse_depth = empty.data();
   std::vector<float> found(64 * 64), slopes(found.size(), NAN);
   objective.write_slopes({{}, tiles}, 0, found, slopes);
-  EXPECT_EQ(found, residuals(objective, {{}, tiles}));
+  EXPECT_EQ(found, test::written_residuals(objective, {{}, tiles}));
   EXPECT_EQ(slopes, std::vector<float>(slopes.size(), 0.0f));
 }
 

@@ -12,6 +12,7 @@
 #include "score.hpp"
 #include "stereo_patch.hpp"
 #include "volume_kernel.hpp"
+#include "written_residuals.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {
@@ -20,23 +21,6 @@ namespace {
 template <class Body>
 void on_every_target(Body body) {
   test::on_every_target(score_targets() & volume_targets(), body);
-}
-
-std::vector<float> residuals(const StereoPatch& objective, const RenderedHypothesis& hypothesis) {
-  // What is not written stays NaN; nothing may be written behind the end.
-  const auto count = static_cast<std::size_t>(objective.residual_count());
-  std::vector<float> all(count + 32, NAN);
-  const double cost = objective.cost_and_residuals(hypothesis, {all.data(), count});
-  EXPECT_NEAR(cost, objective.cost(hypothesis), 1e-6 * std::abs(cost));
-  for (std::size_t i = count; i < all.size(); ++i) EXPECT_TRUE(std::isnan(all[i]));
-  all.resize(count);
-  return all;
-}
-
-double sum_of_squares(const std::vector<float>& residuals) {
-  double sum = 0;
-  for (const float r : residuals) sum += static_cast<double>(r) * r;
-  return sum;
 }
 
 void expect_cost_as_squares(const PatchPair& pair, const Params& params) {
@@ -49,7 +33,8 @@ void expect_cost_as_squares(const PatchPair& pair, const Params& params) {
     const auto& mask = pair.observation.views[0].mask;
     const double counting =
         mask.empty() ? static_cast<double>(objective.residual_count()) : cv::countNonZero(mask);
-    const double squares = sum_of_squares(residuals(objective, pair.hypothesis()));
+    const double squares =
+        test::sum_of_squares(test::written_residuals(objective, pair.hypothesis()));
     EXPECT_NEAR((squares - counting) / cost, 1, 1e-4);
   });
 }
@@ -75,7 +60,7 @@ TEST(PatchResiduals, AreThereForEveryPixelOfTilesOfAnySize) {
       StereoPatch objective({});
       objective.prepare(pair.observation);
       EXPECT_EQ(objective.residual_count(), size * size);
-      for (const float r : residuals(objective, pair.hypothesis())) {
+      for (const float r : test::written_residuals(objective, pair.hypothesis())) {
         EXPECT_TRUE(r >= 0 && r <= 1) << r;
       }
     });
@@ -87,7 +72,7 @@ TEST(PatchResiduals, OfPixelsThatNothingCoversAreOneWithinTheMask) {
   StereoPatch objective({});
   objective.prepare(pair.observation);
   for (DepthTile& tile : pair.tiles) tile.x0 = tile.y0 = tile.x1 = tile.y1 = 0;
-  const std::vector<float> found = residuals(objective, pair.hypothesis());
+  const std::vector<float> found = test::written_residuals(objective, pair.hypothesis());
   const cv::Mat1b mask = pair.observation.views[0].mask;
   for (int i = 0; i < 32 * 32; ++i) {
     EXPECT_EQ(found[static_cast<std::size_t>(i)], mask(i / 32, i % 32) ? 1.0f : 0.0f);
