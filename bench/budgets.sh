@@ -19,7 +19,8 @@ for scene in "$@"; do
       "$hypotrack" run "$scratch/$name/scene.yaml" --out "$scratch/run" --seed "$seed" \
         --set output.overlay=false --set 'objective={type: stereo_color}' --set photometric.match=false \
         --set "optimizer={type: pso, particles: $n, generations: $n}" \
-        --set 'search={rotation_as: quaternion}' --set budget.evaluations=0 >"$scratch/log" 2>&1
+        --set 'search={rotation_as: quaternion}' --set budget.evaluations=0 --set tile.size=128 \
+        >"$scratch/log" 2>&1
       errors+=("$(value mean_joint_error_mm "$scratch/run/summary.json")")
       fps+=("$(value fps "$scratch/run/summary.json")")
       lost=$((lost + $(value lost_frames "$scratch/run/summary.json")))

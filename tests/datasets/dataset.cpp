@@ -53,12 +53,12 @@ Eigen::Matrix3Xf selected(const Eigen::Matrix3Xf& all, const std::vector<int>& c
 }  // namespace
 
 Dataset load_dataset(const std::string& name) {
-  const ConfigNode file =
-      ConfigNode::load(source_dir() / "configs" / "datasets" / (name + ".yaml"));
+  const ConfigNode file = ConfigNode::load(source_dir() / "configs" / (name + ".yaml"));
   Dataset dataset{make_scene(file.get("models")), {}};
   const ConfigNode source = file.get("source");
+  const ConfigNode shared = source.get("gesture_file");
   const synthetic::Gestures gestures(source.get("gestures"),
-                                     source.directory() / source.get("gesture_file").scalar());
+                                     shared.defined() ? source.directory() / shared.scalar() : "");
   const synthetic::Script script =
       synthetic::read_script(source.get("keyframes"), gestures, dataset.scene, kFrameRate);
   const int frames = static_cast<int>(std::lround(script.duration * kFrameRate)) + 1;

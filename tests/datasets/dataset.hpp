@@ -10,12 +10,13 @@
 
 namespace hypotrack::test {
 
-/// The motion of a scene of configs/datasets, without its pictures.
+/// The motion of a scene, without its pictures.
 struct Dataset {
   Scene scene;
   std::vector<StateRow> states;  ///< of all frames
 };
 
+/// Reads configs/NAME.yaml.
 Dataset load_dataset(const std::string& name);
 
 /// World positions of a model's vertices in one state.

@@ -216,6 +216,10 @@ TEST(Interpenetration, OfTwoHandsThatPassBeforeEachOtherIsNothing) {
   EXPECT_EQ(highest_cost_of_truth("two_hands.yaml"), 0);
 }
 
+TEST(Interpenetration, OfAHandThatHoldsABoxIsNextToNothing) {
+  EXPECT_LT(highest_cost_of_truth("hand_and_box.yaml"), 0.1);
+}
+
 TEST(Interpenetration, OfAHandThatPinchesIsNextToNothing) {
   EXPECT_LT(highest_cost_of_truth("demo.yaml"), 0.1);
 }
