@@ -88,5 +88,17 @@ TEST_F(FitShapeTest, RefusesASourceOfOneFrame) {
                  {"1 of 1 frames were tracked, expected at least 2"});
 }
 
+TEST_F(FitShapeTest, RefusesFramesInWhichTheModelIsElsewhere) {
+  // Beside the hand, covering a pixel costs more than it explains; one evaluation does not move it.
+  expect_refusal(fit(kHand, {"--set", "objective={type: skin, foreground: mask}", "--set",
+                             "init.away_mm=120", "--set", "budget.evaluations=1"}),
+                 {"shape: in most of the 8 tracked frames", "look at the overlay of a run"});
+}
+
+TEST_F(FitShapeTest, RefusesAnObjectiveThatLooksAtNoPictures) {
+  expect_refusal(fit(kHand, {"--set", "objective={type: plausible_motion}"}),
+                 {"shape: in most of the 8 tracked frames"});
+}
+
 }  // namespace
 }  // namespace hypotrack::test

@@ -108,10 +108,18 @@ class Round {
     const ImageProblem problem(*session_.scene, targets_, parts, frames);
     std::vector<double> sorted = problem.explained();
     std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double limit = kMuchLess * sorted[sorted.size() / 2];
+    const double median = sorted[sorted.size() / 2];
+    if (!(median > 0)) {
+      throw DataError(fmt::format(
+          "shape: in most of the {} tracked frames the objective is no better where the models "
+          "were "
+          "found than without them: it looks at no pictures, or they are elsewhere (look at the "
+          "overlay of a run)",
+          estimate_.tracked_frames));
+    }
     std::vector<TrackedFrame> kept;
     for (std::size_t k = 0; k < frames.size(); ++k)
-      if (problem.explained()[k] >= limit) kept.push_back(std::move(frames[k]));
+      if (problem.explained()[k] >= kMuchLess * median) kept.push_back(std::move(frames[k]));
     return kept;
   }
 

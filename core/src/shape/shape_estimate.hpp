@@ -41,7 +41,8 @@ using OpenShaped = std::function<Session(const std::vector<std::string>& overrid
 /// far, some of them are taken, and shape and poses are fitted to them together (fit_jointly,
 /// ImageProblem). Frames that explain much less than the others are left out as not tracked.
 /// `limit`: frames of the source to look at; 0: all. Throws ConfigError if the objective has no
-/// residuals or a model no shape, DataError if fewer than 2 frames were tracked.
+/// residuals or a model no shape, DataError if fewer than 2 frames were tracked or most of them
+/// explain nothing.
 HYPOTRACK_API ShapeEstimate estimate_shape(const OpenShaped& open,
                                            const ShapeEstimateSettings& settings, int limit,
                                            const ShapeProgress& progress = {});
