@@ -21,6 +21,12 @@ std::string error(std::string_view text) {
   return message_of<ConfigError>([&] { read(text); });
 }
 
+/// With one limit of its own and one of its type.
+struct Counted {
+  int count = 1;
+  void visit(ParamVisitor& v) { v("count", count, {.help = "how many", .min = 0}); }
+};
+
 TEST(ParamReader, LeavesDefaultsWhereNothingIsGiven) {
   const SampleParams params = read("file: a.png");
   const SampleParams defaults;
@@ -114,6 +120,8 @@ TEST(ParamReader, WrongTypes) {
             "scene.yaml:2:8: inner: expected a map of parameters, found '3'");
   EXPECT_EQ(error("file: a\nparts: {size: 3}\n"),
             "scene.yaml:2:8: parts: expected a list of maps, found a map");
+  EXPECT_EQ(error("file: a\nparts: {}\n"),
+            "scene.yaml:2:8: parts: expected a list of maps, found an empty map");
   EXPECT_EQ(error("file: a\nparts: [3]\n"),
             "scene.yaml:2:9: parts.0: expected a map of parameters, found '3'");
   EXPECT_EQ(error("file: a\nwords: a\n"),
@@ -126,8 +134,8 @@ TEST(ParamReader, WrongTypes) {
 TEST(ParamReader, NullIsNoValue) {
   EXPECT_EQ(
       error("file: a\nparticles:\n"),
-      "scene.yaml:2:1: particles: is null; expected an integer from 2 to 1048576 (without the "
-      "key, its default holds)");
+      "scene.yaml:2:1: particles: is null; expected an integer from 2 to 1048576 (a key that has a "
+      "default may be left out)");
   for (const auto* key : {"radius_mm", "name", "enabled", "center", "weights", "words", "maybe",
                           "inner", "parts", "file"}) {
     EXPECT_THAT(error("{file: a, " + std::string(key) + ": ~}"),
@@ -152,6 +160,10 @@ TEST(ParamReader, OutOfRange) {
   EXPECT_EQ(error("file: a\nsmall: 300\n"),
             "scene.yaml:2:8: small: 300 is out of range; expected an integer from 0 to 255");
   EXPECT_NO_THROW(read("{file: a, range_deg: 180, particles: 2}"));
+  EXPECT_THAT(message_of<ConfigError>([] {
+                ParamReader(ConfigNode::parse("count: 99999999999", "scene.yaml")).read<Counted>();
+              }),
+              HasSubstr("expected an integer from 0 to 2147483647"));
 }
 
 TEST(ParamReader, InfinityOnlyWhereTheRangeAllowsAndNanNever) {

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "hypotrack/error.hpp"
 #include "expect_error.hpp"
+#include "hypotrack/error.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {
@@ -98,6 +98,9 @@ TEST_F(StudyFileTest, MistakesAreNamedWithTheirPlaceAndTheNearestName) {
   EXPECT_THAT(complaint("file: box.yaml", "file: bax.yaml"),
               AllOf(HasSubstr("study.yaml:4:15"), HasSubstr("there is no scene file")));
   EXPECT_THAT(complaint("  box:", "  \"a box\":"), HasSubstr("the name of a scene is a word"));
+  EXPECT_THAT(
+      complaint("frames: 5", "directory: nowhere"),
+      AllOf(HasSubstr("study.yaml:13:12: directory: there is no folder"), HasSubstr("nowhere")));
 }
 
 TEST_F(StudyFileTest, AxesThatCannotBeAreRefused) {

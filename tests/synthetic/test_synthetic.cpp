@@ -314,6 +314,11 @@ TEST(Synthetic, explains_what_is_wrong_with_a_script) {
               AllOf(HasSubstr("scene.yaml:3"), HasSubstr("where 'box' is")));
   EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {time: 0}\n"),
               AllOf(HasSubstr("scene.yaml:5"), HasSubstr("times must ascend")));
+  EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {frame: 2147483647}\n"),
+              HasSubstr("2.14748e+09 frames, expected at most 10000000"));
+  EXPECT_THAT(message_of("gestures: {fist: {index_flexion_1: 20}}\nkeyframes:\n- " + start +
+                         "\n- {time: 1, gesture: {box: fist}}\n"),
+              HasSubstr("no joint angle of 'box' is called 'index_flexion_1'; there are: none"));
   EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {gesture: rest}\n"),
               AllOf(HasSubstr("scene.yaml:5"), HasSubstr("either `time` (seconds) or `frame`")));
   EXPECT_THAT(message_of("keyframes:\n- " + start + "\n- {time: 1, gesture: wave}\n"),

@@ -85,7 +85,11 @@ struct ParamReader::Impl : public ParamVisitor {
       value = *number;
       return;
     }
-    if (in_range) expected = fmt::format("an integer from {} to {}", lowest, highest);
+    if (in_range) {
+      if (info.min > static_cast<double>(lowest)) lowest = static_cast<std::int64_t>(info.min);
+      if (info.max < static_cast<double>(highest)) highest = static_cast<std::int64_t>(info.max);
+      expected = fmt::format("an integer from {} to {}", lowest, highest);
+    }
     fail_at(*node, fmt::format("{} is out of range; expected {}", node->scalar(), expected));
   }
 

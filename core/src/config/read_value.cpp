@@ -19,7 +19,7 @@ void fail_at(const ConfigNode& node, std::string_view problem) {
 }
 
 std::string describe_value(const ConfigNode& node) {
-  if (node.is_map()) return "a map";
+  if (node.is_map()) return node.size() == 0 ? "an empty map" : "a map";
   if (node.is_list()) return fmt::format("a list of {}", node.size());
   if (node.is_null()) return "null";
   constexpr std::size_t kLongest = 60;
@@ -30,8 +30,8 @@ std::string describe_value(const ConfigNode& node) {
 
 void fail_type(const ConfigNode& node, std::string_view expected) {
   if (node.is_null()) {
-    fail_at(node,
-            fmt::format("is null; expected {} (without the key, its default holds)", expected));
+    fail_at(node, fmt::format("is null; expected {} (a key that has a default may be left out)",
+                              expected));
   }
   fail_at(node, fmt::format("expected {}, found {}", expected, describe_value(node)));
 }

@@ -236,6 +236,8 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.recordings = keys.recordings;
   study.plots = keys.plots;
   study.directory = keys.directory.empty() ? root.directory() : keys.directory;
+  if (!keys.directory.empty() && !std::filesystem::is_directory(keys.directory))
+    fail_at(root.get("directory"), fmt::format("there is no folder {}", keys.directory.string()));
   check_plots(study, root.get("plots"));
   apply_variants(study, keys.variants, file.string(), variant);
   return study;

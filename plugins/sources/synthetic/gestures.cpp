@@ -39,7 +39,7 @@ std::string angle_names(const Model& model) {
   for (const Parameter& p : model.data().parameters) {
     if (p.kind == ParameterKind::angle) names.push_back(p.name);
   }
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
 void check_bounds(const ConfigNode& gesture, const ConfigNode& entry, const Parameter& p,

@@ -104,10 +104,7 @@ class Synthetic final : public Source {
         backgrounds_(draw_backgrounds(params.background, cameras_)),
         stage_(scene_, params.render_models, params.forearm, context),
         renderer_(stage_.scene()) {
-    constexpr double kRoundOff = 1e-6;
-    frames_ = params.frames > 0
-                  ? params.frames
-                  : static_cast<int>(std::floor(script_.duration * frame_rate_ + kRoundOff)) + 1;
+    frames_ = params.frames > 0 ? params.frames : frames_of_motion(context.config().where());
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
@@ -138,6 +135,16 @@ class Synthetic final : public Source {
   }
 
  private:
+  int frames_of_motion(const std::string& where) const {
+    constexpr double kRoundOff = 1e-6, kMost = 1e7;
+    const double frames = std::floor(script_.duration * frame_rate_ + kRoundOff) + 1;
+    if (frames <= kMost) return static_cast<int>(frames);
+    throw ConfigError(
+        fmt::format("{}: the motion lasts {:.6g} s, or {:.6g} frames, expected at most {:.0f}; "
+                    "give `frames`, or earlier keyframes",
+                    where, script_.duration, frames, kMost));
+  }
+
   const Scene scene_;
   const std::vector<Camera> cameras_;
   const double frame_rate_;
