@@ -28,8 +28,9 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   if (print)
     fmt::print("{}", session.resolved);
   else
-    fmt::print("{}: ok: {} model{}, {} parameters, {} cameras, {}\n", options.scene.string(),
-               models, models == 1 ? "" : "s", parameters, cameras, tracker.backend());
+    fmt::print("{}: ok: {} model{}, {} parameters, {} camera{}, {}\n", options.scene.string(),
+               models, models == 1 ? "" : "s", parameters, cameras, cameras == 1 ? "" : "s",
+               tracker.backend());
   return 0;
 }
 

@@ -19,6 +19,10 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
   if (!scene.root.is_map())
     throw ConfigError(fmt::format(
         "{}: a scene is a map with models, source, objective and optimizer", scene.root.where()));
+  if (scene.root.get("scenes").defined() && !scene.root.get("models").defined())
+    throw ConfigError(fmt::format(
+        "{}: this is a study, no scene: it has `scenes`; `hypotrack compare` makes its runs",
+        path.string()));
   scene.file = ParamReader(scene.root).read<SceneFile>();
   if (scene.file.init.from == InitFrom::file && scene.file.init.file.empty())
     throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",

@@ -224,6 +224,10 @@ void Plot::visit(ParamVisitor& v) {
 Study load_study(const std::filesystem::path& file, const std::optional<std::string>& variant) {
   const ConfigNode root = ConfigNode::load(file);
   if (!root.is_map()) fail_type(root, "a study: a map with title, scenes, grid, ...");
+  if (root.get("models").defined() && !root.get("scenes").defined())
+    throw ConfigError(
+        fmt::format("{}: this is a scene, no study: it has `models`; `hypotrack run` tracks it",
+                    file.string()));
   const auto keys = ParamReader(root).read<StudyKeys>();
   Study study;
   study.title = keys.title;
