@@ -317,7 +317,7 @@ TEST_F(Calibration, EndsWithAnErrorOrValidCamerasWhateverBytesAreDamaged) {
   EXPECT_GT(refused, 150);
 }
 
-TEST(Calibration, IsWhatTheManualShows) {
+TEST_F(Calibration, IsWhatTheManualShows) {
   std::ifstream manual(test::source_dir() / "docs/scenes.md");
   std::string text, line;
   while (std::getline(manual, line) && line.find("%YAML:1.0") == std::string::npos) {
@@ -325,11 +325,7 @@ TEST(Calibration, IsWhatTheManualShows) {
   const std::size_t indent = line.find('%');
   for (; manual && line.find("```") == std::string::npos; std::getline(manual, line))
     text += line.substr(indent) + '\n';
-  const test::TemporaryDirectory folder;
-  CalibrationSettings settings;
-  settings.file = folder.path() / "calibration.yaml";
-  std::ofstream(settings.file) << text;
-  const std::vector<Camera> cameras = load_calibration(settings);
+  const std::vector<Camera> cameras = load_calibration(rig(text));
   ASSERT_EQ(cameras.size(), 2u);
   EXPECT_TRUE(cameras[0].camera_from_world.isApprox(Eigen::Isometry3d::Identity()));
   EXPECT_EQ(cameras[1].camera_from_world.translation(), Eigen::Vector3d(-0.12, 0, 0));
