@@ -28,8 +28,8 @@ namespace hypotrack::stereo_patch {
 /// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
 ///
 /// The cost is a sum of squares, up to a constant of the frame: every pixel of the left tile within
-/// the mask, covered or not, has the residual sqrt(1 - s), where s is 0 unless both views see its
-/// surface.
+/// the image and the mask, covered or not, has the residual sqrt(1 - s), where s is 0 unless both
+/// views see its surface.
 class StereoPatch : public Objective, public ResidualTerm {
  public:
   using Params = stereo_patch::Params;

@@ -11,7 +11,10 @@ PixelPlane<float> weights(const TileView& view, bool use_mask) {
   const bool masked = use_mask && !view.mask.empty();
   for (int y = 0; y < out.height(); ++y) {
     const auto* mask = masked ? view.mask.ptr(y) : nullptr;
-    for (int x = 0; x < out.width(); ++x) out.row(y)[x] = !masked || mask[x] ? 1.0f : 0.0f;
+    const auto* valid = view.valid.ptr(y);
+    for (int x = 0; x < out.width(); ++x) {
+      out.row(y)[x] = valid[x] && (!masked || mask[x]) ? 1.0f : 0.0f;
+    }
   }
   return out;
 }

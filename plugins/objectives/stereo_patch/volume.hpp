@@ -18,7 +18,9 @@ namespace hypotrack::stereo_patch {
 struct Volume {
   Planes planes;
   int width = 0, height = 0;
-  PixelPlane<float> weight;  ///< 0 or 1: what a pixel counts; its similarities are times this
+  /// What a pixel counts: 0 outside of the image and of the mask, otherwise 1. Its similarities are
+  /// times this.
+  PixelPlane<float> weight;
   std::vector<std::uint32_t> words;
 
   std::size_t row_stride() const {
