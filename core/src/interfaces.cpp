@@ -1,5 +1,6 @@
 // Out-of-line destructors anchor vtables and type information in libhypotrack.so, so that
 // exceptions and dynamic casts work across plugin libraries.
+#include "evaluate/host_differences.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
@@ -31,8 +32,16 @@ double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
 }
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
+void cuda::DeviceObjective::enqueue_residuals(const SceneLayout&, const BatchLayout&,
+                                              const ResidualLayout&, Stream) {
+  throw Error("this objective has no residuals on the GPU");
+}
 cuda::DeviceCost::~DeviceCost() = default;
+ResidualDifferences::~ResidualDifferences() = default;
 ResidualCost::~ResidualCost() = default;
+std::unique_ptr<ResidualDifferences> ResidualCost::differences() {
+  return std::make_unique<HostDifferences>(*this);
+}
 NormalEquations ResidualCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>&,
                                         const Eigen::Ref<const Eigen::VectorXd>&, double) {
   throw Error("this cost cannot be linearised");

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "evaluate/normal_equations.hpp"
 #include "made_up_frame.hpp"
 #include "test_models.hpp"
 
@@ -47,6 +50,73 @@ Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation&
   return costs;
 }
 
+Residuals residuals_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+  Residuals all;
+  // What is not written stays NaN.
+  all.values.setConstant(evaluator.residual_count(), states.cols(), NAN);
+  all.costs.resize(states.cols());
+  evaluator.evaluate(states, all.values, all.costs);
+  return all;
+}
+
+namespace {
+
+NormalEquations on_device(Evaluator& evaluator, const Eigen::MatrixXd& states,
+                          const Eigen::VectorXd& scale) {
+  ResidualDifferences* differences = evaluator.differences();
+  const Eigen::Index count = scale.size();
+  Eigen::VectorXd costs(count);
+  differences->evaluate(states.leftCols(2), costs.head(2));
+  differences->move_to(1);
+  return differences->normal_equations(states.middleCols(2, count), scale, costs);
+}
+
+/// Those of residuals that came down.
+void expect_normal_equations(Evaluator& evaluator, const Eigen::MatrixXd& states,
+                             const Eigen::MatrixXf& residuals) {
+  const Eigen::Index count = states.cols() - 2;
+  Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(count, -2, 3);
+  scale[count / 2] = 0;
+  const NormalEquations expected =
+      normal_equations(residuals.col(1), residuals.middleCols(2, count), scale);
+  const NormalEquations found = on_device(evaluator, states, scale);
+  EXPECT_LT((found.a - expected.a).norm(), 1e-5 * expected.a.norm());
+  EXPECT_LT((found.g - expected.g).norm(), 1e-5 * expected.g.norm());
+  EXPECT_EQ(found.a.col(count / 2), Eigen::VectorXd::Zero(count));
+  const NormalEquations again = on_device(evaluator, states, scale);
+  EXPECT_EQ(again.a, found.a);
+  EXPECT_EQ(again.g, found.g);
+}
+
+}  // namespace
+
+void expect_residuals_like_the_cpu(const Scene& scene, const Observation& observation,
+                                   const std::vector<ObjectiveTerm>& cpu_terms,
+                                   const std::vector<ObjectiveTerm>& gpu_terms,
+                                   const Eigen::MatrixXd& states, double worst, double mean) {
+  Evaluator cpu(scene, cpu_terms, {.backend = Backend::cpu}, {.wanted = true});
+  Evaluator gpu(scene, gpu_terms, {.backend = Backend::cuda}, {.wanted = true});
+  cpu.prepare(observation);
+  gpu.prepare(observation);
+  ASSERT_EQ(gpu.residual_count(), cpu.residual_count());
+  const Residuals expected = residuals_of(cpu, states), found = residuals_of(gpu, states);
+  const float largest = expected.values.cwiseAbs().maxCoeff();
+  ASSERT_GT(largest, 0);
+  ASSERT_TRUE(found.values.allFinite());
+  const Eigen::VectorXd apart =
+      (found.values - expected.values).cwiseAbs().cast<double>().colwise().mean() / largest;
+  EXPECT_LT(apart.maxCoeff(), worst);
+  EXPECT_LT(apart.mean(), mean);
+  // Compiled with the residuals, the cost may be contracted otherwise.
+  Eigen::VectorXd costs(states.cols());
+  gpu.evaluate(states, costs);
+  EXPECT_LT((found.costs - costs).cwiseAbs().maxCoeff(), 1e-6 * costs.cwiseAbs().maxCoeff());
+  const Residuals again = residuals_of(gpu, states);
+  EXPECT_EQ(again.values, found.values);
+  EXPECT_EQ(again.costs, found.costs);
+  expect_normal_equations(gpu, states, found.values);
+}
+
 void expect_like_the_cpu(const Scene& scene, Observation observation, const MakeObjective& make,
                          double worst, double mean) {
   const Eigen::MatrixXd states = scored_states(scene);
@@ -59,6 +129,9 @@ void expect_like_the_cpu(const Scene& scene, Observation observation, const Make
   EXPECT_LT(difference.maxCoeff(), worst);
   EXPECT_LT(difference.mean(), mean);
   EXPECT_EQ(costs_on(Backend::cuda, scene, observation, make, states), gpu);
+  if (!make()->residual_term()) return;
+  expect_residuals_like_the_cpu(scene, observation, {{1, make()}}, {{1, make()}},
+                                states.leftCols(29), worst, mean);
 }
 
 }  // namespace hypotrack::test

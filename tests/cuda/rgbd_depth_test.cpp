@@ -1,4 +1,6 @@
 // What rgbd_depth observes on the GPU against what it observes on the CPU.
+#include "rgbd_depth.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,10 +13,12 @@
 #include "cuda/device_frame.hpp"
 #include "depth_range.hpp"
 #include "depth_scene.hpp"
+#include "device_scores.hpp"
 #include "expect_error.hpp"
 #include "foreground.hpp"
 #include "hypotrack/error.hpp"
 #include "made_up_frame.hpp"
+#include "observations.hpp"
 #include "on_device.hpp"
 #include "params.hpp"
 
@@ -132,6 +136,34 @@ TEST(RgbdDepthOnDevice, TellsSkinLikeTheCpuForEveryColour) {
   }
   view.color.at<cv::Vec3b>(0, 0) = cv::Vec3b(105, 172, 224);
   expect_what_the_cpu_observes(frame, observation, settings);
+}
+
+/// Two views of a slanted, wavy surface about where scored_states() are, with holes.
+Observation with_depth(Observation observation) {
+  for (TileView& view : observation.views) {
+    const int width = view.camera.width, height = view.camera.height;
+    cv::Mat1f depth(height, width);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const float wave = std::sin(0.1f * static_cast<float>(x + 2 * y));
+        const bool hole = (x / 7 + y / 5) % 6 == 0;
+        depth(y, x) = hole ? 0 : 0.5f + 0.0002f * static_cast<float>(x - y) + 0.01f * wave;
+      }
+    }
+    view.depth = depth;
+  }
+  return observation;
+}
+
+TEST(RgbdDepthOnDevice, ScoresAndHasTheResidualsOfTheCpu) {
+  SKIP_WITHOUT_DEVICE();
+  const auto make = [] { return std::make_shared<RgbdDepth>(Params{}); };
+  const Scene hand = test::hand_scene(), both = test::hand_and_box_scene();
+  test::expect_like_the_cpu(hand, with_depth(test::colored(test::rectified_pair(hand, 256))), make);
+  test::expect_like_the_cpu(both, with_depth(test::colored(test::general_pair(both, 256))), make);
+  Observation one = with_depth(test::colored(test::general_pair(both, 256)));
+  one.views[0].depth.release();
+  test::expect_like_the_cpu(both, one, make);
 }
 
 std::string refusal_on_cpu(const Observation& observation, Foreground foreground) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "evaluate/hypothesis_renderer.hpp"
+#include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "observations.hpp"
@@ -347,7 +348,7 @@ TEST_F(EvaluatorTest, ResidualsOfAllTermsAddUpToTheirWeightedSum) {
   const Eigen::MatrixXd states = random_states(40);
   Eigen::MatrixXf expected;
   for (const int count : {1, 3}) {
-    Evaluator evaluator(scene_, terms, threads(count), true);
+    Evaluator evaluator(scene_, terms, threads(count), {.wanted = true});
     evaluator.prepare(observation_);
     ASSERT_EQ(evaluator.residual_count(), 13);
     Eigen::MatrixXf residuals(13, 40);
@@ -366,7 +367,7 @@ TEST_F(EvaluatorTest, RefusesResidualsOfTermsThatHaveNone) {
   const auto plain = undrawn([](const RenderedHypothesis&) { return 0.0; });
   const auto why = [&](std::vector<ObjectiveTerm> terms, Backend backend) -> std::string {
     try {
-      Evaluator(scene_, std::move(terms), {.backend = backend}, true);
+      Evaluator(scene_, std::move(terms), {.backend = backend}, {.wanted = true});
     } catch (const ConfigError& error) {
       return error.what();
     }
@@ -378,14 +379,38 @@ TEST_F(EvaluatorTest, RefusesResidualsOfTermsThatHaveNone) {
                           "is set up, offers no residuals"));
   EXPECT_THAT(why({{-2, squares, "prior"}}, Backend::cpu),
               testing::HasSubstr("the weight of objective prior is -2, and squares cannot be"));
-  EXPECT_THAT(
-      why({{1, squares}}, Backend::cuda),
-      testing::StartsWith("evaluate.backend: cuda: the optimizer needs residuals, which are "
-                          "computed on the CPU. Write `backend: cpu`"));
   EXPECT_EQ(why({{1, squares}, {0, plain}}, Backend::cpu), "no error");
-  const Evaluator automatic(scene_, {{1, squares}}, {}, true);
-  EXPECT_THAT(automatic.backend(),
-              testing::HasSubstr("not on a GPU: the optimizer needs residuals"));
+}
+
+TEST_F(EvaluatorTest, TakesAnalyticJacobiansOnTheCpu) {
+  const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<SquaresOfState>(3)}};
+  for (const auto linearization : {Linearization::needed, Linearization::welcome}) {
+    const Evaluator automatic(scene_, terms, {}, {true, linearization});
+    EXPECT_THAT(automatic.backend(),
+                testing::HasSubstr("not on a GPU: the optimizer takes analytic Jacobians"));
+  }
+  EXPECT_THAT(test::message_of<ConfigError>([&] {
+                Evaluator(scene_, terms, {.backend = Backend::cuda}, {true, Linearization::needed});
+              }),
+              testing::StartsWith("evaluate.backend: cuda: the optimizer takes analytic Jacobians, "
+                                  "which are computed on the CPU. Write `jacobian: automatic`"));
+}
+
+TEST_F(EvaluatorTest, SaysWhichResidualsLookAtThePoseOnlyWhereItFellBackToo) {
+  struct DrawnSquares final : SquaresOfState {
+    using SquaresOfState::SquaresOfState;
+    bool needs_rendering() const override { return true; }
+  };
+  for (const auto backend : {Backend::cpu, Backend::automatic}) {
+    Evaluator evaluator(
+        scene_, {{1, std::make_shared<DrawnSquares>(4)}, {1, std::make_shared<SquaresOfState>(3)}},
+        {.backend = backend, .threads = 1}, {.wanted = true});
+    evaluator.prepare(observation_);
+    const std::vector<ResidualRows> rows = evaluator.pose_only_residuals();
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].first, 4);
+    EXPECT_EQ(rows[0].count, 3);
+  }
 }
 
 TEST_F(EvaluatorTest, SaysWhetherThereAreResidualsThatNobodyAnnounced) {

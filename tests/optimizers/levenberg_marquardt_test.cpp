@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "evaluate/normal_equations.hpp"
 #include "hypotrack/error.hpp"
-#include "levenberg_marquardt/normal_equations.hpp"
 #include "multi_start.hpp"
 #include "pipeline.hpp"
 #include "random_search/random_search.hpp"
@@ -184,6 +184,65 @@ TEST(LevenbergMarquardt, NeedsResidualsWithinOtherOptimizersToo) {
   stages.push_back({"random_search", std::make_unique<RandomSearch>(RandomSearchParams{})});
   stages.push_back({"levenberg_marquardt", least_squares()});
   EXPECT_TRUE(Pipeline(std::move(stages), 100).needs_residuals());
+}
+
+TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizersToo) {
+  const auto with = [](Jacobian jacobian) {
+    LevenbergMarquardtParams params;
+    params.jacobian = jacobian;
+    return std::make_unique<LevenbergMarquardt>(params);
+  };
+  EXPECT_EQ(with(Jacobian::numerical)->linearization(), Linearization::unused);
+  EXPECT_EQ(with(Jacobian::automatic)->linearization(), Linearization::welcome);
+  EXPECT_EQ(MultiStart({}, with(Jacobian::analytic)).linearization(), Linearization::needed);
+  const auto of_stages = [&](Jacobian first, Jacobian second) {
+    std::vector<PipelineStage> stages;
+    stages.push_back({"levenberg_marquardt", with(first)});
+    stages.push_back({"levenberg_marquardt", with(second)});
+    return Pipeline(std::move(stages), 100).linearization();
+  };
+  EXPECT_EQ(of_stages(Jacobian::analytic, Jacobian::numerical), Linearization::needed);
+  EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::automatic), Linearization::welcome);
+  EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::numerical), Linearization::unused);
+}
+
+/// A cost that keeps its residuals to itself.
+class Reticent final : public CostFunction, public ResidualCost {
+ public:
+  explicit Reticent(RecordingCost& cost) : cost_(cost) {}
+  int dimension() const override { return cost_.dimension(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                Eigen::Ref<Eigen::VectorXd> costs) override {
+    cost_.evaluate(points, costs);
+  }
+  ResidualCost* residuals() override { return this; }
+  Eigen::Index count() const override { return cost_.count(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>&, Eigen::Ref<Eigen::MatrixXf>,
+                Eigen::Ref<Eigen::VectorXd>) override {
+    FAIL() << "residuals were asked for";
+  }
+  std::unique_ptr<ResidualDifferences> differences() override {
+    ++asked;
+    return cost_.differences();
+  }
+
+  int asked = 0;
+
+ private:
+  RecordingCost& cost_;
+};
+
+TEST(LevenbergMarquardt, LeavesResidualsWhereTheCostKeepsThem) {
+  const SearchRegion region = test::tracking_region(27);
+  const Problem problem = test::ellipsoid(region, region.start + 0.5 * region.spread);
+  RecordingCost open(27, problem), hidden(27, problem);
+  Reticent reticent(hidden);
+  const OptimizerResult expected = minimize(open, region, 200);
+  const OptimizerResult found = LevenbergMarquardt({}).minimize(reticent, region, {200}, 1);
+  EXPECT_EQ(reticent.asked, 1);
+  EXPECT_EQ(found.point, expected.point);
+  EXPECT_EQ(found.evaluations, expected.evaluations);
+  EXPECT_LT(found.cost, open.costs[0]);
 }
 
 TEST(LevenbergMarquardt, RefusesACostWithoutResiduals) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,29 @@ struct NormalEquations {
   Eigen::VectorXd g;  ///< D
 };
 
+/// Jacobians by differences of residuals that stay where they are computed: in GPU memory where a
+/// scene is evaluated there. It remembers the residuals of one point, at which it linearises.
+class HYPOTRACK_API ResidualDifferences {
+ public:
+  ResidualDifferences() = default;
+  virtual ~ResidualDifferences();
+  ResidualDifferences(const ResidualDifferences&) = delete;
+  ResidualDifferences& operator=(const ResidualDifferences&) = delete;
+
+  /// The costs (N) of N points (DxN), each counted as one evaluation, as from
+  /// ResidualCost::evaluate().
+  virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                        Eigen::Ref<Eigen::VectorXd> costs) = 0;
+  /// Takes residuals r of the i-th point of the last batch, whichever function that was given to.
+  virtual void move_to(Eigen::Index i) = 0;
+  /// Costs (D) of D points (DxD), each counted as one evaluation, and from their residuals r_i the
+  /// normal equations for the J whose i-th column is (r_i - r) * scale[i]. That column is 0 where
+  /// scale[i] is 0 or the point's cost is infinite.
+  virtual NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                           const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                           Eigen::Ref<Eigen::VectorXd> costs) = 0;
+};
+
 /// A cost function that is a sum of squares, seen square by square.
 class HYPOTRACK_API ResidualCost {
  public:
@@ -33,6 +57,10 @@ class HYPOTRACK_API ResidualCost {
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::MatrixXf> residuals,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
+
+  /// The same without handing residuals out, for a search by numerical Jacobians. One at a time,
+  /// outlived by this cost. The default keeps what evaluate() gives.
+  virtual std::unique_ptr<ResidualDifferences> differences();
 
   /// Whether linearize() is there.
   virtual bool can_linearize() const { return false; }
@@ -97,6 +125,13 @@ struct OptimizerResult {
   std::int64_t evaluations = 0;
 };
 
+/// What an optimizer wants of ResidualCost::linearize(), which is computed on the CPU only.
+enum class Linearization {
+  unused,
+  welcome,  ///< taken where it is there
+  needed,
+};
+
 /// Looks for the point of lowest cost. Equal input, seed and machine give the equal answer (unless
 /// the budget is in seconds).
 class HYPOTRACK_API Optimizer {
@@ -109,6 +144,8 @@ class HYPOTRACK_API Optimizer {
   /// Whether it minimises only costs with residuals(). A scene with it is refused at once if one of
   /// its terms has none.
   virtual bool needs_residuals() const { return false; }
+  /// Of optimizers that need residuals. It decides where `evaluate.backend: automatic` evaluates.
+  virtual Linearization linearization() const { return Linearization::unused; }
 
   /// The budget its own parameters imply, for scenes that name none.
   virtual std::int64_t default_evaluations() const = 0;

@@ -114,7 +114,7 @@ class HYPOTRACK_API PluginContext {
 /// installation or the build tree.
 HYPOTRACK_API std::filesystem::path data_file(const std::filesystem::path& relative);
 
-inline constexpr std::uint32_t kAbiVersion = 6;
+inline constexpr std::uint32_t kAbiVersion = 7;
 
 /// The C face of a plugin library. Nothing else is looked at before magic, sizes, version and tag
 /// have been compared, so all of it must stay plain C and only ever grow at the end.
@@ -130,7 +130,8 @@ struct HypotrackPlugin {
   const char* licence;
   /// Space-separated, may be empty. `device`: an objective that has an on_device(). `needs_device`:
   /// an optimizer of costs that have a device(). `residuals`: an objective that has a
-  /// residual_term(). `needs_residuals`: an optimizer of costs that have residuals().
+  /// residual_term(). `device_residuals`: its on_device() has_residuals(). `needs_residuals`: an
+  /// optimizer of costs that have residuals().
   const char* capabilities;
   void* (*create)(PluginContext&);
   std::string (*describe)();  ///< help text of the parameters

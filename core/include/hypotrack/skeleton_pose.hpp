@@ -28,6 +28,11 @@ struct OneThread {
   HYPOTRACK_PIXEL double sum(double value) const { return value; }
 };
 
+/// Takes the residuals of a term (cuda::StateObjective) that is asked for its cost only.
+struct IgnoreResidual {
+  HYPOTRACK_PIXEL void operator()(std::int64_t /*i*/, float /*residual*/) const {}
+};
+
 /// A 3x4 matrix, row by row: a rotation and a translation.
 struct Placement {
   float m[12];

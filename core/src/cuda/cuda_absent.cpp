@@ -21,12 +21,12 @@ Device::~Device() = default;
 void Device::use() const {}
 
 std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
-                              const EvaluateSettings&) {
+                              const EvaluateSettings&, bool) {
   return why_no_device();
 }
 
 std::unique_ptr<Evaluation> make_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
-                                            const EvaluateSettings& settings) {
+                                            const EvaluateSettings& settings, bool) {
   const Device device(settings.device);
   return nullptr;
 }

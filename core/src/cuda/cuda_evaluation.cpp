@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "cuda/device_residuals.hpp"
 #include "cuda/device_scene.hpp"
 #include "cuda/frame_on_device.hpp"
 #include "cuda/host_batch.hpp"
 #include "cuda/tile_cutter.hpp"
 #include "cuda/transfer.hpp"
 #include "evaluate/evaluation.hpp"
+#include "evaluate/term_residuals.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/error.hpp"
 
@@ -20,6 +22,8 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   CudaEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                  const EvaluateSettings& settings)
       : frame_(scene, terms, settings),
+        sum_of_squares_(TermResiduals::why_none(terms).empty()),
+        residuals_(frame_, batch_),
         prior_(static_cast<std::size_t>(scene.dimension())),
         prior_staging_(prior_.size()) {}
   ~CudaEvaluation() override { cudaStreamSynchronize(native(stream())); }
@@ -47,6 +51,17 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     check(cudaStreamSynchronize(native(stream())), "evaluating hypotheses");
     batch_.read(costs, frame_.terms());
   }
+
+  bool has_residuals() const override { return sum_of_squares_ && frame_.has_residuals(); }
+  Eigen::Index residual_count() const override { return frame_.residual_count(); }
+  std::vector<ResidualRows> pose_only_residuals() const override {
+    return frame_.pose_only_residuals();
+  }
+  void evaluate_residuals(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
+                          Eigen::Ref<Eigen::VectorXd> costs) override {
+    residuals_.download(states, residuals, costs);
+  }
+  ResidualDifferences* differences() override { return has_residuals() ? &residuals_ : nullptr; }
 
   std::string description() const override {
     return fmt::format("cuda ({})", frame_.device().name());
@@ -78,6 +93,8 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   FrameOnDevice frame_;
   std::unique_ptr<TileCutter> cutter_;  // of the first frame's cameras; there are no others
   HostBatch batch_;
+  bool sum_of_squares_;
+  DeviceResiduals residuals_;
   DeviceBuffer<double> prior_;
   PinnedBuffer<double> prior_staging_;
   bool rotation_vectors_ = false;
@@ -87,20 +104,25 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
 }  // namespace
 
 std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                              const EvaluateSettings& settings) {
+                              const EvaluateSettings& settings, bool residuals) {
   if (std::string why = why_no_device(settings.device); !why.empty()) return why;
   if (std::string why = why_not_on_device(scene); !why.empty()) return why;
   for (const ObjectiveTerm& term : terms) {
-    if (term.objective->on_device()) continue;
-    return fmt::format("objective {} has no device capability", term.name);
+    const auto on_device = term.objective->on_device();
+    if (!on_device) return fmt::format("objective {} has no device capability", term.name);
+    if (residuals && term.weight != 0 && !on_device->has_residuals()) {
+      return fmt::format("the optimizer needs residuals, and objective {} has them on the CPU only",
+                         term.name);
+    }
   }
   return why_not_this_device(settings.device);
 }
 
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings) {
-  if (const std::string why = why_not_evaluated(scene, terms, settings); !why.empty()) {
+                                            const EvaluateSettings& settings, bool residuals) {
+  const std::string why = why_not_evaluated(scene, terms, settings, residuals);
+  if (!why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why +
                       ". Write `backend: cpu`, or `automatic` to take what there is");
   }

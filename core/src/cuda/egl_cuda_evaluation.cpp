@@ -89,7 +89,7 @@ std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
                                                 const std::vector<ObjectiveTerm>& terms,
                                                 const EvaluateSettings& settings,
                                                 std::string& why_not) {
-  why_not = why_not_evaluated(scene, terms, settings);
+  why_not = why_not_evaluated(scene, terms, settings, false);
   if (std::none_of(terms.begin(), terms.end(), looks_at_pictures)) {
     why_not = "no objective looks at pictures";
   }

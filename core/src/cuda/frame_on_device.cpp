@@ -1,8 +1,11 @@
 #include "cuda/frame_on_device.hpp"
 
+#include <cmath>
+
 #include "cuda/frame_layout.hpp"
 #include "cuda/reserve_batch.hpp"
 #include "cuda/transfer.hpp"
+#include "evaluate/term_residuals.hpp"
 
 namespace hypotrack::cuda {
 
@@ -34,11 +37,16 @@ void FrameOnDevice::prepare(DeviceObservation tiles, const Observation& header) 
 }
 
 void FrameOnDevice::reserve(std::int64_t count) {
+  reserve(count, [](std::int64_t) {});
+}
+
+void FrameOnDevice::reserve(std::int64_t count, const std::function<void(std::int64_t)>& more) {
   reserve_batch(count, [&](std::int64_t hypotheses) {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (terms_[i].weight == 0) continue;
       objectives_[i]->reserve(scene_.layout(), device_.limits(), hypotheses);
     }
+    more(hypotheses);
   });
 }
 
@@ -56,9 +64,47 @@ void FrameOnDevice::add_up(BatchLayout& batch, const Enqueue& enqueue) {
 void FrameOnDevice::enqueue(BatchLayout batch) {
   add_up(batch,
          [&](DeviceObjective& objective) { objective.enqueue(scene_.layout(), batch, stream()); });
+  clear_costs_without_terms(batch);
+}
+
+void FrameOnDevice::enqueue(BatchLayout batch, float* residuals) {
+  const std::int64_t stride = residual_count();
+  add_up(batch, [&](DeviceObjective& objective) {
+    const auto factor = static_cast<float>(std::sqrt(batch.weight));
+    objective.enqueue_residuals(scene_.layout(), batch, {residuals, stride, factor}, stream());
+    residuals += objective.residual_count();
+  });
+  clear_costs_without_terms(batch);
+}
+
+void FrameOnDevice::clear_costs_without_terms(const BatchLayout& batch) {
   if (batch.add) return;
   const auto bytes = static_cast<std::size_t>(batch.count) * sizeof(double);
   check(cudaMemsetAsync(batch.costs, 0, bytes, native(stream())), "clearing costs");
+}
+
+bool FrameOnDevice::has_residuals() const {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight != 0 && !objectives_[i]->has_residuals()) return false;
+  }
+  return true;
+}
+
+std::int64_t FrameOnDevice::residual_count() const {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight != 0) count += objectives_[i]->residual_count();
+  }
+  return count;
+}
+
+std::vector<ResidualRows> FrameOnDevice::pose_only_residuals() const {
+  std::vector<TermRows> rows;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight == 0) continue;
+    rows.push_back({objectives_[i]->residual_count(), terms_[i].objective->needs_rendering()});
+  }
+  return pose_only_rows(rows);
 }
 
 void FrameOnDevice::enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn) {

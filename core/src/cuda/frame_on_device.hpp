@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -38,11 +39,23 @@ class FrameOnDevice {
   /// Makes room for batches of `count` hypotheses. Throws DeviceError, saying how many there is
   /// room for, if there is too little memory.
   void reserve(std::int64_t count);
+  /// The same with `more`, which reserves what else such a batch takes.
+  void reserve(std::int64_t count, const std::function<void(std::int64_t)>& more);
 
   /// Enqueues all terms for a batch; `batch.weight` and `batch.add` are set here.
   void enqueue(BatchLayout batch);
+  /// The same with the residuals of all terms, one after the other, each times the root of its
+  /// weight: residual_count() of every hypothesis. The terms are a sum of squares (TermResiduals).
+  void enqueue(BatchLayout batch, float* residuals);
   /// The same for hypotheses that are drawn already.
   void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
+
+  /// Whether every term has residuals on the GPU.
+  bool has_residuals() const;
+  /// Of every hypothesis of the prepared frame.
+  std::int64_t residual_count() const;
+  /// Evaluator::pose_only_residuals().
+  std::vector<ResidualRows> pose_only_residuals() const;
 
   /// Grows whenever a term's does.
   std::uint64_t revision() const;
@@ -50,6 +63,7 @@ class FrameOnDevice {
  private:
   template <class Enqueue>
   void add_up(BatchLayout& batch, const Enqueue& enqueue);
+  void clear_costs_without_terms(const BatchLayout& batch);
 
   Device device_;
   DeviceScene scene_;

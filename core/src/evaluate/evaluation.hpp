@@ -44,6 +44,10 @@ class Evaluation {
                                   Eigen::Ref<Eigen::MatrixXf> residuals,
                                   Eigen::Ref<Eigen::VectorXd> costs);
 
+  /// Residuals that stay where they are computed, for normalised states; null where
+  /// evaluate_residuals() is as good.
+  virtual ResidualDifferences* differences() { return nullptr; }
+
   /// See ResidualCost, for normalised states.
   virtual bool can_linearize() const { return false; }
   virtual NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
@@ -60,30 +64,38 @@ class Evaluation {
 };
 
 /// The backend that the settings ask for. Throws DeviceError if it is not to be had; never a silent
-/// substitute. The scene outlives it. `residuals`: what is made has_residuals(); throws ConfigError
-/// if the terms or the backend have none.
+/// substitute. The scene outlives it. Throws ConfigError if the terms or the backend do not have
+/// what is wanted of them.
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings, bool residuals);
+                                            const EvaluateSettings& settings,
+                                            const ResidualUse& use);
 
-/// Draws with a HypothesisRenderer and asks the terms on the CPU.
+/// Draws with a HypothesisRenderer and asks the terms on the CPU. `why_here`: the reason why it is
+/// not on a GPU, for its description().
 std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
                                                  const std::vector<ObjectiveTerm>& terms,
-                                                 const EvaluateSettings& settings);
+                                                 const EvaluateSettings& settings,
+                                                 std::string why_here = {});
+
+/// Why `backend: automatic` evaluates these terms on the CPU; empty if it does so on the GPU.
+std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                                 const EvaluateSettings& settings, const ResidualUse& use);
 
 /// Throws Error: what a term did wrong (`returned NaN`) for a hypothesis.
 [[noreturn]] void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what);
 
 namespace cuda {
 
-/// Why these terms of this scene cannot be evaluated on the GPU of the settings; empty if they can.
+/// Why these terms of this scene cannot be evaluated on the GPU of the settings, with `residuals`
+/// if they are asked for; empty if they can.
 std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                              const EvaluateSettings& settings);
+                              const EvaluateSettings& settings, bool residuals);
 
 /// Poses, draws and scores on the GPU. Throws DeviceError where why_not_evaluated() has a reason.
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings);
+                                            const EvaluateSettings& settings, bool residuals);
 
 }  // namespace cuda
 }  // namespace hypotrack

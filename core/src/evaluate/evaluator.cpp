@@ -29,12 +29,26 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
 
 }  // namespace
 
-struct Evaluator::Impl {
+struct Evaluator::Impl final : ResidualDifferences {
   Impl(const Scene& s, std::vector<ObjectiveTerm> t, const EvaluateSettings& settings,
-       bool residuals)
+       const ResidualUse& use)
       : scene(s),
         terms(checked(std::move(t))),
-        evaluation(make_evaluation(scene, terms, settings, residuals)) {}
+        evaluation(make_evaluation(scene, terms, settings, use)) {}
+
+  // ResidualDifferences, for the evaluation's
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                Eigen::Ref<Eigen::VectorXd> costs) override {
+    normalize(states, costs.size());
+    evaluation->differences()->evaluate(normalized, costs);
+  }
+  void move_to(Eigen::Index i) override { evaluation->differences()->move_to(i); }
+  NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                                   const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                   Eigen::Ref<Eigen::VectorXd> costs) override {
+    normalize(states, costs.size());
+    return evaluation->differences()->normal_equations(normalized, scale, costs);
+  }
 
   /// Takes in the states of a batch, normalised. Throws Error if they do not fit.
   void normalize(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Index costs);
@@ -48,8 +62,8 @@ struct Evaluator::Impl {
 };
 
 Evaluator::Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms,
-                     const EvaluateSettings& settings, bool residuals)
-    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings, residuals)) {}
+                     const EvaluateSettings& settings, const ResidualUse& use)
+    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings, use)) {}
 
 Evaluator::~Evaluator() = default;
 
@@ -104,6 +118,10 @@ void Evaluator::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             residuals.rows(), residuals.cols(), residual_count(), states.cols()));
   }
   impl_->evaluation->evaluate_residuals(impl_->normalized, residuals, costs);
+}
+
+ResidualDifferences* Evaluator::differences() {
+  return impl_->evaluation->differences() ? impl_.get() : nullptr;
 }
 
 bool Evaluator::can_linearize() const { return impl_->evaluation->can_linearize(); }

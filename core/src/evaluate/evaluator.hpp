@@ -42,6 +42,12 @@ struct ObjectiveTerm {
   std::string name = {};  ///< for messages
 };
 
+/// What is wanted of residuals.
+struct ResidualUse {
+  bool wanted = false;
+  Linearization linearization = Linearization::unused;  ///< where they are
+};
+
 /// Residuals that follow each other.
 struct ResidualRows {
   Eigen::Index first = 0, count = 0;
@@ -51,10 +57,10 @@ struct ResidualRows {
 /// batches at a time, over threads; the result does not depend on the number of threads.
 class HYPOTRACK_API Evaluator {
  public:
-  /// The scene must outlive the evaluator. Throws DeviceError if the backend is not to be had.
-  /// `residuals`: they will be asked for; throws ConfigError if a term or the backend has none.
+  /// The scene must outlive the evaluator. Throws DeviceError if the backend is not to be had, and
+  /// ConfigError if a term or the backend does not have what is wanted of residuals.
   Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings,
-            bool residuals = false);
+            const ResidualUse& use = {});
   ~Evaluator();
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
@@ -81,6 +87,9 @@ class HYPOTRACK_API Evaluator {
   /// The same costs (N), and residuals (MxN) whose squares add up to them (ResidualTerm).
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs);
+
+  /// Residuals of states that stay in GPU memory; null on other backends. Outlived by this.
+  ResidualDifferences* differences();
 
   /// Whether linearize() is there: each term's residuals belong to pixels and have slopes, or the
   /// term needs no rendering.

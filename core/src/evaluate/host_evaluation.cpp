@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "evaluate/evaluation.hpp"
 #include "evaluate/hypothesis_renderer.hpp"
@@ -24,8 +26,9 @@ bool any_draws(const std::vector<ObjectiveTerm>& terms) {
 class HostEvaluation final : public Evaluation {
  public:
   HostEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                 const EvaluateSettings& settings)
+                 const EvaluateSettings& settings, std::string why_here)
       : terms_(terms),
+        why_here_(std::move(why_here)),
         renderer_(make_hypothesis_renderer(scene, settings, any_draws(terms))),
         arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
     if (TermResiduals::why_none(terms).empty()) residuals_.emplace(terms);
@@ -76,7 +79,9 @@ class HostEvaluation final : public Evaluation {
     return linearizer_->linearize(states, steps, blur);
   }
 
-  std::string description() const override { return renderer_->description(); }
+  std::string description() const override {
+    return renderer_->description() + (why_here_.empty() ? "" : "; " + why_here_);
+  }
 
  private:
   /// The weighted sum of what `cost_of(index of a term, hypothesis as it wants it)` returns.
@@ -97,6 +102,7 @@ class HostEvaluation final : public Evaluation {
   }
 
   std::vector<ObjectiveTerm> terms_;
+  std::string why_here_;
   std::optional<TermResiduals> residuals_;  // if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // if the terms have what it needs
@@ -107,8 +113,9 @@ class HostEvaluation final : public Evaluation {
 
 std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
                                                  const std::vector<ObjectiveTerm>& terms,
-                                                 const EvaluateSettings& settings) {
-  return std::make_unique<HostEvaluation>(scene, terms, settings);
+                                                 const EvaluateSettings& settings,
+                                                 std::string why_here) {
+  return std::make_unique<HostEvaluation>(scene, terms, settings, std::move(why_here));
 }
 
 }  // namespace hypotrack

@@ -45,17 +45,24 @@ void TermResiduals::prepare() {
   }
 }
 
-std::vector<ResidualRows> TermResiduals::pose_only() const {
+std::vector<ResidualRows> pose_only_rows(const std::vector<TermRows>& terms) {
   std::vector<ResidualRows> rows;
+  bool others = false;
   Eigen::Index first = 0;
-  for (const Part& part : parts_) {
-    const auto count = static_cast<Eigen::Index>(part.count);
-    if (count > 0 && !part.objective->needs_rendering()) rows.push_back({first, count});
-    first += count;
+  for (const TermRows& term : terms) {
+    if (term.count > 0 && !term.draws) rows.push_back({first, term.count});
+    others |= term.count > 0 && term.draws;
+    first += term.count;
   }
-  const bool all = rows.size() == static_cast<std::size_t>(std::ranges::count_if(
-                                      parts_, [](const Part& part) { return part.count > 0; }));
-  return all ? std::vector<ResidualRows>() : rows;
+  return others ? rows : std::vector<ResidualRows>();
+}
+
+std::vector<ResidualRows> TermResiduals::pose_only() const {
+  std::vector<TermRows> rows;
+  for (const Part& part : parts_) {
+    rows.push_back({static_cast<Eigen::Index>(part.count), part.objective->needs_rendering()});
+  }
+  return pose_only_rows(rows);
 }
 
 double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothesis,

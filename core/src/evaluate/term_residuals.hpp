@@ -10,6 +10,14 @@
 
 namespace hypotrack {
 
+/// Residuals of one term.
+struct TermRows {
+  Eigen::Index count;
+  bool draws;  ///< whether it looks at pictures
+};
+/// Those of terms that look at no picture, where others do (Evaluator::pose_only_residuals()).
+std::vector<ResidualRows> pose_only_rows(const std::vector<TermRows>& terms);
+
 /// The residuals of several terms, one after the other, each times the square root of its weight:
 /// the sum of squares of all is the weighted sum of theirs. Terms of weight 0 have none.
 class TermResiduals {

@@ -140,11 +140,14 @@ void Opening::objective() {
 /// Before the source makes any: those that a GPU will read lie where it can.
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
-  if (settings.backend != Backend::cuda && settings.backend != Backend::automatic) return;
-  if (session_.parts.optimizer->needs_residuals()) return;
   const auto& terms = session_.parts.objective;
-  if (!cuda::why_not_evaluated(*session_.scene, terms, settings).empty()) return;
-  cuda::page_lock_images(settings.device);
+  const ResidualUse use = residual_use(session_.parts);
+  const bool on_gpu =
+      (settings.backend == Backend::cuda &&
+       cuda::why_not_evaluated(*session_.scene, terms, settings, use.wanted).empty()) ||
+      (settings.backend == Backend::automatic &&
+       why_automatic_on_cpu(*session_.scene, terms, settings, use).empty());
+  if (on_gpu) cuda::page_lock_images(settings.device);
 }
 
 void Opening::optimizer() {

@@ -71,7 +71,8 @@ JointTrial ImageProblem::start() const {
 ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
   Built b;
   b.scene = targets_.reshaped(scene_, shape);
-  b.evaluator = std::make_unique<Evaluator>(*b.scene, parts_.objective, parts_.evaluate, true);
+  b.evaluator = std::make_unique<Evaluator>(*b.scene, parts_.objective, parts_.evaluate,
+                                            ResidualUse{.wanted = true});
   return b;
 }
 

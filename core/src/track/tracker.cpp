@@ -15,6 +15,30 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Residuals of search points that stay where the evaluator has them.
+class PointDifferences final : public ResidualDifferences {
+ public:
+  PointDifferences(const SearchSpace& space, const Eigen::VectorXd& prior,
+                   ResidualDifferences& of_states)
+      : space_(space), prior_(prior), of_states_(of_states) {}
+
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                Eigen::Ref<Eigen::VectorXd> costs) override {
+    of_states_.evaluate(space_.states(points, prior_), costs);
+  }
+  void move_to(Eigen::Index i) override { of_states_.move_to(i); }
+  NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
+                                   const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                   Eigen::Ref<Eigen::VectorXd> costs) override {
+    return of_states_.normal_equations(space_.states(points, prior_), scale, costs);
+  }
+
+ private:
+  const SearchSpace& space_;
+  const Eigen::VectorXd& prior_;
+  ResidualDifferences& of_states_;
+};
+
 /// Costs of search points: points become states, states are evaluated.
 class StateCost final : public CostFunction, public ResidualCost {
  public:
@@ -36,6 +60,11 @@ class StateCost final : public CostFunction, public ResidualCost {
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
     evaluator_.evaluate(space_.states(points, prior_), residuals, costs);
+  }
+  std::unique_ptr<ResidualDifferences> differences() override {
+    ResidualDifferences* of_states = evaluator_.differences();
+    if (!of_states) return ResidualCost::differences();
+    return std::make_unique<PointDifferences>(space_, prior_, *of_states);
   }
   bool can_linearize() const override { return evaluator_.can_linearize(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
@@ -86,8 +115,7 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
       tiles_(scene, parts_.cameras, parts_.tile),
       photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
       space_(scene, parts_.search),
-      evaluator_(scene, parts_.objective, parts_.evaluate,
-                 parts_.optimizer->needs_residuals() || parts_.status.uncertainty.enabled),
+      evaluator_(scene, parts_.objective, parts_.evaluate, residual_use(parts_)),
       monitor_(parts_.status),
       landmarks_(landmark_layout(scene.landmark_names())),
       predictor_(scene, parts_.search.prediction),
@@ -100,6 +128,12 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
     parts_.budget.evaluations = parts_.optimizer->default_evaluations();
   if (parts_.status.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, parts_.status.uncertainty), parts_.budget);
+}
+
+ResidualUse residual_use(const TrackerParts& parts) {
+  const bool search = parts.optimizer->needs_residuals();
+  return {search || parts.status.uncertainty.enabled,
+          search ? parts.optimizer->linearization() : Linearization::unused};
 }
 
 Tracker::~Tracker() = default;

@@ -50,6 +50,9 @@ struct TrackerParts {
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 
+/// What the search and the sigmas of a tracker want of residuals.
+ResidualUse residual_use(const TrackerParts& parts);
+
 /// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
 /// from where its motion leads.
 class HYPOTRACK_API Tracker {

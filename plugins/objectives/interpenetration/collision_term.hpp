@@ -54,17 +54,26 @@ struct CollisionTerm {
     return 1e3f * pixel::max(depth - pair.slack, 0.0f);
   }
 
-  /// Sum of the squared excesses of all pairs, mm^2. `state` is normalised.
-  template <class Team>
-  HYPOTRACK_PIXEL double cost(const double* state, int /*dimension*/, const Team& team,
-                              float* scratch) const {
+  HYPOTRACK_PIXEL std::int64_t residual_count() const { return pair_count; }
+
+  /// Sum of the squared excesses of all pairs, mm^2; they are the residuals. `state` is normalised.
+  template <class Team, class Put>
+  HYPOTRACK_PIXEL double cost_and_residuals(const double* state, int /*dimension*/,
+                                            const Team& team, float* scratch,
+                                            const Put& put) const {
     const PosedShape* in_world = pose(state, team, scratch);
     double sum = 0;
     for (int i = team.rank(); i < pair_count; i += team.size()) {
-      const double depth = excess(in_world, pairs[i]);
-      sum += depth * depth;
+      const float depth = excess(in_world, pairs[i]);
+      put(i, depth);
+      sum += static_cast<double>(depth) * depth;
     }
     return team.sum(sum);
+  }
+  template <class Team>
+  HYPOTRACK_PIXEL double cost(const double* state, int dimension, const Team& team,
+                              float* scratch) const {
+    return cost_and_residuals(state, dimension, team, scratch, IgnoreResidual{});
   }
 };
 

@@ -54,6 +54,6 @@ std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term) {
   return std::make_unique<OnDevice>(term);
 }
 
-const char* capabilities() { return "device residuals"; }
+const char* capabilities() { return "device residuals device_residuals"; }
 
 }  // namespace hypotrack::interpenetration

@@ -28,10 +28,15 @@ double Interpenetration::cost(const RenderedHypothesis& hypothesis) const {
 
 void Interpenetration::write_residuals(const RenderedHypothesis& hypothesis,
                                        std::span<float> residuals) const {
-  const PosedShape* in_world = term_.pose(hypothesis.state.data(), OneThread{}, scratch_of(term_));
-  for (std::size_t i = 0; i < plan_.pairs.size(); ++i) {
-    residuals[i] = term_.excess(in_world, plan_.pairs[i]);
-  }
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double Interpenetration::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                            std::span<float> residuals) const {
+  const auto put = [&](std::int64_t i, float r) { residuals[static_cast<std::size_t>(i)] = r; };
+  return term_.cost_and_residuals(hypothesis.state.data(),
+                                  static_cast<int>(hypothesis.state.size()), OneThread{},
+                                  scratch_of(term_), put);
 }
 
 std::unique_ptr<cuda::DeviceObjective> Interpenetration::on_device() const {

@@ -50,6 +50,8 @@ class Interpenetration : public Objective, public ResidualTerm {
   std::int64_t residual_count() const override { return term_.pair_count; }
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
 
   const CollisionPlan& plan() const { return plan_; }
 

@@ -11,7 +11,7 @@ namespace hypotrack::interpenetration {
 /// it.
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term);
 
-/// What `plugins info` shows: "residuals", and "device" in a build with CUDA.
+/// What `plugins info` shows: "residuals", and what the GPU has of it in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::interpenetration

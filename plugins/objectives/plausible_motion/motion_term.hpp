@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "hypotrack/pixel.hpp"
+#include "hypotrack/skeleton_pose.hpp"
 
 /// The same source for the CPU and the GPU.
 namespace hypotrack::plausible_motion {
@@ -20,21 +20,29 @@ struct MotionTerm {
   std::int64_t count;
   const LinearResidual* residuals;
 
+  HYPOTRACK_PIXEL std::int64_t residual_count() const { return count; }
   HYPOTRACK_PIXEL double residual(std::int64_t i, const double* state) const {
     const LinearResidual& r = residuals[i];
     return r.factor[0] * state[r.index[0]] + r.factor[1] * state[r.index[1]] - r.offset;
   }
 
   HYPOTRACK_PIXEL int scratch_floats() const { return 0; }
-  template <class Team>
-  HYPOTRACK_PIXEL double cost(const double* state, int /*dimension*/, const Team& team,
-                              float* /*scratch*/) const {
+  template <class Team, class Put>
+  HYPOTRACK_PIXEL double cost_and_residuals(const double* state, int /*dimension*/,
+                                            const Team& team, float* /*scratch*/,
+                                            const Put& put) const {
     double sum = 0;
     for (std::int64_t i = team.rank(); i < count; i += team.size()) {
       const double r = residual(i, state);
+      put(i, static_cast<float>(r));
       sum += r * r;
     }
     return team.sum(sum);
+  }
+  template <class Team>
+  HYPOTRACK_PIXEL double cost(const double* state, int dimension, const Team& team,
+                              float* scratch) const {
+    return cost_and_residuals(state, dimension, team, scratch, IgnoreResidual{});
   }
 };
 

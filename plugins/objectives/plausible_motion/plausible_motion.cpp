@@ -17,10 +17,15 @@ double PlausibleMotion::cost(const RenderedHypothesis& hypothesis) const {
 
 void PlausibleMotion::write_residuals(const RenderedHypothesis& hypothesis,
                                       std::span<float> residuals) const {
-  for (std::int64_t i = 0; i < term_.count; ++i) {
-    residuals[static_cast<std::size_t>(i)] =
-        static_cast<float>(term_.residual(i, hypothesis.state.data()));
-  }
+  cost_and_residuals(hypothesis, residuals);
+}
+
+double PlausibleMotion::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                           std::span<float> residuals) const {
+  const auto put = [&](std::int64_t i, float r) { residuals[static_cast<std::size_t>(i)] = r; };
+  return term_.cost_and_residuals(hypothesis.state.data(),
+                                  static_cast<int>(hypothesis.state.size()), OneThread{}, nullptr,
+                                  put);
 }
 
 std::unique_ptr<cuda::DeviceObjective> PlausibleMotion::on_device() const {

@@ -35,6 +35,8 @@ class PlausibleMotion : public Objective, public ResidualTerm {
   std::int64_t residual_count() const override { return term_.count; }
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
 
  private:
   FrameResiduals residuals_;

@@ -19,9 +19,10 @@ struct Weights {
   double lambda_k;
 };
 
+inline constexpr double kCentimetresPerMetre = 100;  // the papers' unit of depth: lambda's
+
 /// E of RgbdDepth.
 HYPOTRACK_PIXEL double energy(const Totals& t, double crossing, const Weights& weights) {
-  constexpr double kCentimetresPerMetre = 100;  // the papers' unit of depth, lambda belongs to it
   constexpr double kEpsilon = 1e-6;
   // Every pixel that may differ is charged d_M; closeness is what agreement gives back.
   const double charged = t.measured + t.beyond;

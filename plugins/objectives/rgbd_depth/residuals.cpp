@@ -47,12 +47,10 @@ HWY_EXPORT(write_covered);
 
 PixelPlane<float> uncovered_residuals(const PixelPlane<float>& observed,
                                       const PixelPrices& prices) {
-  const float measured = std::sqrt(prices.wrong), hole = std::sqrt(prices.hidden);
   PixelPlane<float> plane(observed.width(), observed.height());
   for (int y = 0; y < observed.height(); ++y) {
-    std::transform(observed.row(y), observed.row(y) + observed.width(), plane.row(y), [&](float o) {
-      return o > 0 ? measured : o == kUnmeasured ? hole : 0.0f;
-    });
+    std::transform(observed.row(y), observed.row(y) + observed.width(), plane.row(y),
+                   [&](float o) { return uncovered_residual(o, prices); });
   }
   return plane;
 }

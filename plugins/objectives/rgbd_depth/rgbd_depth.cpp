@@ -1,8 +1,5 @@
 #include "rgbd_depth.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "checks.hpp"
 #include "depth_range.hpp"
 #include "energy.hpp"
@@ -35,15 +32,9 @@ void RgbdDepth::prepare(const Observation& observation) {
 }
 
 void RgbdDepth::price_pixels() {
-  constexpr double kCentimetresPerMetre = 100;  // as in energy()
-  double foreground = 0;
-  for (const PreparedView& view : views_) {
-    foreground += static_cast<double>(view.observed.foreground);
-  }
-  foreground = std::max(foreground, 1.0);
-  const double hidden = params_.lambda / (2 * foreground);
-  const double wrong = kCentimetresPerMetre * params_.d_max / foreground + hidden;
-  prices_ = {static_cast<float>(wrong), static_cast<float>(hidden)};
+  std::int64_t foreground = 0;
+  for (const PreparedView& view : views_) foreground += view.observed.foreground;
+  prices_ = pixel_prices(static_cast<float>(foreground), weights());
   for (PreparedView& view : views_) {
     view.uncovered = uncovered_residuals(view.observed.pixels, prices_);
   }
@@ -67,11 +58,9 @@ void RgbdDepth::write_residuals(const RenderedHypothesis& hypothesis,
                                 residuals.first(size));
     residuals = residuals.subspan(size);
   }
-  constexpr double kEqualAt = 0.1;  // radians
-  const double factor = std::sqrt(params_.lambda_k / kEqualAt);
   for (std::size_t i = 0; i < fingers_.size(); ++i) {
     const double crossing = finger_crossing(&fingers_[i], 1, hypothesis.state.data());
-    residuals[i] = static_cast<float>(factor * crossing);
+    residuals[i] = crossing_residual(crossing, weights());
   }
 }
 
@@ -90,8 +79,10 @@ double RgbdDepth::cost(const RenderedHypothesis& hypothesis) const {
   }
   const double crossing =
       finger_crossing(fingers_.data(), static_cast<int>(fingers_.size()), hypothesis.state.data());
-  return energy(totals, crossing, {params_.d_max, params_.lambda, params_.lambda_k});
+  return energy(totals, crossing, weights());
 }
+
+Weights RgbdDepth::weights() const { return {params_.d_max, params_.lambda, params_.lambda_k}; }
 
 std::unique_ptr<cuda::DeviceObjective> RgbdDepth::on_device() const {
   return make_device_objective(params_);

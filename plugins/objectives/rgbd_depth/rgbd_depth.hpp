@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "energy.hpp"
 #include "finger_crossing.hpp"
 #include "foreground.hpp"
 #include "hypotrack/objective.hpp"
@@ -81,6 +82,7 @@ class RgbdDepth : public Objective, public ResidualTerm {
   };
 
   void price_pixels();
+  Weights weights() const;
   void check_tiles(const RenderedHypothesis& hypothesis) const;
 
   Params params_;

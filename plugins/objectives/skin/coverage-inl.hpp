@@ -19,6 +19,13 @@ HYPOTRACK_PIXEL F change_if_covered(F foreground, F background, F spill) {
   return spill * background - foreground;
 }
 
+/// What is squared at a covered pixel: the root of what it costs, share spill (1 - P).
+template <class F>
+HYPOTRACK_PIXEL F covered_residual(F background, F spill, F share) {
+  using pixel::sqrt;
+  return sqrt(share * spill * background);
+}
+
 }  // namespace hypotrack::skin::HYPOTRACK_TARGET
 HYPOTRACK_PIXEL_END();
 

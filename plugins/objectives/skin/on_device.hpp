@@ -16,7 +16,7 @@ namespace hypotrack::skin {
 /// frame.
 std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
 
-/// What `plugins info` shows: "residuals", and "device" in a build with CUDA.
+/// What `plugins info` shows: "residuals", and what the GPU has of it in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::skin

@@ -1,7 +1,8 @@
 #include "residuals.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "uncovered_residual.hpp"
 
 #define HWY_TARGET_INCLUDE "residuals.cpp"
 #include <hypotrack/foreach_target-inl.hpp>
@@ -27,7 +28,7 @@ struct ResidualWriter {
     const WordLanes here = p.here(foreground);
     const Lanes background = unorm16_high(here);
     sum.add(p.covered, change_if_covered(unorm16_low(here), background, spill));
-    const Lanes r = sqrt(share * spill * background);
+    const Lanes r = covered_residual(background, spill, share);
     store(select(p.covered, r, p.here(uncovered)), p.pixels,
           out + static_cast<std::ptrdiff_t>(p.y) * foreground.width() + p.x);
   }
@@ -55,7 +56,7 @@ PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foregroun
   for (int y = 0; y < plane.height(); ++y) {
     std::transform(foreground.row(y), foreground.row(y) + plane.width(), plane.row(y),
                    [&](std::uint32_t word) {
-                     return std::sqrt(share * (static_cast<float>(word & 0xFFFF) * kUnit));
+                     return uncovered_residual(static_cast<float>(word & 0xFFFF) * kUnit, share);
                    });
   }
   return plane;

@@ -34,6 +34,15 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   return min(left.weight, right.weight) * exp(F(0.0f) - beta * distance);
 }
 
+/// What is squared: sqrt(share (C - s)) of a pixel of weight C, s being 0 unless both views see it.
+template <class F>
+HYPOTRACK_PIXEL F color_residual(F weight, F consistency, F share) {
+  using pixel::max;
+  using pixel::sqrt;
+  // s <= C, up to the rounding of exp().
+  return sqrt(share * max(weight - consistency, F(0.0f)));
+}
+
 /// a + (b - a) t in every channel.
 template <class F>
 HYPOTRACK_PIXEL ColorSample<F> blend(const ColorSample<F>& a, const ColorSample<F>& b, F t) {

@@ -32,9 +32,8 @@ struct ResidualWriter {
     rendered += count(p.seen || p.occluded);
     seen += count(p.seen);
     sum.add(p.seen, s);
-    // s <= C, up to the rounding of exp().
-    const Lanes rest = max(here.weight - s, Lanes(0.0f));
-    store(sqrt(share * rest), p.pixels, out + static_cast<std::ptrdiff_t>(p.y) * width + p.x);
+    store(color_residual(here.weight, s, share), p.pixels,
+          out + static_cast<std::ptrdiff_t>(p.y) * width + p.x);
   }
   HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };

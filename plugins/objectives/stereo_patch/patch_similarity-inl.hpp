@@ -57,6 +57,15 @@ HYPOTRACK_PIXEL PlaneShare<F> plane_share(F position, F last) {
   return {before, position - before};
 }
 
+/// What is squared: sqrt(weight - s) of a pixel, s being 0 unless both views see it between the
+/// planes. `weight` is 0 or 1.
+template <class F>
+HYPOTRACK_PIXEL F patch_residual(F weight, F similarity) {
+  using pixel::max;
+  using pixel::sqrt;
+  return sqrt(max(weight - similarity, F(0.0f)));
+}
+
 /// Whether a position lies on or between the first plane (0) and the last.
 template <class F>
 HYPOTRACK_PIXEL auto between_planes(F position, F last) {

@@ -23,7 +23,7 @@ struct ResidualWriter {
     if (!any(counts)) return;
     const Lanes s = select(counts, volume.similarity(p, counts), Lanes(0.0f));
     sum.add(counts, s);
-    store(sqrt(max(p.here(weight) - s, Lanes(0.0f))), p.pixels,
+    store(patch_residual(p.here(weight), s), p.pixels,
           out + static_cast<std::ptrdiff_t>(p.y) * weight.width() + p.x);
   }
   HYPOTRACK_PIXEL void end_row() { sum.end_row(); }

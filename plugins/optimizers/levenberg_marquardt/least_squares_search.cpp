@@ -19,6 +19,7 @@ LeastSquaresSearch::LeastSquaresSearch(CostFunction& cost, ResidualCost& residua
       x_(region.start),
       analytic_(params.jacobian == Jacobian::analytic ||
                 (params.jacobian == Jacobian::automatic && residuals.can_linearize())),
+      differences_(analytic_ ? nullptr : residuals.differences()),
       damping_(params.damping) {}
 
 bool LeastSquaresSearch::may_go_on() const { return remaining() > 0 && !deadline_.passed(); }
@@ -28,8 +29,7 @@ void LeastSquaresSearch::evaluate() {
   if (analytic_) {
     cost_.evaluate(points_, costs_);
   } else {
-    residuals_.resize(residual_cost_.count(), points_.cols());
-    residual_cost_.evaluate(points_, residuals_, costs_);
+    differences_->evaluate(points_, costs_);
   }
   best_.update(points_, costs_);
 }
@@ -42,7 +42,7 @@ void LeastSquaresSearch::evaluate_start() {
 
 void LeastSquaresSearch::move_to(Eigen::Index trial) {
   x_ = points_.col(trial);
-  if (!analytic_) at_x_ = residuals_.col(trial);
+  if (!analytic_) differences_->move_to(trial);
   cost_at_x_ = costs_[trial];
 }
 
@@ -66,12 +66,11 @@ bool LeastSquaresSearch::linearize() {
   const Eigen::VectorXd steps = differences(params_.difference * fineness_);
   points_ = x_.replicate(1, d);
   points_.diagonal() += steps;
-  evaluate();
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(d);
-  for (Eigen::Index i = 0; i < d; ++i) {
-    if (steps[i] != 0 && std::isfinite(costs_[i])) scale[i] = region_.spread[i] / steps[i];
-  }
-  equations_ = normal_equations(at_x_, residuals_, scale);
+  const Eigen::VectorXd scale =
+      (steps.array() == 0).select(0.0, region_.spread.array() / steps.array());
+  costs_.resize(d);
+  equations_ = differences_->normal_equations(points_, scale, costs_);
+  best_.update(points_, costs_);
   sign_ = -sign_;
   return true;
 }

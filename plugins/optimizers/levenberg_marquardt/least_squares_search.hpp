@@ -2,10 +2,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 
 #include "hypotrack/search.hpp"
 #include "levenberg_marquardt_params.hpp"
-#include "normal_equations.hpp"
 
 namespace hypotrack {
 
@@ -40,11 +40,11 @@ class LeastSquaresSearch {
   const Deadline deadline_;
   BestSoFar best_;
 
-  Eigen::VectorXd x_;     ///< where it is
-  Eigen::VectorXf at_x_;  ///< residuals there
+  Eigen::VectorXd x_;  ///< where it is
   double cost_at_x_ = 0;
   double sign_ = 1;  ///< of the differences
   const bool analytic_;
+  const std::unique_ptr<ResidualDifferences> differences_;  ///< unless analytic_; moves with x_
   double fineness_ = 1;  ///< of differences, or of the blur: shares of the first
   double damping_;
   NormalEquations equations_;  ///< at x, per spread
@@ -52,7 +52,6 @@ class LeastSquaresSearch {
 
   // The last batch.
   Eigen::MatrixXd points_;
-  Eigen::MatrixXf residuals_;
   Eigen::VectorXd costs_;
 };
 

@@ -12,6 +12,18 @@ std::span<const std::string_view> enum_names(Jacobian) {
   return kNames;
 }
 
+Linearization LevenbergMarquardt::linearization() const {
+  switch (params_.jacobian) {
+    case Jacobian::numerical:
+      return Linearization::unused;
+    case Jacobian::analytic:
+      return Linearization::needed;
+    case Jacobian::automatic:
+      break;
+  }
+  return Linearization::welcome;
+}
+
 OptimizerResult LevenbergMarquardt::minimize(CostFunction& cost, const SearchRegion& region,
                                              const Budget& budget, std::uint64_t) {
   check_search(cost, region, budget);

@@ -28,6 +28,7 @@ class LevenbergMarquardt : public Optimizer {
   explicit LevenbergMarquardt(const LevenbergMarquardtParams& params) : params_(params) {}
 
   bool needs_residuals() const override { return true; }
+  Linearization linearization() const override;
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   /// Throws ConfigError if the cost has no residuals, Error if they are not finite.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

@@ -47,6 +47,7 @@ class MultiStart : public Optimizer {
              const std::string& where = "multi_start");
 
   bool needs_residuals() const override { return optimizer_->needs_residuals(); }
+  Linearization linearization() const override { return optimizer_->linearization(); }
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;

@@ -23,6 +23,14 @@ bool Pipeline::needs_residuals() const {
       stages_, [](const PipelineStage& stage) { return stage.optimizer->needs_residuals(); });
 }
 
+Linearization Pipeline::linearization() const {
+  auto most = Linearization::unused;
+  for (const PipelineStage& stage : stages_) {
+    most = std::max(most, stage.optimizer->linearization());
+  }
+  return most;
+}
+
 OptimizerResult Pipeline::run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
                               const Budget& budget, std::uint64_t seed) {
   const auto named = [&](const std::exception& error) {

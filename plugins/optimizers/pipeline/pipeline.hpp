@@ -33,7 +33,8 @@ class Pipeline : public Optimizer {
   Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
            const std::string& where = "pipeline");
 
-  bool needs_residuals() const override;  ///< whether a stage does
+  bool needs_residuals() const override;         ///< whether a stage does
+  Linearization linearization() const override;  ///< the most that a stage wants
   std::int64_t default_evaluations() const override { return default_evaluations_; }
   /// A ConfigError or DeviceError of a stage names the stage.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

@@ -117,12 +117,62 @@ void check_repetition(const Subject& subject) {
   }
 }
 
+void require_residuals(const Subject& subject) {
+  require_device(subject);
+  const auto objective = subject.make<Objective>();
+  if (!objective->residual_term()) throw Skipped("it offers none, as it is set up");
+  if (!objective->on_device()->has_residuals()) throw Skipped("it has them on the CPU only");
+}
+
+struct Residuals {
+  Eigen::MatrixXf values;
+  Eigen::VectorXd costs;
+};
+
+Residuals residuals_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+  Residuals all{Eigen::MatrixXf::Constant(evaluator.residual_count(), states.cols(), NAN),
+                Eigen::VectorXd(states.cols())};
+  evaluator.evaluate(states, all.values, all.costs);
+  return all;
+}
+
+void check_residual_agreement(const Subject& subject) {
+  require_residuals(subject);
+  Evaluator cpu = make_evaluator(subject, Backend::cpu);
+  Evaluator device = make_evaluator(subject, Backend::cuda);
+  const Eigen::MatrixXd states = make_states(*subject.scene);
+  for (const NamedObservation& named : make_observations(*subject.scene)) {
+    if (!takes(cpu, named.observation)) continue;
+    device.prepare(named.observation);
+    require(device.residual_count() == cpu.residual_count(),
+            named.name + ": " + std::to_string(device.residual_count()) +
+                " residuals on the device, " + std::to_string(cpu.residual_count()) +
+                " on the CPU");
+    const Residuals expected = residuals_of(cpu, states), found = residuals_of(device, states);
+    require_near(found.costs, expected.costs, named.name + ", with residuals");
+    if (expected.values.size() == 0) continue;
+    require(found.values.allFinite(), named.name + ": not all residuals are written on the device");
+    const float largest = expected.values.cwiseAbs().maxCoeff();
+    const Eigen::VectorXf apart = (found.values - expected.values).cwiseAbs().colwise().mean();
+    Eigen::Index worst = 0;
+    require(apart.maxCoeff(&worst) <= kTolerance * largest,
+            named.name + ": state " + std::to_string(worst) + "'s residuals are " +
+                std::to_string(apart[worst]) + " apart in the mean, the largest is " +
+                std::to_string(largest));
+    const Residuals again = residuals_of(device, states);
+    require(again.values == found.values && again.costs == found.costs,
+            named.name + ": evaluating twice gives two sets of residuals");
+  }
+}
+
 }  // namespace
 
 void check_on_device(Report& report, const Subject& subject) {
   report.row("the device refuses what the CPU refuses", [&] { check_refusals(subject); });
   report.row("costs on the device are those on the CPU", [&] { check_agreement(subject); });
   report.row("costs on the device repeat to the bit", [&] { check_repetition(subject); });
+  report.row("residuals on the device are those on the CPU",
+             [&] { check_residual_agreement(subject); });
 }
 
 }  // namespace hypotrack::contract

@@ -73,6 +73,15 @@ class HYPOTRACK_API DeviceObjective {
   /// can be captured into a graph.
   virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) = 0;
 
+  /// Whether enqueue_residuals() is there; the same before and after every prepare().
+  virtual bool has_residuals() const { return false; }
+  /// ResidualTerm::residual_count() of the prepared frame.
+  virtual std::int64_t residual_count() const { return 0; }
+  /// The same as enqueue(), and writes the residuals that ResidualTerm::write_residuals() writes on
+  /// the CPU, in its order, every one of them. Throws Error if there are none.
+  virtual void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
+                                 const ResidualLayout& residuals, Stream stream);
+
   /// Enqueues the scoring of hypotheses that are drawn already.
   virtual void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch,
                              const DrawnBatch& drawn, Stream stream) = 0;

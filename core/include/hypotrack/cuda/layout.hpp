@@ -99,4 +99,11 @@ struct BatchLayout {
   bool add;             ///< add to the costs that are there instead of overwriting them
 };
 
+/// Where an objective writes the residuals of a batch.
+struct ResidualLayout {
+  float* residuals;     ///< this objective's, of the first hypothesis
+  std::int64_t stride;  ///< from one hypothesis to the next
+  float factor;         ///< what they are multiplied by: the root of the objective's weight
+};
+
 }  // namespace hypotrack::cuda

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstring>
+#include <set>
 #include <type_traits>
 
 #include "hypotrack/cuda/drawn.cuh"
 #include "hypotrack/cuda/evaluate.cuh"
+#include "hypotrack/cuda/pixel_residuals.cuh"
 
 namespace hypotrack::cuda {
 
@@ -38,6 +43,15 @@ namespace hypotrack::cuda {
 ///     __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const;
 ///     // once per hypothesis, `state` decoded and normalised:
 ///     __device__ double cost(const double (&sums)[kSums], const float* state) const;
+///
+///     // if the objective has residuals (ResidualTerm), one per pixel of the views that it looks
+///     // at: pixel() returns that of its pixel, float in place of void, and this is that of one
+///     // that is not covered, the i-th of the view's tile row by row. views() or directions() are
+///     // HYPOTRACK_PIXEL, for the host as well.
+///     __device__ float uncovered_residual(int view, int i) const;
+///     // and behind them, if it has some of the state:
+///     HYPOTRACK_PIXEL int state_residual_count() const;
+///     __device__ float state_residual(int i, const float* state) const;
 ///   };
 ///
 /// Sums of one thread are single precision; those of threads are joined in a fixed order in double
@@ -56,9 +70,10 @@ class PixelObjective : public DeviceObjective {
     frame_ = observation.frame;
     term_ = term;
     int width = 0, height = 0;
-    for (const DeviceTile& tile : observation.tiles) {
-      width = std::max(width, tile.layout.width);
-      height = std::max(height, tile.layout.height);
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      tiles_[i] = observation.tiles[i].layout;
+      width = std::max(width, tiles_[i].width);
+      height = std::max(height, tiles_[i].height);
     }
     const bool rectified = observation.pair;
     if (width != width_ || height != height_ || rectified != rectified_) reserved_ = 0;
@@ -105,12 +120,7 @@ class PixelObjective : public DeviceObjective {
     plan.vertex_scratch = vertex_scratch_.data();
     plan.depth_scratch = depth_scratch_.data();
     plan.band_sums = band_sums_.data();
-    check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
-                               plan.shared_bytes),
-          "reserving shared memory");
-    check(cudaFuncSetAttribute(kernel_for(plan), cudaFuncAttributePreferredSharedMemoryCarveout,
-                               cudaSharedmemCarveoutMaxShared),
-          "choosing shared memory over cache");
+    allow_shared<Term>(kernel_for<Term>(plan));
     plan_ = plan;
     reserved_ = count;
     ++revision_;
@@ -118,9 +128,42 @@ class PixelObjective : public DeviceObjective {
 
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
     const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
-    launch(kernel_for(plan_), dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
+    launch(kernel_for<Term>(plan_), dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
            static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_), scene,
            frame_, batch, plan_, term_);
+  }
+
+  bool has_residuals() const final { return HasResiduals<Term>; }
+
+  std::int64_t residual_count() const final {
+    if constexpr (HasResiduals<Term>) {
+      std::int64_t count = state_residual_count(term_);
+      for (std::size_t i = 0; i < tiles_.size(); ++i) {
+        if (looks_at() >> i & 1) count += std::int64_t{tiles_[i].width} * tiles_[i].height;
+      }
+      return count;
+    } else {
+      return 0;
+    }
+  }
+
+  void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
+                         const ResidualLayout& residuals, Stream stream) final {
+    if constexpr (HasResiduals<Term>) {
+      const WithResiduals<Term> term{term_, places(residuals)};
+      const auto pixels = static_cast<unsigned>(width_ * height_);
+      launch(&write_uncovered<Term>,
+             dim3((pixels + kFillThreads - 1) / kFillThreads, static_cast<unsigned>(kMaxViews)),
+             dim3(kFillThreads), 0, stream, false, term_, term.to, batch.count);
+      const auto kernel = kernel_for<WithResiduals<Term>>(plan_);
+      allow_shared<WithResiduals<Term>>(kernel);
+      const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
+      launch(kernel, dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
+             static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_),
+             scene, frame_, batch, plan_, term);
+    } else {
+      DeviceObjective::enqueue_residuals(scene, batch, residuals, stream);
+    }
   }
 
   void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
@@ -139,19 +182,58 @@ class PixelObjective : public DeviceObjective {
   virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
 
  private:
-  using Kernel = void (*)(SceneLayout, const FrameLayout*, BatchLayout, BlockPlan, Term);
+  template <class AnyTerm>
+  using Kernel = void (*)(SceneLayout, const FrameLayout*, BatchLayout, BlockPlan, AnyTerm);
 
-  Kernel kernel_for(const BlockPlan& plan) const {
-    const auto with = [&](auto walk) -> Kernel {
+  template <class AnyTerm>
+  Kernel<AnyTerm> kernel_for(const BlockPlan& plan) const {
+    const auto with = [&](auto walk) -> Kernel<AnyTerm> {
       constexpr Walk kWalk = decltype(walk)::value;
-      return plan.vertices_in_shared ? &evaluate_hypotheses<Term, kWalk, true>
-                                     : &evaluate_hypotheses<Term, kWalk, false>;
+      return plan.vertices_in_shared ? &evaluate_hypotheses<AnyTerm, kWalk, true>
+                                     : &evaluate_hypotheses<AnyTerm, kWalk, false>;
     };
     if constexpr (Term::kStereo) {
       if (rectified_) return with(std::integral_constant<Walk, Walk::pair>());
       return with(std::integral_constant<Walk, Walk::general_pair>());
     } else {
       return with(std::integral_constant<Walk, Walk::views>());
+    }
+  }
+
+  /// Lets a kernel have all the shared memory that a plan may ask for.
+  template <class AnyTerm>
+  void allow_shared(Kernel<AnyTerm> kernel) {
+    if (!allowed_.insert(reinterpret_cast<const void*>(kernel)).second) return;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                               limits_.shared_bytes_per_block - detail::kReservedBytes),
+          "reserving shared memory");
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
+                               cudaSharedmemCarveoutMaxShared),
+          "choosing shared memory over cache");
+  }
+
+  /// View by view, in the order of the CPU's residuals.
+  ResidualPlaces places(const ResidualLayout& layout) const {
+    ResidualPlaces to{};
+    to.stride = layout.stride;
+    to.factor = layout.factor;
+    to.bands = plan_.bands;
+    float* next = layout.residuals;
+    for (std::size_t i = 0; i < tiles_.size(); ++i) {
+      to.width[i] = tiles_[i].width;
+      to.height[i] = tiles_[i].height;
+      if (!(looks_at() >> i & 1)) continue;
+      to.views[i] = next;
+      next += std::int64_t{tiles_[i].width} * tiles_[i].height;
+    }
+    to.state = next;
+    return to;
+  }
+  int looks_at() const {
+    if constexpr (Term::kStereo) {
+      return term_.directions();
+    } else {
+      return term_.views();
     }
   }
 
@@ -165,6 +247,7 @@ class PixelObjective : public DeviceObjective {
 
   Term term_{};
   const FrameLayout* frame_ = nullptr;
+  std::array<TileLayout, kMaxViews> tiles_{};  // of views that are not there: empty
   int width_ = 0, height_ = 0;
   bool rectified_ = false;
   DeviceLimits limits_;
@@ -173,6 +256,7 @@ class PixelObjective : public DeviceObjective {
   BlockPlan plan_;
   DeviceBuffer<float> vertex_scratch_, depth_scratch_;
   DeviceBuffer<double> band_sums_;
+  std::set<const void*> allowed_;  // kernels
 };
 
 }  // namespace hypotrack::cuda

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <concepts>
+#include <cstdint>
 #include <cstring>
 #include <type_traits>
 
@@ -74,6 +76,31 @@ __device__ inline double cost_of_state(const Term& term, const double* state, in
   }
 }
 
+/// A Term with residuals.
+template <class Term>
+concept HasStateTermResiduals = requires(const Term& term) {
+  { term.residual_count() } -> std::convertible_to<std::int64_t>;
+};
+
+/// A Term for score_states() that writes residuals on the way.
+template <class Term>
+struct WithStateResiduals : Term {
+  ResidualLayout to;
+
+  __device__ void operator()(std::int64_t i, float residual) const {
+    to.residuals[to.stride * blockIdx.x + i] = to.factor * residual;
+  }
+  __device__ double cost(const double* state, int dimension) const {
+    for (std::int64_t i = 0; i < Term::residual_count(); ++i) (*this)(i, Term::residual(i, state));
+    return Term::cost(state, dimension);
+  }
+  template <class Team>
+  __device__ double cost(const double* state, int dimension, const Team& team,
+                         float* scratch) const {
+    return Term::cost_and_residuals(state, dimension, team, scratch, *this);
+  }
+};
+
 /// One warp per hypothesis.
 template <class Term>
 __global__ void __launch_bounds__(kWarp)
@@ -107,6 +134,22 @@ __global__ void __launch_bounds__(kWarp)
 ///   HYPOTRACK_PIXEL double cost(const double* state, int dimension, const Team& team,
 ///                               float* scratch) const;  // aligned to 8 bytes; undefined at first
 ///
+/// If the objective has residuals (ResidualTerm), its Term has
+///
+///   HYPOTRACK_PIXEL std::int64_t residual_count() const;
+///
+/// and, the first kind,
+///
+///   HYPOTRACK_PIXEL float residual(std::int64_t i, const double* state) const;
+///
+/// the second
+///
+///   // what cost() returns; calls put(i, residual) once for every one of them, on any thread
+///   template <class Team, class Put>
+///   HYPOTRACK_PIXEL double cost_and_residuals(const double* state, int dimension,
+///                                             const Team& team, float* scratch,
+///                                             const Put& put) const;
+///
 /// `state` is the scene's, normalised. Objective::on_device() returns a StateObjective<MyTerm>. One
 /// whose Term depends on the frame overrides make_term(); as with PixelObjective, a Term whose
 /// bytes change makes captured searches be captured again.
@@ -129,14 +172,34 @@ class StateObjective : public DeviceObjective {
           "CUDA: a term of the state needs more shared memory than the device has; use fewer or "
           "simpler models, or backend: cpu");
     }
-    check(cudaFuncSetAttribute(&score_states<Term>, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                               static_cast<int>(shared_bytes(scene))),
-          "reserving shared memory");
+    allow_shared(&score_states<Term>, scene);
   }
   void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) final {
     launch(&score_states<Term>, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp),
            shared_bytes(scene), stream, overlaps_launches(limits_), scene, batch, term_);
   }
+
+  bool has_residuals() const final { return HasStateTermResiduals<Term>; }
+  std::int64_t residual_count() const final {
+    if constexpr (HasStateTermResiduals<Term>) {
+      return term_.residual_count();
+    } else {
+      return 0;
+    }
+  }
+  void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
+                         const ResidualLayout& residuals, Stream stream) final {
+    if constexpr (HasStateTermResiduals<Term>) {
+      const WithStateResiduals<Term> term{term_, residuals};
+      const auto kernel = &score_states<WithStateResiduals<Term>>;
+      allow_shared(kernel, scene);
+      launch(kernel, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp), shared_bytes(scene),
+             stream, overlaps_launches(limits_), scene, batch, term);
+    } else {
+      DeviceObjective::enqueue_residuals(scene, batch, residuals, stream);
+    }
+  }
+
   void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
                      Stream stream) final {
     BatchLayout part = batch;
@@ -155,6 +218,12 @@ class StateObjective : public DeviceObjective {
   }
 
  private:
+  template <class AnyTerm>
+  void allow_shared(void (*kernel)(SceneLayout, BatchLayout, AnyTerm), const SceneLayout& scene) {
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                               static_cast<int>(shared_bytes(scene))),
+          "reserving shared memory");
+  }
   std::size_t shared_bytes(const SceneLayout& scene) const {
     return sizeof(double) * static_cast<std::size_t>(scene.dimension) +
            sizeof(float) * static_cast<std::size_t>(scratch_floats(term_));

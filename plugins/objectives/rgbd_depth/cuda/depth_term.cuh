@@ -5,6 +5,7 @@
 #include "energy.hpp"
 #include "finger_pair.hpp"
 #include "hypotrack/cuda/pixel_walk.cuh"
+#include "pixel_prices.hpp"
 
 namespace hypotrack::rgbd_depth {
 
@@ -23,20 +24,33 @@ struct DepthTerm {
   float d_max, d_match;
   Weights weights;
 
-  __device__ int views() const { return view_bits; }
+  HYPOTRACK_PIXEL int views() const { return view_bits; }
 
-  __device__ void pixel(const cuda::ViewPixel& p, float (&sums)[kSums]) const {
+  __device__ float pixel(const cuda::ViewPixel& p, float (&sums)[kSums]) const {
     const float here = observed[p.view][p.y * width[p.view] + p.x];
     const auto agreement = scalar::depth_agreement(p.inverse_depth, here, d_max, d_match);
     sums[0] += agreement.closeness;
     sums[1] += agreement.matched ? 1.0f : 0.0f;
     sums[2] += agreement.beyond ? 1.0f : 0.0f;
+    return pixel::sqrt(prices().wrong) * scalar::depth_residual(p.inverse_depth, here, d_max);
+  }
+  __device__ float uncovered_residual(int view, int i) const {
+    return rgbd_depth::uncovered_residual(observed[view][i], prices());
+  }
+  HYPOTRACK_PIXEL int state_residual_count() const { return finger_count; }
+  __device__ float state_residual(int i, const float* state) const {
+    return crossing_residual(finger_crossing(fingers + i, 1, state), weights);
   }
 
   __device__ double cost(const double (&sums)[kSums], const float* state) const {
     const Totals totals{static_cast<double>(counts->foreground),
                         static_cast<double>(counts->measured), sums[0], sums[1], sums[2]};
     return energy(totals, finger_crossing(fingers, finger_count, state), weights);
+  }
+
+ private:
+  __device__ __forceinline__ PixelPrices prices() const {
+    return pixel_prices(static_cast<float>(counts->foreground), weights);
   }
 };
 

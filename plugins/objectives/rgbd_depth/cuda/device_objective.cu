@@ -42,6 +42,6 @@ std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& set
   return std::make_unique<DeviceRgbdDepth>(settings);
 }
 
-const char* capabilities() { return "device residuals"; }
+const char* capabilities() { return "device residuals device_residuals"; }
 
 }  // namespace hypotrack::rgbd_depth

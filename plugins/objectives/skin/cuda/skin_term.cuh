@@ -4,6 +4,7 @@
 
 #include "coverage-inl.hpp"
 #include "hypotrack/cuda/pixel_walk.cuh"
+#include "uncovered_residual.hpp"
 
 namespace hypotrack::skin {
 
@@ -21,14 +22,20 @@ struct SkinTerm {
   int view_count;              ///< of these
   float spill;
 
-  __device__ int views() const { return view_bits; }
+  static constexpr float kUnit = 1.0f / 65535.0f;
 
-  __device__ void pixel(const cuda::ViewPixel& p, float (&sums)[kSums]) const {
-    constexpr float kUnit = 1.0f / 65535.0f;
+  HYPOTRACK_PIXEL int views() const { return view_bits; }
+
+  __device__ float pixel(const cuda::ViewPixel& p, float (&sums)[kSums]) const {
     const std::uint32_t here = foreground[p.view][p.y * width[p.view] + p.x];
-    sums[0] += scalar::change_if_covered(cuda::exact_low_half(here) * kUnit,
-                                         cuda::exact_high_half(here) * kUnit, spill);
+    const float background = cuda::exact_high_half(here) * kUnit;
+    sums[0] += scalar::change_if_covered(cuda::exact_low_half(here) * kUnit, background, spill);
+    return scalar::covered_residual(background, spill, share());
   }
+  __device__ float uncovered_residual(int view, int i) const {
+    return skin::uncovered_residual(cuda::exact_low_half(foreground[view][i]) * kUnit, share());
+  }
+  __device__ float share() const { return 1.0f / static_cast<float>(view_count); }
 
   __device__ double cost(const double (&sums)[kSums], const float*) const {
     return (static_cast<double>(*uncovered) / 65535 + sums[0]) / view_count;

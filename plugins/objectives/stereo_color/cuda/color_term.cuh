@@ -26,23 +26,28 @@ struct ColorTerm {
   Direction direction;
   Aggregation aggregation;
 
-  __device__ int directions() const {
+  HYPOTRACK_PIXEL int directions() const {
     if (kBoth) return 3;
     return direction == Direction::left_to_right ? 1 : 2;
   }
   __device__ const Texel* texels(int view) const { return features[view]; }
 
   template <int kReference, class Texels>
-  __device__ void pixel(const cuda::StereoPixel& p, const Texels& texels,
-                        float (&sums)[kSums]) const {
+  __device__ float pixel(const cuda::StereoPixel& p, const Texels& texels,
+                         float (&sums)[kSums]) const {
     constexpr int kFirst = kBoth ? 3 * kReference : 0;
     // Before it is known to be needed: no waiting.
     const Texel here = texels.template at<kReference>(p.x, p.y);
     sums[kFirst + 2] += 1.0f;
-    if (!p.seen) return;
+    if (!p.seen) return residual(here, 0.0f);
     sums[kFirst + 1] += 1.0f;
-    sums[kFirst] += consistency(
+    const float s = consistency(
         here, [&](int x, int y) { return texels.template at<1 - kReference>(x, y); }, p);
+    sums[kFirst] += s;
+    return residual(here, s);
+  }
+  __device__ float uncovered_residual(int view, int i) const {
+    return residual(features[view][i], 0.0f);
   }
 
   __device__ double cost(const double (&sums)[kSums], const float*) const {
@@ -54,6 +59,11 @@ struct ColorTerm {
 
  private:
   using Sample = scalar::ColorSample<float>;  // colours in kUnit: beta is, too
+
+  __device__ __forceinline__ static float residual(const Texel& here, float consistency) {
+    return scalar::color_residual(cuda::exact_high_half(here.channel_2_weight) * kUnit, consistency,
+                                  kBoth ? 0.5f : 1.0f);
+  }
 
   template <class There>
   __device__ __forceinline__ float consistency(const Texel& here, const There& there,

@@ -18,6 +18,10 @@ class DeviceStereoPatch final : public cuda::PixelObjective<PatchTerm> {
     PatchTerm term{};
     term.words = volume_.words();
     term.planes = volume_.planes();
+    const cuda::DeviceTile& left = observation.tiles[0];
+    term.pixels = left.layout.pixels;
+    term.counting =
+        cuda::kValidFlag | (settings_.use_mask && left.has_mask ? cuda::kForegroundFlag : 0);
     term.width = observation.tiles[0].layout.width;
     term.tolerance = static_cast<float>(settings_.r);
     return term;
@@ -33,6 +37,6 @@ std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& set
   return std::make_unique<DeviceStereoPatch>(settings);
 }
 
-const char* capabilities() { return "device residuals"; }
+const char* capabilities() { return "device residuals device_residuals"; }
 
 }  // namespace hypotrack::stereo_patch

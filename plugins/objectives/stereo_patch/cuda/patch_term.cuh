@@ -15,29 +15,41 @@ struct PatchTerm {
   static constexpr int kSums = 1;
   static constexpr float kUnit = 1.0f / 65535.0f;
 
-  const std::uint32_t* words;  ///< Volume::words, device memory
-  const Planes* planes;        ///< device memory: another one in every frame
-  int width;                   ///< of the first view's tile
+  const std::uint32_t* words;   ///< Volume::words, device memory
+  const Planes* planes;         ///< device memory: another one in every frame
+  const std::uint32_t* pixels;  ///< of the first view's tile
+  std::uint32_t counting;       ///< flags of pixels that count
+  int width;                    ///< of that tile
   float tolerance;
 
-  __device__ int directions() const { return 1; }
+  HYPOTRACK_PIXEL int directions() const { return 1; }
 
   template <int kReference>
-  __device__ void pixel(const cuda::StereoPixel& p, float (&sums)[kSums]) const {
-    if (!p.seen) return;
+  __device__ float pixel(const cuda::StereoPixel& p, float (&sums)[kSums]) const {
+    const float s = p.seen ? similarity(p) : 0.0f;
+    sums[0] += s;
+    return scalar::patch_residual(weight(p.y * width + p.x), s);
+  }
+  __device__ float uncovered_residual(int, int i) const { return weight(i); }
+
+  __device__ double cost(const double (&sums)[kSums], const float*) const {
+    return 0.0 - sums[0];  // not -0.0
+  }
+
+ private:
+  __device__ __forceinline__ float weight(int i) const {
+    return (pixels[i] & counting) == counting ? 1.0f : 0.0f;
+  }
+  __device__ __forceinline__ float similarity(const cuda::StereoPixel& p) const {
     const Planes known = *planes;
     const auto last = static_cast<float>(known.count - 1);
     const float position = (p.inverse_depth - known.first) * (1.0f / known.step);
-    if (!scalar::between_planes(position, last)) return;
+    if (!scalar::between_planes(position, last)) return 0.0f;
     const auto at = scalar::plane_share(position, last);
     const std::uint32_t pair =
         words[(p.y * known.count + static_cast<int>(at.before)) * width + p.x];
     const float before = cuda::exact_low_half(pair), after = cuda::exact_high_half(pair);
-    sums[0] += pixel::mul_add(after - before, at.share, before) * kUnit;
-  }
-
-  __device__ double cost(const double (&sums)[kSums], const float*) const {
-    return 0.0 - sums[0];  // not -0.0
+    return pixel::mul_add(after - before, at.share, before) * kUnit;
   }
 };
 

@@ -1,4 +1,4 @@
-#include "normal_equations.hpp"
+#include "evaluate/normal_equations.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -67,6 +67,11 @@ NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
     block.add_to(sums, r, row);
   }
   return sums;
+}
+
+Eigen::VectorXd scale_of_finite(const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                const Eigen::Ref<const Eigen::VectorXd>& costs) {
+  return costs.array().isFinite().select(scale.array(), 0.0);
 }
 
 }  // namespace hypotrack

@@ -1,0 +1,100 @@
+// Searches by least squares whose residuals stay on the GPU.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "device.hpp"
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
+#include "metrics/landmark_errors.hpp"
+#include "session/session.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr const char* kNumerical = "{type: levenberg_marquardt, jacobian: numerical}";
+
+struct Tracked {
+  std::vector<Eigen::VectorXd> states;
+  std::vector<double> costs;
+  double error = 0;  ///< mean joint error over the frames, mm
+};
+
+/// The first frames of configs/demo.yaml.
+Tracked track(const std::string& backend, const std::string& optimizer,
+              const std::vector<std::string>& more = {}) {
+  constexpr int kFrames = 8;
+  PluginLoader plugins;
+  std::vector<std::string> overrides{"optimizer=" + optimizer, "evaluate.backend=" + backend,
+                                     "budget.evaluations=512"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  Session session = open_session(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+  const Scene& scene = *session.scene;
+  const LandmarkLayout layout = landmark_layout(scene.landmark_names());
+  Frame frame = session.source->next().value();
+  const Eigen::VectorXd start = initial_state(session, frame);
+  Tracker tracker(scene, std::move(session.parts), start, session.seed);
+  Tracked tracked;
+  for (int i = 0; i < kFrames; ++i) {
+    const Solution solution = tracker.track(frame);
+    tracked.states.push_back(solution.state);
+    tracked.costs.push_back(solution.cost);
+    tracked.error +=
+        1e3 / kFrames *
+        frame_error(layout, scene.landmarks(solution.state), scene.landmarks(frame.truth->state))
+            .mean;
+    frame = session.source->next().value();
+  }
+  return tracked;
+}
+
+class LeastSquaresOnDevice : public testing::Test {
+ protected:
+  void SetUp() override { SKIP_WITHOUT_DEVICE(); }
+};
+
+TEST_F(LeastSquaresOnDevice, FindsTheHandAsTheCpuDoesAndRepeatsToTheBit) {
+  const Tracked cpu = track("cpu", kNumerical), gpu = track("cuda", kNumerical);
+  EXPECT_LT(cpu.error, 1.5);
+  EXPECT_LT(gpu.error, 1.5);
+  for (std::size_t i = 0; i < cpu.costs.size(); ++i) {
+    EXPECT_NEAR(gpu.costs[i] / cpu.costs[i], 1, 0.02) << i;
+  }
+  const Tracked again = track("cuda", kNumerical);
+  EXPECT_EQ(again.states, gpu.states);
+  EXPECT_EQ(again.costs, gpu.costs);
+  RecordProperty("errors_mm", fmt::format("cpu {}, gpu {}", cpu.error, gpu.error));
+}
+
+TEST_F(LeastSquaresOnDevice, RefinesWhatASwarmOnTheGpuFound) {
+  const auto after = [](const char* swarm) {
+    return track("cuda", fmt::format("{{type: pipeline, stages: [{{optimizer: {}, share: 0.3}}, "
+                                     "{{optimizer: {{type: levenberg_marquardt}}, share: 0.7}}]}}",
+                                     swarm));
+  };
+  const Tracked by_batches = after("{type: pso, particles: 16, group_share: 0.3}");
+  const Tracked on_device = after("{type: pso_cuda, particles: 16, group_share: 0.3}");
+  EXPECT_LT(by_batches.error, 1.5);
+  EXPECT_LT(on_device.error, 1.5);
+  EXPECT_EQ(after("{type: pso_cuda, particles: 16, group_share: 0.3}").states, on_device.states);
+  RecordProperty("errors_mm",
+                 fmt::format("pso {}, pso_cuda {}", by_batches.error, on_device.error));
+}
+
+TEST_F(LeastSquaresOnDevice, GivesSigmasToo) {
+  const std::vector<std::string> sigmas{"tracker.uncertainty.enabled=true"};
+  const Tracked cpu = track("cpu", kNumerical, sigmas), gpu = track("cuda", kNumerical, sigmas);
+  EXPECT_LT(gpu.error, 1.5);
+  EXPECT_NEAR(gpu.error, cpu.error, 0.5);
+}
+
+TEST(LeastSquaresWithBackendCuda, RefusesAnalyticJacobiansAndSaysWhatToWrite) {
+  EXPECT_THAT(test::message_of<ConfigError>(
+                  [] { track("cuda", "{type: levenberg_marquardt, jacobian: analytic}"); }),
+              testing::AllOf(testing::HasSubstr("analytic Jacobians"),
+                             testing::HasSubstr("`backend: cpu`")));
+}
+
+}  // namespace
+}  // namespace hypotrack

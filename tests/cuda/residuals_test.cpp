@@ -1,0 +1,182 @@
+// Residuals on the GPU: of several terms at once, in goes, and of terms that have none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "device.hpp"
+#include "device_scores.hpp"
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
+#include "interpenetration.hpp"
+#include "observations.hpp"
+#include "plausible_motion.hpp"
+#include "probes.hpp"
+#include "skin.hpp"
+#include "stereo_color.hpp"
+#include "stereo_patch.hpp"
+
+namespace hypotrack {
+namespace {
+
+std::shared_ptr<Objective> colors(stereo_color::Direction direction) {
+  stereo_color::Params params;
+  params.beta = 2;  // the made-up views are not that alike
+  params.direction = direction;
+  params.lookup = stereo_color::Lookup::bilinear;
+  return std::make_shared<stereo_color::StereoColor>(params);
+}
+
+/// Terms over pixels of both kinds and of the state; one with weight 0 between them.
+std::vector<ObjectiveTerm> many_terms(const Scene& scene) {
+  return {{1, colors(stereo_color::Direction::both), "stereo_color"},
+          {0, colors(stereo_color::Direction::left_to_right), "unused"},
+          {0.04,
+           std::make_shared<plausible_motion::PlausibleMotion>(
+               plausible_motion::PlausibleMotionParams{}, scene),
+           "plausible_motion"},
+          {0.3, std::make_shared<skin::Skin>(skin::Params{}), "skin"},
+          {0.001,
+           std::make_shared<interpenetration::Interpenetration>(
+               interpenetration::InterpenetrationParams{}, scene),
+           "interpenetration"},
+          {2, std::make_shared<stereo_patch::StereoPatch>(stereo_patch::Params{}), "stereo_patch"}};
+}
+
+Observation frame_of(const Scene& scene, int size) {
+  Observation observation = test::colored(test::rectified_pair(scene, size));
+  observation.start = test::scored_states(scene).col(0);
+  return observation;
+}
+
+class DeviceResiduals : public testing::Test {
+ protected:
+  void SetUp() override { SKIP_WITHOUT_DEVICE(); }
+};
+
+TEST_F(DeviceResiduals, OfSeveralTermsAreThoseOfTheCpu) {
+  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene()}) {
+    test::expect_residuals_like_the_cpu(scene, frame_of(scene, 256), many_terms(scene),
+                                        many_terms(scene), test::scored_states(scene).leftCols(29));
+  }
+}
+
+TEST_F(DeviceResiduals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
+  const Scene scene = test::hand_scene();
+  Evaluator gpu(scene, {{4, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
+                {.wanted = true});
+  gpu.prepare(frame_of(scene, 128));
+  Eigen::MatrixXd states = test::scored_states(scene).leftCols(20);
+  states(0, 0) = 30;  // beside the tiles
+  const test::Residuals found = test::residuals_of(gpu, states);
+  EXPECT_EQ(found.costs[0], 0);
+  const Eigen::VectorXd squares = found.values.cast<double>().colwise().squaredNorm();
+  const Eigen::VectorXd constant = squares - found.costs;
+  EXPECT_LT((constant.array() - squares[0]).abs().maxCoeff(), 1e-4 * squares[0]);
+  EXPECT_LT(found.costs.minCoeff(), -1);
+}
+
+TEST_F(DeviceResiduals, AreTheSameWhateverTheBatch) {
+  const Scene scene = test::hand_scene();
+  // 2 MiB a hypothesis: they come down in two goes.
+  const Observation frame = frame_of(scene, 512);
+  Evaluator gpu(scene, many_terms(scene), {.backend = Backend::cuda}, {.wanted = true});
+  gpu.prepare(frame);
+  const Eigen::MatrixXd states = test::scored_states(scene).leftCols(40);
+  const test::Residuals all = test::residuals_of(gpu, states);
+  for (const Eigen::Index i : {0, 17, 31, 32, 39}) {
+    const test::Residuals one = test::residuals_of(gpu, states.col(i));
+    EXPECT_TRUE(one.values.isApprox(all.values.col(i), 1e-6f)) << i;
+    EXPECT_NEAR(one.costs[0], all.costs[i], 1e-5 * std::abs(all.costs[i])) << i;
+  }
+  ASSERT_GT(gpu.residual_count() * 40 * 4, Eigen::Index{1} << 26);
+}
+
+TEST_F(DeviceResiduals, SayWhichOfThemLookAtThePoseOnly) {
+  const Scene scene = test::hand_scene();
+  const Observation frame = frame_of(scene, 128);
+  const auto rows = [&](Backend backend) {
+    Evaluator evaluator(scene, many_terms(scene), {.backend = backend}, {.wanted = true});
+    evaluator.prepare(frame);
+    std::vector<Eigen::Index> out;
+    for (const ResidualRows& r : evaluator.pose_only_residuals()) {
+      out.insert(out.end(), {r.first, r.count});
+    }
+    return out;
+  };
+  EXPECT_EQ(rows(Backend::cuda).size(), 4u);
+  EXPECT_EQ(rows(Backend::cuda), rows(Backend::cpu));
+}
+
+TEST_F(DeviceResiduals, AreThereWithoutBeingAnnounced) {
+  const Scene scene = test::hand_scene();
+  const auto has = [&](std::vector<ObjectiveTerm> terms) {
+    const Evaluator gpu(scene, std::move(terms), {.backend = Backend::cuda});
+    return gpu.has_residuals();
+  };
+  EXPECT_TRUE(has(many_terms(scene)));
+  EXPECT_FALSE(has({{1, colors(stereo_color::Direction::both)}, {1, test::covered_probe()}}));
+  EXPECT_TRUE(has({{1, colors(stereo_color::Direction::both)}, {0, test::covered_probe()}}));
+}
+
+TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
+  class CpuResiduals final : public Objective, public ResidualTerm {
+   public:
+    bool needs_rendering() const override { return probe_->needs_rendering(); }
+    void prepare(const Observation&) override {}
+    double cost(const RenderedHypothesis&) const override { return 0; }
+    std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+      return probe_->on_device();
+    }
+    const ResidualTerm* residual_term() const override { return this; }
+    std::int64_t residual_count() const override { return 0; }
+    void write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
+
+   private:
+    std::shared_ptr<Objective> probe_ = test::covered_probe();
+  };
+  const Scene scene = test::hand_scene();
+  const std::vector<ObjectiveTerm> terms = {{1, colors(stereo_color::Direction::both)},
+                                            {1, std::make_shared<CpuResiduals>(), "prior"}};
+  EXPECT_EQ(test::message_of<DeviceError>(
+                [&] { Evaluator(scene, terms, {.backend = Backend::cuda}, {.wanted = true}); }),
+            "evaluate.backend: cuda: the optimizer needs residuals, and objective prior has them "
+            "on the CPU only. Write `backend: cpu`, or `automatic` to take what there is");
+  const Evaluator automatic(scene, terms, {}, {.wanted = true});
+  EXPECT_THAT(automatic.backend(), testing::HasSubstr("objective prior has them on the CPU only"));
+}
+
+TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
+  const Scene scene = test::hand_scene();
+  const auto backend = [&](std::vector<ObjectiveTerm> terms, Linearization linearization) {
+    return Evaluator(scene, std::move(terms), {}, {true, linearization}).backend();
+  };
+  const std::vector<ObjectiveTerm> sloped = {{1, colors(stereo_color::Direction::both)}};
+  const std::vector<ObjectiveTerm> plain = {{1, std::make_shared<skin::Skin>(skin::Params{})}};
+  EXPECT_THAT(backend(sloped, Linearization::unused), testing::StartsWith("cuda"));
+  EXPECT_THAT(backend(sloped, Linearization::welcome), testing::StartsWith("cpu"));
+  EXPECT_THAT(backend(sloped, Linearization::needed), testing::StartsWith("cpu"));
+  EXPECT_THAT(backend(plain, Linearization::welcome), testing::StartsWith("cuda"));
+}
+
+TEST_F(DeviceResiduals, ThatDoNotFitIntoMemoryAreRefusedAndFewerStillWork) {
+  const Scene scene = test::hand_scene();
+  Evaluator gpu(scene, {{1, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
+                {.wanted = true});
+  gpu.prepare(frame_of(scene, 1024));  // 8 MiB a hypothesis
+  const std::size_t free = cuda::free_memory().value();
+  const auto many = static_cast<Eigen::Index>(free / (std::size_t{8} << 20)) + 1000;
+  const Eigen::MatrixXd states = test::scored_states(scene);
+  Eigen::VectorXd costs(many);
+  EXPECT_THAT(test::message_of<DeviceError>(
+                  [&] { gpu.differences()->evaluate(states.col(0).replicate(1, many), costs); }),
+              testing::AllOf(testing::HasSubstr("out of memory"),
+                             testing::HasSubstr("hypotheses at a time")));
+  gpu.differences()->evaluate(states.leftCols(3), costs.head(3));
+  Eigen::VectorXd expected(3);
+  gpu.evaluate(states.leftCols(3), expected);
+  EXPECT_TRUE(costs.head(3).isApprox(expected, 1e-6));
+}
+
+}  // namespace
+}  // namespace hypotrack
