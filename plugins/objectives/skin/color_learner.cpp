@@ -29,15 +29,26 @@ double scale_at(const Observation& observation, const TileCamera& camera) {
   return camera.fx / double{middle};
 }
 
+/// Whether the image shows so much of the models that their colours can be told.
+bool shows(const cv::Mat1b& silhouette, const cv::Mat1b& valid) {
+  constexpr double kLeastShare = 0.1;
+  const int shown = cv::countNonZero(silhouette & valid);
+  return shown > 0 && shown >= kLeastShare * cv::countNonZero(silhouette);
+}
+
 }  // namespace
 
 void ColorLearner::learn(const Observation& observation, const TileCamera& camera,
                          const cv::Mat3b& color, const cv::Mat1b& valid) {
+  last_seen_ = observation.frame;
+  const cv::Mat1b models = silhouette(*observation.scene, observation.start, camera);
+  if (!shows(models, valid)) {
+    if (learned_ == 0) probabilities_.assign(kBins, 0.5f);
+    return;
+  }
   const double pose_error = settings_.pose_error * scale_at(observation, camera);
-  colors_.add(color, place_prior(silhouette(*observation.scene, observation.start, camera), valid,
-                                 std::max(pose_error, 0.1)));
+  colors_.add(color, place_prior(models, valid, std::max(pose_error, 0.1)));
   probabilities_ = colors_.probabilities();
-  last_learned_ = observation.frame;
   ++learned_;
 }
 

@@ -18,7 +18,9 @@ struct Params : Settings {
                "mask: the frame's mask; depth: all within range_mm of the last solution's depth; "
                "auto: the mask where there is one, otherwise color"});
     v("learn_frames", learn_frames,
-      {.help = "colours are learned on this many frames and then kept", .min = 1, .max = 10000});
+      {.help = "colours are learned on this many frames that show the models, and then kept",
+       .min = 1,
+       .max = 10000});
     v("pose_error_mm", pose_error,
       {.help = "how wrong the poses of those frames may be: within this distance of the "
                "silhouette's edge a pixel's place says little about whether it is foreground",
