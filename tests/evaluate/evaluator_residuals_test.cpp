@@ -1,0 +1,91 @@
+// Terms as a sum of squares.
+#include <gmock/gmock.h>
+
+#include "evaluator_fixture.hpp"
+#include "expect_error.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using EvaluatorResiduals = EvaluatorTest;
+
+TEST_F(EvaluatorResiduals, ResidualsOfAllTermsAddUpToTheirWeightedSum) {
+  const std::vector<ObjectiveTerm> terms = {{4, std::make_shared<SquaresOfState>(3)},
+                                            {0, drawn(total_inverse_depth)},
+                                            {1, std::make_shared<SquaresOfState>(10)}};
+  const Eigen::MatrixXd states = random_states(40);
+  Eigen::MatrixXf expected;
+  for (const int count : {1, 3}) {
+    Evaluator evaluator(scene_, terms, threads(count), {.wanted = true});
+    evaluator.prepare(observation_);
+    ASSERT_EQ(evaluator.residual_count(), 13);
+    Eigen::MatrixXf residuals(13, 40);
+    Eigen::VectorXd costs(40);
+    evaluator.evaluate(states, residuals, costs);
+    EXPECT_EQ(costs, evaluate(terms, states));
+    EXPECT_TRUE(residuals.colwise().squaredNorm().transpose().isApprox(costs.cast<float>(), 1e-5f));
+    EXPECT_TRUE(residuals.topRows(3).isApprox(2 * states.topRows(3).cast<float>(), 1e-6f));
+    if (expected.size() == 0) expected = residuals;
+    EXPECT_EQ(residuals, expected);
+  }
+}
+
+TEST_F(EvaluatorResiduals, RefusesResidualsOfTermsThatHaveNone) {
+  const auto squares = std::make_shared<SquaresOfState>(3);
+  const auto plain = undrawn([](const RenderedHypothesis&) { return 0.0; });
+  const auto why = [&](std::vector<ObjectiveTerm> terms, Backend backend) -> std::string {
+    try {
+      Evaluator(scene_, std::move(terms), {.backend = backend}, {.wanted = true});
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(
+      why({{1, squares}, {1, plain, "prior"}}, Backend::cpu),
+      testing::StartsWith("objective: the optimizer needs residuals: objective prior, as it "
+                          "is set up, offers no residuals"));
+  EXPECT_THAT(why({{-2, squares, "prior"}}, Backend::cpu),
+              testing::HasSubstr("the weight of objective prior is -2, and squares cannot be"));
+  EXPECT_EQ(why({{1, squares}, {0, plain}}, Backend::cpu), "no error");
+}
+
+TEST_F(EvaluatorResiduals, TakesAnalyticJacobiansOnTheCpu) {
+  const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<SquaresOfState>(3)}};
+  for (const auto linearization : {Linearization::needed, Linearization::welcome}) {
+    const Evaluator automatic(scene_, terms, {}, {true, linearization});
+    EXPECT_THAT(automatic.backend(),
+                testing::HasSubstr("not on a GPU: the optimizer takes analytic Jacobians"));
+  }
+  EXPECT_THAT(message_of<ConfigError>([&] {
+                Evaluator(scene_, terms, {.backend = Backend::cuda}, {true, Linearization::needed});
+              }),
+              testing::StartsWith("evaluate.backend: cuda: the optimizer takes analytic Jacobians, "
+                                  "which are computed on the CPU. Write `jacobian: automatic`"));
+}
+
+TEST_F(EvaluatorResiduals, SaysWhichResidualsLookAtThePoseOnlyWhereItFellBackToo) {
+  struct DrawnSquares final : SquaresOfState {
+    using SquaresOfState::SquaresOfState;
+    bool needs_rendering() const override { return true; }
+  };
+  for (const auto backend : {Backend::cpu, Backend::automatic}) {
+    Evaluator evaluator(
+        scene_, {{1, std::make_shared<DrawnSquares>(4)}, {1, std::make_shared<SquaresOfState>(3)}},
+        {.backend = backend, .threads = 1}, {.wanted = true});
+    evaluator.prepare(observation_);
+    const std::vector<ResidualRows> rows = evaluator.pose_only_residuals();
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_EQ(rows[0].first, 4);
+    EXPECT_EQ(rows[0].count, 3);
+  }
+}
+
+TEST_F(EvaluatorResiduals, SaysWhetherThereAreResidualsThatNobodyAnnounced) {
+  EXPECT_TRUE(
+      Evaluator(scene_, {{1, std::make_shared<SquaresOfState>(3)}}, threads(1)).has_residuals());
+  EXPECT_FALSE(Evaluator(scene_, {{1, drawn(total_inverse_depth)}}, threads(1)).has_residuals());
+}
+
+}  // namespace
+}  // namespace hypotrack::test
