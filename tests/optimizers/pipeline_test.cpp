@@ -159,6 +159,39 @@ TEST_F(PipelineTest, WithoutAUsualCostEveryRescueRuns) {
   EXPECT_THAT(budgets(), ElementsAre(5, 5));
 }
 
+/// A pose of two dimensions around a limb of one.
+SearchRegion pose_and_limb() {
+  SearchRegion region{Eigen::Vector3d::Zero(), Eigen::Vector3d::Constant(-100),
+                      Eigen::Vector3d::Constant(100), Eigen::Vector3d::Ones()};
+  region.groups = {{SearchGroup::Kind::pose, {0, 2}}, {SearchGroup::Kind::limb, {1}}};
+  return region;
+}
+
+TEST_F(PipelineTest, WhatAStageDoesNotMoveIsHeldWhereItBegins) {
+  add("all", 1, 1, 1, 4);
+  add("limbs", 0, 1);
+  add("poses", 1, 1);
+  stages_[1].moves = Moves::limbs;
+  stages_[2].moves = Moves::poses;
+  test::RecordingCost cost(3, [](const Eigen::VectorXd& x) { return std::abs(x[0] - 3); });
+  Pipeline(std::move(stages_), 100).minimize(cost, pose_and_limb(), {60}, 7);
+  ASSERT_EQ(calls_.size(), 3u);
+  EXPECT_EQ(calls_[0].region.lower, Eigen::Vector3d(-100, -100, -100));
+  EXPECT_EQ(calls_[0].region.upper, Eigen::Vector3d(100, 100, 100));
+  EXPECT_EQ(calls_[1].region.start, Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(calls_[1].region.lower, Eigen::Vector3d(3, -100, 0));
+  EXPECT_EQ(calls_[1].region.upper, Eigen::Vector3d(3, 100, 0));
+  EXPECT_EQ(calls_[2].region.lower, Eigen::Vector3d(-100, 0, -100));
+  EXPECT_EQ(calls_[2].region.upper, Eigen::Vector3d(100, 0, 100));
+}
+
+TEST_F(PipelineTest, WithoutGroupsEveryStageMovesAll) {
+  add("poses", 1, 1);
+  stages_[0].moves = Moves::poses;
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {10}).point[0], 3);
+}
+
 TEST_F(PipelineTest, StagesHaveSeedsOfTheirOwn) {
   add("a", 0, 1);
   add("b", 0, 1);

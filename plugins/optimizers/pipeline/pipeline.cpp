@@ -1,12 +1,37 @@
 #include "pipeline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 
 namespace hypotrack {
+namespace {
+
+/// The region for a stage that begins at `start`.
+SearchRegion region_of(const PipelineStage& stage, const SearchRegion& region,
+                       const Eigen::VectorXd& start) {
+  SearchRegion own = region;
+  own.start = start;
+  own.spread *= stage.spread;
+  if (stage.moves == Moves::all) return own;
+  const auto moved =
+      stage.moves == Moves::poses ? SearchGroup::Kind::pose : SearchGroup::Kind::limb;
+  for (const SearchGroup& group : region.groups) {
+    if (group.kind == moved) continue;
+    for (const int d : group.dimensions) own.lower[d] = own.upper[d] = start[d];
+  }
+  return own;
+}
+
+}  // namespace
+
+std::span<const std::string_view> enum_names(Moves) {
+  static constexpr std::array<std::string_view, 3> kNames{"all", "poses", "limbs"};
+  return kNames;
+}
 
 Pipeline::Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
                    const std::string& where)
@@ -54,8 +79,8 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
   double shares = 0;
   for (const PipelineStage& stage : stages_) shares += stage.share;
 
-  SearchRegion around = region;
   OptimizerResult best;
+  best.point = region.start;
   for (std::size_t k = 0; k < stages_.size(); ++k) {
     const std::int64_t left = budget.evaluations - best.evaluations;
     if (left == 0 || (best.evaluations > 0 && deadline.passed())) break;
@@ -67,13 +92,12 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
         std::min(left, static_cast<std::int64_t>(share * static_cast<double>(left)));
     if (evaluations == 0 || !needed) continue;
 
-    around.spread = stages_[k].spread * region.spread;
     const Budget part{evaluations, std::max(0.0, share * deadline.left()), budget.usual_cost};
-    const OptimizerResult found = run(k, cost, around, part, seed);
+    const OptimizerResult found =
+        run(k, cost, region_of(stages_[k], region, best.point), part, seed);
     const std::int64_t all = best.evaluations + found.evaluations;
     if (best.evaluations == 0 || found.cost < best.cost) best = found;
     best.evaluations = all;
-    around.start = best.point;
   }
   return best;
 }

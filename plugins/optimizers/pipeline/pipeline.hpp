@@ -2,12 +2,22 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack {
+
+/// What of a scene a stage moves; the rest stays where the stages before it left it.
+enum class Moves {
+  all,
+  poses,  ///< where models are and how they are turned
+  limbs,  ///< what is not a pose
+};
+std::span<const std::string_view> enum_names(Moves);
 
 /// One optimizer of several that take turns.
 struct PipelineStage {
@@ -16,6 +26,7 @@ struct PipelineStage {
   double share = 1;     ///< of the budget, in proportion to the other stages'; > 0
   double spread = 1;    ///< factor of the region's spread for this stage; > 0
   bool rescue = false;  ///< passed over where the best so far costs no more than usual
+  Moves moves = Moves::all;
 };
 
 /// Optimizers one after the other: the first searches from the region's start, each later one from
@@ -26,7 +37,8 @@ struct PipelineStage {
 /// those after it. A stage without an evaluation of its own is passed over, and so is one that is a
 /// rescue where the best of the stages before it is at or below Budget::usual_cost. Each evaluates
 /// where it begins, so every later stage spends one evaluation on the best point so far. Stage k
-/// searches with seed_of_part(seed, k).
+/// searches with seed_of_part(seed, k). What a stage does not move has bounds that meet at its
+/// start; in a region without groups every stage moves all.
 class Pipeline : public Optimizer {
  public:
   /// Throws ConfigError, naming `where`, without stages.

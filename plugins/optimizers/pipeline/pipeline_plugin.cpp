@@ -10,6 +10,7 @@ struct StageParams {
   double share = 1;
   double spread = 1;
   bool rescue = false;
+  hypotrack::Moves moves = hypotrack::Moves::all;
   void visit(ParamVisitor& v) {
     v("optimizer", optimizer,
       {.help = "the stage's optimizer: {type: ..., its parameters}", .required = true});
@@ -25,6 +26,10 @@ struct StageParams {
     v("rescue", rescue,
       {.help = "whether this stage is left out where those before it have found what costs no more "
                "than recent frames lead to expect; its budget goes to those after it"});
+    v("moves", moves,
+      {.help =
+           "what this stage moves: all, only the poses of models, or only their limbs; the rest "
+           "stays as the stages before it left it"});
   }
 };
 
@@ -48,7 +53,7 @@ std::vector<hypotrack::PipelineStage> make_stages(const PipelineParams& params,
   for (const StageParams& stage : params.stages) {
     auto optimizer = context.make<hypotrack::Optimizer>(stage.optimizer);
     stages.push_back({stage.optimizer.get("type").scalar(), std::move(optimizer), stage.share,
-                      stage.spread, stage.rescue});
+                      stage.spread, stage.rescue, stage.moves});
   }
   return stages;
 }
