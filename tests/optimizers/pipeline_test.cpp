@@ -192,6 +192,18 @@ TEST_F(PipelineTest, WithoutGroupsEveryStageMovesAll) {
   EXPECT_EQ(minimize(cost, {10}).point[0], 3);
 }
 
+TEST_F(PipelineTest, AStageMayBeginAtTheStartAgainAndTheBetterAnswerIsKept) {
+  add("forwards", 1, 1, 1, 4);
+  add("backwards", -1, 1, 1, 4);
+  add("again", 1, 1);
+  stages_[1].from = StageStart::start;
+  test::RecordingCost cost = away_from(3);
+  EXPECT_EQ(minimize(cost, {30}).point[0], 3);
+  ASSERT_EQ(calls_.size(), 3u);
+  EXPECT_EQ(calls_[1].region.start[0], 0);
+  EXPECT_EQ(calls_[2].region.start[0], 3);
+}
+
 TEST_F(PipelineTest, StagesHaveSeedsOfTheirOwn) {
   add("a", 0, 1);
   add("b", 0, 1);

@@ -33,6 +33,11 @@ std::span<const std::string_view> enum_names(Moves) {
   return kNames;
 }
 
+std::span<const std::string_view> enum_names(StageStart) {
+  static constexpr std::array<std::string_view, 2> kNames{"best", "start"};
+  return kNames;
+}
+
 Pipeline::Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
                    const std::string& where)
     : stages_(std::move(stages)), default_evaluations_(default_evaluations), where_(where) {
@@ -93,8 +98,8 @@ OptimizerResult Pipeline::minimize(CostFunction& cost, const SearchRegion& regio
     if (evaluations == 0 || !needed) continue;
 
     const Budget part{evaluations, std::max(0.0, share * deadline.left()), budget.usual_cost};
-    const OptimizerResult found =
-        run(k, cost, region_of(stages_[k], region, best.point), part, seed);
+    const Eigen::VectorXd& from = stages_[k].from == StageStart::best ? best.point : region.start;
+    const OptimizerResult found = run(k, cost, region_of(stages_[k], region, from), part, seed);
     const std::int64_t all = best.evaluations + found.evaluations;
     if (best.evaluations == 0 || found.cost < best.cost) best = found;
     best.evaluations = all;

@@ -19,6 +19,13 @@ enum class Moves {
 };
 std::span<const std::string_view> enum_names(Moves);
 
+/// Where a stage begins.
+enum class StageStart {
+  best,   ///< at the best point of the stages before it
+  start,  ///< where the whole search began
+};
+std::span<const std::string_view> enum_names(StageStart);
+
 /// One optimizer of several that take turns.
 struct PipelineStage {
   std::string name;  ///< for messages
@@ -27,16 +34,17 @@ struct PipelineStage {
   double spread = 1;    ///< factor of the region's spread for this stage; > 0
   bool rescue = false;  ///< passed over where the best so far costs no more than usual
   Moves moves = Moves::all;
+  StageStart from = StageStart::best;
 };
 
 /// Optimizers one after the other: the first searches from the region's start, each later one from
-/// the best point so far, within the same bounds.
+/// the best point so far (or from the region's start again), within the same bounds.
 ///
 /// A stage gets its share of what the stages before it left of the budget, evaluations (rounded
 /// down, the last stage all that is left) and seconds alike, so that what one does not use goes to
 /// those after it. A stage without an evaluation of its own is passed over, and so is one that is a
 /// rescue where the best of the stages before it is at or below Budget::usual_cost. Each evaluates
-/// where it begins, so every later stage spends one evaluation on the best point so far. Stage k
+/// where it begins, so every later stage spends one evaluation on a point that is known. Stage k
 /// searches with seed_of_part(seed, k). What a stage does not move has bounds that meet at its
 /// start; in a region without groups every stage moves all.
 class Pipeline : public Optimizer {

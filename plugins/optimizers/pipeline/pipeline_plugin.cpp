@@ -11,6 +11,7 @@ struct StageParams {
   double spread = 1;
   bool rescue = false;
   hypotrack::Moves moves = hypotrack::Moves::all;
+  hypotrack::StageStart from = hypotrack::StageStart::best;
   void visit(ParamVisitor& v) {
     v("optimizer", optimizer,
       {.help = "the stage's optimizer: {type: ..., its parameters}", .required = true});
@@ -30,6 +31,10 @@ struct StageParams {
       {.help =
            "what this stage moves: all, only the poses of models, or only their limbs; the rest "
            "stays as the stages before it left it"});
+    v("from", from,
+      {.help =
+           "where this stage begins: at the best so far, or at the start of the whole search, as "
+           "where the stages before it may have gone the wrong way; the better answer is kept"});
   }
 };
 
@@ -53,7 +58,7 @@ std::vector<hypotrack::PipelineStage> make_stages(const PipelineParams& params,
   for (const StageParams& stage : params.stages) {
     auto optimizer = context.make<hypotrack::Optimizer>(stage.optimizer);
     stages.push_back({stage.optimizer.get("type").scalar(), std::move(optimizer), stage.share,
-                      stage.spread, stage.rescue, stage.moves});
+                      stage.spread, stage.rescue, stage.moves, stage.from});
   }
   return stages;
 }
