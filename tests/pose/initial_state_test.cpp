@@ -84,6 +84,40 @@ TEST(InitialState, IsAsFarAwayAsAskedForInADirectionOfTheSeed) {
   EXPECT_LT(mean.norm(), 0.010) << "all directions";
 }
 
+TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
+  Session session;
+  session.scene =
+      std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
+          {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  const auto& parameters = session.scene->parameters();
+  Eigen::VectorXd at = session.scene->rest_state();
+  for (std::size_t i = 7; i < parameters.size(); ++i) {
+    at[static_cast<Eigen::Index>(i)] = 0.5 * (parameters[i].lower + parameters[i].upper);
+  }
+  Frame frame;
+  frame.truth = GroundTruth{at, {}};
+  session.init.from = InitFrom::truth;
+  constexpr double kDeviation = 5 * kDegree;
+  session.init.away_angles = kDeviation;
+  double squares = 0;
+  int free = 0;
+  for (session.seed = 1; session.seed <= 64; ++session.seed) {
+    const Eigen::VectorXd away = initial_state(session, frame);
+    EXPECT_EQ(initial_state(session, frame), away);
+    EXPECT_EQ(away.head<7>(), at.head<7>());
+    for (std::size_t i = 7; i < parameters.size(); ++i) {
+      const auto d = static_cast<Eigen::Index>(i);
+      EXPECT_LE(away[d], parameters[i].upper);
+      EXPECT_GE(away[d], parameters[i].lower);
+      if (parameters[i].upper - at[d] < 4 * kDeviation) continue;  // bounds cut there
+      squares += (away[d] - at[d]) * (away[d] - at[d]);
+      ++free;
+    }
+  }
+  ASSERT_GT(free, 400);
+  EXPECT_NEAR(std::sqrt(squares / free), kDeviation, 0.1 * kDeviation);
+}
+
 TEST(InitialState, IsAPoseFile) {
   const test::TemporaryDirectory folder;
   Session session = box_session();

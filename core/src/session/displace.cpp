@@ -1,6 +1,7 @@
 #include "session/displace.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "hypotrack/random.hpp"
 
@@ -16,20 +17,32 @@ Eigen::Vector3d direction(std::uint64_t seed, std::uint32_t model, std::uint32_t
   return v.normalized();
 }
 
+void displace_angles(const Scene& scene, Eigen::VectorXd& state, double deviation,
+                     std::uint64_t seed) {
+  const auto& parameters = scene.parameters();
+  for (std::uint32_t i = 0; i < parameters.size(); ++i) {
+    const Parameter& p = parameters[i];
+    if (p.kind != ParameterKind::angle) continue;
+    const double x = state[i] + deviation * normal(seed, {.dimension = i, .stream = 2});
+    state[i] = std::clamp(x, p.lower, p.upper);
+  }
+}
+
 }  // namespace
 
-Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, double metres, double radians,
+Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displacement& by,
                           std::uint64_t seed) {
   std::uint32_t model = 0;
   for (const Scene::Item& item : scene.items()) {
     auto pose = state.segment<7>(item.offset);
     const Eigen::Quaterniond rotation(pose[3], pose[4], pose[5], pose[6]);
     const Eigen::Quaterniond turned =
-        rotation * Eigen::AngleAxisd(radians, direction(seed, model, 1));
-    pose.head<3>() += metres * direction(seed, model, 0);
+        rotation * Eigen::AngleAxisd(by.radians, direction(seed, model, 1));
+    pose.head<3>() += by.metres * direction(seed, model, 0);
     pose.tail<4>() << turned.w(), turned.x(), turned.y(), turned.z();
     ++model;
   }
+  if (by.angles > 0) displace_angles(scene, state, by.angles, seed);
   return state;
 }
 

@@ -7,10 +7,16 @@
 
 namespace hypotrack {
 
-/// The state with every model moved by `metres` in a direction of its own and turned about its
-/// origin by `radians` about an axis of its own. Directions and axes are uniform, and a function of
-/// the seed.
-Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, double metres, double radians,
+/// How far from a state another one lies.
+struct Displacement {
+  double metres = 0;   ///< of every model, in a direction of its own
+  double radians = 0;  ///< of every model about its origin, about an axis of its own
+  double angles = 0;   ///< standard deviation of every joint angle, radians
+};
+
+/// The state displaced within the parameters' bounds. Directions and axes are uniform, and all is a
+/// function of the seed.
+Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displacement& by,
                           std::uint64_t seed);
 
 }  // namespace hypotrack

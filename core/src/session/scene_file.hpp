@@ -34,8 +34,9 @@ struct InitSettings {
   std::filesystem::path file;
   int frame = 0;
   ConfigNode pose;
-  double away = 0;       ///< m
-  double away_turn = 0;  ///< rad
+  double away = 0;         ///< m
+  double away_turn = 0;    ///< rad
+  double away_angles = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
       {.help = "start of the first search: the source's ground truth, the models' rest state or a "
@@ -57,6 +58,13 @@ struct InitSettings {
        .to_si = kMillimetre});
     v("away_deg", away_turn,
       {.help = "turns every model of that state by this, about an axis that the seed decides",
+       .min = 0,
+       .max = 180,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("away_angles_deg", away_angles,
+      {.help = "changes every joint angle of that state by a normal sample of this standard "
+               "deviation, within the model's bounds",
        .min = 0,
        .max = 180,
        .unit = "deg",

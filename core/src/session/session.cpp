@@ -224,8 +224,9 @@ Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
     scene.check(state, session.init.file.string());
   }
   if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
-  if (session.init.away == 0 && session.init.away_turn == 0) return state;
-  return displaced(scene, std::move(state), session.init.away, session.init.away_turn,
+  const InitSettings& init = session.init;
+  if (init.away == 0 && init.away_turn == 0 && init.away_angles == 0) return state;
+  return displaced(scene, std::move(state), {init.away, init.away_turn, init.away_angles},
                    session.seed);
 }
 
