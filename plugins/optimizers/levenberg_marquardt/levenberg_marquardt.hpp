@@ -30,7 +30,8 @@ class LevenbergMarquardt : public Optimizer {
   bool needs_residuals() const override { return true; }
   Linearization linearization() const override;
   std::int64_t default_evaluations() const override { return params_.evaluations; }
-  /// Throws ConfigError if the cost has no residuals, Error if they are not finite.
+  /// Throws ConfigError if the cost has no residuals. No step is made from where they are not
+  /// finite, which they should be wherever the cost is.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
 
