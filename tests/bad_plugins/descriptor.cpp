@@ -44,7 +44,7 @@ hypotrack::HypotrackPlugin proper_descriptor() {
 #if defined(FIXTURE_wrong_magic)
   std::memcpy(plugin.magic, "another\x01plugin!!", sizeof(plugin.magic));
 #elif defined(FIXTURE_other_abi)
-  plugin.abi_version = 7;
+  plugin.abi_version = hypotrack::kAbiVersion + 1;
   plugin.struct_size = 8;
 #elif defined(FIXTURE_short_descriptor)
   plugin.struct_size = 40;

@@ -142,8 +142,8 @@ TEST(PluginLoader, LibrariesThatAreNoPluginsAreNamed) {
 
 TEST(PluginLoader, MismatchesNameBothSides) {
   EXPECT_THAT(plugin_error("other_abi"),
-              EndsWith(": was built for plugin ABI version 7, this hypotrack has " +
-                       std::to_string(kAbiVersion) +
+              EndsWith(": was built for plugin ABI version " + std::to_string(kAbiVersion + 1) +
+                       ", this hypotrack has " + std::to_string(kAbiVersion) +
                        "; build it again "
                        "with this hypotrack's headers"));
   EXPECT_THAT(plugin_error("short_descriptor"),
