@@ -79,6 +79,8 @@ INSTANTIATE_TEST_SUITE_P(Datasets, Motion, kPapers, kName);
 INSTANTIATE_TEST_SUITE_P(FastHand, Motion, testing::Values(std::pair("datasets/shf", 376)), kName);
 INSTANTIATE_TEST_SUITE_P(Tuning, Motion,
                          testing::Values(std::pair("tuning/two_hands_cross", 360),
+                                         std::pair("tuning/turning_hand", 521),
+                                         std::pair("tuning/turning_hand_2", 567),
                                          std::pair("hand_and_box", 110)),
                          kName);
 
