@@ -69,6 +69,7 @@ __device__ __forceinline__ bool join_bands(double* slots, int band, int bands, d
     }
     return false;
   }
+  __syncwarp();  // the lanes have read what was in the room before
   for (int i = kSums + lane; i < bands * kSums; i += kWarp) room[i] = empty_slot(slots + i);
   __syncwarp();
 #pragma unroll 1

@@ -32,9 +32,9 @@ struct BlockPlan {
   int vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
   int histogram_shift = 0;  ///< 2^this rows are a bin of the histogram
   int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
-  /// With `staged` the scene's vertices and triangles are copied to shared memory while the kernel
-  /// before still runs.
-  bool staged = false;
+  /// Whether the scene's vertices and triangles are copied to shared memory while the kernel before
+  /// still runs.
+  bool stages_vertices = false, stages_triangles = false;
   int staged_vertices = 0, staged_triangles = 0;
   int end = 0;  ///< of the block's memory; from the z-buffers' last pixel to here there is room for
                 ///< texels, once the vertices are placed
@@ -84,7 +84,8 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   BlockPlan p;
   p.threads = threads;
   p.bands = bands;
-  p.chunk = std::min(r.scene.triangle_count, 4096);
+  // In bands the block waits for every chunk: one is best.
+  p.chunk = std::min(r.scene.triangle_count, bands > 1 ? 8192 : 4096);
   p.vertex_stride = r.scene.vertex_count;
   int end = 0;
   const auto take = [&](int floats) {
@@ -121,14 +122,19 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;
   const int vertices = static_cast<int>(sizeof(VertexLayout) / 4) * r.scene.vertex_count;
   const int triangles = static_cast<int>(sizeof(PackedTriangle) / 4) * r.scene.triangle_count;
-  p.staged = p.vertices_in_shared && end + vertices + triangles + wanted + 8 <= floats;
-  p.staged_triangles = p.staged ? take(triangles) : 0;
-  const int behind = p.staged ? rounded(vertices) : 0;
+  // A band is rarely as wide as its tile; a whole hypothesis waits less for what is not staged,
+  // since another block works beside it, but would be drawn in more pieces.
+  const std::int64_t needed = bands > 1 ? std::min<std::int64_t>(wanted, least_depth) : wanted;
+  const std::int64_t staged = end + triangles + needed + 8;
+  p.stages_triangles = p.vertices_in_shared && staged <= floats;
+  p.stages_vertices = p.stages_triangles && staged + vertices <= floats;
+  p.staged_triangles = p.stages_triangles ? take(triangles) : 0;
+  const int behind = p.stages_vertices ? rounded(vertices) : 0;
   p.depth = end;
   p.depth_capacity = static_cast<int>(
       std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end - behind) / 4 * 4));
   end += p.depth_capacity;
-  p.staged_vertices = p.staged ? take(vertices) : 0;
+  p.staged_vertices = p.stages_vertices ? take(vertices) : 0;
   if (r.texels && bands > 1) end = std::max(end, (floats - kLeftToOthers / 4) / 4 * 4);
   p.end = end;
   p.shared_bytes = 4 * end;

@@ -52,8 +52,10 @@ class BlockEvaluation {
     stage(scene_.models, scene_.model_count, shared_floats() + plan_.pose.model_layouts);
     stage(scene_.bones, scene_.bone_count, shared_floats() + plan_.pose.bone_layouts);
     stage(scene_.turns, scene_.turn_count, shared_floats() + plan_.pose.turns);
-    if (plan_.staged) {
+    if (plan_.stages_vertices) {
       stage(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
+    }
+    if (plan_.stages_triangles) {
       stage(scene_.triangles, scene_.triangle_count, shared_floats() + plan_.staged_triangles);
     }
     __pipeline_commit();
@@ -112,7 +114,7 @@ class BlockEvaluation {
     const Parallax parallax = pair_parallax();
     ThreadBounds own;
     const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
-                                      plan_.staged_vertices, plan_.staged};
+                                      plan_.staged_vertices, plan_.stages_vertices};
     auto* histogram = reinterpret_cast<int*>(shared_floats() + plan_.histogram);
     const int threads = static_cast<int>(blockDim.x);
     for (int round = 0; round * threads < scene_.vertex_count; ++round) {
@@ -157,7 +159,8 @@ class BlockEvaluation {
       lists_are_used_ = true;
       constexpr int kWords = sizeof(PackedTriangle) / sizeof(float);
       const Staged<PackedTriangle> triangles{scene_.triangles + first,
-                                             plan_.staged_triangles + kWords * first, plan_.staged};
+                                             plan_.staged_triangles + kWords * first,
+                                             plan_.stages_triangles};
       cull<kPair>(triangles, vertices_, views[0].width, views[1].width, left.box.y0, left.box.y1,
                   count, list);
       __syncthreads();
@@ -224,8 +227,8 @@ class BlockEvaluation {
     const ViewLayout* v = frame_.views;
     Box left = state_.bounds.box(v[0].width, v[0].height);
     Box right = state_.bounds.box2(v[1].width, v[1].height);
-    if (left.empty()) left.x1 = left.x0;
-    if (right.empty()) right.x1 = right.x0;
+    if (left.empty()) left.x0 = left.x1 = 0;  // it may lie anywhere
+    if (right.empty()) right.x0 = right.x1 = 0;
     if (Term::kVisitsUncovered) {
       left = {0, 0, v[0].width, v[0].height};
       right = {0, 0, v[1].width, v[1].height};

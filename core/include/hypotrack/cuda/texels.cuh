@@ -120,9 +120,13 @@ class SharedTexels {
     auto* out = reinterpret_cast<Texel*>(shared_floats()) + to;
     for (int i = static_cast<int>(threadIdx.x); i < count; i += static_cast<int>(blockDim.x)) {
       const int row = small_quotient(i, in_row), place = i - row * in_row;
-      const int view = place < in_first ? 0 : 1;
-      const int x = columns[view].first + kTexels * (place - (view == 0 ? 0 : in_first));
-      const Texel* from = term.texels(view) + ((rows.y0 + row) * widths[view] + x);
+      // Not by an index: arrays would have to lie in memory.
+      const bool second = place >= in_first;
+      const int x = second ? columns[1].first + kTexels * (place - in_first)
+                           : columns[0].first + kTexels * place;
+      const int width = second ? widths[1] : widths[0];
+      const Texel* from =
+          (second ? term.texels(1) : term.texels(0)) + ((rows.y0 + row) * width + x);
       __pipeline_memcpy_async(out + kTexels * i, from, kTexels * kSize);
     }
   }
