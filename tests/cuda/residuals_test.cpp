@@ -19,8 +19,8 @@
 namespace hypotrack {
 namespace {
 
-std::shared_ptr<Objective> colors(stereo_color::Direction direction) {
-  stereo_color::Params params;
+std::shared_ptr<Objective> colors(stereo_color::Direction direction,
+                                  stereo_color::Params params = {}) {
   params.beta = 2;  // the made-up views are not that alike
   params.direction = direction;
   params.lookup = stereo_color::Lookup::bilinear;
@@ -59,6 +59,19 @@ TEST_F(DeviceResiduals, OfSeveralTermsAreThoseOfTheCpu) {
     test::expect_residuals_like_the_cpu(scene, frame_of(scene, 256), many_terms(scene),
                                         many_terms(scene), test::scored_states(scene).leftCols(29));
   }
+}
+
+TEST_F(DeviceResiduals, WithAChargeAreThoseOfTheCpu) {
+  const Scene scene = test::hand_scene();
+  stereo_color::Params params;
+  params.falloff = stereo_color::Falloff::gaussian;
+  params.charge = 0.1;
+  const std::vector<ObjectiveTerm> terms = {
+      {1, colors(stereo_color::Direction::both, params), "stereo_color"}};
+  const std::vector<ObjectiveTerm> again = {
+      {1, colors(stereo_color::Direction::both, params), "stereo_color"}};
+  test::expect_residuals_like_the_cpu(scene, frame_of(scene, 256), terms, again,
+                                      test::scored_states(scene).leftCols(29));
 }
 
 TEST_F(DeviceResiduals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {

@@ -54,6 +54,18 @@ TEST_F(StereoColorOnDevice, ScoresAsTheCpuInEveryAggregation) {
   }
 }
 
+TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithEveryFalloffAndCharge) {
+  for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
+    for (const auto lookup : {Lookup::nearest, Lookup::bilinear}) {
+      Params params;
+      params.falloff = falloff;
+      params.charge = 0.1;
+      params.lookup = lookup;
+      expect_like_the_cpu_everywhere(params);
+    }
+  }
+}
+
 TEST_F(StereoColorOnDevice, ScoresAsTheCpuInEveryColorSpace) {
   for (const auto space : {ColorSpace::lab, ColorSpace::hsv, ColorSpace::gray}) {
     Params params;

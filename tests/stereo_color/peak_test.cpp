@@ -95,5 +95,15 @@ TEST(Peak, IsAtTheTruthInBothDirectionsAndBilinear) {
   expect_peak_at_truth(pair, params);
 }
 
+TEST(Peak, IsAtTheTruthWithACharge) {
+  Params params;
+  params.beta = 60;
+  params.falloff = Falloff::gaussian;
+  params.charge = 0.1;
+  params.direction = Direction::both;
+  params.lookup = Lookup::bilinear;
+  expect_peak_at_truth(RenderedPair(), params);
+}
+
 }  // namespace
 }  // namespace hypotrack::stereo_color

@@ -41,9 +41,22 @@ TEST(Pixel, ColorConsistencyIsTheSmallerWeightTimesTheExponential) {
   const stereo_color::scalar::ColorSample<float> l{0.5f, 0.4f, 0.3f, 0.6f};
   const stereo_color::scalar::ColorSample<float> r{0.51f, 0.38f, 0.32f, 0.25f};
   // Colour distance: |(-0.01, 0.02, -0.02)| = 0.03.
-  EXPECT_NEAR(stereo_color::scalar::color_consistency(l, r, 100.0f), 0.25 * std::exp(-3.0), 1e-6);
-  EXPECT_NEAR(stereo_color::scalar::color_consistency(l, l, 100.0f), 0.6, 1e-7);
-  EXPECT_NEAR(stereo_color::scalar::color_consistency(l, r, 0.0f), 0.25, 1e-7);
+  const auto s = [](const auto& a, const auto& b, float beta) {
+    return stereo_color::scalar::color_consistency<float>(a, b, {beta, 0.0f, false});
+  };
+  EXPECT_NEAR(s(l, r, 100.0f), 0.25 * std::exp(-3.0), 1e-6);
+  EXPECT_NEAR(s(l, l, 100.0f), 0.6, 1e-7);
+  EXPECT_NEAR(s(l, r, 0.0f), 0.25, 1e-7);
+}
+
+TEST(Pixel, ColorConsistencyFallsWithTheSquareAndPaysTheCharge) {
+  using stereo_color::scalar::color_consistency;
+  const stereo_color::scalar::ColorSample<float> l{0.5f, 0.4f, 0.3f, 0.6f};
+  const stereo_color::scalar::ColorSample<float> r{0.51f, 0.38f, 0.32f, 0.25f};
+  EXPECT_NEAR(color_consistency<float>(l, r, {50.0f, 0.0f, true}), 0.25 * std::exp(-2.25), 1e-6);
+  EXPECT_NEAR(color_consistency<float>(l, l, {50.0f, 0.2f, true}), 0.6 * 0.8, 1e-7);
+  EXPECT_NEAR(color_consistency<float>(l, r, {100.0f, 0.2f, false}), 0.25 * (std::exp(-3.0) - 0.2),
+              1e-6);
 }
 
 TEST(Pixel, SameDepthComparesDepthsAndNothingIsNeverTheSame) {

@@ -89,7 +89,10 @@ double score(const Observation& observation, const RenderedHypothesis& hypothesi
       const Eigen::Vector4d r = params.lookup == Lookup::bilinear
                                     ? interpolate(b, c_b, params, u, v)
                                     : sample(b, c_b, params, i, j);
-      sum += std::min(l[3], r[3]) * std::exp(-params.beta * (l - r).head<3>().norm());
+      const double scaled = params.beta * (l - r).head<3>().norm();
+      const double alike =
+          std::exp(params.falloff == Falloff::gaussian ? -scaled * scaled : -scaled);
+      sum += std::min(l[3], r[3]) * (alike - params.charge);
     }
   }
   if (params.aggregation == Aggregation::mean_seen) return seen > 0 ? sum / seen : 0;

@@ -54,6 +54,23 @@ TEST(Residuals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
   }
 }
 
+TEST(Residuals, SquaredAddUpToTheCostWithEveryFalloffAndCharge) {
+  for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
+    for (const double charge : {0.0, 0.05}) {
+      for (const auto direction : {Direction::left_to_right, Direction::both}) {
+        SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << charge);
+        Params params;
+        params.beta = 5;
+        params.falloff = falloff;
+        params.charge = charge;
+        params.direction = direction;
+        params.lookup = Lookup::bilinear;
+        expect_cost_as_squares({.mask = true, .size = 96}, params);
+      }
+    }
+  }
+}
+
 TEST(Residuals, AreThereForEveryPixelOfTilesOfAnySize) {
   for (const int size : {16, 33, 50, 100}) {
     const RandomPair pair({.size = size, .stride_beyond = 3});
@@ -88,11 +105,9 @@ TEST(Residuals, OfOneDirectionAreThoseOfItsView) {
   }
 }
 
-TEST(Residuals, HaveSlopesThatAreTheirDifferencesOverDepth) {
+void expect_slopes_like_differences(Params params) {
   for (const bool rectified : {true, false}) {
     const RandomPair pair({.rectified = rectified, .size = 96});
-    Params params;
-    params.beta = 3;
     params.distinctiveness = Distinctiveness::none;
     params.r = 0.1;  // so generous that what is seen stays seen
     params.direction = Direction::both;
@@ -126,14 +141,25 @@ TEST(Residuals, HaveSlopesThatAreTheirDifferencesOverDepth) {
       int compared = 0;
       for (std::size_t i = 0; i < found.size(); ++i) {
         EXPECT_NEAR(found[i], expected[i], 1e-5);
-        const float rest = std::sqrt(0.5f) - 1e-4f;  // of what one view sees
-        if (slopes[i] == 0 || near[i] > rest || far[i] > rest) continue;
+        // What one view alone sees keeps its residual.
+        const auto alone = [](float r) { return std::abs(r - std::sqrt(0.5f)) < 1e-4f; };
+        if (slopes[i] == 0 || alone(near[i]) || alone(far[i])) continue;
         EXPECT_NEAR(slopes[i] * 2 * step(i), near[i] - far[i], 3e-3) << i;
         ++compared;
       }
       EXPECT_GT(compared, 1000);
     });
   }
+}
+
+TEST(Residuals, HaveSlopesThatAreTheirDifferencesOverDepth) {
+  Params params;
+  params.beta = 3;
+  expect_slopes_like_differences(params);
+  params.falloff = Falloff::gaussian;
+  expect_slopes_like_differences(params);
+  params.charge = 0.1;
+  expect_slopes_like_differences(params);
 }
 
 TEST(Residuals, HaveNoSlopesWhereNothingIsSeenTwice) {

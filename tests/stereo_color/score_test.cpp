@@ -76,6 +76,19 @@ TEST(Score, IsTheReferencesForOtherParameters) {
   expect_like_reference({.seed = 10}, params);
 }
 
+TEST(Score, IsTheReferencesForEveryFalloffAndCharge) {
+  for (const auto falloff : {Falloff::exponential, Falloff::gaussian}) {
+    for (const double charge : {0.0, 0.1}) {
+      SCOPED_TRACE(testing::Message() << static_cast<int>(falloff) << " " << charge);
+      Params params;
+      params.beta = 10;
+      params.falloff = falloff;
+      params.charge = charge;
+      expect_like_reference({.size = 96}, params);
+    }
+  }
+}
+
 TEST(Score, IsTheReferencesForOddSizesAndStrides) {
   for (const int size : {9, 17, 31, 33, 77}) {
     for (const int beyond : {0, 3, 16}) {
@@ -163,6 +176,19 @@ TEST(Score, OfFlatTilesIsCountedByHand) {
   EXPECT_NEAR(flat_cost(pair, Aggregation::mean_seen), -s, 1e-4 * s);
   EXPECT_NEAR(flat_cost(pair, Aggregation::mean_rendered), -s * seen / rendered, 1e-4 * s);
   EXPECT_NEAR(flat_cost(pair, Aggregation::sum_per_sqrt), -s * seen / 32, 1e-4 * s * seen / 32);
+}
+
+TEST(Score, OfPixelsLessAlikeThanTheChargeIsACost) {
+  const FlatPair pair(3);
+  Params params;
+  params.distinctiveness = Distinctiveness::none;
+  const double s = std::exp(-100 * std::sqrt(3.0) * 3 / 255), seen = 22 * 32;
+  for (const double charge : {s / 2, s, 2 * s}) {
+    params.charge = charge;
+    StereoColor objective(params);
+    objective.prepare(pair.observation);
+    EXPECT_NEAR(objective.cost(pair.hypothesis()), (charge - s) * seen, 1e-4 * s * seen);
+  }
 }
 
 TEST(Score, OfNothingRenderedIsZero) {

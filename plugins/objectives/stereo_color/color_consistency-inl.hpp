@@ -18,11 +18,18 @@ struct ColorSample {
   F channel_0, channel_1, channel_2, weight;
 };
 
-/// s = min(C_l, C_r) exp(-beta ||I_l - I_r||): colour consistency of a surface point seen in both
-/// views.
+/// How alike colours are, by their distance.
+template <class F>
+struct Likeness {
+  F beta, charge;
+  bool gaussian;
+};
+
+/// s = min(C_l, C_r) (exp(-x) - charge), x = beta ||I_l - I_r|| or its square: colour consistency
+/// of a surface point seen in both views.
 template <class F>
 HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSample<F>& right,
-                                    F beta) {
+                                    const Likeness<F>& likeness) {
   using pixel::exp;
   using pixel::min;
   using pixel::mul_add;
@@ -30,8 +37,10 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   const F d0 = left.channel_0 - right.channel_0;
   const F d1 = left.channel_1 - right.channel_1;
   const F d2 = left.channel_2 - right.channel_2;
-  const F distance = quick_sqrt(mul_add(d0, d0, mul_add(d1, d1, d2 * d2)));
-  return min(left.weight, right.weight) * exp(F(0.0f) - beta * distance);
+  const F square = mul_add(d0, d0, mul_add(d1, d1, d2 * d2));
+  const F beta = likeness.beta;
+  const F x = likeness.gaussian ? beta * beta * square : beta * quick_sqrt(square);
+  return min(left.weight, right.weight) * (exp(F(0.0f) - x) - likeness.charge);
 }
 
 /// What is squared: sqrt(share (C - s)) of a pixel of weight C, s being 0 unless both views see it.

@@ -16,6 +16,11 @@ namespace hypotrack::stereo_color::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
 
+HYPOTRACK_PIXEL Likeness<Lanes> likeness_of(const Settings& settings) {
+  return {Lanes(static_cast<float>(settings.beta)), Lanes(static_cast<float>(settings.charge)),
+          settings.falloff == Falloff::gaussian};
+}
+
 HYPOTRACK_PIXEL ColorSample<Lanes> unpack(WordLanes channels_01, WordLanes channel_2_weight) {
   return {unorm16_low(channels_01), unorm16_high(channels_01), unorm16_low(channel_2_weight),
           unorm16_high(channel_2_weight)};

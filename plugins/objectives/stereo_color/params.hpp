@@ -12,6 +12,7 @@ std::span<const std::string_view> enum_names(ColorSpace);
 std::span<const std::string_view> enum_names(Distinctiveness);
 std::span<const std::string_view> enum_names(Aggregation);
 std::span<const std::string_view> enum_names(Direction);
+std::span<const std::string_view> enum_names(Falloff);
 std::span<const std::string_view> enum_names(Lookup);
 
 /// Parameters of `type: stereo_color`; the defaults are the paper's.
@@ -21,6 +22,14 @@ struct Params : Settings {
       {.help = "how fast similarity falls with colour distance (colours in 0..1)",
        .min = 0,
        .max = 1e4});
+    v("falloff", falloff,
+      {.help = "similarity at a colour distance d: the paper's exp(-beta d), or exp(-(beta d)^2), "
+               "which keeps colours alike that differ by no more than noise"});
+    v("charge", charge,
+      {.help = "what a pixel seen in both views must be similar to be worth covering: its "
+               "similarity counts less this",
+       .min = 0,
+       .max = 1});
     v("w_t", w_t, {.help = "distinctiveness below this counts as none", .min = 0, .max = 1});
     v("r_mm", r,
       {.help = "a surface point is seen in both views if the depths rendered there agree this well",

@@ -6,11 +6,14 @@ enum class ColorSpace { rgb, lab, hsv, gray };
 enum class Distinctiveness { principal_curvatures, none };
 enum class Aggregation { sum, mean_seen, mean_rendered, sum_per_sqrt };
 enum class Direction { left_to_right, right_to_left, both };
+enum class Falloff { exponential, gaussian };
 enum class Lookup { nearest, bilinear };
 
 /// The values of Params, for code that must not see Eigen.
 struct Settings {
   double beta = 100;
+  Falloff falloff = Falloff::exponential;
+  double charge = 0;
   double w_t = 0.1;
   double r = 3e-3;  ///< m
   ColorSpace color_space = ColorSpace::rgb;

@@ -30,6 +30,10 @@ std::span<const std::string_view> enum_names(Direction) {
   static constexpr std::string_view kNames[] = {"left_to_right", "right_to_left", "both"};
   return kNames;
 }
+std::span<const std::string_view> enum_names(Falloff) {
+  static constexpr std::string_view kNames[] = {"exponential", "gaussian"};
+  return kNames;
+}
 std::span<const std::string_view> enum_names(Lookup) {
   static constexpr std::string_view kNames[] = {"nearest", "bilinear"};
   return kNames;

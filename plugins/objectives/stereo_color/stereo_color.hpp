@@ -30,14 +30,17 @@ namespace hypotrack::stereo_color {
 /// areas); colours in 0..1 with the Euclidean norm; medians over all pixels of the tile that lie
 /// inside the image, background included; gradients by central differences (their scale drops out
 /// with the medians); the right view is read at the nearest pixel. Beyond the paper: the other
-/// values of color_space, aggregation, direction, lookup, distinctiveness.
+/// values of color_space, aggregation, direction, lookup, distinctiveness, falloff, and a charge:
+///   s = min(C_l, C_r) (exp(-x) - charge),   x = beta ||I_l - I_r||, or its square (gaussian)
+/// so that covering what is less alike than the charge, background mostly, costs.
 ///
-/// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
+/// A hypothesis that no pixel sees in both views costs 0, without a charge the worst cost there is.
 ///
 /// With the aggregation `sum` the cost is a sum of squares, up to a constant of the frame: every
 /// pixel of the left tile, covered or not, has the residual sqrt(C - s), where s is 0 unless both
-/// views see its surface. So a silhouette that does not reach a distinctive pixel is felt at that
-/// pixel. With `both` directions each pixel of either tile has the residual sqrt((C - s) / 2).
+/// views see its surface (and negative where the charge is more than the similarity). So a
+/// silhouette that does not reach a distinctive pixel is felt at that pixel. With `both` directions
+/// each pixel of either tile has the residual sqrt((C - s) / 2).
 class StereoColor : public Objective, public ResidualTerm {
  public:
   using Params = stereo_color::Params;

@@ -21,7 +21,7 @@ struct ColorTerm {
   using Texel = PackedFeatures;
 
   const PackedFeatures* features[2];  ///< per view, device memory
-  float beta;                         ///< per kUnit of colour
+  scalar::Likeness<float> likeness;   ///< beta per kUnit of colour
   float tolerance;
   Direction direction;
   Aggregation aggregation;
@@ -58,7 +58,7 @@ struct ColorTerm {
   }
 
  private:
-  using Sample = scalar::ColorSample<float>;  // colours in kUnit: beta is, too
+  using Sample = scalar::ColorSample<float>;  // colours in kUnit: beta is per kUnit
 
   __device__ __forceinline__ static float residual(const Texel& here, float consistency) {
     return scalar::color_residual(cuda::exact_high_half(here.channel_2_weight) * kUnit, consistency,
@@ -69,10 +69,10 @@ struct ColorTerm {
   __device__ __forceinline__ float consistency(const Texel& here, const There& there,
                                                const cuda::StereoPixel& p) const {
     if constexpr (kBilinear) {
-      return scalar::color_consistency(sample(here), blended(there, p), beta);
+      return scalar::color_consistency(sample(here), blended(there, p), likeness);
     } else {
       // Only differences of colours count, so that both may keep what biased() adds.
-      return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), beta);
+      return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), likeness);
     }
   }
 
