@@ -14,6 +14,11 @@ namespace hypotrack::plausible_motion {
 namespace {
 
 constexpr double kOff = 1e6 * kDegree;  // so wide that the term costs next to nothing
+const PlausibleMotionParams kNothing{.motion_sigma = kOff,
+                                     .coupling_sigma = kOff,
+                                     .curl_sigma = kOff,
+                                     .abduction_sigma = kOff,
+                                     .thumb_sigma = kOff};
 
 std::shared_ptr<const Model> make_model(const std::string& yaml) {
   PluginLoader plugins;
@@ -45,7 +50,7 @@ class PlausibleMotionTest : public testing::Test {
   Eigen::VectorXd start_ = scene_.rest_state();
 };
 
-TEST_F(PlausibleMotionTest, OfNoMotionAndCoupledFingersIsNothing) {
+TEST_F(PlausibleMotionTest, OfNoMotionCoupledFingersAndARelaxedThumbIsNothing) {
   for (const char* hand : {"right.", "left."}) {
     for (const char* finger : {"index", "middle", "ring", "little"}) {
       const std::string name = std::string(hand) + finger;
@@ -53,13 +58,18 @@ TEST_F(PlausibleMotionTest, OfNoMotionAndCoupledFingersIsNothing) {
       angle(start_, name + "_flexion_2") = 0.6;
       angle(start_, name + "_flexion_3") = 0.4;
     }
+    const std::string thumb = std::string(hand) + "thumb";
+    angle(start_, thumb + "_abduction") = 30 * kDegree;
+    angle(start_, thumb + "_flexion_1") = 5 * kDegree;
+    angle(start_, thumb + "_flexion_2") = 12 * kDegree;
+    angle(start_, thumb + "_flexion_3") = 10 * kDegree;
   }
   EXPECT_NEAR(cost({}, start_), 0, 1e-12);
 }
 
 TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
-  const PlausibleMotionParams params{
-      .motion_sigma = 0.2, .coupling_sigma = kOff, .curl_sigma = kOff};
+  PlausibleMotionParams params = kNothing;
+  params.motion_sigma = 0.2;
   Eigen::VectorXd state = start_;
   angle(state, "right.index_flexion_1") += 0.2;
   EXPECT_NEAR(cost(params, state), 1, 1e-6);
@@ -78,8 +88,9 @@ TEST_F(PlausibleMotionTest, LeavesPositionsAndRotationsFree) {
 }
 
 TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
-  const PlausibleMotionParams params{
-      .motion_sigma = kOff, .coupling_sigma = 0.1, .coupling = 0.5, .curl_sigma = kOff};
+  PlausibleMotionParams params = kNothing;
+  params.coupling_sigma = 0.1;
+  params.coupling = 0.5;
   Eigen::VectorXd state = start_;
   for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
     if (scene_.parameters()[i].kind == ParameterKind::angle)
@@ -96,8 +107,9 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsUncoupledBySigma) {
 }
 
 TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsCurledBySigmaMoreThanItsKnuckle) {
-  const PlausibleMotionParams params{
-      .motion_sigma = kOff, .coupling_sigma = kOff, .curl_sigma = 0.2, .curl = 1.5};
+  PlausibleMotionParams params = kNothing;
+  params.curl_sigma = 0.2;
+  params.curl = 1.5;
   Eigen::VectorXd state = start_;
   for (std::size_t i = 0; i < scene_.parameters().size(); ++i) {
     if (scene_.parameters()[i].kind == ParameterKind::angle)
@@ -112,6 +124,38 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsCurledBySigmaMoreThanIts
   EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
 }
 
+TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatStraysSidewaysBySigma) {
+  PlausibleMotionParams params = kNothing;
+  params.abduction_sigma = 0.1;
+  const double straight = cost(params, start_);
+  Eigen::VectorXd state = start_;
+  angle(state, "right.little_abduction") = -0.1;
+  angle(state, "left.index_abduction") = 0.1;
+  EXPECT_NEAR(cost(params, state) - straight, 2, 1e-6);
+  angle(state, "right.thumb_abduction") = 0.7;
+  EXPECT_NEAR(cost(params, state) - straight, 2, 1e-6) << "a thumb's is its own";
+}
+
+TEST_F(PlausibleMotionTest, CostsOneForEveryJointOfAThumbThatIsOffARelaxedOneBySigma) {
+  PlausibleMotionParams params = kNothing;
+  params.thumb_sigma = 0.2;
+  Eigen::VectorXd state = start_;
+  for (const char* hand : {"right.", "left."}) {
+    const std::string thumb = std::string(hand) + "thumb";
+    angle(state, thumb + "_abduction") = 30 * kDegree;
+    angle(state, thumb + "_flexion_1") = 5 * kDegree;
+    angle(state, thumb + "_flexion_2") = 12 * kDegree;
+    angle(state, thumb + "_flexion_3") = 10 * kDegree;
+  }
+  EXPECT_NEAR(cost(params, state), 0, 1e-6);
+  angle(state, "left.thumb_abduction") += 0.2;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6);
+  angle(state, "right.thumb_flexion_3") -= 0.4;
+  EXPECT_NEAR(cost(params, state), 5, 1e-6);
+  angle(state, "right.index_flexion_1") += 0.4;
+  EXPECT_NEAR(cost(params, state), 5, 1e-6) << "fingers are free";
+}
+
 TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
   PlausibleMotion objective({}, scene_);
   Observation observation;
@@ -119,7 +163,7 @@ TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
   objective.prepare(observation);
   const ResidualTerm* term = objective.residual_term();
   ASSERT_NE(term, nullptr);
-  ASSERT_EQ(term->residual_count(), 2 * (20 + 8));
+  ASSERT_EQ(term->residual_count(), 2 * (20 + 8 + 4 + 4));
   std::vector<float> residuals(static_cast<std::size_t>(term->residual_count()));
   std::mt19937_64 random(9);
   for (int round = 0; round < 20; ++round) {
@@ -133,8 +177,8 @@ TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
 }
 
 TEST_F(PlausibleMotionTest, FollowsTheStartOfEveryFrame) {
-  const PlausibleMotionParams params{
-      .motion_sigma = 0.2, .coupling_sigma = kOff, .curl_sigma = kOff};
+  PlausibleMotionParams params = kNothing;
+  params.motion_sigma = 0.2;
   PlausibleMotion objective(params, scene_);
   Observation first, second;
   first.start = start_;

@@ -18,6 +18,18 @@ std::size_t find(const std::vector<Parameter>& parameters, const std::string& na
   return static_cast<std::size_t>(found - parameters.begin());
 }
 
+constexpr std::string_view kThumb = "thumb";
+
+/// Where the joints of a thumb are in a relaxed hand.
+struct ThumbJoint {
+  std::string_view name;
+  double rest;
+};
+constexpr ThumbJoint kRelaxedThumb[]{{"_abduction", 30 * kDegree},
+                                     {"_flexion_1", 5 * kDegree},
+                                     {"_flexion_2", 12 * kDegree},
+                                     {"_flexion_3", 10 * kDegree}};
+
 }  // namespace
 
 void FrameResiduals::couple(const std::vector<Parameter>& parameters, std::string_view joint,
@@ -27,11 +39,24 @@ void FrameResiduals::couple(const std::vector<Parameter>& parameters, std::strin
     if (!name.ends_with(joint)) continue;
     const std::string finger = name.substr(0, name.size() - joint.size());
     const std::size_t other = find(parameters, finger + std::string(before));
-    if (finger.ends_with("thumb") || other == parameters.size()) continue;
+    if (finger.ends_with(kThumb) || other == parameters.size()) continue;
     LinearResidual coupled = residual(i, sigma);
     coupled.index[1] = static_cast<std::int32_t>(other);
     coupled.factor[1] = -share / sigma;
     residuals_.push_back(coupled);
+  }
+}
+
+void FrameResiduals::hold(const std::vector<Parameter>& parameters, bool of_thumb,
+                          std::string_view joint, double rest, double sigma) {
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    std::string_view name = parameters[i].name;
+    if (parameters[i].kind != ParameterKind::angle || !name.ends_with(joint)) continue;
+    name.remove_suffix(joint.size());
+    if (name.ends_with(kThumb) != of_thumb) continue;
+    LinearResidual held = residual(i, sigma);
+    held.offset = rest / sigma;
+    residuals_.push_back(held);
   }
 }
 
@@ -44,6 +69,10 @@ FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene&
   angles_ = residuals_.size();
   couple(parameters, "_flexion_3", "_flexion_2", params.coupling, params.coupling_sigma);
   couple(parameters, "_flexion_2", "_flexion_1", params.curl, params.curl_sigma);
+  hold(parameters, false, "_abduction", 0, params.abduction_sigma);
+  for (const ThumbJoint& joint : kRelaxedThumb) {
+    hold(parameters, true, joint.name, joint.rest, params.thumb_sigma);
+  }
 }
 
 MotionTerm FrameResiduals::at(const Eigen::VectorXd& start) {

@@ -10,6 +10,8 @@ struct PlausibleMotionParams {
   double coupling = 2.0 / 3.0;
   double curl_sigma = 30 * kDegree;
   double curl = 1;
+  double abduction_sigma = 8 * kDegree;
+  double thumb_sigma = 20 * kDegree;
   void visit(ParamVisitor& v) {
     v("motion_sigma_deg", motion_sigma,
       {.help = "how far a joint turns from one frame to the next: there it costs 1",
@@ -36,6 +38,19 @@ struct PlausibleMotionParams {
        .to_si = kDegree});
     v("curl", curl,
       {.help = "flexion of a finger's middle joint for that of its knuckle", .min = 0, .max = 4});
+    v("abduction_sigma_deg", abduction_sigma,
+      {.help = "how far a finger strays sideways: there it costs 1",
+       .min = 0.01,
+       .max = 1e6,
+       .unit = "deg",
+       .to_si = kDegree});
+    v("thumb_sigma_deg", thumb_sigma,
+      {.help = "how far a joint of a thumb strays from where it is in a relaxed hand: there it "
+               "costs 1",
+       .min = 0.01,
+       .max = 1e6,
+       .unit = "deg",
+       .to_si = kDegree});
   }
 };
 
