@@ -66,6 +66,18 @@ TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithEveryFalloffAndCharge) {
   }
 }
 
+TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithABetaThatFollowsThePictures) {
+  const Scene hand = test::hand_scene();
+  Observation frame = test::colored(test::rectified_pair(hand, 256));
+  Params params;
+  params.beta_by_difference = 0.8;
+  params.beta_min = 1;
+  for (const double difference : {0.0, 0.2, 0.4}) {
+    frame.color_difference = difference;
+    test::expect_like_the_cpu(hand, frame, stereo_color(params));
+  }
+}
+
 TEST_F(StereoColorOnDevice, ScoresAsTheCpuInEveryColorSpace) {
   for (const auto space : {ColorSpace::lab, ColorSpace::hsv, ColorSpace::gray}) {
     Params params;

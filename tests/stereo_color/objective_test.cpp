@@ -89,6 +89,7 @@ TEST(StereoColor, DefaultsAreThePapers) {
   EXPECT_EQ(params.beta, 100);
   EXPECT_EQ(params.falloff, Falloff::exponential);
   EXPECT_EQ(params.charge, 0);
+  EXPECT_EQ(params.beta_by_difference, 0);
   EXPECT_DOUBLE_EQ(params.r, 0.003);
   EXPECT_EQ(params.color_space, ColorSpace::rgb);
   EXPECT_EQ(params.aggregation, Aggregation::sum);
@@ -116,6 +117,42 @@ TEST(StereoColor, ParametersAreReadInTheUnitsOfTheirKeys) {
   EXPECT_EQ(p.direction, Direction::both);
   EXPECT_EQ(p.lookup, Lookup::bilinear);
   EXPECT_FALSE(p.use_mask);
+}
+
+TEST(StereoColor, BetaFollowsTheDifferenceOfTheViewsWithinItsBounds) {
+  RandomPair pair({.size = 64});
+  const auto cost = [&](double difference, const Params& params) {
+    pair.observation.color_difference = difference;
+    StereoColor objective(params);
+    objective.prepare(pair.observation);
+    return objective.cost(pair.hypothesis());
+  };
+  const auto fixed = [&](double beta) {
+    Params params;
+    params.beta = beta;
+    return cost(0.01, params);
+  };
+  Params params;
+  params.beta = 20;
+  params.beta_by_difference = 0.8;
+  EXPECT_EQ(cost(0, params), fixed(20));  // not known
+  EXPECT_EQ(cost(0.1, params), fixed(40));
+  EXPECT_EQ(cost(0.001, params), fixed(120));
+  // 80, up to half a step of a tenth
+  EXPECT_GT(cost(0.01, params), fixed(80 / 1.05));
+  EXPECT_LT(cost(0.01, params), fixed(80 * 1.05));
+}
+
+TEST(StereoColor, BoundsOfBetaInTheWrongOrderAreRefused) {
+  Params params;
+  params.beta_min = 50;
+  params.beta_max = 30;
+  try {
+    const StereoColor objective(params);
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("beta_min is 50, above beta_max, 30"));
+  }
 }
 
 TEST(StereoColor, ParametersSurviveTheRunsProtocol) {

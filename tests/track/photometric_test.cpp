@@ -82,6 +82,32 @@ TEST(PhotometricMatch, IsInTheTilesThatObjectivesSee) {
   EXPECT_NEAR(cv::mean(matched.views[1].color(middle))[1], left, 2.5);
 }
 
+TEST(PhotometricMatch, SaysHowFarColoursStayApart) {
+  const Fixture fixture;
+  const auto difference = [&](double gain, double offset, double noise) {
+    Frame frame = fixture.frame(gain, offset);
+    cv::RNG random(5);
+    for (auto& view : frame.views) {
+      cv::Mat3s added(view.color.size());
+      random.fill(added, cv::RNG::NORMAL, 0, noise);
+      cv::add(view.color, added, view.color, cv::noArray(), CV_8UC3);
+    }
+    PhotometricMatch match(fixture.scene, fixture.settings);
+    TilePlan plan = fixture.plan;
+    match.apply(plan);
+    EXPECT_EQ(plan.header.color_difference, 0);
+    fixture.learn(match, frame);
+    match.apply(plan);
+    EXPECT_EQ(fixture.tiles->cut(frame, plan).color_difference, plan.header.color_difference);
+    return plan.header.color_difference;
+  };
+  const double without = difference(1, 0, 0);
+  EXPECT_LT(without, 2.0 / 255);
+  EXPECT_NEAR(difference(1.05, 3, 0), without, 1.0 / 255);
+  EXPECT_GT(difference(1, 0, 6), 5.0 / 255);
+  EXPECT_LT(difference(1, 0, 6), 20.0 / 255);
+}
+
 TEST(PhotometricMatch, ToleratesAPoseThatIsAFewMillimetresOff) {
   const Fixture fixture;
   const Frame frame = fixture.frame(0.87, 0);
@@ -136,6 +162,7 @@ TEST(PhotometricMatch, OffLeavesColoursAlone) {
   TilePlan plan = fixture.plan;
   match.apply(plan);
   EXPECT_TRUE(keeps_colors(plan.cuts[1].colors));
+  EXPECT_EQ(plan.header.color_difference, 0);
 }
 
 TEST(PhotometricMatch, HasNothingToDoWithOneView) {

@@ -42,6 +42,10 @@ struct Observation {
   /// Two views whose cameras share rotation, fx, fy and cy: a point has the same y in both, and
   /// x_left - x_right is a constant plus fx * baseline / z.
   bool rectified = false;
+  /// Median distance of the colours that the first two views showed of the same surface, at the
+  /// solutions of recent frames and after what `photometric` does: noise, mostly. The Euclidean
+  /// norm of red, green and blue in 0..1; 0: not known.
+  double color_difference = 0;
 };
 
 }  // namespace hypotrack

@@ -140,4 +140,19 @@ std::optional<ColorMap> fit_color_map(const ColorSamples& samples) {
   return map;
 }
 
+double median_difference(const ColorSamples& samples, const ColorMap& map) {
+  std::vector<float> squares(samples.size());
+  if (squares.empty()) return 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t n = 0; n < squares.size(); ++n) {
+      const float mapped = map.gain[i] * samples.other[i][n] + map.offset[i];
+      const float difference = samples.first[i][n] - mapped;
+      squares[n] += difference * difference;
+    }
+  }
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return std::sqrt(double{*middle}) / 255;
+}
+
 }  // namespace hypotrack

@@ -17,4 +17,8 @@ namespace hypotrack {
 /// fifth of their brightness around the map, or if no camera pair would differ that much.
 HYPOTRACK_API std::optional<ColorMap> fit_color_map(const ColorSamples& samples);
 
+/// Median distance of the samples once the other view's are mapped: the Euclidean norm of colours
+/// in 0..1; 0 without samples.
+HYPOTRACK_API double median_difference(const ColorSamples& samples, const ColorMap& map);
+
 }  // namespace hypotrack

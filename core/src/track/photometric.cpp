@@ -28,15 +28,17 @@ void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const T
   views_.resize(plan.cuts.size() - 1);
   sampler_.draw(plan.header, state);
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    const auto found = fit_color_map(sampler_.take(frame, tiles.resamplers(), i + 1));
-    if (found) update(views_[i], *found);
+    const ColorSamples samples = sampler_.take(frame, tiles.resamplers(), i + 1);
+    const auto found = fit_color_map(samples);
+    if (found) update(views_[i], *found, median_difference(samples, *found));
   }
 }
 
-void PhotometricMatch::update(Learned& learned, const ColorMap& found) const {
+void PhotometricMatch::update(Learned& learned, const ColorMap& found, double difference) const {
   ++learned.frames;
   const float rate =
       std::max(static_cast<float>(settings_.rate), 1.0f / static_cast<float>(learned.frames));
+  learned.difference += double{rate} * (difference - learned.difference);
   const float largest = learned.frames <= kSettled ? 255 : static_cast<float>(settings_.max_change);
   for (int i = 0; i < 3; ++i) {
     float& gain = learned.map.gain[i];
@@ -56,6 +58,7 @@ bool PhotometricMatch::knows() const {
 
 void PhotometricMatch::apply(TilePlan& plan) const {
   for (std::size_t i = 0; i < views_.size(); ++i) plan.cuts[i + 1].colors = views_[i].map;
+  if (!views_.empty()) plan.header.color_difference = views_[0].difference;
 }
 
 }  // namespace hypotrack

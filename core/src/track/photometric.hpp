@@ -44,16 +44,17 @@ class HYPOTRACK_API PhotometricMatch {
 
   /// Whether anything has been learned.
   bool knows() const;
-  /// Puts the maps into the plan of a frame.
+  /// Puts the maps, and by how much the first two views still differ, into the plan of a frame.
   void apply(TilePlan& plan) const;
 
  private:
   /// One view's map and the number of frames that it was learned from.
   struct Learned {
     ColorMap map;
+    double difference = 0;  ///< Observation::color_difference
     int frames = 0;
   };
-  void update(Learned& learned, const ColorMap& found) const;
+  void update(Learned& learned, const ColorMap& found, double difference) const;
 
   PhotometricSettings settings_;
   ColorSampler sampler_;

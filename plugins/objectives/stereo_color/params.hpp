@@ -22,6 +22,13 @@ struct Params : Settings {
       {.help = "how fast similarity falls with colour distance (colours in 0..1)",
        .min = 0,
        .max = 1e4});
+    v("beta_by_difference", beta_by_difference,
+      {.help = "if not 0, beta is this over the median colour difference of the two views at the "
+               "last solutions, once photometric.match has found that",
+       .min = 0,
+       .max = 100});
+    v("beta_min", beta_min, {.help = "least beta by difference", .min = 0, .max = 1e4});
+    v("beta_max", beta_max, {.help = "greatest beta by difference", .min = 0, .max = 1e4});
     v("falloff", falloff,
       {.help = "similarity at a colour distance d: the paper's exp(-beta d), or exp(-(beta d)^2), "
                "which keeps colours alike that differ by no more than noise"});

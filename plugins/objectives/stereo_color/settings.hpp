@@ -12,6 +12,9 @@ enum class Lookup { nearest, bilinear };
 /// The values of Params, for code that must not see Eigen.
 struct Settings {
   double beta = 100;
+  double beta_by_difference = 0;
+  double beta_min = 40;
+  double beta_max = 120;
   Falloff falloff = Falloff::exponential;
   double charge = 0;
   double w_t = 0.1;

@@ -1,13 +1,16 @@
 #include "stereo_color.hpp"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <array>
 #include <cstddef>
 
 #include "aggregation-inl.hpp"
+#include "beta.hpp"
 #include "checks.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/error.hpp"
 #include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
 #include "slopes.hpp"
@@ -39,10 +42,16 @@ std::span<const std::string_view> enum_names(Lookup) {
   return kNames;
 }
 
-StereoColor::StereoColor(const Params& params) : params_(params) {}
+StereoColor::StereoColor(const Params& params) : params_(params), of_frame_(params) {
+  if (params.beta_min > params.beta_max)
+    throw ConfigError(fmt::format(
+        "stereo_color: beta_min is {}, above beta_max, {}; swap them or widen the range",
+        params.beta_min, params.beta_max));
+}
 
 void StereoColor::prepare(const Observation& observation) {
   check(observation);
+  of_frame_.beta = beta_of(params_, observation);
   tbb::parallel_for(std::size_t{0}, std::size_t{2}, [&](std::size_t i) {
     features_[i] = make_features(observation.views[i], params_);
     maps_[i] = stereo_map(observation, static_cast<int>(i), static_cast<int>(1 - i));
@@ -63,7 +72,7 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
   for (std::size_t i = 0; i < 2; ++i) {
     if (!uses(i)) continue;
     sum += score(measure({features_[i], hypothesis.views[i]},
-                         {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], params_));
+                         {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], of_frame_));
   }
   return cost_of(sum);
 }
@@ -106,7 +115,7 @@ double StereoColor::cost_and_residuals(const RenderedHypothesis& hypothesis,
     const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
     const Similarity similarity = stereo_color::write_residuals(
         {features_[i], hypothesis.views[i]}, {features_[1 - i], hypothesis.views[1 - i]}, maps_[i],
-        params_, share(), uncovered_[i], residuals.first(size));
+        of_frame_, share(), uncovered_[i], residuals.first(size));
     sum += score(similarity);
     residuals = residuals.subspan(size);
   }
@@ -126,7 +135,7 @@ void StereoColor::write_slopes(const RenderedHypothesis& hypothesis, std::size_t
   const auto here = static_cast<std::size_t>(pixel_views()[i]);
   stereo_color::write_slopes({features_[here], hypothesis.views[here]},
                              {features_[1 - here], hypothesis.views[1 - here]}, maps_[here],
-                             params_, share(), uncovered_[here], residuals, slopes);
+                             of_frame_, share(), uncovered_[here], residuals, slopes);
 }
 
 double StereoColor::score(const Similarity& similarity) const {

@@ -32,7 +32,8 @@ namespace hypotrack::stereo_color {
 /// with the medians); the right view is read at the nearest pixel. Beyond the paper: the other
 /// values of color_space, aggregation, direction, lookup, distinctiveness, falloff, and a charge:
 ///   s = min(C_l, C_r) (exp(-x) - charge),   x = beta ||I_l - I_r||, or its square (gaussian)
-/// so that covering what is less alike than the charge, background mostly, costs.
+/// so that covering what is less alike than the charge, background mostly, costs; and a beta that
+/// follows the noise of the pictures (beta.hpp).
 ///
 /// A hypothesis that no pixel sees in both views costs 0, without a charge the worst cost there is.
 ///
@@ -75,6 +76,7 @@ class StereoColor : public Objective, public ResidualTerm {
   float share() const;                  ///< of each of the directions that are
 
   Params params_;
+  Params of_frame_;  // with the frame's beta
   std::array<Features, 2> features_;
   std::array<StereoMap, 2> maps_;               // from each view into the other
   std::array<PixelPlane<float>, 2> uncovered_;  // residuals where nothing is covered
