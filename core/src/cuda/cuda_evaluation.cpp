@@ -37,7 +37,8 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     if (!cutter_) {
       cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
     }
-    frame_.prepare(cutter_->cut(frame, plan, stream()), plan.header);
+    const WorkEnds work = work_of(tiles.posed(plan.header.start));
+    frame_.prepare(cutter_->cut(frame, plan, stream(), work));
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {

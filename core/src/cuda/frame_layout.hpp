@@ -1,5 +1,6 @@
 #pragma once
 
+#include "cuda/surface_rows.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/observation.hpp"
 
@@ -7,6 +8,6 @@ namespace hypotrack::cuda {
 
 /// The cameras of an observation as kernels see them. Throws DeviceError on more than kMaxViews
 /// views.
-FrameLayout frame_layout(const Observation& observation);
+FrameLayout frame_layout(const Observation& observation, const WorkEnds& work = even_work());
 
 }  // namespace hypotrack::cuda

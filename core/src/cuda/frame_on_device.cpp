@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "cuda/frame_layout.hpp"
 #include "cuda/reserve_batch.hpp"
 #include "cuda/transfer.hpp"
 #include "evaluate/term_residuals.hpp"
@@ -11,7 +10,7 @@ namespace hypotrack::cuda {
 
 FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                              const EvaluateSettings& settings)
-    : device_(settings.device), scene_(scene), terms_(terms), layout_(1), staging_(1) {
+    : device_(settings.device), scene_(scene), terms_(terms) {
   for (const ObjectiveTerm& term : terms_) objectives_.push_back(term.objective->on_device());
 }
 
@@ -23,16 +22,11 @@ void FrameOnDevice::finish() {
 }
 
 void FrameOnDevice::prepare(const Observation& observation) {
-  prepare(upload_.upload(observation, stream()), observation);
+  prepare(upload_.upload(observation, stream()));
 }
 
-void FrameOnDevice::prepare(DeviceObservation tiles, const Observation& header) {
-  *staging_.data() = frame_layout(header);
-  to_device(layout_, staging_, 1, stream());
-  observation_ = tiles;
-  observation_.header = &header;
-  observation_.frame = layout_.data();
-  observation_.pair = staging_.data()->pair != 0;
+void FrameOnDevice::prepare(const DeviceObservation& observation) {
+  observation_ = observation;
   for (const auto& objective : objectives_) objective->prepare(observation_, stream());
 }
 

@@ -33,8 +33,8 @@ class FrameOnDevice {
 
   /// Takes a frame in whose tiles the CPU cut; finish() comes first.
   void prepare(const Observation& observation);
-  /// The same for tiles that are on the GPU already; `header` has the rest of the frame.
-  void prepare(DeviceObservation tiles, const Observation& header);
+  /// The same for tiles that are on the GPU already.
+  void prepare(const DeviceObservation& observation);
 
   /// Makes room for batches of `count` hypotheses. Throws DeviceError, saying how many there is
   /// room for, if there is too little memory.
@@ -71,8 +71,6 @@ class FrameOnDevice {
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
   TileUpload upload_;
   DeviceObservation observation_;
-  DeviceBuffer<FrameLayout> layout_;
-  PinnedBuffer<FrameLayout> staging_;
 };
 
 }  // namespace hypotrack::cuda

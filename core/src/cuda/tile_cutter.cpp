@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "cuda/frame_layout.hpp"
 #include "cuda/image_upload.hpp"
 #include "cuda/tile_kernels.hpp"
 #include "cuda/view_cut.hpp"
@@ -41,6 +42,7 @@ struct TileCutter::Impl {
   std::vector<Resampler> cameras;
   DeviceLimits limits;
   std::array<Buffers, kMaxViews> views;
+  DeviceBuffer<FrameLayout> layout;
 };
 
 void TileCutter::Impl::make_room(Buffers& buffers, const View& view, const TileCamera& tile,
@@ -86,10 +88,16 @@ TileCutter::TileCutter(std::span<const Resampler> cameras, const DeviceLimits& l
 
 TileCutter::~TileCutter() = default;
 
-DeviceObservation TileCutter::cut(const Frame& frame, const TilePlan& plan, Stream stream) {
+DeviceObservation TileCutter::cut(const Frame& frame, const TilePlan& plan, Stream stream,
+                                  const WorkEnds& work) {
   DeviceObservation observation;
   observation.header = &plan.header;
   FrameCut cuts{};
+  cuts.layout = frame_layout(plan.header, work);
+  impl_->layout.reserve(1);
+  cuts.layout_to = impl_->layout.data();
+  observation.frame = cuts.layout_to;
+  observation.pair = cuts.layout.pair != 0;
   cuts.view_count = static_cast<std::int32_t>(plan.cuts.size());
   for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
     const View& view = frame.views[i];

@@ -3,6 +3,7 @@
 #include <memory>
 #include <span>
 
+#include "cuda/surface_rows.hpp"
 #include "geometry/tiles.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/export.hpp"
@@ -25,8 +26,9 @@ class HYPOTRACK_API TileCutter {
   /// tiles of it. Does not wait, and allocates nothing after the first frame. Everything that the
   /// call before enqueued must have been waited for. Images in page-locked memory are copied from
   /// where they are: they must stay until the work is done. The tiles lie where they did as long as
-  /// the tile size stays the same. Sets the observation's tiles and header (the plan's) only.
-  DeviceObservation cut(const Frame& frame, const TilePlan& plan, Stream stream);
+  /// the tile size stays the same. The observation's header is the plan's.
+  DeviceObservation cut(const Frame& frame, const TilePlan& plan, Stream stream,
+                        const WorkEnds& work = even_work());
 
  private:
   struct Impl;

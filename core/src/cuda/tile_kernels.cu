@@ -21,6 +21,15 @@ __global__ void __launch_bounds__(kSide* kSide) reduce(const __grid_constant__ F
   cut.means[row * columns + column] = block_mean(cut, column, row);
 }
 
+/// With a whole thread block.
+__device__ void write_layout(const FrameCut& frame, int thread) {
+  static_assert(sizeof(FrameLayout) % sizeof(uint4) == 0);
+  constexpr int kPieces = sizeof(FrameLayout) / sizeof(uint4);
+  const auto* from = reinterpret_cast<const uint4*>(&frame.layout);
+  auto* to = reinterpret_cast<uint4*>(frame.layout_to);
+  for (int i = thread; i < kPieces; i += kSide * kSide) to[i] = from[i];
+}
+
 __global__ void __launch_bounds__(kSide* kSide) resample(const __grid_constant__ FrameCut frame) {
   __shared__ ImagePoint points[kWide][kWide];
   const ViewCut& cut = frame.views[blockIdx.z];
@@ -33,6 +42,7 @@ __global__ void __launch_bounds__(kSide* kSide) resample(const __grid_constant__
     points[i / kWide][i % kWide] =
         image_point(cut.lens, cut.camera, static_cast<float>(column), static_cast<float>(row));
   }
+  if (blockIdx.x == 0 && blockIdx.y == 0 && blockIdx.z == 0) write_layout(frame, thread);
   __syncthreads();
   wait_for_previous();
   let_next_start();

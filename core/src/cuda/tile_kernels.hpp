@@ -5,13 +5,17 @@
 
 namespace hypotrack::cuda {
 
-/// What tiles of a frame are cut from; pointers are to device memory.
+/// What tiles of a frame are cut from, and what else goes up with it; pointers are to device
+/// memory.
 struct FrameCut {
   ViewCut views[kMaxViews];
   std::int32_t view_count;
+  FrameLayout layout;
+  FrameLayout* layout_to;  ///< where the kernels of a search look for it
 };
 
-/// Enqueues the cutting of all tiles. Everything that the cuts point to was enqueued before.
+/// Enqueues the cutting of all tiles, and the layout. Everything that the cuts point to was
+/// enqueued before.
 void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream stream);
 
 }  // namespace hypotrack::cuda

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cuda/frame_layout.hpp"
 #include "cuda/transfer.hpp"
 
 namespace hypotrack::cuda {
@@ -23,6 +24,11 @@ std::uint32_t packed(const TileView& view, int y, int x) {
 
 DeviceObservation TileUpload::upload(const Observation& observation, Stream stream) {
   DeviceObservation out;
+  *layout_staging_.data() = frame_layout(observation);
+  to_device(layout_, layout_staging_, 1, stream);
+  out.header = &observation;
+  out.frame = layout_.data();
+  out.pair = layout_staging_.data()->pair != 0;
   for (std::size_t i = 0; i < std::min<std::size_t>(observation.views.size(), kMaxViews); ++i) {
     const TileView& from = observation.views[i];
     View& to = views_[i];

@@ -21,6 +21,8 @@ class TileUpload {
     PinnedBuffer<float> depth_staging;
   };
   std::array<View, kMaxViews> views_;
+  DeviceBuffer<FrameLayout> layout_{1};
+  PinnedBuffer<FrameLayout> layout_staging_{1};
 };
 
 }  // namespace hypotrack::cuda

@@ -119,9 +119,13 @@ TileMaker::~TileMaker() = default;
 bool TileMaker::rectifies() const { return impl_->rig.rectified; }
 std::span<const Resampler> TileMaker::resamplers() const { return impl_->resamplers; }
 
-double TileMaker::visible_share(const Eigen::VectorXd& state) const {
+const PosedScene& TileMaker::posed(const Eigen::VectorXd& state) const {
   impl_->posed.pose(state);
-  return impl_->visible.of(impl_->posed);
+  return impl_->posed;
+}
+
+double TileMaker::visible_share(const Eigen::VectorXd& state) const {
+  return impl_->visible.of(posed(state));
 }
 
 TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {

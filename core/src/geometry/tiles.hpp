@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/posed_scene.hpp"
 #include "geometry/resample.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
@@ -55,6 +56,9 @@ class HYPOTRACK_API TileMaker {
   /// cut. Not from several threads at once. This and plan() cost next to nothing for the state that
   /// either was asked about last.
   double visible_share(const Eigen::VectorXd& state) const;
+
+  /// The scene posed in `state`. The same cost, and the same thread.
+  const PosedScene& posed(const Eigen::VectorXd& state) const;
 
   /// Where the tiles around the scene posed in `state` lie; looks at no pixel. Throws DataError if
   /// the frame's views do not match the cameras in number or size, or if the posed scene lies at or

@@ -7,35 +7,15 @@
 /// Bands of rows: how the blocks of a hypothesis share its pixels and join their sums.
 namespace hypotrack::cuda {
 
-/// With one warp: the rows of `rows.first` <= y < `rows.last` that are of `band`, in all lanes.
-/// Every row is of one band, and all bands have about the same share of the vertices and of the
-/// rows. `bins` are kHistogramBins counts of vertices, each of 2^shift rows.
-__device__ __forceinline__ Span find_band(const int2* bins, int shift, int vertex_count, Span rows,
-                                          int band, int bands) {
-  static_assert(kHistogramBins == 2 * kWarp, "a lane looks at two bins");
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int2 vertices = bins[lane];
-  // A row weighs as much as its vertices and half of an average row.
-  const float height = exact_float(max(rows.last - rows.first, 1));
-  const int of_a_row = 1 + round_down(exact_float(vertex_count) * reciprocal(height));
-  const auto end_of_bin = [&](int bin) {
-    return min(max((bin + 1) << shift, rows.first), rows.last);
-  };
-  const int begin = end_of_bin(2 * lane - 1), end0 = end_of_bin(2 * lane);
-  const int end1 = end_of_bin(2 * lane + 1);
-  const int first = 2 * vertices.x + of_a_row * (end0 - begin);
-  const int second = 2 * vertices.y + of_a_row * (end1 - end0);
-  const int at1 = warp_scan(first + second), at0 = at1 - second;
-  // A band ends with the last bin that ends within its share of the weight, far below 2^31.
-  const int total = __shfl_sync(kWholeWarp, at1, kWarp - 1);
-  const auto end_of_bands = [&](int count) {
-    const int bound = total * count;
-    const unsigned within0 = __ballot_sync(kWholeWarp, at0 * bands <= bound);
-    const unsigned within1 = __ballot_sync(kWholeWarp, at1 * bands <= bound);
-    return end_of_bin(__popc(within0) + __popc(within1) - 1);
-  };
-  return {band == 0 ? rows.first : end_of_bands(band),
-          band + 1 == bands ? rows.last : end_of_bands(band + 1)};
+/// The first of `rows` that is not of the bands before `band`: every row is of one band, and all
+/// bands have about the same share of the work (FrameLayout::work_ends).
+__device__ __forceinline__ int band_begin(const float* work_ends, const Span& rows, int band,
+                                          int bands) {
+  const int at = small_quotient(band * kMostBands, bands), rest = band * kMostBands - at * bands;
+  const float before = work_ends[at], after = work_ends[min(at + 1, kMostBands)];
+  const float share =
+      fmaf(exact_float(rest) * reciprocal(exact_float(bands)), after - before, before);
+  return rows.first + round_nearest(exact_float(rows.last - rows.first) * share);
 }
 
 /// A slot in device memory through which one block hands a number to another. While there is none

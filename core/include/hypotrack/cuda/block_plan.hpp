@@ -29,8 +29,7 @@ struct BlockPlan {
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
   PoseMemory pose{};
-  int vertices = 0, vertex_stride = 0, list = 0, sums = 0, histogram = 0, depth = 0;
-  int histogram_shift = 0;  ///< 2^this rows are a bin of the histogram
+  int vertices = 0, vertex_stride = 0, list = 0, sums = 0, depth = 0;
   int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
   /// Whether the scene's vertices and triangles are copied to shared memory while the kernel before
   /// still runs.
@@ -59,8 +58,6 @@ struct PlanRequest {
 };
 
 inline constexpr int kMostThreads = 1024;
-inline constexpr int kMostBands = 16;
-inline constexpr int kHistogramBins = 64;
 
 /// Room for a row of every z-buffer: with less a plan cannot work.
 inline int least_depth_capacity(int tiles_at_once, int tile_width) {
@@ -107,8 +104,6 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
-  p.histogram = bands > 1 ? take(kHistogramBins) : 0;
-  while (r.tile_height > kHistogramBins << p.histogram_shift) ++p.histogram_shift;
   const int floats = bytes / 4;
   // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
   const int least_depth =

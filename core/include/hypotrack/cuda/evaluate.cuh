@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cuda_pipeline_primitives.h>
-
 #include "hypotrack/cuda/bands.cuh"
 #include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/fill.cuh"
 #include "hypotrack/cuda/pose.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/cuda/score.cuh"
+#include "hypotrack/cuda/staging.cuh"
 #include "hypotrack/cuda/texels.cuh"
 
 /// The kernel behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
@@ -22,7 +21,7 @@ struct alignas(16) BlockState {
   FrameLayout frame;
   Bounds bounds;
   VisibleList::Counts counts;
-  Span band;
+  StagingBarrier staged;
 };
 
 /// Everything that the threads of one block know about their hypothesis.
@@ -48,24 +47,21 @@ class BlockEvaluation {
 
   /// What does not depend on the search: runs while the kernel before is still at work.
   __device__ void begin(const FrameLayout* frame) {
-    stage(frame, 1, &state_.frame);
-    stage(scene_.models, scene_.model_count, shared_floats() + plan_.pose.model_layouts);
-    stage(scene_.bones, scene_.bone_count, shared_floats() + plan_.pose.bone_layouts);
-    stage(scene_.turns, scene_.turn_count, shared_floats() + plan_.pose.turns);
+    Staging staging(state_.staged);
+    staging.add(frame, 1, &state_.frame);
+    staging.add(scene_.models, scene_.model_count, shared_floats() + plan_.pose.model_layouts);
+    staging.add(scene_.bones, scene_.bone_count, shared_floats() + plan_.pose.bone_layouts);
+    staging.add(scene_.turns, scene_.turn_count, shared_floats() + plan_.pose.turns);
     if (plan_.stages_vertices) {
-      stage(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
+      staging.add(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
     }
     if (plan_.stages_triangles) {
-      stage(scene_.triangles, scene_.triangle_count, shared_floats() + plan_.staged_triangles);
+      staging.add(scene_.triangles, scene_.triangle_count,
+                  shared_floats() + plan_.staged_triangles);
     }
-    __pipeline_commit();
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
-    if (plan_.bands > 1) {
-      clear(Floats<true>{nullptr, plan_.histogram}, kHistogramBins);
-    }
     reset();
-    __pipeline_wait_prior(0);
-    __syncthreads();
+    staging.finish();
   }
 
   __device__ void run() {
@@ -88,17 +84,6 @@ class BlockEvaluation {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
-  /// Begins to copy from the L2 cache; both memories go on to a multiple of 16 bytes.
-  template <class T>
-  __device__ static void stage(const T* from, int count, void* to) {
-    const auto* pieces = reinterpret_cast<const uint4*>(from);
-    auto* out = reinterpret_cast<uint4*>(to);
-    const int size = (static_cast<int>(sizeof(T)) * count + 15) / 16;
-    for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-      __pipeline_memcpy_async(out + i, pieces + i, sizeof(uint4));
-    }
-  }
-
   __device__ void reset() {
     if (threadIdx.x > 0) return;
     state_.bounds.reset();
@@ -115,8 +100,8 @@ class BlockEvaluation {
     ThreadBounds own;
     const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
                                       plan_.staged_vertices, plan_.stages_vertices};
-    auto* histogram = reinterpret_cast<int*>(shared_floats() + plan_.histogram);
     const int threads = static_cast<int>(blockDim.x);
+#pragma unroll 1
     for (int round = 0; round * threads < scene_.vertex_count; ++round) {
       // Vertices with many bones come first: who has one of them gets a light one next.
       const int thread = static_cast<int>(threadIdx.x);
@@ -126,12 +111,7 @@ class BlockEvaluation {
       const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
       vertices_.put(i, {v.x, v.y, valid ? v.z : 0.0f, x2});
-      if (!valid) continue;
-      own.add(v.x, x2, v.y);
-      if (plan_.bands > 1) {
-        const int row = min(max(round_nearest(v.y), 0), camera.height - 1);
-        atomicAdd(histogram + (row >> plan_.histogram_shift), 1);
-      }
+      if (valid) own.add(v.x, x2, v.y);
     }
     own.join(state_.bounds, kPair);
     __syncthreads();
@@ -149,6 +129,7 @@ class BlockEvaluation {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, &state_.counts};
     const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
+#pragma unroll 1
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
       if (first > 0) __syncthreads();
@@ -171,18 +152,16 @@ class BlockEvaluation {
     }
   }
 
-  /// The rows of y0 <= y < y1 that this block is responsible for, so that every band has the same
-  /// share of vertices and of rows; for the whole block.
-  __device__ Span band(int y0, int y1) {
-    if (plan_.bands == 1) return {y0, y1};
-    if (threadIdx.x < kWarp) {
-      const auto* bins = reinterpret_cast<const int2*>(shared_floats() + plan_.histogram);
-      const Span band =
-          find_band(bins, plan_.histogram_shift, scene_.vertex_count, {y0, y1}, band_, plan_.bands);
-      if (threadIdx.x == 0) state_.band = band;
-    }
-    __syncthreads();
-    return state_.band;
+  /// The rows of y0 <= y < y1 that this block is responsible for.
+  __device__ Span band(int y0, int y1) const {
+    const Span rows = {y0, y1};
+    if (plan_.bands == 1) return rows;
+    const auto begin = [&](int band) {
+      // Where pixels that are not covered are visited, too, all rows take about the same.
+      if (Term::kVisitsUncovered) return y0 + small_quotient(band * (y1 - y0), plan_.bands);
+      return band_begin(frame_.work_ends, rows, band, plan_.bands);
+    };
+    return {begin(band_), begin(band_ + 1)};
   }
 
   /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
@@ -191,6 +170,7 @@ class BlockEvaluation {
   __device__ void in_pieces(const Span& rows, int width, const Piece& piece) {
     if (width <= 0) return;
     const int most = small_quotient(plan_.depth_capacity - 4, width);
+#pragma unroll 1
     for (int y0 = rows.first; y0 < rows.last; y0 += most) {
       if (y0 > rows.first || depth_is_used_) {
         __syncthreads();

@@ -10,6 +10,7 @@
 namespace hypotrack::cuda {
 
 inline constexpr int kMaxViews = 4;
+inline constexpr int kMostBands = 16;  ///< thread blocks that share a hypothesis
 
 /// A rotation of a bone by a parameter (BoneRotation).
 struct Turn {
@@ -77,6 +78,9 @@ struct alignas(16) FrameLayout {
   ViewLayout views[kMaxViews];
   float first_from_world[12];
   StereoMap maps[2];  ///< from view 0 into 1 and from 1 into 0; undefined for a single view
+  /// How work on a hypothesis is spread over the rows that it covers, from the share 0 to the share
+  /// 1 of them: how far down k / kMostBands of it end. Rises from 0 to 1.
+  float work_ends[kMostBands + 1];
 };
 
 /// Pixels of a tile, row by row without gaps: blue | green << 8 | red << 16 | flags << 24.

@@ -116,18 +116,21 @@ class SharedTexels {
                                        const Columns (&columns)[2], const Box& rows, int to) const {
     static_assert(kSize == 4 || kSize == 8 || kSize == 16, "a Texel has 4, 8 or 16 bytes");
     const int in_first = columns[0].count / kTexels, in_row = pitch_ / kTexels;
-    const int count = in_row * rows.height();
+    const Texel* const left = term.texels(0) + columns[0].first;
+    const Texel* const right = term.texels(1) + columns[1].first - kTexels * in_first;
     auto* out = reinterpret_cast<Texel*>(shared_floats()) + to;
-    for (int i = static_cast<int>(threadIdx.x); i < count; i += static_cast<int>(blockDim.x)) {
-      const int row = small_quotient(i, in_row), place = i - row * in_row;
-      // Not by an index: arrays would have to lie in memory.
-      const bool second = place >= in_first;
-      const int x = second ? columns[1].first + kTexels * (place - in_first)
-                           : columns[0].first + kTexels * place;
-      const int width = second ? widths[1] : widths[0];
-      const Texel* from =
-          (second ? term.texels(1) : term.texels(0)) + ((rows.y0 + row) * width + x);
-      __pipeline_memcpy_async(out + kTexels * i, from, kTexels * kSize);
+    const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    const int warps = static_cast<int>(blockDim.x) / kWarp;
+#pragma unroll 1
+    for (int row = static_cast<int>(threadIdx.x) / kWarp; row < rows.height(); row += warps) {
+      const Texel* const in_left = left + (rows.y0 + row) * widths[0];
+      const Texel* const in_right = right + (rows.y0 + row) * widths[1];
+#pragma unroll 1
+      for (int place = lane; place < in_row; place += kWarp) {
+        const Texel* from = place < in_first ? in_left : in_right;
+        __pipeline_memcpy_async(out + kTexels * (row * in_row + place), from + kTexels * place,
+                                kTexels * kSize);
+      }
     }
   }
 

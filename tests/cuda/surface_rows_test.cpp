@@ -1,0 +1,69 @@
+#include "cuda/surface_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "test_models.hpp"
+
+namespace hypotrack::cuda {
+namespace {
+
+using Box = Eigen::Vector3d;
+
+IdealRig one_camera() {
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 500;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  return make_ideal_rig(std::vector<Camera>{camera});
+}
+
+/// Boxes, `narrow` above `wide`, of 0.1 m height each, 1 m in front of the camera.
+WorkEnds work_of_two_boxes(double narrow, double wide) {
+  const Scene scene(
+      {{"above", std::make_shared<Model>(test::make_test_box(Box(narrow, 0.1, 0.01)))},
+       {"below", std::make_shared<Model>(test::make_test_box(Box(wide, 0.1, 0.01)))}});
+  Eigen::VectorXd state(14);
+  state << 0, -0.05, 1, 1, 0, 0, 0, 0, 0.05, 1, 1, 0, 0, 0;
+  const IdealRig rig = one_camera();
+  PosedScene posed(scene, rig);
+  posed.pose(state);
+  return work_of(posed);
+}
+
+void expect_rises_from_0_to_1(const WorkEnds& ends) {
+  EXPECT_EQ(ends.front(), 0);
+  EXPECT_EQ(ends.back(), 1);
+  EXPECT_TRUE(std::ranges::is_sorted(ends));
+}
+
+TEST(WorkOfRows, IsSpreadEvenlyOverTheRowsOfTwoEqualHalves) {
+  const WorkEnds ends = work_of_two_boxes(0.1, 0.1);
+  expect_rises_from_0_to_1(ends);
+  EXPECT_NEAR(ends[kMostBands / 2], 0.5, 0.05);
+}
+
+TEST(WorkOfRows, IsWhereTheSurfaceIs) {
+  const WorkEnds ends = work_of_two_boxes(0.02, 0.1);
+  expect_rises_from_0_to_1(ends);
+  // A sixth of the surface and half of all rows lie above the middle: 1/6 + 1/4 of 3/2.
+  EXPECT_GT(ends[kMostBands / 2], 0.6);
+  EXPECT_LT(ends[kMostBands / 4], 0.5);
+}
+
+TEST(WorkOfRows, IsSpreadEvenlyWhereNothingIsInFrontOfTheCamera) {
+  const Scene scene({{"box", std::make_shared<Model>(test::make_test_box(Box(0.1, 0.1, 0.1)))}});
+  Eigen::VectorXd state(7);
+  state << 0, 0, -1, 1, 0, 0, 0;
+  const IdealRig rig = one_camera();
+  PosedScene posed(scene, rig);
+  posed.pose(state);
+  EXPECT_EQ(work_of(posed), even_work());
+  expect_rises_from_0_to_1(even_work());
+}
+
+}  // namespace
+}  // namespace hypotrack::cuda
