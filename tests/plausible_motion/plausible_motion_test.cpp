@@ -17,6 +17,7 @@ constexpr double kOff = 1e6 * kDegree;  // so wide that the term costs next to n
 const PlausibleMotionParams kNothing{.motion_sigma = kOff,
                                      .coupling_sigma = kOff,
                                      .curl_sigma = kOff,
+                                     .neighbor_sigma = kOff,
                                      .abduction_sigma = kOff,
                                      .thumb_sigma = kOff};
 
@@ -124,6 +125,23 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatIsCurledBySigmaMoreThanIts
   EXPECT_NEAR(cost(params, state), 1, 1e-6) << "a thumb's joints are free";
 }
 
+TEST_F(PlausibleMotionTest, CostsOneForEveryTwoFingersSideBySideWhoseKnucklesDifferBySigma) {
+  PlausibleMotionParams params = kNothing;
+  params.neighbor_sigma = 0.2;
+  Eigen::VectorXd state = start_;
+  for (const char* finger : {"index", "middle", "ring", "little"}) {
+    angle(state, std::string("right.") + finger + "_flexion_1") = 0.5;
+    angle(state, std::string("left.") + finger + "_flexion_1") = 0.9;
+  }
+  EXPECT_NEAR(cost(params, state), 0, 1e-6);
+  angle(state, "left.little_flexion_1") = 0.7;
+  EXPECT_NEAR(cost(params, state), 1, 1e-6);
+  angle(state, "right.middle_flexion_1") = 0.1;
+  EXPECT_NEAR(cost(params, state), 1 + 4 + 4, 1e-6) << "it has two neighbours";
+  angle(state, "right.thumb_flexion_1") += 0.4;
+  EXPECT_NEAR(cost(params, state), 9, 1e-6) << "the thumb is nobody's";
+}
+
 TEST_F(PlausibleMotionTest, CostsOneForEveryFingerThatStraysSidewaysBySigma) {
   PlausibleMotionParams params = kNothing;
   params.abduction_sigma = 0.1;
@@ -163,7 +181,7 @@ TEST_F(PlausibleMotionTest, IsTheSumOfItsSquaredResiduals) {
   objective.prepare(observation);
   const ResidualTerm* term = objective.residual_term();
   ASSERT_NE(term, nullptr);
-  ASSERT_EQ(term->residual_count(), 2 * (20 + 8 + 4 + 4));
+  ASSERT_EQ(term->residual_count(), 2 * (20 + 8 + 3 + 4 + 4));
   std::vector<float> residuals(static_cast<std::size_t>(term->residual_count()));
   std::mt19937_64 random(9);
   for (int round = 0; round < 20; ++round) {

@@ -19,6 +19,7 @@ std::size_t find(const std::vector<Parameter>& parameters, const std::string& na
 }
 
 constexpr std::string_view kThumb = "thumb";
+constexpr std::string_view kSideBySide[] = {"index", "middle", "ring", "little"};
 
 /// Where the joints of a thumb are in a relaxed hand.
 struct ThumbJoint {
@@ -47,6 +48,24 @@ void FrameResiduals::couple(const std::vector<Parameter>& parameters, std::strin
   }
 }
 
+void FrameResiduals::couple_neighbors(const Scene& scene, double sigma) {
+  const std::vector<Parameter>& parameters = scene.parameters();
+  for (const Scene::Item& item : scene.items()) {
+    std::size_t before = parameters.size();
+    for (const std::string_view finger : kSideBySide) {
+      const std::size_t here =
+          find(parameters, item.name + "." + std::string(finger) + "_flexion_1");
+      if (before < parameters.size() && here < parameters.size()) {
+        LinearResidual coupled = residual(here, sigma);
+        coupled.index[1] = static_cast<std::int32_t>(before);
+        coupled.factor[1] = -1 / sigma;
+        residuals_.push_back(coupled);
+      }
+      before = here;
+    }
+  }
+}
+
 void FrameResiduals::hold(const std::vector<Parameter>& parameters, bool of_thumb,
                           std::string_view joint, double rest, double sigma) {
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -69,6 +88,7 @@ FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene&
   angles_ = residuals_.size();
   couple(parameters, "_flexion_3", "_flexion_2", params.coupling, params.coupling_sigma);
   couple(parameters, "_flexion_2", "_flexion_1", params.curl, params.curl_sigma);
+  couple_neighbors(scene, params.neighbor_sigma);
   hold(parameters, false, "_abduction", 0, params.abduction_sigma);
   for (const ThumbJoint& joint : kRelaxedThumb) {
     hold(parameters, true, joint.name, joint.rest, params.thumb_sigma);

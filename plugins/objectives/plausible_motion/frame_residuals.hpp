@@ -11,7 +11,7 @@
 namespace hypotrack::plausible_motion {
 
 /// Makes the residuals of a scene's frames: first one per joint angle, then two per finger, one per
-/// abduction and one per joint of a thumb.
+/// pair of fingers side by side, one per abduction and one per joint of a thumb.
 class FrameResiduals {
  public:
   /// A model has fingers where it has parameters NAME_flexion_1, _2 and _3; the joints of a thumb
@@ -26,6 +26,8 @@ class FrameResiduals {
   /// A residual for every finger with both joints: one flexion should be a share of the other.
   void couple(const std::vector<Parameter>& parameters, std::string_view joint,
               std::string_view before, double share, double sigma);
+  /// A residual for every two fingers side by side: their knuckles should be bent alike.
+  void couple_neighbors(const Scene& scene, double sigma);
   /// A residual for every parameter of a finger or thumb of that name: it should be at `rest`.
   void hold(const std::vector<Parameter>& parameters, bool of_thumb, std::string_view joint,
             double rest, double sigma);

@@ -10,6 +10,7 @@ struct PlausibleMotionParams {
   double coupling = 2.0 / 3.0;
   double curl_sigma = 30 * kDegree;
   double curl = 1;
+  double neighbor_sigma = 40 * kDegree;
   double abduction_sigma = 8 * kDegree;
   double thumb_sigma = 20 * kDegree;
   void visit(ParamVisitor& v) {
@@ -38,6 +39,13 @@ struct PlausibleMotionParams {
        .to_si = kDegree});
     v("curl", curl,
       {.help = "flexion of a finger's middle joint for that of its knuckle", .min = 0, .max = 4});
+    v("neighbor_sigma_deg", neighbor_sigma,
+      {.help = "how far a finger's knuckle is bent otherwise than that of the finger beside it: "
+               "there it costs 1",
+       .min = 0.01,
+       .max = 1e6,
+       .unit = "deg",
+       .to_si = kDegree});
     v("abduction_sigma_deg", abduction_sigma,
       {.help = "how far a finger strays sideways: there it costs 1",
        .min = 0.01,
