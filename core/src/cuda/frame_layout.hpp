@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cuda/surface_rows.hpp"
+#include "cuda/work_of_rows.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/observation.hpp"
 

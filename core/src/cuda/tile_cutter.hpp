@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "cuda/surface_rows.hpp"
+#include "cuda/work_of_rows.hpp"
 #include "geometry/tiles.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/export.hpp"

@@ -15,15 +15,16 @@ namespace hypotrack::plausible_motion {
 /// + sum over fingers but the thumb  ((last - coupling * middle) / coupling_sigma)^2
 ///                                   + ((middle - curl * knuckle) / curl_sigma)^2
 ///                                   + (abduction / abduction_sigma)^2
+/// + sum over fingers side by side   ((knuckle - that of the other) / neighbor_sigma)^2
 /// + sum over joints of thumbs       ((angle - that of a relaxed hand) / thumb_sigma)^2
 ///
 /// where a_start is the angle where the frame's search starts (Observation::start), and `knuckle`,
 /// `middle` and `last` are the flexions of a finger's joints: tendons bend the last by about two
 /// thirds of the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based human
-/// grasping, 1991), and a finger that opens or closes mostly does so as a whole. A
-/// thumb, and a finger sideways, are pulled to where they mostly are. Positions and rotations of
-/// models are free. What is squared are its residuals. Looks at the state only and costs no
-/// rendering.
+/// grasping, 1991), and a finger that opens or closes mostly does so as a whole and with those
+/// beside it. A thumb, and a finger sideways, are pulled to where they mostly are. Positions and
+/// rotations of models are free. What is squared are its residuals. Looks at the state only and
+/// costs no rendering.
 class PlausibleMotion : public Objective, public ResidualTerm {
  public:
   using Params = PlausibleMotionParams;

@@ -13,8 +13,7 @@ double beta_of(const Settings& settings, const Observation& observation) {
   constexpr double kStep = 1.1;
   const double wanted = settings.beta_by_difference / observation.color_difference;
   const double stepped = std::pow(kStep, std::round(std::log(wanted) / std::log(kStep)));
-  // Not std::clamp: it wants bounds in order.
-  return std::max(settings.beta_min, std::min(stepped, settings.beta_max));
+  return std::clamp(stepped, settings.beta_min, settings.beta_max);  // StereoColor checks them
 }
 
 double beta_of(const Settings& settings, const cuda::DeviceObservation& observation) {

@@ -144,7 +144,7 @@ struct Staged {
 /// after it.
 template <bool kShared>
 __device__ __forceinline__ void clear(const Floats<kShared>& floats, int count) {
-#pragma unroll 1
+#pragma unroll 1  // the code is long enough
   for (int i = 4 * static_cast<int>(threadIdx.x); i < count;
        i += 4 * static_cast<int>(blockDim.x)) {
     *reinterpret_cast<float4*>(floats.at(i)) = {0.0f, 0.0f, 0.0f, 0.0f};

@@ -101,7 +101,7 @@ class BlockEvaluation {
     const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
                                       plan_.staged_vertices, plan_.stages_vertices};
     const int threads = static_cast<int>(blockDim.x);
-#pragma unroll 1
+#pragma unroll 1  // the code is long enough
     for (int round = 0; round * threads < scene_.vertex_count; ++round) {
       // Vertices with many bones come first: who has one of them gets a light one next.
       const int thread = static_cast<int>(threadIdx.x);
@@ -129,7 +129,7 @@ class BlockEvaluation {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, &state_.counts};
     const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
-#pragma unroll 1
+#pragma unroll 1                                    // the code is long enough
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
       if (first > 0) __syncthreads();
@@ -170,7 +170,7 @@ class BlockEvaluation {
   __device__ void in_pieces(const Span& rows, int width, const Piece& piece) {
     if (width <= 0) return;
     const int most = small_quotient(plan_.depth_capacity - 4, width);
-#pragma unroll 1
+#pragma unroll 1  // the code is long enough
     for (int y0 = rows.first; y0 < rows.last; y0 += most) {
       if (y0 > rows.first || depth_is_used_) {
         __syncthreads();

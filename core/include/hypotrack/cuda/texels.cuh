@@ -121,11 +121,11 @@ class SharedTexels {
     auto* out = reinterpret_cast<Texel*>(shared_floats()) + to;
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int warps = static_cast<int>(blockDim.x) / kWarp;
-#pragma unroll 1
+#pragma unroll 1  // the code is long enough
     for (int row = static_cast<int>(threadIdx.x) / kWarp; row < rows.height(); row += warps) {
       const Texel* const in_left = left + (rows.y0 + row) * widths[0];
       const Texel* const in_right = right + (rows.y0 + row) * widths[1];
-#pragma unroll 1
+#pragma unroll 1  // the code is long enough
       for (int place = lane; place < in_row; place += kWarp) {
         const Texel* from = place < in_first ? in_left : in_right;
         __pipeline_memcpy_async(out + kTexels * (row * in_row + place), from + kTexels * place,

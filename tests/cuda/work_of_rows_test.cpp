@@ -1,4 +1,4 @@
-#include "cuda/surface_rows.hpp"
+#include "cuda/work_of_rows.hpp"
 
 #include <gtest/gtest.h>
 
