@@ -124,19 +124,20 @@ __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
                                      int y0, int y1, int count, const VisibleList& list) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   const float low = exact_float(y0), high = exact_float(y1 - 1);
+  const Heights<kShared> heights(vertices);
+#pragma unroll 1  // the code is long enough
   for (int base = static_cast<int>(threadIdx.x) - lane; base < count;
        base += static_cast<int>(blockDim.x)) {
     const bool there = base + lane < count;
     const PackedTriangle triangle = there ? triangles[base + lane] : 0;
     const TriangleCorners corners(triangle);
     // Most triangles lie in other rows, which their heights alone tell.
-    const float ay = vertices.y(corners.a), by = vertices.y(corners.b), cy = vertices.y(corners.c);
-    const Span rows = {round_up(fmaxf(least(ay, by, cy), low)),
-                       round_down(fminf(most(ay, by, cy), high))};
-    const bool in_rows = there && rows.first <= rows.last;
-    if (!__any_sync(kWholeWarp, in_rows)) continue;
+    const float ay = heights(corners.a), by = heights(corners.b), cy = heights(corners.c);
+    const float top = least(ay, by, cy), bottom = most(ay, by, cy);
+    if (!__any_sync(kWholeWarp, there && bottom >= low && top <= high)) continue;
+    const Span rows = {round_up(fmaxf(top, low)), round_down(fminf(bottom, high))};
     Coverage left = Coverage::none, right = Coverage::none;
-    if (in_rows) {
+    if (there && rows.first <= rows.last) {
       const CornerRecords records = load_corners(corners, vertices);
       const Corners t = records.in_view(false);
       if (least(t.aw, t.bw, t.cw) > 0.0f) {

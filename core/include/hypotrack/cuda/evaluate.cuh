@@ -16,12 +16,21 @@ namespace hypotrack::cuda {
 /// What a Term's pixels are taken from.
 enum class Walk { views, pair, general_pair };
 
+/// Rows of a pair that a block draws and scores at a time.
+struct PairPiece {
+  Box left, right;  ///< with the same rows
+  int last_row;     ///< of all pieces, and one more
+  int right_depth;  ///< the right view's z-buffer, in shared memory
+  TexelLayout texels;
+};
+
 /// What the threads of one block share besides its plan's memory.
 struct alignas(16) BlockState {
   FrameLayout frame;
   Bounds bounds;
   VisibleList::Counts counts;
   StagingBarrier staged;
+  PairPiece piece;
 };
 
 /// Everything that the threads of one block know about their hypothesis.
@@ -204,37 +213,64 @@ class BlockEvaluation {
 
   __device__ void pair() {
     place_vertices<true>(0);
-    const ViewLayout* v = frame_.views;
-    Box left = state_.bounds.box(v[0].width, v[0].height);
-    Box right = state_.bounds.box2(v[1].width, v[1].height);
-    if (left.empty()) left.x0 = left.x1 = 0;  // it may lie anywhere
-    if (right.empty()) right.x0 = right.x1 = 0;
-    if (Term::kVisitsUncovered) {
-      left = {0, 0, v[0].width, v[0].height};
-      right = {0, 0, v[1].width, v[1].height};
-    }
-    in_pieces(band(left.y0, left.y1), left.width() + right.width(), [&](int y0, int y1) {
-      const int right_at = plan_.depth + left.width() * (y1 - y0);
-      const DepthBuffer<true> first{{nullptr, plan_.depth}, {left.x0, y0, left.x1, y1}};
-      const DepthBuffer<true> second{{nullptr, right_at}, {right.x0, y0, right.x1, y1}};
-      const SharedTexels<Term> texels = fetch(first.box, second.box);
-      draw<true>(0, first, second);
-      texels.wait();
-      __syncthreads();
-      if (texels.fetched) {
-        score_both<true>(first, second, texels);
-      } else {
-        score_both<true>(first, second, TileTexels<Term>(term_, frame_));
+    bool first = true;
+#pragma unroll 1  // the code is long enough
+    do {
+      if (!first) {
+        __syncthreads();
+        clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
       }
-    });
+      // One thread finds what is the same for all: the others would only take turns at it.
+      if (threadIdx.x == 0) next_piece(first);
+      first = false;
+      __syncthreads();
+      const PairPiece& piece = state_.piece;
+      if (piece.left.empty() && piece.right.empty()) break;
+      const DepthBuffer<true> left{{nullptr, plan_.depth}, piece.left};
+      const DepthBuffer<true> right{{nullptr, piece.right_depth}, piece.right};
+      using Texels = SharedTexels<Term>;
+      Texels::fetch(term_, frame_, piece.texels);
+      draw<true>(0, left, right);
+      Texels::wait();
+      __syncthreads();
+      if (piece.texels.fits) {
+        score_both<true>(left, right, Texels(piece.texels));
+      } else {
+        score_both<true>(left, right, TileTexels<Term>(term_, frame_));
+      }
+    } while (state_.piece.left.y1 < state_.piece.last_row);
   }
 
-  /// Begins to fetch the texels of the boxes behind the z-buffers, if there is room.
-  __device__ SharedTexels<Term> fetch(const Box& left, const Box& right) {
-    const int depth = (left.width() + right.width()) * left.height();
-    SharedTexels<Term> texels;
-    texels.fetch(term_, frame_, left, right, plan_.depth + padded(depth), plan_.end);
-    return texels;
+  /// The first or the next piece of the block's band, by one thread.
+  __device__ void next_piece(bool first) {
+    PairPiece& piece = state_.piece;
+    Box left = piece.left, right = piece.right;
+    int y0 = left.y1, last_row = piece.last_row;
+    if (first) {
+      const ViewLayout* v = frame_.views;
+      left = state_.bounds.box(v[0].width, v[0].height);
+      right = state_.bounds.box2(v[1].width, v[1].height);
+      if (left.empty()) left.x0 = left.x1 = 0;  // it may lie anywhere
+      if (right.empty()) right.x0 = right.x1 = 0;
+      if (Term::kVisitsUncovered) {
+        left = {0, 0, v[0].width, v[0].height};
+        right = {0, 0, v[1].width, v[1].height};
+      }
+      const Span rows = band(left.y0, left.y1);
+      y0 = rows.first;
+      last_row = rows.last;
+    }
+    const int width = left.width() + right.width();
+    const int most = width > 0 ? small_quotient(plan_.depth_capacity - 4, width) : 0;
+    left.y0 = right.y0 = y0;
+    left.y1 = right.y1 = width > 0 ? min(y0 + most, last_row) : y0;
+    const int rows = left.height();
+    piece.left = left;
+    piece.right = right;
+    piece.last_row = width > 0 ? last_row : y0;
+    piece.right_depth = plan_.depth + left.width() * rows;
+    piece.texels = SharedTexels<Term>::lay_out(frame_, left, right,
+                                               plan_.depth + padded(width * rows), plan_.end);
   }
 
   template <bool kRectified, bool kSharedDepth, class Texels>

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <type_traits>
+
 #include "hypotrack/cuda/cull.cuh"
 
 /// Drawing into z-buffers by a block of threads.
@@ -45,6 +48,41 @@ __device__ __forceinline__ void put(const Floats<kShared>& depth, int index, flo
   // Positive floats order as integers.
   atomicMax(reinterpret_cast<int*>(depth.at(index)), __float_as_int(w));
 }
+
+/// Writes pixels side by side.
+template <bool kShared>
+class PixelWriter {
+ public:
+  __device__ __forceinline__ PixelWriter(const Floats<kShared>& depth, int index)
+      : next_(address(depth.at(index))) {}
+
+  /// Writes the next one, if `is_there`.
+  __device__ __forceinline__ void put(float w, bool is_there) {
+    if constexpr (kShared) {
+      // Without a branch, and without finding the block's shared memory anew for every pixel.
+      asm volatile(
+          "{\n"
+          ".reg .pred there;\n"
+          "setp.ne.s32 there, %2, 0;\n"
+          "@there red.relaxed.cta.shared::cta.max.s32 [%0], %1;\n"
+          "}" ::"r"(next_),
+          "r"(__float_as_int(w)), "r"(static_cast<int>(is_there))
+          : "memory");
+    } else if (is_there) {
+      atomicMax(reinterpret_cast<int*>(next_), __float_as_int(w));
+    }
+    next_ += sizeof(float);
+  }
+
+ private:
+  using Address = std::conditional_t<kShared, unsigned, std::uintptr_t>;
+  __device__ __forceinline__ static Address address(float* pixel) {
+    if constexpr (kShared) return static_cast<unsigned>(__cvta_generic_to_shared(pixel));
+    return reinterpret_cast<std::uintptr_t>(pixel);
+  }
+
+  Address next_;
+};
 
 /// Where an edge crosses the rows: x = at + dy * per_row, in pixels from Planes::x0. What lies
 /// within is to the right of it, or to the left.
@@ -161,11 +199,9 @@ class FewRows {
     const int count = is_row ? last - first + 1 : 0, most = warp_max(count);
     float w = fmaf(exact_float(first), w_dx_, fmaf(dy, w_dy_, w_));
     const int pitch = unpack(kSecond, 1) != 0 ? pitches.y : pitches.x;
-    int i = pixel_ + row * pitch + first;
+    PixelWriter<kShared> pixels(depth, pixel_ + row * pitch + first);
 #pragma unroll 1  // one or two pixels in most rows
-    for (int k = 0; k < most; ++k, ++i, w += w_dx_) {
-      if (k < count) put(depth, i, w);
-    }
+    for (int k = 0; k < most; ++k, w += w_dx_) pixels.put(w, k < count);
   }
 
   Crossing a_, b_, c_;
@@ -216,15 +252,19 @@ struct Filler {
   /// What threads draw.
   __device__ __forceinline__ void few(const VisibleList& list) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    const int warp = static_cast<int>(threadIdx.x) / kWarp;
+    const int warps = static_cast<int>(blockDim.x) / kWarp;
     const int count = list.counts->few;
-    for (int base = static_cast<int>(threadIdx.x) - lane; base < count;
-         base += static_cast<int>(blockDim.x)) {
+    // Where there are too few for all lanes, all warps take as many.
+    const int at_once = min(small_quotient(count + warps - 1, warps), kWarp);
+    for (int base = warp * at_once; base < count; base += warps * at_once) {
+      const bool is_there = lane < at_once && base + lane < count;
       const int place = min(base + lane, count - 1);
       const int entry = list.entries[place];
       prepared(entry, [&](const Planes& p, Span rows, const auto& buffer) {
         const int pixel = buffer.inverse_depth.offset + buffer.index(p.x0, rows.first);
         FewRows few_rows(p, rows, pixel, kPair && entry % 2 != 0);
-        few_rows.draw(place == base + lane, {left.box.width(), right.box.width()},
+        few_rows.draw(is_there, {left.box.width(), right.box.width()},
                       Floats<kSharedDepth>{left.inverse_depth.global, 0});
       });
     }

@@ -6,22 +6,24 @@
 /// A Term's pixels, looked at by a block of threads.
 namespace hypotrack::cuda {
 
-/// Calls pixel(x, y) for the pixels of a box, each by one thread of the block.
+/// Calls pixel(x, y) for the pixels of a box, each by one thread of the block: side by side in a
+/// row and on in the next one, so that all threads have something to do.
 template <class Pixel>
 __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixel) {
-  const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  const int warp = static_cast<int>(threadIdx.x) / kWarp;
-  const int warps = static_cast<int>(blockDim.x) / kWarp;
-  // Warps stand side by side over a row, as many as it takes, in groups one above the other.
-  const int side_by_side = min((box.width() + kWarp - 1) / kWarp, warps);
-  if (side_by_side <= 0) return;
-  const int groups = small_quotient(warps, side_by_side);
-  const int group = small_quotient(warp, side_by_side);
-  if (group >= groups) return;
-  const int first = box.x0 + (warp - group * side_by_side) * kWarp + lane;
-  for (int y = box.y0 + group; y < box.y1; y += groups) {
-    for (int x = first; x < box.x1; x += side_by_side * kWarp) {
-      pixel(x, y);
+  const int width = box.width();
+  if (width <= 0) return;
+  const int thread = static_cast<int>(threadIdx.x), threads = static_cast<int>(blockDim.x);
+  const int row = small_quotient(thread, width), rows_on = small_quotient(threads, width);
+  const int columns_on = threads - rows_on * width;
+  int x = box.x0 + thread - row * width, y = box.y0 + row;
+#pragma unroll 1  // the code is long enough
+  while (y < box.y1) {
+    pixel(x, y);
+    x += columns_on;
+    y += rows_on;
+    if (x >= box.x1) {
+      x -= width;
+      ++y;
     }
   }
 }

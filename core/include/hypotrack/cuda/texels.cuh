@@ -57,40 +57,65 @@ class TileTexels {
   int pitch_[2];
 };
 
-/// Texels of a box per view and a column beside it, copied to the block's shared memory.
+/// Which texels of a pair of boxes with the same rows lie where in a block's shared memory: a row
+/// of both views at a time, behind the one before. Places in shared memory count texels.
+struct TexelLayout {
+  bool fits = false;
+  int begin = 0;         ///< of all
+  int pitch = 0;         ///< of a row of both views
+  int y0 = 0, rows = 0;  ///< rows of the tiles
+  int columns[2] = {};   ///< the first of each view
+  int in_left = 0;       ///< columns of the first view
+  int first[2] = {};     ///< where the tiles' pixel (0, 0) would be
+};
+
+/// Texels of a box per view and of a column beside it, copied to the block's shared memory.
 template <class Term>
 class SharedTexels {
  public:
   using Texel = typename TexelOf<Term>::Type;
-  bool fetched = false;
 
-  /// Begins to copy, with the whole block, to shared_floats() from `begin` on, if there is room
-  /// before `end`.
-  __device__ __forceinline__ void fetch(const Term& term, const FrameLayout& frame, const Box& left,
-                                        const Box& right, int begin, int end) {
+  /// How texels of the boxes fit between the offsets `begin` and `end` of shared_floats().
+  __device__ __forceinline__ static TexelLayout lay_out(const FrameLayout& frame, const Box& left,
+                                                        const Box& right, int begin, int end) {
+    TexelLayout layout;
     if constexpr (HasTexels<Term>) {
-      const int widths[2] = {frame.views[0].width, frame.views[1].width};
-      const Columns columns[2] = {Columns(left, widths[0]), Columns(right, widths[1])};
-      const int pitch = columns[0].count + columns[1].count, rows = left.height();
-      const int first = begin * 4 / kSize;
-      fetched = first + pitch * rows <= end * 4 / kSize;
-      if (!fetched) return;
-      pitch_ = pitch;
-      first_[0] = first - left.y0 * pitch - columns[0].first;
-      first_[1] = first - left.y0 * pitch - columns[1].first + columns[0].count;
-      if ((widths[0] | widths[1]) % kInPiece == 0) {
-        copy<kInPiece>(term, widths, columns, left, first);
+      const Columns columns[2] = {Columns(left, frame.views[0].width),
+                                  Columns(right, frame.views[1].width)};
+      layout.y0 = left.y0;
+      layout.rows = left.height();
+      layout.in_left = columns[0].count;
+      layout.pitch = columns[0].count + columns[1].count;
+      layout.begin = begin * 4 / kSize;
+      layout.fits = layout.begin + layout.pitch * layout.rows <= end * 4 / kSize;
+      const int above = layout.begin - left.y0 * layout.pitch;
+      layout.columns[0] = columns[0].first;
+      layout.columns[1] = columns[1].first;
+      layout.first[0] = above - columns[0].first;
+      layout.first[1] = above - columns[1].first + columns[0].count;
+    }
+    return layout;
+  }
+
+  __device__ __forceinline__ explicit SharedTexels(const TexelLayout& layout)
+      : first_{layout.first[0], layout.first[1]}, pitch_(layout.pitch) {}
+
+  /// Begins to copy them with the whole block, if they fit.
+  __device__ __forceinline__ static void fetch(const Term& term, const FrameLayout& frame,
+                                               const TexelLayout& layout) {
+    if constexpr (HasTexels<Term>) {
+      if (!layout.fits) return;
+      if ((frame.views[0].width | frame.views[1].width) % kInPiece == 0) {
+        copy<kInPiece>(term, frame, layout);
       } else {
-        copy<1>(term, widths, columns, left, first);
+        copy<1>(term, frame, layout);
       }
       __pipeline_commit();
     }
   }
   /// Until this thread's copies are there; a barrier must follow.
-  __device__ __forceinline__ void wait() const {
-    if constexpr (HasTexels<Term>) {
-      if (fetched) __pipeline_wait_prior(0);
-    }
+  __device__ __forceinline__ static void wait() {
+    if constexpr (HasTexels<Term>) __pipeline_wait_prior(0);
   }
   template <int kView>
   __device__ __forceinline__ Texel at(int x, int y) const {
@@ -110,32 +135,32 @@ class SharedTexels {
           count(min((box.x1 + kInPiece) / kInPiece * kInPiece, width) - first) {}
   };
 
-  /// A row of both views at a time lies behind the one before.
   template <int kTexels>
-  __device__ __forceinline__ void copy(const Term& term, const int (&widths)[2],
-                                       const Columns (&columns)[2], const Box& rows, int to) const {
+  __device__ __forceinline__ static void copy(const Term& term, const FrameLayout& frame,
+                                              const TexelLayout& layout) {
     static_assert(kSize == 4 || kSize == 8 || kSize == 16, "a Texel has 4, 8 or 16 bytes");
-    const int in_first = columns[0].count / kTexels, in_row = pitch_ / kTexels;
-    const Texel* const left = term.texels(0) + columns[0].first;
-    const Texel* const right = term.texels(1) + columns[1].first - kTexels * in_first;
-    auto* out = reinterpret_cast<Texel*>(shared_floats()) + to;
+    const int in_left = layout.in_left, pitch = layout.pitch, rows = layout.rows;
+    const int widths[2] = {frame.views[0].width, frame.views[1].width};
+    const Texel* const left = term.texels(0) + (layout.y0 * widths[0] + layout.columns[0]);
+    const Texel* const right =
+        term.texels(1) + (layout.y0 * widths[1] + layout.columns[1] - in_left);
+    auto* out = reinterpret_cast<Texel*>(shared_floats()) + layout.begin;
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int warps = static_cast<int>(blockDim.x) / kWarp;
 #pragma unroll 1  // the code is long enough
-    for (int row = static_cast<int>(threadIdx.x) / kWarp; row < rows.height(); row += warps) {
-      const Texel* const in_left = left + (rows.y0 + row) * widths[0];
-      const Texel* const in_right = right + (rows.y0 + row) * widths[1];
+    for (int row = static_cast<int>(threadIdx.x) / kWarp; row < rows; row += warps) {
+      const Texel* const in_left_row = left + row * widths[0];
+      const Texel* const in_right_row = right + row * widths[1];
 #pragma unroll 1  // the code is long enough
-      for (int place = lane; place < in_row; place += kWarp) {
-        const Texel* from = place < in_first ? in_left : in_right;
-        __pipeline_memcpy_async(out + kTexels * (row * in_row + place), from + kTexels * place,
-                                kTexels * kSize);
+      for (int x = kTexels * lane; x < pitch; x += kTexels * kWarp) {
+        __pipeline_memcpy_async(out + row * pitch + x,
+                                (x < in_left ? in_left_row : in_right_row) + x, kTexels * kSize);
       }
     }
   }
 
-  int first_[2] = {0, 0};
-  int pitch_ = 0;
+  int first_[2];
+  int pitch_;
 };
 
 /// A pixel's part of a Term's sums.

@@ -21,13 +21,24 @@ struct Vertices {
   __device__ __forceinline__ float4& operator[](int index) const {
     return *reinterpret_cast<float4*>(records.at(4 * index));
   }
-  __device__ __forceinline__ float y(int index) const {
-    return records[heights < 0 ? 4 * index + 1 : heights + index];
-  }
   __device__ __forceinline__ void put(int index, const float4& record) const {
     (*this)[index] = record;
     if (heights >= 0) records[heights + index] = record.y;
   }
+};
+
+/// The vertices' y, from where it is read fastest.
+template <bool kShared>
+class Heights {
+ public:
+  __device__ __forceinline__ explicit Heights(const Vertices<kShared>& vertices)
+      : first_(vertices.records.at(vertices.heights < 0 ? 1 : vertices.heights)),
+        step_(vertices.heights < 0 ? 4 : 1) {}
+  __device__ __forceinline__ float operator()(int index) const { return first_[step_ * index]; }
+
+ private:
+  const float* first_;
+  int step_;
 };
 
 /// How the second view of a rectified pair sees a projected vertex of the first.
