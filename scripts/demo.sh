@@ -5,7 +5,12 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/setup.sh
 out=${1:-out/demo}
-build release
+# For this machine's GPU alone, if it has one: code for all of them takes many times as long to compile.
+gpu=(-DHYPOTRACK_CUDA=OFF)
+if nvidia-smi -L 2>/dev/null | grep -q '^GPU'; then
+  gpu=(-DHYPOTRACK_CUDA=AUTO -DCMAKE_CUDA_ARCHITECTURES=native)
+fi
+build release "${gpu[@]}"
 hypotrack=build/release/bin/hypotrack
 
 rm -rf "$out/recording"

@@ -24,13 +24,15 @@ install_missing_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# build PRESET: configures and builds with one of CMakePresets.json. ccache is used where it is.
+# build PRESET [OPTION...]: configures, with options for cmake, and builds with one of CMakePresets.json.
+# ccache is used where it is.
 build() {
-  local launcher=()
+  local preset=$1 launcher=()
+  shift
   command -v ccache >/dev/null &&
     launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_CUDA_COMPILER_LAUNCHER=ccache)
-  cmake --preset "$1" "${launcher[@]}"
-  cmake --build --preset "$1"
+  cmake --preset "$preset" "${launcher[@]}" "$@"
+  cmake --build --preset "$preset"
 }
 
 if ! command -v apt-get >/dev/null; then
