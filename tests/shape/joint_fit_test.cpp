@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Frames whose residuals are A pose + B shape - b: the answer is known.
-class Linear final : public JointProblem {
+class Linear : public JointProblem {
  public:
   Linear(int frames, int poses, int shapes, const VectorXd& shape, double noise) : poses_(poses) {
     std::mt19937_64 random(7);
@@ -102,6 +102,37 @@ TEST(JointFit, LeavesOutFramesWithoutACost) {
   Linear one(1, 5, 3, kTrue, 0);
   one.blind = 0;
   EXPECT_THROW(fit_jointly(one, one.start(3), wide_prior(3), 5), DataError);
+}
+
+/// One more frame, which tells nothing about the shape and gets worse wherever its pose goes.
+class WithAStuckFrame final : public Linear {
+ public:
+  using Linear::Linear;
+  std::vector<FrameSystem> systems(const JointTrial& trial) override {
+    std::vector<FrameSystem> systems = Linear::systems(trial);
+    const VectorXd numbers = VectorXd::Ones(systems.front().gradient.size());
+    MatrixXd hessian = numbers.asDiagonal();
+    hessian.bottomRows(trial.shape.size()).setZero();
+    VectorXd gradient = numbers;
+    gradient.tail(trial.shape.size()).setZero();
+    systems.push_back({0, gradient, hessian});
+    return systems;
+  }
+  VectorXd costs(const JointTrial& trial) override {
+    const VectorXd others = Linear::costs(trial);
+    VectorXd costs(others.size() + 1);
+    costs << others, 1e6 * trial.poses.back().norm();
+    return costs;
+  }
+};
+
+TEST(JointFit, AFrameThatIsStuckStopsNoOther) {
+  WithAStuckFrame problem(6, 5, 3, kTrue, 0);
+  JointTrial start = problem.start(3);
+  start.poses.push_back(VectorXd::Zero(5));
+  const JointFit fit = fit_jointly(problem, start, wide_prior(3), 50);
+  EXPECT_TRUE(fit.best.shape.isApprox(kTrue, 1e-3)) << fit.best.shape.transpose();
+  EXPECT_EQ(fit.best.poses.back(), VectorXd::Zero(5));
 }
 
 TEST(JointFit, StopsWhenItIsTold) {

@@ -68,9 +68,9 @@ class Minimizer {
     const JointTrial from = trial_;
     for (; damping_ < kTooDamped; damping_ *= 4) {
       const Step step = solve();
-      if (!accept(moved(from, step, 1))) continue;
+      if (!accept(from, step, 1)) continue;
       double length = 2;
-      while (length <= kLongest && accept(moved(from, step, length))) length *= 2;
+      while (length <= kLongest && accept(from, step, length)) length *= 2;
       damping_ = std::max(1e-3, damping_ / 4);
       return before - cost_;
     }
@@ -87,15 +87,6 @@ class Minimizer {
     for (Index k = 0; k < costs.size(); ++k)
       if (keep_[k]) sum += costs[k];
     return sum;
-  }
-
-  /// Makes it the trial if it is better.
-  bool accept(JointTrial next) {
-    const double cost = total(next, problem_.costs(next));
-    if (!(cost < cost_)) return false;
-    trial_ = std::move(next);
-    cost_ = cost;
-    return true;
   }
 
   /// A step of the shape, and how each pose follows.
@@ -119,14 +110,40 @@ class Minimizer {
     return step;
   }
 
-  JointTrial moved(const JointTrial& from, const Step& step, double length) const {
-    JointTrial next = from;
-    next.shape = (from.shape + length * step.shape).cwiseMax(prior_.lower).cwiseMin(prior_.upper);
-    const VectorXd taken = next.shape - from.shape;  // what the bounds have left of it
-    for (std::size_t k = 0; k < step.frames.size(); ++k)
-      next.poses[k] = problem_.moved(
-          from.poses[k], length * step.frames[k].pose_alone + step.frames[k].pose_by_shape * taken);
+  /// Poses follow the shape and take `length` times their own step.
+  JointTrial moved(const JointTrial& from, const Step& step, const VectorXd& shape,
+                   double length) const {
+    const VectorXd taken = shape - from.shape;
+    JointTrial next{shape, from.poses};
+    for (std::size_t k = 0; k < step.frames.size(); ++k) {
+      const Reduced& frame = step.frames[k];
+      next.poses[k] =
+          problem_.moved(from.poses[k], frame.pose_by_shape * taken + length * frame.pose_alone);
+    }
     return next;
+  }
+
+  /// Makes `length` times the step the trial if that is better. Each frame takes the share of its
+  /// pose's own step that is best for it: one whose step fails stops no other.
+  bool accept(const JointTrial& from, const Step& step, double length) {
+    const VectorXd shape =
+        (from.shape + length * step.shape).cwiseMax(prior_.lower).cwiseMin(prior_.upper);
+    JointTrial next = moved(from, step, shape, length);
+    VectorXd costs = problem_.costs(next);
+    for (const double share : {0.25, 0.0}) {
+      const JointTrial other = moved(from, step, shape, share * length);
+      const VectorXd others = problem_.costs(other);
+      for (Index k = 0; k < costs.size(); ++k) {
+        if (!(others[k] < costs[k])) continue;
+        costs[k] = others[k];
+        next.poses[static_cast<std::size_t>(k)] = other.poses[static_cast<std::size_t>(k)];
+      }
+    }
+    const double cost = total(next, costs);
+    if (!(cost < cost_)) return false;
+    trial_ = std::move(next);
+    cost_ = cost;
+    return true;
   }
 
   JointProblem& problem_;

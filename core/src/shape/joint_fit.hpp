@@ -56,7 +56,8 @@ struct JointFit {
 /// eliminated from the normal equations (Schur complement), so that the step of the shape knows
 /// that the poses will follow. Gradients are taken as they are given, so costs need not be sums of
 /// squares; where Hessians are larger than the curvature (pixels that a silhouette's edge passes
-/// count by the step that moved it), a step that gains is tried at twice its length and so on.
+/// count by the step that moved it), a step that gains is tried at twice its length and so on. Of
+/// its own step each pose takes all, a quarter or nothing, whichever is best for its frame.
 /// Stops after `iterations` steps, when a step gains less than 1e-4 of the cost, or when `stop`
 /// says so. Throws DataError if no frame has a finite cost.
 HYPOTRACK_API JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
