@@ -114,7 +114,7 @@ int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
   progress.stop = [&] { return interrupt.interrupted(); };
   const auto open = [&](const auto& overrides) { return rounds.open(overrides); };
   const ShapeEstimate estimate =
-      estimate_shape(open, settings, options.frames.value_or(0), progress);
+      estimate_shape(open, settings, options.frames.value_or(0), true, progress);
   if (interrupt.interrupted()) {
     fmt::print(stderr, "hypotrack: interrupted; nothing was written\n");
     return kInterruptedExitCode;

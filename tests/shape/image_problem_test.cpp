@@ -22,16 +22,26 @@ std::vector<bool> coverage_of(const DepthTile& tile) {
   return covered;
 }
 
+/// Without the pixels at the edge: those that have a neighbour outside.
+std::vector<bool> eroded(const std::vector<bool>& covered) {
+  std::vector<bool> inner(covered.size(), false);
+  for (std::size_t i = kTile; i + kTile < covered.size(); ++i)
+    inner[i] =
+        covered[i] && covered[i - 1] && covered[i + 1] && covered[i - kTile] && covered[i + kTile];
+  return inner;
+}
+
 /// What the true hand covers, by frame. A covered pixel explains 1 where the hand is and
-/// `elsewhere` where it is not.
+/// `elsewhere` where it is not. With `mixed_edges` those at the edge of the hand are elsewhere.
 class Silhouette final : public Objective, public ResidualTerm {
  public:
-  explicit Silhouette(double elsewhere) : elsewhere_(elsewhere) {}
+  explicit Silhouette(double elsewhere, bool mixed_edges = false)
+      : elsewhere_(elsewhere), mixed_edges_(mixed_edges) {}
 
   void prepare(const Observation& observation) override { frame_ = observation.frame; }
   double cost(const RenderedHypothesis& h) const override {
     const std::vector<bool> covered = coverage_of(h.views[0]);
-    if (learning) targets[frame_] = covered;
+    if (learning) targets[frame_] = mixed_edges_ ? eroded(covered) : covered;
     const std::vector<bool>& target = targets[frame_];
     double cost = 0;
     for (std::size_t i = 0; i < covered.size(); ++i)
@@ -53,7 +63,21 @@ class Silhouette final : public Objective, public ResidualTerm {
 
  private:
   double elsewhere_;
+  bool mixed_edges_;
   int frame_ = 0;
+};
+
+/// Remembers how bright the second view is.
+class Brightness final : public Objective, public ResidualTerm {
+ public:
+  void prepare(const Observation& observation) override {
+    second_view = observation.views[1].color.at<cv::Vec3b>(kTile / 2, kTile / 2)[0];
+  }
+  double cost(const RenderedHypothesis&) const override { return 0; }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return 0; }
+  void write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
+  double second_view = 0;
 };
 
 /// A hand of another shape in four postures before a pair of cameras.
@@ -83,10 +107,10 @@ class ShapeFromImages : public ::testing::Test {
   }
 
   /// The joint fit of neutral hands that begin at the true poses.
-  JointFit fit(double elsewhere, double coverage) {
-    auto silhouette = std::make_shared<Silhouette>(elsewhere);
+  JointFit fit(const std::shared_ptr<Silhouette>& silhouette, double coverage, double edge = 0) {
     parts_.objective = {{.objective = silhouette}};
     parts_.coverage = coverage;
+    parts_.edge = edge;
     learn(*silhouette);
     const ShapeTargets targets(scene_, {}, {});
     ImageProblem problem(scene_, targets, parts_, frames_);
@@ -97,6 +121,10 @@ class ShapeFromImages : public ::testing::Test {
     problem.set_steps(1);
     return fit_jointly(problem, fit.best, prior, 5);
   }
+
+  const Scene scene_ = test::shaped_scene();
+  ImageProblemParts parts_;
+  std::vector<TrackedFrame> frames_;
 
  private:
   void learn(Silhouette& silhouette) {
@@ -110,22 +138,37 @@ class ShapeFromImages : public ::testing::Test {
     }
     silhouette.learning = false;
   }
-  const Scene scene_ = test::shaped_scene();
   const Scene truth_ = test::shaped_scene({1.06, 0.93});
-  ImageProblemParts parts_;
-  std::vector<TrackedFrame> frames_;
 };
 
 TEST_F(ShapeFromImages, IsFoundWithThePoses) {
-  const JointFit found = fit(0, 0.5);
+  const JointFit found = fit(std::make_shared<Silhouette>(0), 0.5);
   EXPECT_NEAR(found.best.shape[0], 1.06, 0.012);
   EXPECT_NEAR(found.best.shape[1], 0.93, 0.025);
 }
 
 TEST_F(ShapeFromImages, GrowsUnlessCoverageIsCharged) {
   constexpr double kAlike = 0.3;  // of what the hand explains the background does as well
-  EXPECT_GT(fit(kAlike, 0).best.shape[0], 1.2);
-  EXPECT_NEAR(fit(kAlike, 0.5).best.shape[0], 1.06, 0.015);
+  EXPECT_GT(fit(std::make_shared<Silhouette>(kAlike), 0).best.shape[0], 1.2);
+  EXPECT_NEAR(fit(std::make_shared<Silhouette>(kAlike), 0.5).best.shape[0], 1.06, 0.015);
+}
+
+TEST_F(ShapeFromImages, IsNotSmallerForPixelsAtEdgesThatMatchNothing) {
+  const auto silhouette = std::make_shared<Silhouette>(0, true);
+  // A pixel across edges along rows and columns, 1 / sqrt(2) across diagonal ones.
+  constexpr double kEroded = 0.9;
+  EXPECT_LT(fit(silhouette, 0.5).best.shape[0], 1.03);
+  EXPECT_NEAR(fit(silhouette, 0.5, kEroded).best.shape[0], 1.06, 0.012);
+}
+
+TEST_F(ShapeFromImages, IsSoughtInColoursThatAreMatched) {
+  const auto brightness = std::make_shared<Brightness>();
+  parts_.objective = {{.objective = brightness}};
+  for (TrackedFrame& f : frames_)
+    f.frame.views[1].color = cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(99));
+  const ShapeTargets targets(scene_, {}, {});
+  const ImageProblem problem(scene_, targets, parts_, frames_);
+  EXPECT_NEAR(brightness->second_view, 90, 1);
 }
 
 }  // namespace

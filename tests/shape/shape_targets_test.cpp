@@ -34,6 +34,23 @@ TEST(ShapeTargets, ReshapeTheirModelsAndNoOthers) {
   EXPECT_EQ(other->dimension(), scene.dimension());
 }
 
+TEST(ShapeTargets, AreThinnerByWhatIsAskedFor) {
+  const Scene scene = two_hands();
+  const ShapeTargets targets(scene, {"right"}, {});
+  const auto as_it_is = targets.reshaped(scene, targets.values());
+  const auto thinner = targets.reshaped(scene, targets.values(), 0.002);
+  const Eigen::Matrix3Xf& full = as_it_is->items()[2].model->data().mesh.vertices;
+  const Eigen::Matrix3Xf& thin = thinner->items()[2].model->data().mesh.vertices;
+  EXPECT_TRUE((full - thin).colwise().norm().isApproxToConstant(0.002f, 1e-3f));
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_LT(thin.row(axis).maxCoeff(), full.row(axis).maxCoeff() - 0.0005f) << axis;
+    EXPECT_GT(thin.row(axis).minCoeff(), full.row(axis).minCoeff() + 0.0005f) << axis;
+  }
+  EXPECT_EQ(thinner->items()[2].model->data().landmarks[1].position,
+            as_it_is->items()[2].model->data().landmarks[1].position);
+  EXPECT_EQ(thinner->items()[0].model, scene.items()[0].model);
+}
+
 TEST(ShapeTargets, RefuseWhatIsNotThere) {
   const Scene scene = two_hands();
   EXPECT_THAT([&] { ShapeTargets(scene, {"box"}, {}); },

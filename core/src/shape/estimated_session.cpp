@@ -24,7 +24,7 @@ EstimatedSession open_estimated(const std::filesystem::path& scene_file,
       [&](const std::vector<std::string>& found) {
         return open(found, std::make_unique<ReplaySource>(*first.source, frames));
       },
-      first.shape, 0, progress);
+      first.shape, 0, false, progress);
   opened.session = open(opened.estimate.overrides,
                         std::make_unique<ReplaySource>(std::move(first.source), std::move(frames)));
   return opened;

@@ -12,7 +12,7 @@ using Eigen::MatrixXd;
 using Eigen::MatrixXf;
 using Eigen::VectorXd;
 
-// Steps of the numerical derivatives: about what a pixel of a tile is wide.
+// Steps of the numerical derivatives: about a millimetre.
 SearchSettings steps_of(double length) {
   return {.position = length * 1e-3,
           .rotation = length * 0.75 * kDegree,
@@ -46,11 +46,18 @@ ImageProblem::ImageProblem(const Scene& scene, const ShapeTargets& targets, Imag
       targets_(targets),
       parts_(std::move(parts)),
       frames_(std::move(frames)),
-      tiles_(scene, parts_.cameras, parts_.tile),
       space_(scene, steps_of(1)),
       coverage_(std::make_shared<Coverage>()) {
   parts_.objective.push_back({.objective = coverage_, .name = "coverage"});
-  for (const TrackedFrame& f : frames_) plans_.push_back(tiles_.plan(f.frame, f.state));
+  const TileMaker tiles(scene, parts_.cameras, parts_.tile);
+  PhotometricMatch photometric(scene, parts_.photometric);
+  for (const TrackedFrame& f : frames_) {
+    TilePlan plan = tiles.plan(f.frame, f.state);
+    photometric.learn(tiles, f.frame, plan, f.state);
+    photometric.apply(plan);
+    observations_.push_back(tiles.cut(f.frame, plan));
+  }
+  thinner_ = parts_.edge * pixel_width();
   measure_explained();
 }
 
@@ -70,7 +77,7 @@ JointTrial ImageProblem::start() const {
 
 ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
   Built b;
-  b.scene = targets_.reshaped(scene_, shape);
+  b.scene = targets_.reshaped(scene_, shape, thinner_);
   b.evaluator = std::make_unique<Evaluator>(*b.scene, parts_.objective, parts_.evaluate,
                                             ResidualUse{.wanted = true});
   return b;
@@ -78,7 +85,20 @@ ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
 
 void ImageProblem::prepare(Evaluator& evaluator, std::size_t frame) {
   coverage_->set_charge(parts_.coverage * std::max(explained_[frame], 0.0));
-  evaluator.prepare(tiles_, frames_[frame].frame, plans_[frame]);
+  evaluator.prepare(observations_[frame]);
+}
+
+double ImageProblem::pixel_width() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < frames_.size(); ++k) {
+    const TileCamera& camera = observations_[k].views.front().camera;
+    for (const int i : targets_.models()) {
+      const Index first = scene_.items()[static_cast<std::size_t>(i)].offset;
+      const Eigen::Vector3d origin = frames_[k].state.segment<3>(first);
+      sum += (camera.camera_from_world * origin).z() / camera.fx;
+    }
+  }
+  return sum / static_cast<double>(frames_.size() * targets_.models().size());
 }
 
 void ImageProblem::measure_explained() {

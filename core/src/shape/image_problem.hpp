@@ -10,6 +10,7 @@
 #include "shape/coverage.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"
+#include "track/photometric.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
@@ -25,8 +26,10 @@ struct ImageProblemParts {
   std::vector<Camera> cameras;
   std::vector<ObjectiveTerm> objective;  ///< with residuals
   TileSettings tile;
+  PhotometricSettings photometric;
   EvaluateSettings evaluate;
   double coverage = 0;  ///< see ImageProblem
+  double edge = 0;      ///< see ImageProblem, pixels of a tile
 };
 
 /// The objective of a scene over several frames, by numerical derivatives (central differences of
@@ -37,6 +40,11 @@ struct ImageProblemParts {
 /// sight less that of the start, per pixel. A boundary then lies where covering one more pixel
 /// explains that share of what the mean one does. With 0.5 that is where S / sqrt(N) of a sum S
 /// over N pixels is stationary, too.
+///
+/// Pixels at the edge of what is seen show some of it and some of what is behind it. The views
+/// agree on them only where little of that is, so a silhouette fits best that lies a little inside
+/// of the true one. `edge` says how much, in pixels: surfaces are drawn that much farther in, as
+/// far as a pixel is wide at the models on average.
 class HYPOTRACK_API ImageProblem final : public JointProblem {
  public:
   /// The scene must outlive the problem. Throws ConfigError if the objective has no residuals,
@@ -47,8 +55,9 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
 
   /// The shape and states to start from.
   JointTrial start() const;
-  /// Length of the derivatives' steps from now on: 1 moves surfaces by about a pixel of a tile.
-  /// Long ones see farther: a pixel counts only if a step makes the silhouette pass it.
+  /// Length of the derivatives' steps from now on: 1 moves surfaces by about a millimetre, which
+  /// should be a pixel of a tile. Long ones see farther: a pixel counts only if a step makes the
+  /// silhouette pass it.
   void set_steps(double length);
   /// What a covered pixel of each frame explains at the start. 0 or less: nothing.
   const std::vector<double>& explained() const { return explained_; }
@@ -66,6 +75,8 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
   Built built(const Eigen::VectorXd& shape) const;
   void prepare(Evaluator& evaluator, std::size_t frame);
   void measure_explained();
+  /// What a pixel of the first view is wide at the models that are looked for, metres, on average.
+  double pixel_width() const;
   void add_poses(Evaluator& evaluator, const Eigen::VectorXd& pose, FrameSystem& system,
                  Eigen::MatrixXf& jacobian);
 
@@ -73,12 +84,12 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
   const ShapeTargets& targets_;
   ImageProblemParts parts_;
   std::vector<TrackedFrame> frames_;
-  TileMaker tiles_;
   double steps_ = 1;
   SearchSpace space_;
   std::shared_ptr<Coverage> coverage_;
-  std::vector<TilePlan> plans_;
+  std::vector<Observation> observations_;
   std::vector<double> explained_;
+  double thinner_ = 0;  // metres
 };
 
 }  // namespace hypotrack

@@ -40,12 +40,13 @@ using OpenShaped = std::function<Session(const std::vector<std::string>& overrid
 /// Tracks and fits in turn, `settings.rounds` times: the frames are tracked with the shape found so
 /// far, some of them are taken, and shape and poses are fitted to them together (fit_jointly,
 /// ImageProblem). Frames that explain much less than the others are left out as not tracked.
-/// `limit`: frames of the source to look at; 0: all. Throws ConfigError if the objective has no
-/// residuals or a model no shape, DataError if fewer than 2 frames were tracked or most of them
+/// `limit`: frames of the source to look at; 0: all. `deviations`: find out how sure the shape is,
+/// too, which takes as long again as the last round's fit. Throws ConfigError if the objective has
+/// no residuals or a model no shape, DataError if fewer than 2 frames were tracked or most of them
 /// explain nothing.
 HYPOTRACK_API ShapeEstimate estimate_shape(const OpenShaped& open,
                                            const ShapeEstimateSettings& settings, int limit,
-                                           const ShapeProgress& progress = {});
+                                           bool deviations, const ShapeProgress& progress = {});
 
 /// The shape of the models whose landmarks the source's truth knows, fitted to `settings.frames` of
 /// them (LandmarkProblem). The session's source is at its beginning. Throws DataError if fewer than

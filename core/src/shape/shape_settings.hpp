@@ -14,8 +14,8 @@ struct ShapeEstimateSettings {
   std::vector<std::string> parameters;
   int frames = 16;
   int rounds = 2;
-  int iterations = 12;
-  double coverage = 0.3;
+  int iterations = 8;
+  double coverage = 0.15;
   double prior = 0.3;
   void visit(ParamVisitor& v) {
     v("estimate_s", seconds,

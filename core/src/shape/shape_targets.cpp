@@ -40,6 +40,18 @@ std::vector<int> find_models(const Scene& scene, const std::vector<std::string>&
   return found;
 }
 
+/// Unit vectors outwards, of the faces around each vertex, larger ones more (3xV).
+Eigen::Matrix3Xf vertex_normals(const Mesh& mesh) {
+  Eigen::Matrix3Xf normals = Eigen::Matrix3Xf::Zero(3, mesh.vertices.cols());
+  for (const auto& corners : mesh.triangles.colwise()) {
+    const Eigen::Vector3f a = mesh.vertices.col(corners[0]);
+    const Eigen::Vector3f b = mesh.vertices.col(corners[1]), c = mesh.vertices.col(corners[2]);
+    for (const int v : corners) normals.col(v) += (b - a).cross(c - a);
+  }
+  for (auto n : normals.colwise()) n.normalize();
+  return normals;
+}
+
 /// A model as another individual.
 class Reshaped final : public Model {
  public:
@@ -108,15 +120,17 @@ Eigen::VectorXd ShapeTargets::values() const {
   return values;
 }
 
-std::unique_ptr<Scene> ShapeTargets::reshaped(const Scene& scene,
-                                              const Eigen::VectorXd& values) const {
+std::unique_ptr<Scene> ShapeTargets::reshaped(const Scene& scene, const Eigen::VectorXd& values,
+                                              double thinner) const {
   std::vector<double> shape;
   for (const ShapeParameter& p : with(values)) shape.push_back(p.value);
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
   for (const Scene::Item& item : scene.items()) models.emplace_back(item.name, item.model);
   for (const int i : models_) {
     auto& model = models[static_cast<std::size_t>(i)].second;
-    model = std::make_shared<Reshaped>(model->shaped(shape));
+    ModelData data = model->shaped(shape);
+    data.mesh.vertices -= static_cast<float>(thinner) * vertex_normals(data.mesh);
+    model = std::make_shared<Reshaped>(std::move(data));
   }
   return std::make_unique<Scene>(std::move(models));
 }

@@ -34,8 +34,10 @@ class HYPOTRACK_API ShapeTargets {
   /// Indices of the models in the scene.
   const std::vector<int>& models() const { return models_; }
 
-  /// The scene with other values of wanted(); models that have no part in it are the same objects.
-  std::unique_ptr<Scene> reshaped(const Scene& scene, const Eigen::VectorXd& values) const;
+  /// The scene with other values of wanted(), the surfaces of those models moved inwards by
+  /// `thinner` metres; models that have no part in it are the same objects.
+  std::unique_ptr<Scene> reshaped(const Scene& scene, const Eigen::VectorXd& values,
+                                  double thinner = 0) const;
 
  private:
   std::vector<int> models_;
