@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "output/hindsight_output.hpp"
 #include "output/run_output.hpp"
 #include "progress.hpp"
 #include "session/session.hpp"
@@ -69,7 +70,7 @@ std::string note_of(const Solution& solution, double error) {
 
 /// Tracks `first`, which the source has given already, and then the rest of the source, until it
 /// ends, `limit` frames are done or the user interrupts; true in the first two cases.
-bool track_all(Session& session, Tracker& tracker, RunOutput& output,
+bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
                const std::vector<Frame>& first, std::optional<int> limit,
                const InterruptGuard& interrupt) {
   std::optional<int> total = session.source->frame_count();
@@ -83,15 +84,18 @@ bool track_all(Session& session, Tracker& tracker, RunOutput& output,
     if (!frame->problem.empty())
       progress.say(fmt::format("frame {}: {}", frame->index, frame->problem));
     const Solution solution = tracker.track(*frame);
-    progress.advance(note_of(solution, output.add(*frame, solution)));
+    progress.advance(note_of(solution, output.add(tracker, *frame, solution)));
   }
   return true;
 }
 
 /// Ends a run by the exception that is being handled: what was tracked so far is kept, unless that
 /// is what fails.
-void finish_after_error(RunOutput& output, const std::filesystem::path& out) {
+void finish_after_error(HindsightOutput& frames, RunOutput& output,
+                        const std::filesystem::path& out) {
   try {
+    frames.finish_unchanged();
+    if (output.empty()) return;
     output.finish(false);
     fmt::print(stderr, "hypotrack: the run ends early; {} holds the frames so far\n", out.string());
   } catch (const OutputError& e) {
@@ -129,6 +133,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
   }
   Session& session = opened.session;
   const std::vector<Frame> first = frames_up_to_a_usable(*session.source, options.frames);
+  std::unique_ptr<Hindsight> hindsight = make_hindsight(session);
   Tracker tracker(*session.scene, std::move(session.parts), initial_state(session, first.back()),
                   session.seed);
   RunOutput output(*session.scene, session.source->cameras().front(),
@@ -137,15 +142,18 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .worst_frames = session.output.worst_frames,
                     .frame_rate = session.source->frame_rate(),
                     .resolved = session.resolved,
-                    .backend = tracker.backend()});
+                    .backend = tracker.backend(),
+                    .hindsight = hindsight != nullptr});
+  HindsightOutput frames(std::move(hindsight), output);
   fmt::print(stderr, "tracking with {}\n", tracker.backend());
   bool complete = false;
   try {
-    complete = track_all(session, tracker, output, first, options.frames, interrupt);
+    complete = track_all(session, tracker, frames, first, options.frames, interrupt);
+    frames.finish();
   } catch (const OutputError&) {
     throw;  // the files cannot be finished either
   } catch (...) {
-    if (!output.empty()) finish_after_error(output, options.out);
+    finish_after_error(frames, output, options.out);
     throw;
   }
   if (output.empty()) {

@@ -66,6 +66,20 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
             lines_of(read_text(path("out/track.csv"))).size());
 }
 
+TEST_F(InterruptTest, CtrlCLeavesTheFramesThatHindsightStillWaitedFor) {
+  Start start = long_run();
+  for (const char* set : {"hindsight.enabled=true", "budget.evaluations=256"})
+    start.arguments.insert(start.arguments.end(), {"--set", set});
+  Program program(start);
+  wait_for_lines(program, "out/.part.online.csv", 4);
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_EQ(lines_of(read_text(path("out/track.csv"))).size(),
+            lines_of(read_text(path("out/online.csv"))).size());
+  expect_whole_lines(path("out/track.csv"));
+}
+
 TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
   {
     Program program(long_run());

@@ -183,6 +183,43 @@ TEST_F(RunTest, StereoColorSaysThatItNeedsTwoCameras) {
                  {"--set", "source.cameras.count=1", "--set", "source.depth=true"});
 }
 
+TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
+  const std::string file = scene(box_scene());
+  const auto track = [&](const std::string& out, const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{
+        "run", file, "--out", path(out).string(), "--set", "search.rotation_as=tangent"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  };
+  track("plain", {"--set", "budget.evaluations=36"});
+  track("hind", {"--set", "budget.evaluations=72", "--set", "hindsight.enabled=true", "--set",
+                 "hindsight.evaluations=36"});
+  EXPECT_THAT(names_in(path("hind")),
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "online.csv", "run.yaml",
+                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv"));
+  std::filesystem::create_directory(path("online"));
+  std::filesystem::copy(path("hind/online.csv"), path("online/track.csv"));
+  EXPECT_EQ(track_without_times(path("online")), track_without_times(path("plain")));
+  EXPECT_NE(read_text(path("hind/joints.csv")), read_text(path("plain/joints.csv")));
+  EXPECT_THAT(lines_of(read_text(path("hind/track.csv"))), SizeIs(6));
+}
+
+TEST_F(RunTest, HindsightIsRefusedWhereItCannotWork) {
+  expect_refused(box_scene(),
+                 {"hindsight takes 128 evaluations", "which is 32",
+                  "budget.evaluations 256 or more", "leave hindsight.enabled off"},
+                 {"--set", "hindsight.enabled=true"});
+  const std::vector<std::string> on{"--set", "hindsight.enabled=true", "--set",
+                                    "budget.evaluations=1024"};
+  expect_refused(
+      replaced(box_scene(), "{type: stereo_color}", "{type: stereo_color, aggregation: mean_seen}"),
+      {"hindsight needs residuals", "objective stereo_color", "offers no residuals"}, on);
+  expect_refused(box_scene() + "tracker: {uncertainty: {enabled: true}}\n",
+                 {"hindsight.enabled and tracker.uncertainty.enabled", "switch one of them off"},
+                 on);
+}
+
 TEST_F(RunTest, SetChangesKeysOfTheScene) {
   const Outcome outcome = run(
       box_scene(), {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}",

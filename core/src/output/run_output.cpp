@@ -13,6 +13,15 @@
 namespace hypotrack {
 namespace {
 
+/// A line of track.csv.
+std::string row_of(const Solution& solution) {
+  std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
+                                to_string(solution.status), solution.cost, solution.evaluations,
+                                1000 * solution.seconds);
+  for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
+  return row + "\n";
+}
+
 FrameVerdict verdict_of(Status status) {
   if (status == Status::missing) return FrameVerdict::missing;
   return status == Status::lost ? FrameVerdict::lost : FrameVerdict::solved;
@@ -25,9 +34,9 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
       camera_(camera),
       options_(std::move(options)),
       directory_(options_.directory,
-                 {"track.csv", "joints.csv", "truth_states.csv", "truth_landmarks.csv",
-                  "errors.csv", "uncertainty.csv", "overlay.mp4", "worst_#.jpg", "run.yaml",
-                  "metrics.json", "summary.json"}),
+                 {"track.csv", "joints.csv", "online.csv", "truth_states.csv",
+                  "truth_landmarks.csv", "errors.csv", "uncertainty.csv", "overlay.mp4",
+                  "worst_#.jpg", "run.yaml", "metrics.json", "summary.json"}),
       track_(directory_.part("track.csv")),
       joints_(directory_.part("joints.csv")),
       metrics_(landmark_layout(scene.landmark_names())),
@@ -41,6 +50,7 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
   std::string track = "frame,time,status,cost,evaluations,milliseconds";
   for (const Parameter& p : scene.parameters()) track += "," + p.name;
   track_.write(track + "\n");
+  if (options_.hindsight) online_.emplace(directory_.part("online.csv")).write(track + "\n");
   joints_.write(landmarks_header(scene.landmark_names()));
 }
 
@@ -51,16 +61,18 @@ Renderer& RunOutput::renderer() {
   return *renderer_;
 }
 
+void RunOutput::add_online(const Frame& frame, const Solution& solution) {
+  directory_.keep();
+  online_->write(row_of(solution));
+  if (overlay_) overlay_->add(frame, solution);
+}
+
 double RunOutput::add(const Frame& frame, const Solution& solution) {
   const auto truth = true_landmarks(*scene_, frame);
-  if (truth && options_.worst_frames > 0)
+  if (truth && options_.worst_frames > 0 && !online_)
     renderer();  // without OpenGL, fail now and not at the end
   directory_.keep();
-  std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
-                                to_string(solution.status), solution.cost, solution.evaluations,
-                                1000 * solution.seconds);
-  for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
-  track_.write(row + "\n");
+  track_.write(row_of(solution));
 
   const Eigen::Matrix3Xd landmarks = scene_->landmarks(solution.state);
   joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
@@ -68,10 +80,11 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
                                         landmarks, truth.value_or(Eigen::Matrix3Xd()));
   if (truth) {
     truth_.add(frame, *truth, error);
-    remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
+    if (!online_)
+      remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
   }
   uncertainty_.add(solution, error.landmarks);
-  if (overlay_) overlay_->add(frame, solution);
+  if (overlay_ && !online_) overlay_->add(frame, solution);
 
   ++frames_;
   uncertain_frames_ += solution.status == Status::uncertain;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "hypotrack/export.hpp"
@@ -22,8 +23,9 @@ namespace hypotrack {
 class OverlayVideo;
 
 /// Writes what a run leaves behind: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json;
-/// uncertainty.csv if the tracker says how far off landmarks may be; with ground truth also
-/// truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
+/// online.csv if hindsight changes what was found; uncertainty.csv if the tracker says how far off
+/// landmarks may be; with ground truth also truth_states.csv, truth_landmarks.csv, errors.csv,
+/// metrics.json and worst_<frame>.jpg.
 class HYPOTRACK_API RunOutput {
  public:
   struct Options {
@@ -33,6 +35,7 @@ class HYPOTRACK_API RunOutput {
     double frame_rate = 30;
     std::string resolved;  ///< content of run.yaml
     std::string backend;
+    bool hindsight = false;  ///< frames come twice: as they were found, and changed
   };
 
   /// The scene must outlive it. Throws OutputError or DeviceError and then leaves nothing behind.
@@ -42,7 +45,11 @@ class HYPOTRACK_API RunOutput {
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
-  /// Adds a frame and returns its error in metres (NaN without ground truth or a solution).
+  /// With hindsight, what was found in a frame: for online.csv and the overlay.
+  void add_online(const Frame& frame, const Solution& solution);
+
+  /// Adds a frame (with hindsight, its pictures may be gone) and returns its error in metres (NaN
+  /// without ground truth or a solution).
   double add(const Frame& frame, const Solution& solution);
 
   /// Closes everything and gives the files their names. Without it the unfinished files stay, or go
@@ -62,6 +69,7 @@ class HYPOTRACK_API RunOutput {
   Options options_;
   RunDirectory directory_;
   TextFile track_;
+  std::optional<TextFile> online_;
   TextFile joints_;
   std::unique_ptr<Renderer> renderer_;  ///< made when there is something to draw
   std::unique_ptr<OverlayVideo> overlay_;

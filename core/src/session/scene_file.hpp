@@ -9,6 +9,7 @@
 
 #include "evaluate/evaluator.hpp"
 #include "geometry/tiles.hpp"
+#include "hindsight/hindsight_settings.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
@@ -111,6 +112,7 @@ struct SceneFile {
   PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings tracker;
+  HindsightSettings hindsight;
   ShapeEstimateSettings shape;
   InitSettings init;
   OutputSettings output;
@@ -129,6 +131,7 @@ struct SceneFile {
     v("search", search,
       {.help = "where the next solution is expected, and how far from there it may be"});
     v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
+    v("hindsight", hindsight, {.help = "how solutions are changed by what later frames show"});
     v("shape", shape, {.help = "how the models' shapes are estimated"});
     v("init", init, {.help = "where the first search starts"});
     v("output", output, {.help = "what a run writes"});

@@ -163,6 +163,7 @@ Session Opening::finish() {
   session_.parts.search = file_.search;
   session_.parts.status = file_.tracker;
   session_.parts.smoothing = file_.output.smoothing;
+  session_.parts.hindsight = file_.hindsight;
   session_.parts.budget.evaluations = file_.budget.evaluations;
   if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
   session_.init = file_.init;
@@ -204,6 +205,18 @@ Session open_source(const std::filesystem::path& scene_file, std::span<const std
   opening.models();
   opening.source();
   return opening.finish();
+}
+
+std::unique_ptr<Hindsight> make_hindsight(const Session& session) {
+  const TrackerParts& parts = session.parts;
+  if (!parts.hindsight.enabled) return nullptr;
+  if (parts.status.uncertainty.enabled)
+    throw ConfigError(
+        "hindsight.enabled and tracker.uncertainty.enabled are both on, but sigmas are of states "
+        "as "
+        "they were found; switch one of them off");
+  return std::make_unique<Hindsight>(*session.scene, parts.objective, parts.evaluate,
+                                     parts.hindsight);
 }
 
 Eigen::VectorXd initial_state(const Session& session, const Frame& first) {

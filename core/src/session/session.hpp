@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "hindsight/hindsight.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
@@ -45,6 +46,10 @@ HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
                                    std::span<const std::string> overrides, PluginLoader& plugins,
                                    std::unique_ptr<Source> source,
                                    const std::string& source_resolved);
+
+/// Hindsight of a session that still has its parts; null where the scene does not ask for it.
+/// Throws ConfigError.
+HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const Session& session);
 
 /// The state that the first search starts from. `first` is the first usable frame of the source.
 /// Throws ConfigError if the scene asks for a ground truth that is not there.

@@ -96,6 +96,19 @@ PhotometricSettings of_pictures(PhotometricSettings settings,
   return settings;
 }
 
+/// Takes what hindsight may spend off the budget of a search. Throws ConfigError if that would
+/// leave it less than half.
+void reserve_for(const HindsightSettings& hindsight, Budget& budget) {
+  if (budget.evaluations < 2 * hindsight.evaluations)
+    throw ConfigError(
+        fmt::format("hindsight takes {} evaluations of a frame's budget, which is {}; give "
+                    "budget.evaluations {} "
+                    "or more, hindsight.evaluations {} or less, or leave hindsight.enabled off",
+                    hindsight.evaluations, budget.evaluations, 2 * hindsight.evaluations,
+                    budget.evaluations / 2));
+  budget.evaluations -= hindsight.evaluations;
+}
+
 /// Takes the evaluations that sigmas need off the budget of a search. Throws ConfigError if that
 /// would leave it less than half.
 void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
@@ -126,14 +139,17 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
   output_ = state_;
   if (parts_.budget.evaluations == 0)
     parts_.budget.evaluations = parts_.optimizer->default_evaluations();
+  if (parts_.hindsight.enabled) reserve_for(parts_.hindsight, parts_.budget);
   if (parts_.status.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, parts_.status.uncertainty), parts_.budget);
 }
 
 ResidualUse residual_use(const TrackerParts& parts) {
   const bool search = parts.optimizer->needs_residuals();
-  return {search || parts.status.uncertainty.enabled,
-          search ? parts.optimizer->linearization() : Linearization::unused};
+  const bool hindsight = parts.hindsight.enabled;
+  return {search || hindsight || parts.status.uncertainty.enabled,
+          std::max(search ? parts.optimizer->linearization() : Linearization::unused,
+                   hindsight ? Linearization::welcome : Linearization::unused)};
 }
 
 Tracker::~Tracker() = default;
@@ -148,10 +164,10 @@ Solution Tracker::track(const Frame& frame) {
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
     const Eigen::MatrixXd starts = possible_starts(frame.time);
-    TilePlan plan = tiles_.plan(frame, starts.col(0));
-    if (!photometric_.knows()) photometric_.learn(tiles_, frame, plan, starts.col(0));
-    photometric_.apply(plan);
-    evaluator_.prepare(tiles_, frame, plan);
+    plan_ = tiles_.plan(frame, starts.col(0));
+    if (!photometric_.knows()) photometric_.learn(tiles_, frame, plan_, starts.col(0));
+    photometric_.apply(plan_);
+    evaluator_.prepare(tiles_, frame, plan_);
     const Eigen::VectorXd prior = cheapest(starts);
     const OptimizerResult result = search(frame, prior, starts.cols() > 1 ? starts.cols() : 0);
     const Eigen::VectorXd found = space_.states(result.point, prior);
@@ -165,7 +181,7 @@ Solution Tracker::track(const Frame& frame) {
     solution.status = monitor_.judge(result.cost, visible, largest_sigma(solution.sigma));
     // Where nothing was feasible, or the answer has left every image, the last state is the better
     // place to search the next frame from.
-    if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame, plan);
+    if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame);
     if (solution.status == Status::lost) predictor_.forget_motion();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -190,10 +206,10 @@ Eigen::VectorXd Tracker::cheapest(const Eigen::MatrixXd& states) {
   return states.col(best);
 }
 
-void Tracker::go_on_from(const Eigen::VectorXd& found, const Frame& frame, const TilePlan& plan) {
+void Tracker::go_on_from(const Eigen::VectorXd& found, const Frame& frame) {
   state_ = found;
   predictor_.add(state_, frame.time);
-  photometric_.learn(tiles_, frame, plan, state_);
+  photometric_.learn(tiles_, frame, plan_, state_);
 }
 
 Eigen::VectorXd Tracker::smoothed(const Solution& solution) {

@@ -9,6 +9,7 @@
 
 #include "evaluate/evaluator.hpp"
 #include "geometry/tiles.hpp"
+#include "hindsight/hindsight_settings.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -47,10 +48,11 @@ struct TrackerParts {
   SearchSettings search;
   StatusSettings status;
   SmoothingSettings smoothing;
+  HindsightSettings hindsight;
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 
-/// What the search and the sigmas of a tracker want of residuals.
+/// What the search and the sigmas of a tracker, and hindsight, want of residuals.
 ResidualUse residual_use(const TrackerParts& parts);
 
 /// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
@@ -70,6 +72,9 @@ class HYPOTRACK_API Tracker {
   /// that the cameras do not see, a frame that an objective cannot work with.
   void check(const Frame& frame);
 
+  /// What the search of `frame`, the last one tracked, saw of it.
+  Observation seen(const Frame& frame) const { return tiles_.cut(frame, plan_); }
+
   /// What evaluates hypotheses, for the run's protocol.
   std::string backend() const { return evaluator_.backend(); }
 
@@ -77,7 +82,7 @@ class HYPOTRACK_API Tracker {
   /// States that the search of a frame may start from, the middle one, which is seen, first.
   Eigen::MatrixXd possible_starts(double time);
   Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
-  void go_on_from(const Eigen::VectorXd& found, const Frame& frame, const TilePlan& plan);
+  void go_on_from(const Eigen::VectorXd& found, const Frame& frame);
   Eigen::VectorXd smoothed(const Solution& solution);
   /// Mean over a model's landmarks, of the model where it is largest; NaN without sigmas.
   double largest_sigma(const Eigen::VectorXd& sigma) const;
@@ -89,6 +94,7 @@ class HYPOTRACK_API Tracker {
   PhotometricMatch photometric_;
   SearchSpace space_;
   Evaluator evaluator_;
+  TilePlan plan_;  ///< of the last frame
   StatusMonitor monitor_;
   LandmarkLayout landmarks_;
   std::optional<PoseUncertainty> uncertainty_;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "evaluate/evaluator.hpp"
+#include "hindsight/hindsight_settings.hpp"
+#include "hindsight/motion_prior.hpp"
+#include "hindsight/trajectory_fit.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// Changes what was found, frame by frame, by what later frames show. It looks at the frames of a
+/// window together (TrajectoryFit), from where they were found; all but those of the last `lag` are
+/// then settled, and the two last of these hold on to the next window's.
+class HYPOTRACK_API Hindsight {
+ public:
+  /// The scene must outlive it. Throws ConfigError where a term has no residuals, or the settings
+  /// do not fit each other or the scene.
+  Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& evaluate,
+            const HindsightSettings& settings);
+
+  /// Takes in a frame after those before it: the tiles that its search saw, or nothing where that
+  /// tells nothing of the scene, and the state that was found.
+  void add(Sight sight, const Moment& found);
+
+  /// A state that is not changed any more.
+  struct Settled {
+    Eigen::VectorXd state;
+    std::int64_t evaluations = 0;  ///< that hindsight has taken for it
+  };
+  /// Those since the last call, in the order of add().
+  std::vector<Settled> take();
+  /// The rest, when no more frames come.
+  std::vector<Settled> finish();
+
+ private:
+  void settle(std::size_t count);
+
+  HindsightSettings settings_;
+  Evaluator evaluator_;
+  MotionPrior motion_;
+  TrajectoryFit fit_;
+  std::vector<Moment> moments_;  ///< the settled two, then those that wait
+  std::vector<Sight> sights_;
+  std::vector<std::int64_t> evaluations_;
+  std::size_t fixed_ = 0;
+  std::vector<Settled> settled_;
+};
+
+}  // namespace hypotrack
