@@ -19,6 +19,10 @@ DeviceError::~DeviceError() = default;
 OutputError::~OutputError() = default;
 
 ResidualTerm::~ResidualTerm() = default;
+std::span<const int> ResidualTerm::pixel_views() const {
+  throw Error("this objective has no slopes of residuals");
+}
+
 void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::span<float>,
                                 std::span<float>) const {
   throw Error("this objective has no slopes of residuals");

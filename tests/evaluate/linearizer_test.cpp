@@ -50,6 +50,7 @@ class DepthPattern : public Objective, public ResidualTerm {
       }
     }
   }
+  bool has_slopes() const override { return true; }
   std::span<const int> pixel_views() const override { return kViews; }
   void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
                     std::span<float> slopes) const override {
@@ -273,7 +274,7 @@ TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
 class WithoutSlopes : public DepthPattern {
  public:
   using DepthPattern::DepthPattern;
-  std::span<const int> pixel_views() const override { return {}; }
+  bool has_slopes() const override { return false; }
 };
 
 TEST(Linearizer, NeedsSlopesOfEveryTermThatIsDrawn) {

@@ -1,5 +1,6 @@
 #include "residuals.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +67,25 @@ TEST(SkinResiduals, AreThereForTheViewsThatAreLookedAt) {
   Skin objective({});
   objective.prepare(observation);
   EXPECT_EQ(objective.residual_count(), 96 * 96);
+  EXPECT_THAT(objective.pixel_views(), testing::ElementsAre(1));
+  objective.prepare(colored_box());
+  EXPECT_THAT(objective.pixel_views(), testing::ElementsAre(0, 1));
+}
+
+TEST(SkinResiduals, DoNotDependOnDepth) {
+  const Observation observation = colored_box();
+  Skin objective({});
+  objective.prepare(observation);
+  ASSERT_TRUE(objective.has_slopes());
+  const Rectangle hypothesis(observation, box_outline() + cv::Point(7, -5));
+  const auto expected = test::written_residuals(objective, hypothesis.hypothesis());
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<float> found(96 * 96), slopes(found.size(), NAN);
+    objective.write_slopes(hypothesis.hypothesis(), i, found, slopes);
+    const auto* own = expected.data() + i * found.size();
+    EXPECT_EQ(found, std::vector<float>(own, own + found.size()));
+    EXPECT_EQ(slopes, std::vector<float>(slopes.size(), 0.0f));
+  }
 }
 
 }  // namespace

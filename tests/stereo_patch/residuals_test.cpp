@@ -1,5 +1,6 @@
 #include "residuals.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "../support/every_target.hpp"
 #include "patch_pair.hpp"
+#include "planes.hpp"
 #include "score.hpp"
 #include "stereo_patch.hpp"
 #include "volume_kernel.hpp"
@@ -79,6 +81,53 @@ TEST(PatchResiduals, OfPixelsThatNothingCoversAreOneWithinImageAndMask) {
   for (int i = 0; i < 32 * 32; ++i) {
     EXPECT_EQ(found[static_cast<std::size_t>(i)], counting(i / 32, i % 32) ? 1.0f : 0.0f);
   }
+}
+
+TEST(PatchResiduals, HaveSlopesThatAreTheirDifferencesOverDepth) {
+  for (const bool rectified : {true, false}) {
+    const PatchPair pair({.rectified = rectified, .size = 64}, true);
+    Params params;
+    params.r = 0.1;  // so generous that what is seen stays seen
+    StereoPatch objective(params);
+    objective.prepare(pair.observation);
+    ASSERT_TRUE(objective.has_slopes());
+    ASSERT_THAT(objective.pixel_views(), testing::ElementsAre(0));
+    const float step = planes_around(pair.observation, params).step;
+    const auto nearer = [&](float planes) {
+      std::vector<float> depth[2] = {pair.depth[0], pair.depth[1]};
+      for (float& w : depth[0]) w += w > 0 ? planes * step : 0;
+      DepthTile tiles[2] = {pair.tiles[0], pair.tiles[1]};
+      for (std::size_t i = 0; i < 2; ++i) tiles[i].inverse_depth = depth[i].data();
+      return test::written_residuals(objective, {{}, tiles});
+    };
+    on_every_target([&] {
+      const auto expected = test::written_residuals(objective, pair.hypothesis());
+      const auto near = nearer(0.5f), far = nearer(-0.5f);
+      std::vector<float> found(64 * 64), slopes(found.size(), NAN);
+      objective.write_slopes(pair.hypothesis(), 0, found, slopes);
+      EXPECT_EQ(found, expected);
+      int compared = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        if (slopes[i] == 0 || near[i] == 1 || far[i] == 1) continue;  // 1: not seen twice any more
+        EXPECT_NEAR(slopes[i] * step, near[i] - far[i], 1e-3) << i;
+        ++compared;
+      }
+      EXPECT_GT(compared, 500);
+    });
+  }
+}
+
+TEST(PatchResiduals, HaveNoSlopesWhereNothingIsSeenTwice) {
+  const PatchPair pair({.size = 32}, true);
+  StereoPatch objective({});
+  objective.prepare(pair.observation);
+  DepthTile tiles[2] = {pair.tiles[0], pair.tiles[1]};
+  const std::vector<float> empty(pair.depth[1].size(), 0.0f);
+  tiles[1].inverse_depth = empty.data();
+  std::vector<float> found(32 * 32), slopes(found.size(), NAN);
+  objective.write_slopes({{}, tiles}, 0, found, slopes);
+  EXPECT_EQ(found, test::written_residuals(objective, {{}, tiles}));
+  EXPECT_EQ(slopes, std::vector<float>(slopes.size(), 0.0f));
 }
 
 }  // namespace

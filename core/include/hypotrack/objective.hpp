@@ -49,10 +49,13 @@ class HYPOTRACK_API ResidualTerm {
   virtual void write_residuals(const RenderedHypothesis& hypothesis,
                                std::span<float> residuals) const = 0;
 
-  /// Views whose pixels the residuals belong to, in the order of the residuals: one per pixel of
-  /// the view's tile, rows without gaps. None if they belong to something else, or if
-  /// write_slopes() is not there. The same before and after every `prepare`.
-  virtual std::span<const int> pixel_views() const { return {}; }
+  /// Whether all residuals belong to pixels, and pixel_views() and write_slopes() say how. The same
+  /// before and after every `prepare`.
+  virtual bool has_slopes() const { return false; }
+
+  /// Views whose pixels the residuals of the prepared frame belong to, in the order of the
+  /// residuals: one per pixel of the view's tile, rows without gaps. Only with has_slopes().
+  virtual std::span<const int> pixel_views() const;
 
   /// The residuals of the i-th of pixel_views(), and how each of them changes with the surface that
   /// is drawn at its pixel: d r / d(1/z) in metres, 0 where nothing is drawn. That is all that

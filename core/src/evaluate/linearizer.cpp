@@ -37,15 +37,24 @@ struct StatePart {
 }  // namespace
 
 struct Linearizer::Impl {
-  Impl(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads)
-      : arena(threads > 0 ? threads : tbb::info::default_concurrency()), plan(scene) {
-    for (const ObjectiveTerm& term : terms) {
-      if (term.weight != 0) add(term);
-    }
+  Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads)
+      : arena(threads > 0 ? threads : tbb::info::default_concurrency()),
+        plan(scene),
+        terms(scene_terms) {
     for (int i = 0; i < arena.max_concurrency(); ++i) {
       drawers.push_back(std::make_unique<HypothesisDrawer>(plan));
     }
     centre = std::make_unique<HypothesisDrawer>(plan);
+  }
+
+  /// Finds out what the terms look at in the prepared frame.
+  void take_terms() {
+    others.clear();
+    for (ViewPart& view : views) view.parts.clear();
+    for (const ObjectiveTerm& term : terms) {
+      if (term.weight != 0) add(term);
+    }
+    std::erase_if(views, [](const ViewPart& view) { return view.parts.empty(); });
   }
 
   void add(const ObjectiveTerm& term) {
@@ -137,6 +146,7 @@ struct Linearizer::Impl {
 
   tbb::task_arena arena;
   ScenePlan plan;
+  std::vector<ObjectiveTerm> terms;
   FrameProjection frame;
   std::vector<std::unique_ptr<HypothesisDrawer>> drawers;  // that pose, one per slot of the arena
   std::unique_ptr<HypothesisDrawer> centre;                // that draws the point at hand
@@ -148,7 +158,7 @@ struct Linearizer::Impl {
 bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   return std::ranges::all_of(terms, [](const ObjectiveTerm& term) {
     return term.weight == 0 || !term.objective->needs_rendering() ||
-           !term.objective->residual_term()->pixel_views().empty();
+           term.objective->residual_term()->has_slopes();
   });
 }
 
@@ -162,6 +172,7 @@ void Linearizer::prepare(const Observation& observation) {
   self.frame = FrameProjection(observation);
   self.centre->prepare(self.frame);
   for (const auto& drawer : self.drawers) drawer->prepare(self.frame);
+  self.take_terms();
 }
 
 NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,

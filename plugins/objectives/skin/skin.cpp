@@ -1,5 +1,7 @@
 #include "skin.hpp"
 
+#include <algorithm>
+
 #include "checks.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation_checks.hpp"
@@ -18,11 +20,14 @@ Skin::Skin(const Params& params) : params_(params) {}
 
 void Skin::prepare(const Observation& observation) {
   views_.clear();
+  view_numbers_.clear();
   check(observation, params_.foreground);
   while (tellers_.size() < observation.views.size()) tellers_.emplace_back(params_);
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     ViewForeground foreground = tellers_[i].tell(observation, i);
-    if (foreground.pixels.width() > 0) views_.push_back({i, std::move(foreground), {}});
+    if (foreground.pixels.width() == 0) continue;
+    views_.push_back({i, std::move(foreground), {}});
+    view_numbers_.push_back(static_cast<int>(i));
   }
   for (PreparedView& view : views_) {
     view.uncovered = uncovered_residuals(view.foreground.pixels, share());
@@ -62,15 +67,26 @@ double Skin::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                 std::span<float> residuals) const {
   double sum = 0;
   for (const PreparedView& view : views_) {
-    const auto& plane = view.foreground.pixels;
-    check_drawn_tile("skin", hypothesis, view.index, plane.width(), plane.height());
-    const auto size = static_cast<std::size_t>(plane.width()) * plane.height();
-    sum += view.foreground.sum + skin::write_residuals(plane, hypothesis.views[view.index],
-                                                       static_cast<float>(params_.spill), share(),
-                                                       view.uncovered, residuals.first(size));
+    const auto size = static_cast<std::size_t>(view.uncovered.width()) * view.uncovered.height();
+    sum += measure(view, hypothesis, residuals.first(size));
     residuals = residuals.subspan(size);
   }
   return sum / static_cast<double>(views_.size());
+}
+
+void Skin::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                        std::span<float> residuals, std::span<float> slopes) const {
+  measure(views_[i], hypothesis, residuals);
+  std::ranges::fill(slopes, 0.0f);
+}
+
+double Skin::measure(const PreparedView& view, const RenderedHypothesis& hypothesis,
+                     std::span<float> residuals) const {
+  const auto& plane = view.foreground.pixels;
+  check_drawn_tile("skin", hypothesis, view.index, plane.width(), plane.height());
+  return view.foreground.sum + skin::write_residuals(plane, hypothesis.views[view.index],
+                                                     static_cast<float>(params_.spill), share(),
+                                                     view.uncovered, residuals);
 }
 
 }  // namespace hypotrack::skin

@@ -43,6 +43,12 @@ class Skin : public Objective, public ResidualTerm {
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
+  bool has_slopes() const override { return true; }
+  std::span<const int> pixel_views() const override { return view_numbers_; }
+  /// All slopes are 0: what matters is whether a pixel is covered, not how far away. Throws
+  /// DataError as cost().
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const override;
 
  private:
   struct PreparedView {
@@ -51,11 +57,15 @@ class Skin : public Objective, public ResidualTerm {
     PixelPlane<float> uncovered;  ///< residuals where nothing is covered
   };
 
+  /// Writes the residuals of one view's pixels and returns its part of the cost.
+  double measure(const PreparedView& view, const RenderedHypothesis& hypothesis,
+                 std::span<float> residuals) const;
   float share() const;  ///< of each view
 
   Params params_;
   std::vector<ForegroundTeller> tellers_;  ///< one per view of the observation
   std::vector<PreparedView> views_;
+  std::vector<int> view_numbers_;  ///< of views_
 };
 
 }  // namespace hypotrack::skin

@@ -61,6 +61,7 @@ class StereoColor : public Objective, public ResidualTerm {
   /// Throws DataError as cost().
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
+  bool has_slopes() const override { return true; }
   std::span<const int> pixel_views() const override;
   /// Throws DataError as cost().
   void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,

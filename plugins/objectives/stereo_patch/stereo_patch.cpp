@@ -1,10 +1,13 @@
 #include "stereo_patch.hpp"
 
+#include <array>
+
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
 #include "residuals.hpp"
 #include "score.hpp"
+#include "slopes.hpp"
 
 namespace hypotrack::stereo_patch {
 
@@ -50,6 +53,18 @@ double StereoPatch::cost_and_residuals(const RenderedHypothesis& hypothesis,
   check_tiles(hypothesis);
   return 0.0 - stereo_patch::write_residuals(volume_, hypothesis.views[0], hypothesis.views[1],
                                              map_, static_cast<float>(params_.r), residuals);
+}
+
+std::span<const int> StereoPatch::pixel_views() const {
+  static constexpr std::array<int, 1> kViews{0};
+  return kViews;
+}
+
+void StereoPatch::write_slopes(const RenderedHypothesis& hypothesis, std::size_t,
+                               std::span<float> residuals, std::span<float> slopes) const {
+  check_tiles(hypothesis);
+  stereo_patch::write_slopes(volume_, hypothesis.views[0], hypothesis.views[1], map_,
+                             static_cast<float>(params_.r), residuals, slopes);
 }
 
 }  // namespace hypotrack::stereo_patch

@@ -50,6 +50,11 @@ class StereoPatch : public Objective, public ResidualTerm {
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
+  bool has_slopes() const override { return true; }
+  std::span<const int> pixel_views() const override;
+  /// Throws DataError as cost().
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const override;
 
  private:
   void check_tiles(const RenderedHypothesis& hypothesis) const;

@@ -31,7 +31,24 @@ class VolumeLookup {
 
   /// Similarity where `counts`, any value elsewhere.
   HYPOTRACK_PIXEL Lanes similarity(const StereoPixels& p, LaneMask counts) const {
-    const auto at = plane_share(select(counts, position(p), Lanes(0.0f)), last_);
+    return similarity_at(position(p), p, counts);
+  }
+
+  /// Similarity of the surface that is `planes` planes nearer, where `counts`: at the first or last
+  /// plane if it were beyond.
+  HYPOTRACK_PIXEL Lanes similarity_beside(const StereoPixels& p, LaneMask counts,
+                                          float planes) const {
+    const Lanes there = position(p) + Lanes(planes);
+    return similarity_at(min(max(there, Lanes(0.0f)), last_), p, counts);
+  }
+
+  /// Planes per 1/m.
+  HYPOTRACK_PIXEL Lanes density() const { return planes_per_unit_; }
+
+ private:
+  HYPOTRACK_PIXEL Lanes similarity_at(Lanes position, const StereoPixels& p,
+                                      LaneMask counts) const {
+    const auto at = plane_share(select(counts, position, Lanes(0.0f)), last_);
     const IntLanes index =
         to_int(at.before) * int_lanes(volume_.width) + to_int(count_from(static_cast<float>(p.x)));
     const WordLanes pair = gather(volume_.row(p.y), index);
@@ -39,7 +56,6 @@ class VolumeLookup {
     return mul_add(after - before, at.share, before);
   }
 
- private:
   HYPOTRACK_PIXEL Lanes position(const StereoPixels& p) const {
     return (p.inverse_depth - first_) * planes_per_unit_;
   }
