@@ -113,7 +113,7 @@ TEST(Hindsight, ANumberThatNoFrameBetweenSeesIsInterpolated) {
   const Hidden hidden(f);
   const auto revised = f.revised(hidden.read, hidden.found);
   ASSERT_EQ(revised.size(), 30u);
-  EXPECT_GT(difference(f.scene, hidden.truth[19], hidden.found[19])[0], -0.11);
+  ASSERT_NEAR(difference(f.scene, hidden.truth[19], hidden.found[19])[0], -0.1, 1e-9);
   for (std::size_t i = 0; i < revised.size(); ++i) {
     const Eigen::VectorXd off = difference(f.scene, hidden.truth[i], revised[i].state);
     EXPECT_NEAR(off[0], 0, 0.0005) << "frame " << i;

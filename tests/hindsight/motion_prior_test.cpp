@@ -26,13 +26,13 @@ struct Fixture {
 
 TEST(MotionPrior, ChargesNothingForAConstantSpeedWhateverTheTimesBetween) {
   const Fixture f;
-  EXPECT_NEAR(f.motion.cost({f.at(0, 0, 0), f.at(0.1, 0.1, 0.3), f.at(0.4, 0.4, 1.2)}), 0, 1e-18);
+  EXPECT_NEAR(f.motion.cost(f.at(0, 0, 0), f.at(0.1, 0.1, 0.3), f.at(0.4, 0.4, 1.2)), 0, 1e-18);
 }
 
 TEST(MotionPrior, ChargesOneForTheSettingsChangeOfSpeedInASecond) {
   const Fixture f;
-  EXPECT_NEAR(f.motion.cost({f.at(0, 0), f.at(1, 0), f.at(2, 0.5)}), 1, 1e-9);
-  EXPECT_NEAR(f.motion.cost({f.at(0, 0), f.at(1, 0), f.at(2, 0, 2)}), 1, 1e-9);
+  EXPECT_NEAR(f.motion.cost(f.at(0, 0), f.at(1, 0), f.at(2, 0.5)), 1, 1e-9);
+  EXPECT_NEAR(f.motion.cost(f.at(0, 0), f.at(1, 0), f.at(2, 0, 2)), 1, 1e-9);
 }
 
 TEST(MotionPrior, FactorsAreHowItsResidualsGrow) {
@@ -50,7 +50,7 @@ TEST(MotionPrior, FactorsAreHowItsResidualsGrow) {
 
 TEST(MotionPrior, TakesTimesThatDoNotGrow) {
   const Fixture f;
-  EXPECT_TRUE(std::isfinite(f.motion.cost({f.at(1, 0), f.at(1, 0.1), f.at(0.5, 0)})));
+  EXPECT_TRUE(std::isfinite(f.motion.cost(f.at(1, 0), f.at(1, 0.1), f.at(0.5, 0))));
 }
 
 }  // namespace

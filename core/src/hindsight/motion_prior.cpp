@@ -38,11 +38,4 @@ double MotionPrior::cost(const Moment& before, const Moment& here, const Moment&
   return weight_.dot(change(before, here, after).residual.cwiseAbs2());
 }
 
-double MotionPrior::cost(const std::vector<Moment>& moments) const {
-  double sum = 0;
-  for (std::size_t i = 1; i + 1 < moments.size(); ++i)
-    sum += cost(moments[i - 1], moments[i], moments[i + 1]);
-  return sum;
-}
-
 }  // namespace hypotrack

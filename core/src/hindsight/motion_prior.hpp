@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <vector>
 
 #include "hindsight/hindsight_settings.hpp"
 #include "hypotrack/export.hpp"
@@ -42,8 +41,6 @@ class HYPOTRACK_API MotionPrior {
   /// 1 / sigma^2 of every number (D).
   const Eigen::VectorXd& weight() const { return weight_; }
   double cost(const Moment& before, const Moment& here, const Moment& after) const;
-  /// Of all threes that follow each other.
-  double cost(const std::vector<Moment>& moments) const;
 
  private:
   const Scene* scene_;

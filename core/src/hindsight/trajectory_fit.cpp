@@ -105,18 +105,18 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
                                     const std::vector<Look>& looks,
                                     const std::vector<double>& damping, double looseness,
                                     std::size_t fixed) const {
-  const Eigen::VectorXd weight = motion_->weight() / (looseness * looseness);
+  const Eigen::VectorXd& full_weight = motion_->weight();
+  const Eigen::VectorXd weight = full_weight / (looseness * looseness);
   const Eigen::Index d = weight.size();
   const auto rows = static_cast<Eigen::Index>(looks.size()) * d;
   std::vector<Eigen::Triplet<double>> entries;  // of the lower half
   Eigen::VectorXd gradient(rows);
-  const Eigen::VectorXd& weight_of_numbers = motion_->weight();
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const NormalEquations& eq = looks[i].equations;
     const Eigen::Index at = static_cast<Eigen::Index>(i) * d;
     gradient.segment(at, d) = eq.g;
     for (Eigen::Index c = 0; c < d; ++c) {
-      const double held = eq.a(c, c) + kHold * weight_of_numbers[c];
+      const double held = eq.a(c, c) + kHold * full_weight[c];
       entries.emplace_back(at + c, at + c, eq.a(c, c) + damping[i] * held);
       for (Eigen::Index r = c + 1; r < d; ++r) entries.emplace_back(at + r, at + c, eq.a(r, c));
     }

@@ -18,7 +18,7 @@ using Sight = std::optional<Observation>;
 
 /// Looks for the motion, a state per frame, of lowest
 ///
-///   sum over frames of their cost + MotionPrior::cost()
+///   sum over frames of their cost + sum over every three in a row of MotionPrior::cost()
 ///
 /// by Levenberg-Marquardt over all frames at once: what a frame's pictures tell stays, what they do
 /// not follows from the frames around it.
