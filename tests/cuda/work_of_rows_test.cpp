@@ -21,8 +21,15 @@ IdealRig one_camera() {
   return make_ideal_rig(std::vector<Camera>{camera});
 }
 
+/// A tile in which something of 1 m, 1 m away, is so many pixels wide.
+TileCamera tile_of(double focal_px) {
+  TileCamera tile;
+  tile.fx = tile.fy = focal_px;
+  return tile;
+}
+
 /// Boxes, `narrow` above `wide`, of 0.1 m height each, 1 m in front of the camera.
-WorkEnds work_of_two_boxes(double narrow, double wide) {
+WorkEnds work_of_two_boxes(double narrow, double wide, double focal_px = 500) {
   const Scene scene(
       {{"above", std::make_shared<Model>(test::make_test_box(Box(narrow, 0.1, 0.01)))},
        {"below", std::make_shared<Model>(test::make_test_box(Box(wide, 0.1, 0.01)))}});
@@ -31,7 +38,7 @@ WorkEnds work_of_two_boxes(double narrow, double wide) {
   const IdealRig rig = one_camera();
   PosedScene posed(scene, rig);
   posed.pose(state);
-  return work_of(posed);
+  return work_of(posed, tile_of(focal_px));
 }
 
 void expect_rises_from_0_to_1(const WorkEnds& ends) {
@@ -54,6 +61,12 @@ TEST(WorkOfRows, IsWhereTheSurfaceIs) {
   EXPECT_LT(ends[kMostBands / 4], 0.5);
 }
 
+TEST(WorkOfRows, IsWhereTheTrianglesAreIfTheyHaveNextToNoPixels) {
+  const WorkEnds ends = work_of_two_boxes(0.02, 0.1, 1);
+  expect_rises_from_0_to_1(ends);
+  EXPECT_NEAR(ends[kMostBands / 2], 0.5, 0.05);
+}
+
 TEST(WorkOfRows, IsSpreadEvenlyWhereNothingIsInFrontOfTheCamera) {
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box(Box(0.1, 0.1, 0.1)))}});
   Eigen::VectorXd state(7);
@@ -61,7 +74,7 @@ TEST(WorkOfRows, IsSpreadEvenlyWhereNothingIsInFrontOfTheCamera) {
   const IdealRig rig = one_camera();
   PosedScene posed(scene, rig);
   posed.pose(state);
-  EXPECT_EQ(work_of(posed), even_work());
+  EXPECT_EQ(work_of(posed, tile_of(500)), even_work());
   expect_rises_from_0_to_1(even_work());
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "cuda/device_residuals.hpp"
 #include "cuda/device_scene.hpp"
@@ -37,8 +38,12 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     if (!cutter_) {
       cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
     }
-    const WorkEnds work = work_of(tiles.posed(plan.header.start));
-    frame_.prepare(cutter_->cut(frame, plan, stream(), work));
+    const auto work = [&] {
+      return work_of(tiles.posed(plan.header.start), plan.header.views[0].camera);
+    };
+    if (!work_) work_ = work();
+    frame_.prepare(cutter_->cut(frame, plan, stream(), *work_));
+    work_ = work();  // for the next frame, in which it is much the same, while the GPU has to do
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -93,6 +98,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
 
   FrameOnDevice frame_;
   std::unique_ptr<TileCutter> cutter_;  // of the first frame's cameras; there are no others
+  std::optional<WorkEnds> work_;
   HostBatch batch_;
   bool sum_of_squares_;
   DeviceResiduals residuals_;

@@ -5,6 +5,7 @@
 #include "geometry/posed_scene.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/export.hpp"
+#include "hypotrack/observation.hpp"
 
 namespace hypotrack::cuda {
 
@@ -14,8 +15,9 @@ using WorkEnds = std::array<float, kMostBands + 1>;
 /// Every row takes the same.
 HYPOTRACK_API WorkEnds even_work();
 
-/// That of hypotheses like a posed scene, as the first camera sees it: a row takes as much as it
-/// has of the surface, and half as much as an average row has. From a sample of the surface.
-WorkEnds work_of(const PosedScene& scene);
+/// That of hypotheses like a posed scene, as the first camera sees it in its tile: a row takes as
+/// much as it has pixels of the surface and triangles, each of which takes as much as some pixels,
+/// and half as much as an average row has of the surface. From a sample of the surface.
+WorkEnds work_of(const PosedScene& scene, const TileCamera& tile);
 
 }  // namespace hypotrack::cuda
