@@ -12,6 +12,7 @@
 #include "observations.hpp"
 #include "plausible_motion.hpp"
 #include "probes.hpp"
+#include "rgbd_depth.hpp"
 #include "skin.hpp"
 #include "stereo_color.hpp"
 #include "stereo_patch.hpp"
@@ -165,7 +166,8 @@ TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
     return Evaluator(scene, std::move(terms), {}, {true, linearization}).backend();
   };
   const std::vector<ObjectiveTerm> sloped = {{1, colors(stereo_color::Direction::both)}};
-  const std::vector<ObjectiveTerm> plain = {{1, std::make_shared<skin::Skin>(skin::Params{})}};
+  const std::vector<ObjectiveTerm> plain = {
+      {1, std::make_shared<rgbd_depth::RgbdDepth>(rgbd_depth::Params{})}};
   EXPECT_THAT(backend(sloped, Linearization::unused), testing::StartsWith("cuda"));
   EXPECT_THAT(backend(sloped, Linearization::welcome), testing::StartsWith("cpu"));
   EXPECT_THAT(backend(sloped, Linearization::needed), testing::StartsWith("cpu"));
