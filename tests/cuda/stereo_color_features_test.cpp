@@ -104,6 +104,18 @@ class FeatureMapsTest : public testing::Test {
 constexpr std::pair<int, int> kSizes[] = {{2, 2},     {17, 23},   {33, 9},   {128, 128},
                                           {256, 256}, {500, 300}, {1024, 64}};
 
+TEST_F(FeatureMapsTest, AreTheCpusWithEveryGrayWeight) {
+  for (const double weight : {0.0, 0.3, 0.5}) {
+    Params params;
+    params.gray_weight = weight;
+    for (const auto& [width, height] : kSizes) {
+      expect_like_the_cpu(
+          {.width = width, .height = height, .texture = test::Texture::noise, .mask = false},
+          params);
+    }
+  }
+}
+
 TEST_F(FeatureMapsTest, AreTheCpusInEveryColorSpace) {
   for (const auto space : {ColorSpace::rgb, ColorSpace::lab, ColorSpace::hsv, ColorSpace::gray}) {
     Params params;

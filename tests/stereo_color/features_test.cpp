@@ -38,6 +38,29 @@ TEST(Features, RgbIsEightBitValuesOver255) {
   expect_channels({10, 20, 30}, ColorSpace::rgb, {30 / 255.0, 20 / 255.0, 10 / 255.0}, 1e-9);
 }
 
+double distance(const cv::Vec3b& a, const cv::Vec3b& b, double gray_weight) {
+  Params params;
+  params.gray_weight = gray_weight;
+  const cv::Vec4d p = unpack(make_features(one_color(a), params), 0, 0);
+  const cv::Vec4d q = unpack(make_features(one_color(b), params), 0, 0);
+  return cv::norm(p - q);
+}
+
+TEST(Features, AGrayWeightLessensWhatChannelsShareAndNothingElse) {
+  const cv::Vec3b skin(110, 140, 200);
+  for (const double weight : {0.0, 0.25, 0.5, 1.0}) {
+    SCOPED_TRACE(weight);
+    const double packing = 4 * kHalfStep;
+    EXPECT_NEAR(distance(skin, {125, 155, 215}, weight), weight * std::sqrt(3.0) * 15 / 255,
+                packing);
+    EXPECT_NEAR(distance(skin, {110 - 20, 140, 200 + 20}, weight), std::sqrt(2.0) * 20 / 255,
+                packing);
+    // 20 in red: 20 / 3 in every channel, and the rest.
+    EXPECT_NEAR(distance(skin, {110, 140, 220}, weight),
+                20.0 / 255 * std::sqrt(weight * weight / 3 + 2.0 / 3), packing);
+  }
+}
+
 TEST(Features, GrayIsLuma) {
   expect_channels({10, 20, 30}, ColorSpace::gray,
                   {(0.299 * 30 + 0.587 * 20 + 0.114 * 10) / 255, 0, 0}, kHalfStep);

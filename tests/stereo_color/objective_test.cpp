@@ -89,6 +89,7 @@ TEST(StereoColor, DefaultsAreThePapers) {
   EXPECT_EQ(params.beta, 100);
   EXPECT_EQ(params.falloff, Falloff::exponential);
   EXPECT_EQ(params.charge, 0);
+  EXPECT_EQ(params.gray_weight, 1);
   EXPECT_EQ(params.beta_by_difference, 0);
   EXPECT_DOUBLE_EQ(params.r, 0.003);
   EXPECT_EQ(params.color_space, ColorSpace::rgb);
@@ -152,6 +153,20 @@ TEST(StereoColor, BoundsOfBetaInTheWrongOrderAreRefused) {
     FAIL() << "accepted";
   } catch (const ConfigError& e) {
     EXPECT_THAT(e.what(), HasSubstr("beta_min is 50, above beta_max, 30"));
+  }
+}
+
+TEST(StereoColor, AGrayWeightIsForRgbOnly) {
+  Params params;
+  params.gray_weight = 0.5;
+  EXPECT_NO_THROW(StereoColor{params});
+  params.color_space = ColorSpace::lab;
+  try {
+    const StereoColor objective(params);
+    FAIL() << "accepted";
+  } catch (const ConfigError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("gray_weight is 0.5"));
+    EXPECT_THAT(e.what(), HasSubstr("color_space: lab"));
   }
 }
 

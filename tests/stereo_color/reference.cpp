@@ -43,6 +43,8 @@ Eigen::Vector4d sample(const TileView& view, const std::vector<double>& c, const
                        int x, int y) {
   const auto& p = view.color.at<cv::Vec3b>(y, x);
   Eigen::Vector4d out(p[2] / 255.0, p[1] / 255.0, p[0] / 255.0, 0);
+  const double shared = (1 - params.gray_weight) * (out.head<3>().mean() - 0.5);
+  out.head<3>() = (out.head<3>().array() - shared).cwiseMax(0).cwiseMin(1);
   if (params.color_space == ColorSpace::gray) out << grey(view, x, y), 0, 0, 0;
   out[3] = c[static_cast<std::size_t>(y) * view.color.cols + x];
   return out;

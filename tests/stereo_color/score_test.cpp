@@ -89,6 +89,16 @@ TEST(Score, IsTheReferencesForEveryFalloffAndCharge) {
   }
 }
 
+TEST(Score, IsTheReferencesForEveryGrayWeight) {
+  for (const double weight : {0.0, 0.5}) {
+    SCOPED_TRACE(weight);
+    Params params;
+    params.beta = 10;
+    params.gray_weight = weight;
+    expect_like_reference({.size = 96}, params);
+  }
+}
+
 TEST(Score, IsTheReferencesForOddSizesAndStrides) {
   for (const int size : {9, 17, 31, 33, 77}) {
     for (const int beyond : {0, 3, 16}) {

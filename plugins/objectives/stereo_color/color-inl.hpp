@@ -19,6 +19,13 @@ HYPOTRACK_PIXEL Channels rgb_channels(Bgr p) {
           static_cast<float>(p.b) / 255.0f};
 }
 
+/// With only this share of what all channels have in common, as a highlight has: their mean, about
+/// one half. 1 leaves colours as they are, bit by bit.
+HYPOTRACK_PIXEL Channels with_gray_share(const Channels& c, float share) {
+  const float taken = (1.0f - share) * ((c.c0 + c.c1 + c.c2) * (1.0f / 3.0f) - 0.5f);
+  return {c.c0 - taken, c.c1 - taken, c.c2 - taken};
+}
+
 /// Hue in degrees, saturation and value 0..1.
 struct Hsv {
   float h, s, v;

@@ -15,11 +15,14 @@ Bgr to_bgr(const cv::Vec3b& p) { return {p[0], p[1], p[2]}; }
 cv::Vec3f to_vec(const Channels& c) { return {c.c0, c.c1, c.c2}; }
 
 // The tile in a colour space, 32-bit float, channels in 0..1.
-cv::Mat3f convert(const cv::Mat3b& bgr, ColorSpace space) {
+cv::Mat3f convert(const cv::Mat3b& bgr, const Params& params) {
+  const ColorSpace space = params.color_space;
   cv::Mat3f out(bgr.size());
   if (space == ColorSpace::rgb) {
-    std::transform(bgr.begin(), bgr.end(), out.begin(),
-                   [](const cv::Vec3b& p) { return to_vec(rgb_channels(to_bgr(p))); });
+    const auto share = static_cast<float>(params.gray_weight);
+    std::transform(bgr.begin(), bgr.end(), out.begin(), [share](const cv::Vec3b& p) {
+      return to_vec(with_gray_share(rgb_channels(to_bgr(p)), share));
+    });
   } else if (space == ColorSpace::gray) {
     std::transform(bgr.begin(), bgr.end(), out.begin(),
                    [](const cv::Vec3b& p) { return cv::Vec3f(gray_level(to_bgr(p)), 0.0f, 0.0f); });
@@ -60,7 +63,7 @@ std::vector<float> weights(const TileView& view, const Params& params) {
 }  // namespace
 
 Features make_features(const TileView& view, const Params& params) {
-  const cv::Mat3f color = convert(view.color, params.color_space);
+  const cv::Mat3f color = convert(view.color, params);
   const std::vector<float> c = weights(view, params);
   Features out;
   out.channels_01.resize(color.cols, color.rows);

@@ -16,7 +16,8 @@ struct Features {
 };
 
 /// Colours in the parameters' colour space, scaled to 0..1:
-///   rgb   R, G, B
+///   rgb   R, G, B; with a gray_weight g below 1 each less (1 - g) ((R + G + B) / 3 - 1/2), cut to
+///         0..1, which the most saturated colours leave by (1 - g) / 6
 ///   lab   CIE L / 100, (a + 128) / 255, (b + 128) / 255
 ///   hsv   on the cone, so that hues near 0 and 360 degrees are near each other and black has none:
 ///         (1 + S V cos H) / 2, (1 + S V sin H) / 2, V

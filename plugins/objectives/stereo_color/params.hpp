@@ -37,6 +37,12 @@ struct Params : Settings {
                "similarity counts less this",
        .min = 0,
        .max = 1});
+    v("gray_weight", gray_weight,
+      {.help = "how much of a colour difference counts that all channels share, as that of a "
+               "highlight does, which no two cameras see in the same place; below 1 with "
+               "color_space: rgb only",
+       .min = 0,
+       .max = 1});
     v("w_t", w_t, {.help = "distinctiveness below this counts as none", .min = 0, .max = 1});
     v("r_mm", r,
       {.help = "a surface point is seen in both views if the depths rendered there agree this well",

@@ -47,6 +47,12 @@ StereoColor::StereoColor(const Params& params) : params_(params), of_frame_(para
     throw ConfigError(fmt::format(
         "stereo_color: beta_min is {}, above beta_max, {}; swap them or widen the range",
         params.beta_min, params.beta_max));
+  if (params.gray_weight < 1 && params.color_space != ColorSpace::rgb)
+    throw ConfigError(fmt::format(
+        "stereo_color: gray_weight is {}, which is for color_space: rgb only; found color_space: "
+        "{}. Leave one of them as it is by default",
+        params.gray_weight,
+        enum_names(params.color_space)[static_cast<std::size_t>(params.color_space)]));
 }
 
 void StereoColor::prepare(const Observation& observation) {

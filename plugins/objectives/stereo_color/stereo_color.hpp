@@ -32,8 +32,11 @@ namespace hypotrack::stereo_color {
 /// with the medians); the right view is read at the nearest pixel. Beyond the paper: the other
 /// values of color_space, aggregation, direction, lookup, distinctiveness, falloff, and a charge:
 ///   s = min(C_l, C_r) (exp(-x) - charge),   x = beta ||I_l - I_r||, or its square (gaussian)
-/// so that covering what is less alike than the charge, background mostly, costs; and a beta that
-/// follows the noise of the pictures (beta.hpp).
+/// so that covering what is less alike than the charge, background mostly, costs; a beta that
+/// follows the noise of the pictures (beta.hpp); and a gray_weight g, with which
+///   ||I_l - I_r||^2 = |d|^2 - (1 - g^2) (d_R + d_G + d_B)^2 / 3,   d = I_l - I_r
+/// because highlights, which lie elsewhere for each camera, have the light's colour: Shafer, "Using
+/// color to separate reflection components", Color Research and Application 1985.
 ///
 /// A hypothesis that no pixel sees in both views costs 0, without a charge the worst cost there is.
 ///

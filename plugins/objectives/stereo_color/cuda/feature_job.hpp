@@ -42,6 +42,7 @@ struct ViewJob {
 struct FeatureJob {
   ViewJob views[2];
   ColorSpace color_space;
+  float gray_weight;      ///< if color_space is rgb
   std::int32_t weighted;  ///< by distinctiveness; otherwise all 1, and the first two kernels do
                           ///< not run
   float w_t;

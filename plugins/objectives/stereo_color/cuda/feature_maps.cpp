@@ -60,6 +60,7 @@ void FeatureMaps::enqueue(const cuda::DeviceObservation& observation, cuda::Stre
     job.views[i] = view_job(observation.tiles[static_cast<std::size_t>(i)], i);
   }
   job.color_space = settings_.color_space;
+  job.gray_weight = static_cast<float>(settings_.gray_weight);
   job.weighted = settings_.distinctiveness == Distinctiveness::principal_curvatures;
   job.w_t = static_cast<float>(settings_.w_t);
   job.lab_nodes = lab_nodes_.data();

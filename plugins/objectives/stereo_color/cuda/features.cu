@@ -17,7 +17,7 @@ __device__ Channels channels(const FeatureJob& job, Bgr bgr) {
     case ColorSpace::lab:
       return to_lab(bgr, job.lab_nodes);
     default:
-      return rgb_channels(bgr);
+      return with_gray_share(rgb_channels(bgr), job.gray_weight);
   }
 }
 
