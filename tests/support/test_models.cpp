@@ -196,6 +196,31 @@ ModelData make_test_box(const Eigen::Vector3d& size) {
   return rigid_model(std::move(mesh));
 }
 
+ModelData make_test_ball(double radius) {
+  constexpr int kRings = 32, kSides = 64;
+  Mesh mesh;
+  mesh.vertices.resize(3, (kRings + 1) * kSides);
+  mesh.triangles.resize(3, 2 * kRings * kSides);
+  for (int ring = 0; ring <= kRings; ++ring) {
+    const double polar = kPi * ring / kRings;
+    for (int side = 0; side < kSides; ++side) {
+      const double turn = 2 * kPi * side / kSides;
+      const Eigen::Vector3d out(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn),
+                                std::cos(polar));
+      mesh.vertices.col(ring * kSides + side) = (radius * out).cast<float>();
+    }
+  }
+  int face = 0;
+  for (int ring = 0; ring < kRings; ++ring) {
+    for (int side = 0; side < kSides; ++side) {
+      const int a = ring * kSides + side, b = ring * kSides + (side + 1) % kSides;
+      mesh.triangles.col(face++) << a, a + kSides, b;
+      mesh.triangles.col(face++) << b, a + kSides, b + kSides;
+    }
+  }
+  return rigid_model(std::move(mesh));
+}
+
 Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
                              const Eigen::Vector3d& center, double radius) {
   std::uniform_real_distribution<double> unit(0, 1);

@@ -17,6 +17,9 @@ ModelData make_test_hand();
 /// A box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
 ModelData make_test_box(const Eigen::Vector3d& size = {0.06, 0.04, 0.12});
 
+/// A rigid ball about the model's origin, of 32 x 64 faces.
+ModelData make_test_ball(double radius);
+
 /// A state of the scene with angles uniform within their bounds, rotations uniform, and positions
 /// uniform within `radius` of `center` along each axis.
 Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,

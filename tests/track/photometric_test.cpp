@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "painted_box.hpp"
+#include "shiny_ball.hpp"
 
 namespace hypotrack {
 namespace {
@@ -151,6 +152,93 @@ TEST(PhotometricMatch, ChangesLittleFromFrameToFrameOnceItIsSettled) {
   }
   for (int i = 0; i < 40; ++i) fixture.learn(match, brighter);
   EXPECT_NEAR(mapped(match, fixture.plan, 192), 128, 2);
+}
+
+TEST(ColorSampler, TellsNormalsOfTheSurfaceInTheWorld) {
+  const test::ShinyBall ball;
+  ColorSampler sampler(ball.scene);
+  const Frame frame = ball.frame(0);
+  const TilePlan plan = ball.tiles->plan(frame, ball.state());
+  sampler.draw(plan.header, ball.state());
+  const ColorSamples samples = sampler.take(frame, ball.tiles->resamplers(), 1);
+  ASSERT_GT(samples.size(), 300u);
+  ASSERT_EQ(samples.normals.cols(), static_cast<Eigen::Index>(samples.size()));
+  for (std::size_t view = 0; view < 2; ++view) {
+    const ColorSampler::NormalGrid grid = sampler.normals(view);
+    ASSERT_EQ(grid.normals.cols(), cv::countNonZero(grid.inside));
+    const TileCamera& tile = plan.header.views[view].camera;
+    Eigen::Index next = 0;
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        if (grid.inside.at<unsigned char>(y, x) == 0) continue;
+        // Where the ray through the grid's point meets the ball.
+        const Eigen::Vector3d ray =
+            Eigen::Vector3d((2 * x + 0.5 - tile.cx) / tile.fx, (2 * y + 0.5 - tile.cy) / tile.fy, 1)
+                .normalized();
+        const Eigen::Vector3d off = -(tile.camera_from_world * ball.state().head<3>());
+        const double half = ray.dot(off);
+        const double root = std::sqrt(half * half - off.squaredNorm() + 0.0025);
+        const Eigen::Vector3d normal =
+            tile.camera_from_world.linear().transpose() * (off - (half + root) * ray) / 0.05;
+        const double cosine = normal.dot(grid.normals.col(next++).cast<double>());
+        ASSERT_GT(cosine, std::cos(normal.z() < -0.7 ? 0.12 : 0.3)) << view << " " << x << " " << y;
+      }
+    }
+  }
+}
+
+/// Mean absolute difference of the two tiles of a shiny ball, at its points.
+double difference_of_tiles(const PhotometricSettings& settings, double strength) {
+  const test::ShinyBall ball;
+  const Frame frame = ball.frame(strength);
+  PhotometricMatch match(ball.scene, settings);
+  TilePlan plan = ball.tiles->plan(frame, ball.state());
+  for (int i = 0; i < 5; ++i) match.learn(*ball.tiles, frame, plan, ball.state());
+  match.apply(plan);
+  match.apply_highlights(plan, ball.state());
+  const Observation seen = ball.tiles->cut(frame, plan);
+  ColorSampler sampler(ball.scene);
+  sampler.draw(plan.header, ball.state());
+  Frame tiles;  // through cameras that are the tiles'
+  tiles.views.resize(2);
+  std::vector<Resampler> cameras;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const TileCamera& c = seen.views[i].camera;
+    const Camera camera{c.width, c.height, c.fx, c.fy, c.cx, c.cy, DistortionModel::none, {}, {}};
+    cameras.emplace_back(camera, Eigen::Matrix3d::Identity());
+    tiles.views[i].color = seen.views[i].color;
+  }
+  const ColorSamples samples = sampler.take(tiles, cameras, 1);
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    sum += std::abs(samples.first[1][i] - samples.other[1][i]);
+  return sum / static_cast<double>(samples.size());
+}
+
+TEST(PhotometricMatch, TakesHighlightsOffWhereItIsToldTo) {
+  const PhotometricSettings without, with{.highlights = true};
+  const double matt = difference_of_tiles(without, 0);
+  const double shiny = difference_of_tiles(without, 60);
+  EXPECT_GT(shiny, matt + 2);
+  EXPECT_LT(difference_of_tiles(with, 60), matt + 0.3 * (shiny - matt));
+  EXPECT_LT(difference_of_tiles(with, 0), matt + 0.2);
+}
+
+TEST(PhotometricMatch, LeavesTheFirstViewsTileAsItIs) {
+  const test::ShinyBall ball;
+  const Frame frame = ball.frame(60);
+  PhotometricMatch match(ball.scene, {.highlights = true});
+  const TilePlan plain = ball.tiles->plan(frame, ball.state());
+  TilePlan plan = plain;
+  match.apply_highlights(plan, ball.state());
+  EXPECT_TRUE(plan.cuts[1].brightness.empty()) << "before it has learned";
+  match.learn(*ball.tiles, frame, plan, ball.state());
+  match.apply_highlights(plan, ball.state());
+  EXPECT_TRUE(plan.cuts[0].brightness.empty());
+  EXPECT_FALSE(plan.cuts[1].brightness.empty());
+  EXPECT_EQ(cv::norm(ball.tiles->cut(frame, plain).views[0].color,
+                     ball.tiles->cut(frame, plan).views[0].color, cv::NORM_INF),
+            0);
 }
 
 TEST(PhotometricMatch, OffLeavesColoursAlone) {

@@ -35,6 +35,9 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   }
   void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
     frame_.finish();
+    const bool host_only =
+        std::ranges::any_of(plan.cuts, [](const CutPlan& cut) { return !cut.brightness.empty(); });
+    if (host_only) return Evaluation::prepare(tiles, frame, plan);
     if (!cutter_) {
       cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
     }

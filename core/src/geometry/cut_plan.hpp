@@ -1,5 +1,6 @@
 #pragma once
 
+#include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
 #include "geometry/color_map.hpp"
@@ -26,6 +27,9 @@ struct CutPlan {
   cv::Rect touched;
   /// Applied to the tile's colours; identity from plan_cut().
   ColorMap colors;
+  /// Added to every channel after that, 0 .. 255 (32-bit float, of the tile's size); empty from
+  /// plan_cut(): nothing. Only Resampler::cut() does this.
+  cv::Mat brightness;
 };
 
 /// `camera_from_ideal` is a rotation.

@@ -1,6 +1,7 @@
 #include "geometry/resample.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <utility>
@@ -76,6 +77,15 @@ cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
   return out;
 }
 
+/// The same, brighter by a number per pixel.
+cv::Mat brightened(const cv::Mat& color, const cv::Mat& by) {
+  if (by.empty()) return color;
+  cv::Mat all, out;
+  cv::merge(std::array{by, by, by}, all);
+  cv::add(color, all, out, cv::noArray(), CV_8UC3);
+  return out;
+}
+
 cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int size, int samples) {
   cv::Mat out;
   cv::remap(image, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -124,7 +134,10 @@ TileView Resampler::cut(const View& view, const TileCamera& tile, const CutPlan&
     }
     return look_up(part, x, y, size, plan.reduction.samples);
   };
-  if (!view.color.empty()) out.color = with_colors(take(view.color(plan.touched)), plan.colors);
+  if (!view.color.empty()) {
+    const cv::Mat color = with_colors(take(view.color(plan.touched)), plan.colors);
+    out.color = brightened(color, plan.brightness);
+  }
   if (!view.mask.empty()) {
     out.mask = take(view.mask(plan.touched) != 0) >= 128;
     out.mask &= out.valid;

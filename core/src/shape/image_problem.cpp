@@ -55,6 +55,7 @@ ImageProblem::ImageProblem(const Scene& scene, const ShapeTargets& targets, Imag
     TilePlan plan = tiles.plan(f.frame, f.state);
     photometric.learn(tiles, f.frame, plan, f.state);
     photometric.apply(plan);
+    photometric.apply_highlights(plan, f.state);
     observations_.push_back(tiles.cut(f.frame, plan));
   }
   thinner_ = parts_.edge * pixel_width();

@@ -42,6 +42,22 @@ bool is_interior(const DepthTile& tile, int x, int y) {
   return w > 0 && same(x - 1, y) && same(x + 1, y) && same(x, y - 1) && same(x, y + 1);
 }
 
+/// The plane through neighbouring points: 1/z is linear in the image of a plane.
+Eigen::Vector3f normal_at(const DepthTile& tile, const TileCamera& camera, int x, int y) {
+  const double dx = (double{depth_at(tile, x + 1, y)} - depth_at(tile, x - 1, y)) / 2;
+  const double dy = (double{depth_at(tile, x, y + 1)} - depth_at(tile, x, y - 1)) / 2;
+  const double at_centre = depth_at(tile, x, y) - dx * (x - camera.cx) - dy * (y - camera.cy);
+  const Eigen::Vector3d inwards(dx * camera.fx, dy * camera.fy, at_centre);
+  return (camera.camera_from_world.linear().transpose() * -inwards.normalized()).cast<float>();
+}
+
+Eigen::Matrix3Xf columns(const std::vector<Eigen::Vector3f>& vectors) {
+  Eigen::Matrix3Xf out(3, static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    out.col(static_cast<Eigen::Index>(i)) = vectors[i];
+  return out;
+}
+
 /// A camera's image, looked up at positions of its grid.
 struct Lookup {
   const Resampler& camera;
@@ -119,6 +135,7 @@ ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> c
   const Lookup there{cameras[other], intrinsics(views[other].camera), frame.views[other].color};
   const StereoMap map = stereo_map(self.grid, 0, static_cast<int>(other));
   const DepthTile& tile = self.drawer.tiles()[0];
+  std::vector<Eigen::Vector3f> normals;
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0 + (tile.x0 + y) % 2; x < tile.x1; x += 2) {
       if (!is_interior(tile, x, y)) continue;
@@ -127,13 +144,51 @@ ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> c
       std::array<float, 3> first{}, second{};
       if (!here(static_cast<float>(x), static_cast<float>(y), first)) continue;
       if (!there(at.u, at.v, second)) continue;
+      normals.push_back(normal_at(tile, views[0].camera, x, y));
       for (std::size_t i = 0; i < 3; ++i) {
         samples.first[i].push_back(first[i]);
         samples.other[i].push_back(second[i]);
       }
     }
   }
+  samples.normals = columns(normals);
   return samples;
+}
+
+ColorSampler::NormalGrid ColorSampler::normals(std::size_t view) const {
+  const DepthTile& tile = impl_->drawer.tiles()[view];
+  NormalGrid grid{cv::Mat::zeros(kGrid, kGrid, CV_8U), {}};
+  std::vector<Eigen::Vector3f> normals;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      if (!is_interior(tile, x, y)) continue;
+      grid.inside.at<unsigned char>(y, x) = 255;
+      normals.push_back(normal_at(tile, impl_->grid.views[view].camera, x, y));
+    }
+  }
+  grid.normals = columns(normals);
+  return grid;
+}
+
+ViewDirections ColorSampler::directions(std::size_t other) const {
+  const auto& views = impl_->grid.views;
+  const DepthTile& tile = impl_->drawer.tiles()[0];
+  const TileCamera& camera = views[0].camera;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  int points = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      const double w = depth_at(tile, x, y);
+      if (w <= 0) continue;
+      sum += Eigen::Vector3d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1) / w;
+      ++points;
+    }
+  }
+  const Eigen::Vector3d middle = camera.camera_from_world.inverse() * (sum / std::max(points, 1));
+  const auto to = [&](const TileCamera& c) -> Eigen::Vector3d {
+    return (c.camera_from_world.inverse().translation() - middle).normalized();
+  };
+  return {to(camera), to(views[other].camera)};
 }
 
 }  // namespace hypotrack

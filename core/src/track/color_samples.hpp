@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <span>
 #include <vector>
 
@@ -10,12 +12,14 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
+#include "track/highlights.hpp"
 
 namespace hypotrack {
 
 /// What two views show at the same points of a surface: blue, green and red, 0 .. 255.
 struct ColorSamples {
   std::array<std::vector<float>, 3> first, other;
+  Eigen::Matrix3Xf normals;  ///< of the surface there, outwards, in the world
 
   std::size_t size() const { return first[0].size(); }
 };
@@ -37,6 +41,16 @@ class HYPOTRACK_API ColorSampler {
   /// drawn. `cameras` are one per view. None if a view has no colour.
   ColorSamples take(const Frame& frame, std::span<const Resampler> cameras,
                     std::size_t other) const;
+
+  /// Normals of what a view is drawn to show.
+  struct NormalGrid {
+    cv::Mat inside;            ///< 8-bit, 64 x 64: where they are known, away from edges
+    Eigen::Matrix3Xf normals;  ///< of those points, row by row; outwards, in the world
+  };
+  NormalGrid normals(std::size_t view) const;
+
+  /// From the middle of what the first view is drawn to show to that view's camera and another's.
+  ViewDirections directions(std::size_t other) const;
 
  private:
   struct Impl;

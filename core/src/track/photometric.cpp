@@ -1,7 +1,9 @@
 #include "track/photometric.hpp"
 
 #include <algorithm>
+#include <opencv2/imgproc.hpp>
 #include <optional>
+#include <vector>
 
 #include "track/color_fit.hpp"
 
@@ -17,6 +19,45 @@ float moved(float from, float to, float rate, float largest) {
   return from + std::clamp(rate * (to - from), -largest, largest);
 }
 
+/// The samples with the first view darker, in all channels.
+ColorSamples darkened(ColorSamples samples, const Eigen::VectorXf& by) {
+  for (std::vector<float>& channel : samples.first)
+    Eigen::Map<Eigen::VectorXf>(channel.data(), by.size()) -= by;
+  return samples;
+}
+
+/// How much brighter the first view is than the other's mapped colours, mean of the channels.
+Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map) {
+  const auto size = static_cast<Eigen::Index>(samples.size());
+  Eigen::ArrayXf sum = Eigen::ArrayXf::Zero(size);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Map<const Eigen::ArrayXf> first(samples.first[i].data(), size);
+    const Eigen::Map<const Eigen::ArrayXf> other(samples.other[i].data(), size);
+    sum += first - map.gain[i] * other - map.offset[i];
+  }
+  return sum / 3;
+}
+
+/// Values at the points of a grid, continued beyond by those nearby, as an image of a tile's size.
+cv::Mat spread(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
+  constexpr double kReach = 1.5;        // grid points
+  constexpr double kLeastShare = 0.05;  // of those around that have values
+  cv::Mat image = cv::Mat::zeros(inside.size(), CV_32F);
+  Eigen::Index next = 0;
+  for (int y = 0; y < inside.rows; ++y)
+    for (int x = 0; x < inside.cols; ++x)
+      if (inside.at<unsigned char>(y, x) != 0) image.at<float>(y, x) = values[next++];
+  cv::Mat share, around;
+  inside.convertTo(share, CV_32F, 1.0 / 255);
+  cv::GaussianBlur(share, share, {}, kReach);
+  cv::GaussianBlur(image, around, {}, kReach);
+  around /= share + kLeastShare;
+  image.copyTo(around, inside);
+  cv::Mat out;
+  cv::resize(around, out, tile, 0, 0, cv::INTER_LINEAR);
+  return out;
+}
+
 }  // namespace
 
 PhotometricMatch::PhotometricMatch(const Scene& scene, const PhotometricSettings& settings)
@@ -28,10 +69,18 @@ void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const T
   views_.resize(plan.cuts.size() - 1);
   sampler_.draw(plan.header, state);
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    const ColorSamples samples = sampler_.take(frame, tiles.resamplers(), i + 1);
-    const auto found = fit_color_map(samples);
-    if (found) update(views_[i], *found, median_difference(samples, *found));
+    learn(views_[i], sampler_.take(frame, tiles.resamplers(), i + 1), sampler_.directions(i + 1));
   }
+}
+
+void PhotometricMatch::learn(Learned& learned, const ColorSamples& samples,
+                             const ViewDirections& to) const {
+  Highlights& highlights = learned.highlights;
+  const auto found = fit_color_map(darkened(samples, highlights.expected(samples.normals, to)));
+  if (!found) return;
+  if (settings_.highlights) highlights.learn(samples.normals, gray_difference(samples, *found), to);
+  const ColorSamples matt = darkened(samples, highlights.expected(samples.normals, to));
+  update(learned, *found, median_difference(matt, *found));
 }
 
 void PhotometricMatch::update(Learned& learned, const ColorMap& found, double difference) const {
@@ -54,6 +103,18 @@ void PhotometricMatch::update(Learned& learned, const ColorMap& found, double di
 
 bool PhotometricMatch::knows() const {
   return std::ranges::any_of(views_, [](const Learned& l) { return l.frames > 0; });
+}
+
+void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& state) {
+  if (!settings_.highlights || !knows()) return;
+  sampler_.draw(plan.header, state);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const ColorSampler::NormalGrid grid = sampler_.normals(i + 1);
+    const Eigen::VectorXf missing =
+        views_[i].highlights.expected(grid.normals, sampler_.directions(i + 1));
+    const TileCamera& camera = plan.header.views[i + 1].camera;
+    plan.cuts[i + 1].brightness = spread(grid.inside, missing, {camera.width, camera.height});
+  }
 }
 
 void PhotometricMatch::apply(TilePlan& plan) const {

@@ -8,6 +8,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "track/color_samples.hpp"
+#include "track/highlights.hpp"
 
 namespace hypotrack {
 
@@ -16,6 +17,7 @@ struct PhotometricSettings {
   bool match = true;
   double rate = 0.3;
   double max_change = 4;
+  bool highlights = false;
   void visit(ParamVisitor& v) {
     v("match", match,
       {.help = "bring the other views' colours to the first's before they are compared: gain and "
@@ -27,6 +29,10 @@ struct PhotometricSettings {
        .min = 0.01,
        .max = 255,
        .unit = "of 255"});
+    v("highlights", highlights,
+      {.help =
+           "with `match`, also take off what highlights make the other views differ by, learned "
+           "by the surface's normals; tiles are then cut on the CPU"});
   }
 };
 
@@ -46,6 +52,9 @@ class HYPOTRACK_API PhotometricMatch {
   bool knows() const;
   /// Puts the maps, and by how much the first two views still differ, into the plan of a frame.
   void apply(TilePlan& plan) const;
+  /// Puts what highlights are expected to make the other views differ by, if the scene is about as
+  /// in a normalised state, into the plan as well; nothing if the settings do not ask for that.
+  void apply_highlights(TilePlan& plan, const Eigen::VectorXd& state);
 
  private:
   /// One view's map and the number of frames that it was learned from.
@@ -53,7 +62,9 @@ class HYPOTRACK_API PhotometricMatch {
     ColorMap map;
     double difference = 0;  ///< Observation::color_difference
     int frames = 0;
+    Highlights highlights;
   };
+  void learn(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
   void update(Learned& learned, const ColorMap& found, double difference) const;
 
   PhotometricSettings settings_;

@@ -167,6 +167,7 @@ Solution Tracker::track(const Frame& frame) {
     plan_ = tiles_.plan(frame, starts.col(0));
     if (!photometric_.knows()) photometric_.learn(tiles_, frame, plan_, starts.col(0));
     photometric_.apply(plan_);
+    photometric_.apply_highlights(plan_, starts.col(0));
     evaluator_.prepare(tiles_, frame, plan_);
     const Eigen::VectorXd prior = cheapest(starts);
     const OptimizerResult result = search(frame, prior, starts.cols() > 1 ? starts.cols() : 0);
