@@ -10,6 +10,7 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
+#include "shiny_ball.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -280,6 +281,41 @@ TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
   const Solution solution = tracker.track(grey_frame(1));
   EXPECT_EQ(solution.status, Status::lost);
   EXPECT_EQ(solution.state, before.state);
+}
+
+/// Remembers the second view's tile of the last frame; every pose is as good as another.
+class Remembering final : public Objective {
+ public:
+  bool needs_rendering() const override { return true; }
+  void prepare(const Observation& observation) override {
+    tile = observation.views[1].color.clone();
+  }
+  double cost(const RenderedHypothesis&) const override { return 0; }
+  cv::Mat tile;
+};
+
+TEST(Tracker, TakesHighlightsOffTheTilesOfFramesAfterTheFirst) {
+  const test::ShinyBall ball;
+  const auto second_tile = [&](bool highlights) {
+    const auto objective = std::make_shared<Remembering>();
+    TrackerParts parts;
+    parts.cameras = ball.cameras;
+    parts.optimizer = std::make_unique<Sampling>();
+    parts.objective = {{1.0, objective}};
+    parts.evaluate = {.backend = Backend::cpu, .threads = 1};
+    parts.photometric.highlights = highlights;
+    parts.budget.evaluations = 1;  // the start
+    Tracker tracker(ball.scene, std::move(parts), ball.state(), 1);
+    for (int i = 0; i < 3; ++i) {
+      Frame frame = ball.frame(60);
+      frame.index = i;
+      frame.time = i / 30.0;
+      tracker.track(frame);
+    }
+    return objective->tile;
+  };
+  const cv::Mat with = second_tile(true), without = second_tile(false);
+  EXPECT_GT(cv::norm(with, without, cv::NORM_INF), 15);
 }
 
 }  // namespace
