@@ -160,7 +160,7 @@ TEST(ColorSampler, TellsNormalsOfTheSurfaceInTheWorld) {
   const Frame frame = ball.frame(0);
   const TilePlan plan = ball.tiles->plan(frame, ball.state());
   sampler.draw(plan.header, ball.state());
-  const ColorSamples samples = sampler.take(frame, ball.tiles->resamplers(), 1);
+  const ColorSamples samples = sampler.take(frame, ball.tiles->resamplers(), 1, true);
   ASSERT_GT(samples.size(), 300u);
   ASSERT_EQ(samples.normals.cols(), static_cast<Eigen::Index>(samples.size()));
   for (std::size_t view = 0; view < 2; ++view) {

@@ -126,7 +126,7 @@ void ColorSampler::draw(const Observation& header, const Eigen::VectorXd& state)
 }
 
 ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> cameras,
-                                std::size_t other) const {
+                                std::size_t other, bool with_normals) const {
   const Impl& self = *impl_;
   const auto& views = self.grid.views;
   ColorSamples samples;
@@ -144,7 +144,7 @@ ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> c
       std::array<float, 3> first{}, second{};
       if (!here(static_cast<float>(x), static_cast<float>(y), first)) continue;
       if (!there(at.u, at.v, second)) continue;
-      normals.push_back(normal_at(tile, views[0].camera, x, y));
+      if (with_normals) normals.push_back(normal_at(tile, views[0].camera, x, y));
       for (std::size_t i = 0; i < 3; ++i) {
         samples.first[i].push_back(first[i]);
         samples.other[i].push_back(second[i]);

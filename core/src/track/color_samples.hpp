@@ -19,7 +19,7 @@ namespace hypotrack {
 /// What two views show at the same points of a surface: blue, green and red, 0 .. 255.
 struct ColorSamples {
   std::array<std::vector<float>, 3> first, other;
-  Eigen::Matrix3Xf normals;  ///< of the surface there, outwards, in the world
+  Eigen::Matrix3Xf normals;  ///< of the surface there, outwards, in the world; if asked for
 
   std::size_t size() const { return first[0].size(); }
 };
@@ -39,8 +39,8 @@ class HYPOTRACK_API ColorSampler {
   /// Samples of the first view and view `other` (from 1 on) at every second point of the grid, as
   /// the black squares of a chessboard, where both see the same, away from the edges of what is
   /// drawn. `cameras` are one per view. None if a view has no colour.
-  ColorSamples take(const Frame& frame, std::span<const Resampler> cameras,
-                    std::size_t other) const;
+  ColorSamples take(const Frame& frame, std::span<const Resampler> cameras, std::size_t other,
+                    bool with_normals = false) const;
 
   /// Normals of what a view is drawn to show.
   struct NormalGrid {

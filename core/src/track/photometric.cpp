@@ -69,16 +69,22 @@ void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const T
   views_.resize(plan.cuts.size() - 1);
   sampler_.draw(plan.header, state);
   for (std::size_t i = 0; i < views_.size(); ++i) {
-    learn(views_[i], sampler_.take(frame, tiles.resamplers(), i + 1), sampler_.directions(i + 1));
+    const ColorSamples samples =
+        sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights);
+    if (settings_.highlights) {
+      learn_both(views_[i], samples, sampler_.directions(i + 1));
+    } else if (const auto found = fit_color_map(samples)) {
+      update(views_[i], *found, median_difference(samples, *found));
+    }
   }
 }
 
-void PhotometricMatch::learn(Learned& learned, const ColorSamples& samples,
-                             const ViewDirections& to) const {
+void PhotometricMatch::learn_both(Learned& learned, const ColorSamples& samples,
+                                  const ViewDirections& to) const {
   Highlights& highlights = learned.highlights;
   const auto found = fit_color_map(darkened(samples, highlights.expected(samples.normals, to)));
   if (!found) return;
-  if (settings_.highlights) highlights.learn(samples.normals, gray_difference(samples, *found), to);
+  highlights.learn(samples.normals, gray_difference(samples, *found), to);
   const ColorSamples matt = darkened(samples, highlights.expected(samples.normals, to));
   update(learned, *found, median_difference(matt, *found));
 }

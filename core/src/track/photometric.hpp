@@ -64,7 +64,8 @@ class HYPOTRACK_API PhotometricMatch {
     int frames = 0;
     Highlights highlights;
   };
-  void learn(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
+  /// Colours without the highlights known so far, then highlights without these colours.
+  void learn_both(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
   void update(Learned& learned, const ColorMap& found, double difference) const;
 
   PhotometricSettings settings_;
