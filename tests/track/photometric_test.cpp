@@ -187,6 +187,26 @@ TEST(ColorSampler, TellsNormalsOfTheSurfaceInTheWorld) {
   }
 }
 
+TEST(ColorSampler, TilesShowWhatTheImagesShow) {
+  const test::ShinyBall ball;
+  const Frame frame = ball.frame(60);
+  const TilePlan plan = ball.tiles->plan(frame, ball.state());
+  ColorSampler sampler(ball.scene);
+  sampler.draw(plan.header, ball.state());
+  const ColorSamples images = sampler.take(frame, ball.tiles->resamplers(), 1, true);
+  const ColorSamples tiles = sampler.take(ball.tiles->cut(frame, plan), 1, true);
+  ASSERT_EQ(tiles.size(), images.size());
+  ASSERT_GT(tiles.size(), 200u);
+  EXPECT_EQ(tiles.normals, images.normals);
+  const auto mean_difference = [&](const std::vector<float>& a, const std::vector<float>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += std::abs(a[i] - b[i]);
+    return sum / static_cast<double>(a.size());
+  };
+  EXPECT_LT(mean_difference(tiles.first[1], images.first[1]), 1);
+  EXPECT_LT(mean_difference(tiles.other[1], images.other[1]), 1);
+}
+
 /// Mean absolute difference of the two tiles of a shiny ball, at its points.
 double difference_of_tiles(const PhotometricSettings& settings, double strength) {
   const test::ShinyBall ball;
@@ -199,16 +219,7 @@ double difference_of_tiles(const PhotometricSettings& settings, double strength)
   const Observation seen = ball.tiles->cut(frame, plan);
   ColorSampler sampler(ball.scene);
   sampler.draw(plan.header, ball.state());
-  Frame tiles;  // through cameras that are the tiles'
-  tiles.views.resize(2);
-  std::vector<Resampler> cameras;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const TileCamera& c = seen.views[i].camera;
-    const Camera camera{c.width, c.height, c.fx, c.fy, c.cx, c.cy, DistortionModel::none, {}, {}};
-    cameras.emplace_back(camera, Eigen::Matrix3d::Identity());
-    tiles.views[i].color = seen.views[i].color;
-  }
-  const ColorSamples samples = sampler.take(tiles, cameras, 1);
+  const ColorSamples samples = sampler.take(seen, 1);
   double sum = 0;
   for (std::size_t i = 0; i < samples.size(); ++i)
     sum += std::abs(samples.first[1][i] - samples.other[1][i]);

@@ -77,15 +77,6 @@ cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
   return out;
 }
 
-/// The same, brighter by a number per pixel.
-cv::Mat brightened(const cv::Mat& color, const cv::Mat& by) {
-  if (by.empty()) return color;
-  cv::Mat all, out;
-  cv::merge(std::array{by, by, by}, all);
-  cv::add(color, all, out, cv::noArray(), CV_8UC3);
-  return out;
-}
-
 cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int size, int samples) {
   cv::Mat out;
   cv::remap(image, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
@@ -94,6 +85,14 @@ cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int si
 }
 
 }  // namespace
+
+cv::Mat brightened(const cv::Mat& color, const cv::Mat& by) {
+  if (by.empty()) return color;
+  cv::Mat all, out;
+  cv::merge(std::array{by, by, by}, all);
+  cv::add(color, all, out, cv::noArray(), CV_8UC3);
+  return out;
+}
 
 Resampler::Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal)
     : lens_(make_lens_map(camera, camera_from_ideal)), image_(camera.width, camera.height) {}

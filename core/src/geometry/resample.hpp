@@ -16,6 +16,9 @@ struct ImageMap {
   cv::Mat x, y;  ///< 32-bit float, (size + 2)^2; far outside where the camera cannot see
 };
 
+/// Colours (8-bit BGR), brighter by a number per pixel (32-bit float); empty: by nothing.
+HYPOTRACK_API cv::Mat brightened(const cv::Mat& color, const cv::Mat& by);
+
 /// Takes tiles out of one camera's images: lens, rotation, crop and scale in one lookup.
 class HYPOTRACK_API Resampler {
  public:

@@ -155,4 +155,15 @@ double median_difference(const ColorSamples& samples, const ColorMap& map) {
   return std::sqrt(double{*middle}) / 255;
 }
 
+Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map) {
+  const auto size = static_cast<Eigen::Index>(samples.size());
+  Eigen::ArrayXf sum = Eigen::ArrayXf::Zero(size);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::Map<const Eigen::ArrayXf> first(samples.first[i].data(), size);
+    const Eigen::Map<const Eigen::ArrayXf> other(samples.other[i].data(), size);
+    sum += first - map.gain[i] * other - map.offset[i];
+  }
+  return sum / 3;
+}
+
 }  // namespace hypotrack

@@ -21,4 +21,7 @@ HYPOTRACK_API std::optional<ColorMap> fit_color_map(const ColorSamples& samples)
 /// in 0..1; 0 without samples.
 HYPOTRACK_API double median_difference(const ColorSamples& samples, const ColorMap& map);
 
+/// How much brighter the first view is than the other's mapped colours, mean of the channels (N).
+HYPOTRACK_API Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map);
+
 }  // namespace hypotrack

@@ -58,31 +58,47 @@ Eigen::Matrix3Xf columns(const std::vector<Eigen::Vector3f>& vectors) {
   return out;
 }
 
+/// Colour at a position of an image, interpolated; false outside.
+bool color_at(const cv::Mat& image, const ImagePoint& p, std::array<float, 3>& color) {
+  const float x0 = std::floor(p.x), y0 = std::floor(p.y);
+  if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
+        y0 + 1 < static_cast<float>(image.rows))) {
+    return false;
+  }
+  const float fx = p.x - x0, fy = p.y - y0;
+  const auto* top = image.ptr<cv::Vec3b>(static_cast<int>(y0)) + static_cast<int>(x0);
+  const auto* bottom = image.ptr<cv::Vec3b>(static_cast<int>(y0) + 1) + static_cast<int>(x0);
+  for (int i = 0; i < 3; ++i) {
+    const float above =
+        (1 - fx) * static_cast<float>(top[0][i]) + fx * static_cast<float>(top[1][i]);
+    const float below =
+        (1 - fx) * static_cast<float>(bottom[0][i]) + fx * static_cast<float>(bottom[1][i]);
+    color[static_cast<std::size_t>(i)] = (1 - fy) * above + fy * below;
+  }
+  return true;
+}
+
 /// A camera's image, looked up at positions of its grid.
-struct Lookup {
+struct ImageLookup {
   const Resampler& camera;
   TileIntrinsics grid;
   const cv::Mat& image;
 
-  /// Colour at a position, interpolated; false outside the image.
   bool operator()(float column, float row, std::array<float, 3>& color) const {
-    const ImagePoint p = image_point(camera.lens(), grid, column, row);
-    const float x0 = std::floor(p.x), y0 = std::floor(p.y);
-    if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
-          y0 + 1 < static_cast<float>(image.rows))) {
-      return false;
-    }
-    const float fx = p.x - x0, fy = p.y - y0;
-    const auto* top = image.ptr<cv::Vec3b>(static_cast<int>(y0)) + static_cast<int>(x0);
-    const auto* bottom = image.ptr<cv::Vec3b>(static_cast<int>(y0) + 1) + static_cast<int>(x0);
-    for (int i = 0; i < 3; ++i) {
-      const float above =
-          (1 - fx) * static_cast<float>(top[0][i]) + fx * static_cast<float>(top[1][i]);
-      const float below =
-          (1 - fx) * static_cast<float>(bottom[0][i]) + fx * static_cast<float>(bottom[1][i]);
-      color[static_cast<std::size_t>(i)] = (1 - fy) * above + fy * below;
-    }
-    return true;
+    return color_at(image, image_point(camera.lens(), grid, column, row), color);
+  }
+};
+
+/// A tile, looked up at positions of the grid that covers it.
+struct TileLookup {
+  const TileView& tile;
+
+  bool operator()(float column, float row, std::array<float, 3>& color) const {
+    const float x = static_cast<float>(tile.camera.width) / kGrid;
+    const float y = static_cast<float>(tile.camera.height) / kGrid;
+    const ImagePoint p{(column + 0.5F) * x - 0.5F, (row + 0.5F) * y - 0.5F};
+    if (!color_at(tile.color, p, color)) return false;
+    return tile.valid.at<unsigned char>(static_cast<int>(p.y), static_cast<int>(p.x)) != 0;
   }
 };
 
@@ -108,6 +124,11 @@ struct ColorSampler::Impl {
   HypothesisDrawer drawer;
   Observation grid;  // cameras only
   FrameProjection projection;
+
+  /// Samples by what looks up either view at positions of its grid.
+  template <class LookUp>
+  ColorSamples take(const LookUp& here, const LookUp& there, std::size_t other,
+                    bool with_normals) const;
 };
 
 ColorSampler::ColorSampler(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -127,20 +148,34 @@ void ColorSampler::draw(const Observation& header, const Eigen::VectorXd& state)
 
 ColorSamples ColorSampler::take(const Frame& frame, std::span<const Resampler> cameras,
                                 std::size_t other, bool with_normals) const {
-  const Impl& self = *impl_;
-  const auto& views = self.grid.views;
+  const auto& views = impl_->grid.views;
+  const cv::Mat &first = frame.views[0].color, &second = frame.views[other].color;
+  if (first.empty() || second.empty()) return {};
+  const ImageLookup here{cameras[0], intrinsics(views[0].camera), first};
+  const ImageLookup there{cameras[other], intrinsics(views[other].camera), second};
+  return impl_->take(here, there, other, with_normals);
+}
+
+ColorSamples ColorSampler::take(const Observation& tiles, std::size_t other,
+                                bool with_normals) const {
+  if (tiles.views[0].color.empty() || tiles.views[other].color.empty()) return {};
+  return impl_->take(TileLookup{tiles.views[0]}, TileLookup{tiles.views[other]}, other,
+                     with_normals);
+}
+
+template <class LookUp>
+ColorSamples ColorSampler::Impl::take(const LookUp& here, const LookUp& there, std::size_t other,
+                                      bool with_normals) const {
   ColorSamples samples;
-  if (frame.views[0].color.empty() || frame.views[other].color.empty()) return samples;
-  const Lookup here{cameras[0], intrinsics(views[0].camera), frame.views[0].color};
-  const Lookup there{cameras[other], intrinsics(views[other].camera), frame.views[other].color};
-  const StereoMap map = stereo_map(self.grid, 0, static_cast<int>(other));
-  const DepthTile& tile = self.drawer.tiles()[0];
+  const auto& views = grid.views;
+  const StereoMap map = stereo_map(grid, 0, static_cast<int>(other));
+  const DepthTile& tile = drawer.tiles()[0];
   std::vector<Eigen::Vector3f> normals;
   for (int y = tile.y0; y < tile.y1; ++y) {
     for (int x = tile.x0 + (tile.x0 + y) % 2; x < tile.x1; x += 2) {
       if (!is_interior(tile, x, y)) continue;
       scalar::Mapped<float> at{};
-      if (!seen_by_other(self.drawer.tiles()[other], map, x, y, depth_at(tile, x, y), at)) continue;
+      if (!seen_by_other(drawer.tiles()[other], map, x, y, depth_at(tile, x, y), at)) continue;
       std::array<float, 3> first{}, second{};
       if (!here(static_cast<float>(x), static_cast<float>(y), first)) continue;
       if (!there(at.u, at.v, second)) continue;

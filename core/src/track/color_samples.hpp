@@ -24,8 +24,9 @@ struct ColorSamples {
   std::size_t size() const { return first[0].size(); }
 };
 
-/// Looks up the colours of a posed scene where two views see the same of it. It reads the images
-/// themselves, not tiles, so that it does the same wherever hypotheses are evaluated.
+/// Looks up the colours of a posed scene where two views see the same of it: in the images
+/// themselves, so that it does the same wherever hypotheses are evaluated, or in tiles that were
+/// kept.
 class HYPOTRACK_API ColorSampler {
  public:
   /// The scene must outlive the sampler.
@@ -41,6 +42,8 @@ class HYPOTRACK_API ColorSampler {
   /// drawn. `cameras` are one per view. None if a view has no colour.
   ColorSamples take(const Frame& frame, std::span<const Resampler> cameras, std::size_t other,
                     bool with_normals = false) const;
+  /// The same of tiles, those that draw() was given the cameras of.
+  ColorSamples take(const Observation& tiles, std::size_t other, bool with_normals = false) const;
 
   /// Normals of what a view is drawn to show.
   struct NormalGrid {

@@ -1,11 +1,11 @@
 #include "track/photometric.hpp"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <vector>
 
 #include "track/color_fit.hpp"
+#include "track/spread.hpp"
 
 namespace hypotrack {
 namespace {
@@ -24,38 +24,6 @@ ColorSamples darkened(ColorSamples samples, const Eigen::VectorXf& by) {
   for (std::vector<float>& channel : samples.first)
     Eigen::Map<Eigen::VectorXf>(channel.data(), by.size()) -= by;
   return samples;
-}
-
-/// How much brighter the first view is than the other's mapped colours, mean of the channels.
-Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map) {
-  const auto size = static_cast<Eigen::Index>(samples.size());
-  Eigen::ArrayXf sum = Eigen::ArrayXf::Zero(size);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Eigen::Map<const Eigen::ArrayXf> first(samples.first[i].data(), size);
-    const Eigen::Map<const Eigen::ArrayXf> other(samples.other[i].data(), size);
-    sum += first - map.gain[i] * other - map.offset[i];
-  }
-  return sum / 3;
-}
-
-/// Values at the points of a grid, continued beyond by those nearby, as an image of a tile's size.
-cv::Mat spread(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
-  constexpr double kReach = 1.5;        // grid points
-  constexpr double kLeastShare = 0.05;  // of those around that have values
-  cv::Mat image = cv::Mat::zeros(inside.size(), CV_32F);
-  Eigen::Index next = 0;
-  for (int y = 0; y < inside.rows; ++y)
-    for (int x = 0; x < inside.cols; ++x)
-      if (inside.at<unsigned char>(y, x) != 0) image.at<float>(y, x) = values[next++];
-  cv::Mat share, around;
-  inside.convertTo(share, CV_32F, 1.0 / 255);
-  cv::GaussianBlur(share, share, {}, kReach);
-  cv::GaussianBlur(image, around, {}, kReach);
-  around /= share + kLeastShare;
-  image.copyTo(around, inside);
-  cv::Mat out;
-  cv::resize(around, out, tile, 0, 0, cv::INTER_LINEAR);
-  return out;
 }
 
 }  // namespace
