@@ -209,11 +209,13 @@ TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
   track("hind", {"--set", "budget.evaluations=72", "--set", "hindsight.enabled=true", "--set",
                  "hindsight.evaluations=36"});
   EXPECT_THAT(names_in(path("hind")),
-              ElementsAre("errors.csv", "joints.csv", "metrics.json", "online.csv", "run.yaml",
-                          "summary.json", "track.csv", "truth_landmarks.csv", "truth_states.csv"));
+              ElementsAre("errors.csv", "joints.csv", "metrics.json", "online.csv",
+                          "online_joints.csv", "run.yaml", "summary.json", "track.csv",
+                          "truth_landmarks.csv", "truth_states.csv"));
   std::filesystem::create_directory(path("online"));
   std::filesystem::copy(path("hind/online.csv"), path("online/track.csv"));
   EXPECT_EQ(track_without_times(path("online")), track_without_times(path("plain")));
+  EXPECT_EQ(read_text(path("hind/online_joints.csv")), read_text(path("plain/joints.csv")));
   EXPECT_NE(read_text(path("hind/joints.csv")), read_text(path("plain/joints.csv")));
   const std::vector<int> online = evaluations_in(path("hind/online.csv"));
   const std::vector<int> settled = evaluations_in(path("hind/track.csv"));

@@ -34,7 +34,7 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
       camera_(camera),
       options_(std::move(options)),
       directory_(options_.directory,
-                 {"track.csv", "joints.csv", "online.csv", "truth_states.csv",
+                 {"track.csv", "joints.csv", "online.csv", "online_joints.csv", "truth_states.csv",
                   "truth_landmarks.csv", "errors.csv", "uncertainty.csv", "overlay.mp4",
                   "worst_#.jpg", "run.yaml", "metrics.json", "summary.json"}),
       track_(directory_.part("track.csv")),
@@ -50,8 +50,11 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
   std::string track = "frame,time,status,cost,evaluations,milliseconds";
   for (const Parameter& p : scene.parameters()) track += "," + p.name;
   track_.write(track + "\n");
-  if (options_.hindsight) online_.emplace(directory_.part("online.csv")).write(track + "\n");
-  joints_.write(landmarks_header(scene.landmark_names()));
+  const std::string landmarks = landmarks_header(scene.landmark_names());
+  joints_.write(landmarks);
+  if (!options_.hindsight) return;
+  online_.emplace(directory_.part("online.csv")).write(track + "\n");
+  online_joints_.emplace(directory_.part("online_joints.csv")).write(landmarks);
 }
 
 RunOutput::~RunOutput() = default;
@@ -64,6 +67,8 @@ Renderer& RunOutput::renderer() {
 void RunOutput::add_online(const Frame& frame, const Solution& solution) {
   directory_.keep();
   online_->write(row_of(solution));
+  online_joints_->write(
+      table_line(solution.frame, solution.time, scene_->landmarks(solution.state).reshaped()));
   if (overlay_) overlay_->add(frame, solution);
 }
 

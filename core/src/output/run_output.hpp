@@ -23,9 +23,9 @@ namespace hypotrack {
 class OverlayVideo;
 
 /// Writes what a run leaves behind: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json;
-/// online.csv if hindsight changes what was found; uncertainty.csv if the tracker says how far off
-/// landmarks may be; with ground truth also truth_states.csv, truth_landmarks.csv, errors.csv,
-/// metrics.json and worst_<frame>.jpg.
+/// online.csv and online_joints.csv if hindsight changes what was found; uncertainty.csv if the
+/// tracker says how far off landmarks may be; with ground truth also truth_states.csv,
+/// truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
 class HYPOTRACK_API RunOutput {
  public:
   struct Options {
@@ -45,7 +45,7 @@ class HYPOTRACK_API RunOutput {
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
-  /// With hindsight, what was found in a frame: for online.csv and the overlay.
+  /// With hindsight, what was found in a frame: for the online tables and the overlay.
   void add_online(const Frame& frame, const Solution& solution);
 
   /// Adds a frame (with hindsight, its pictures may be gone) and returns its error in metres (NaN
@@ -70,6 +70,7 @@ class HYPOTRACK_API RunOutput {
   RunDirectory directory_;
   TextFile track_;
   std::optional<TextFile> online_;
+  std::optional<TextFile> online_joints_;
   TextFile joints_;
   std::unique_ptr<Renderer> renderer_;  ///< made when there is something to draw
   std::unique_ptr<OverlayVideo> overlay_;
