@@ -103,5 +103,32 @@ TEST(Highlights, FollowsALightThatMoves) {
   EXPECT_LT((highlights.expected(normals, kTo) - truth).norm(), 0.35 * truth.norm());
 }
 
+TEST(Highlights, CountsAllCallsAlikeWhereNothingFades) {
+  const Eigen::Matrix3Xf normals = some_normals(500, 1);
+  const Eigen::VectorXf first = seen(normals, {0.5, 0.5, -1}, 25, 10),
+                        second = seen(normals, {-0.5, 0.2, -1}, 25, 10);
+  const auto first_to_second = [&](Highlights highlights) {
+    for (int frame = 0; frame < 40; ++frame) highlights.learn(normals, first, kTo);
+    for (int frame = 0; frame < 40; ++frame) highlights.learn(normals, second, kTo);
+    const Eigen::VectorXf expected = highlights.expected(normals, kTo);
+    return expected.dot(first) / expected.dot(second);
+  };
+  EXPECT_NEAR(first_to_second(Highlights(1)), 1, 0.1);
+  EXPECT_LT(first_to_second(Highlights()), 0.5);
+}
+
+TEST(Highlights, ForgetsNoLightBeforeItLearnsAnew) {
+  Highlights highlights(1);
+  const Eigen::Matrix3Xf normals = some_normals(500, 1);
+  for (int frame = 0; frame < 10; ++frame)
+    highlights.learn(normals, seen(normals, {0.5, 0.5, -1}, 25), kTo);
+  const Eigen::VectorXf before = highlights.expected(normals, kTo);
+  highlights.forget();
+  EXPECT_EQ(highlights.expected(normals, kTo), before);
+  const Eigen::VectorXf other = seen(normals, {-0.5, 0.2, -1}, 25);
+  for (int frame = 0; frame < 10; ++frame) highlights.learn(normals, other, kTo);
+  EXPECT_LT((highlights.expected(normals, kTo) - other).norm(), 0.3 * other.norm());
+}
+
 }  // namespace
 }  // namespace hypotrack

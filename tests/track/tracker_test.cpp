@@ -294,9 +294,11 @@ class Remembering final : public Objective {
   cv::Mat tile;
 };
 
-TEST(Tracker, TakesHighlightsOffTheTilesOfFramesAfterTheFirst) {
-  const test::ShinyBall ball;
-  const auto second_tile = [&](bool highlights) {
+/// The second view's tile of a shiny ball's third frame, as the objective gets it and as seen()
+/// returns it.
+struct ShinyTiles {
+  explicit ShinyTiles(bool highlights) {
+    const test::ShinyBall ball;
     const auto objective = std::make_shared<Remembering>();
     TrackerParts parts;
     parts.cameras = ball.cameras;
@@ -311,11 +313,22 @@ TEST(Tracker, TakesHighlightsOffTheTilesOfFramesAfterTheFirst) {
       frame.index = i;
       frame.time = i / 30.0;
       tracker.track(frame);
+      seen = tracker.seen(frame).views[1].color;
     }
-    return objective->tile;
-  };
-  const cv::Mat with = second_tile(true), without = second_tile(false);
-  EXPECT_GT(cv::norm(with, without, cv::NORM_INF), 15);
+    prepared = objective->tile;
+  }
+  cv::Mat prepared, seen;
+};
+
+TEST(Tracker, TakesHighlightsOffTheTilesOfFramesAfterTheFirst) {
+  const ShinyTiles with(true), without(false);
+  EXPECT_GT(cv::norm(with.prepared, without.prepared, cv::NORM_INF), 15);
+}
+
+TEST(Tracker, LeavesHighlightsInTheTilesThatOthersMayTakeThemOff) {
+  const ShinyTiles with(true), without(false);
+  EXPECT_EQ(cv::norm(without.seen, without.prepared, cv::NORM_INF), 0);
+  EXPECT_LT(cv::norm(with.seen, without.seen, cv::NORM_INF), 4) << "but for the colour map";
 }
 
 }  // namespace

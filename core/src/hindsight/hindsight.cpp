@@ -37,12 +37,14 @@ constexpr int kTurns = 2;            // windows that a frame may be in
 }  // namespace
 
 Hindsight::Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms,
-                     const EvaluateSettings& evaluate, const HindsightSettings& settings)
+                     const EvaluateSettings& evaluate, const HindsightSettings& settings,
+                     bool highlights)
     : settings_(checked(settings, terms)),
       evaluator_(scene, with_prior(std::move(terms), settings.prior), evaluate,
                  {true, Linearization::welcome}),
       motion_(scene, settings),
-      fit_(scene, evaluator_, motion_) {
+      highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
+      fit_(scene, evaluator_, motion_, highlights_ ? &*highlights_ : nullptr) {
   const std::int64_t least = 2 * kTurns * fit_.evaluations_per_look();
   if (settings_.evaluations < least)
     throw ConfigError(fmt::format(

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "evaluate/evaluator.hpp"
@@ -19,12 +20,12 @@ namespace hypotrack {
 class HYPOTRACK_API Hindsight {
  public:
   /// The scene must outlive it. Throws ConfigError where a term has no residuals, or the settings
-  /// do not fit each other or the scene.
+  /// do not fit each other or the scene. With `highlights` these are taken off the tiles.
   Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& evaluate,
-            const HindsightSettings& settings);
+            const HindsightSettings& settings, bool highlights = false);
 
-  /// Takes in a frame after those before it: the tiles that its search saw, or nothing where that
-  /// tells nothing of the scene, and the state that was found.
+  /// Takes in a frame after those before it: the tiles that its search saw, but with highlights, or
+  /// nothing where that tells nothing of the scene, and the state that was found.
   void add(Sight sight, const Moment& found);
 
   /// A state that is not changed any more.
@@ -43,6 +44,7 @@ class HYPOTRACK_API Hindsight {
   HindsightSettings settings_;
   Evaluator evaluator_;
   MotionPrior motion_;
+  std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;
   std::vector<Moment> moments_;  ///< the settled two, then those that wait
   std::vector<Sight> sights_;

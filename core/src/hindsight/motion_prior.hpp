@@ -4,16 +4,11 @@
 #include <array>
 
 #include "hindsight/hindsight_settings.hpp"
+#include "hindsight/sight.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
-
-/// A moment of a motion.
-struct Moment {
-  double time = 0;        ///< s
-  Eigen::VectorXd state;  ///< normalised
-};
 
 /// What a change of speed costs: speeds are taken to walk at random (the white-noise acceleration
 /// of Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and Navigation",

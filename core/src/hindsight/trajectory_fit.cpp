@@ -29,6 +29,9 @@ constexpr int kPatience = 3;  // steps in a row that hardly move anything
 // spent. Otherwise the first step would give up what pictures say for a smoothness that the search,
 // frame by frame, did not have.
 constexpr double kFirstLooseness = 8;
+// Shares of the looks after which highlights are learned again, from better states. Each takes a
+// look, as costs are no longer what they were.
+constexpr std::array kLearnAfter = {0.2, 0.4, 0.6};
 constexpr double kLeastStep = 1e-3;  // as a share of what speeds change in a second
 constexpr double kSurprise = 0.5;    // what a cost may exceed its promise by: pixels are noisy
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -90,6 +93,16 @@ TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorX
                             beside.steps.cast<float>().cwiseInverse().asDiagonal();
   look.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
   return look;
+}
+
+std::vector<Sight> TrajectoryFit::matt(const std::vector<Moment>& moments,
+                                       const std::vector<Sight>& sights, std::size_t fixed) {
+  if (!highlights_) return sights;
+  highlights_->learn(sights, moments);
+  std::vector<Sight> out = sights;
+  for (std::size_t i = fixed; i < moments.size(); ++i)
+    if (sights[i]) out[i] = highlights_->off(*sights[i], moments[i].state);
+  return out;
 }
 
 std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<Moment>& moments,
@@ -194,18 +207,27 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
   if (looks_left < 2 || moments.size() <= fixed || moments.size() < 2) return 0;
   const Eigen::Index d = motion_->weight().size();
   double blur = kFirstBlur, looseness = kFirstLooseness;
-  std::vector<Look> looks = look_at_all(moments, sights, fixed, blur);
+  std::vector<Sight> shown = matt(moments, sights, fixed);
+  std::vector<Look> looks = look_at_all(moments, shown, fixed, blur);
   const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(looks_left));
   std::vector<double> damping(looks.size(), kFirstDamping);
   std::int64_t done = 1;
+  std::size_t learned = 0;
   for (int idle = 0; done < looks_left && idle < kPatience;) {
+    if (highlights_ && learned < kLearnAfter.size() && done + 2 <= looks_left &&
+        static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(looks_left)) {
+      ++learned;
+      shown = matt(moments, sights, fixed);
+      looks = look_at_all(moments, shown, fixed, blur);
+      ++done;
+    }
     const Eigen::VectorXd steps = step(moments, looks, damping, looseness, fixed);
     if (!steps.allFinite()) break;
     std::vector<Moment> trial = moments;
     for (std::size_t i = fixed; i < trial.size(); ++i)
       trial[i].state = moved(*scene_, moments[i].state,
                              steps.segment(static_cast<Eigen::Index>(i - fixed) * d, d));
-    std::vector<Look> seen = look_at_all(trial, sights, fixed, blur);
+    std::vector<Look> seen = look_at_all(trial, shown, fixed, blur);
     ++done;
     const std::vector<bool> take = worth_taking(moments, trial, looks, seen, looseness);
     double gain = 0;

@@ -2,19 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "evaluate/evaluator.hpp"
 #include "hindsight/motion_prior.hpp"
+#include "hindsight/tile_highlights.hpp"
 #include "hypotrack/export.hpp"
-#include "hypotrack/observation.hpp"
 
 namespace hypotrack {
-
-/// What a camera saw at a moment; nothing where there was no picture, or where the scene was not in
-/// it.
-using Sight = std::optional<Observation>;
 
 /// Looks for the motion, a state per frame, of lowest
 ///
@@ -24,9 +19,11 @@ using Sight = std::optional<Observation>;
 /// not follows from the frames around it.
 class HYPOTRACK_API TrajectoryFit {
  public:
-  /// All must outlive it. The evaluator must have residuals.
-  TrajectoryFit(const Scene& scene, Evaluator& evaluator, const MotionPrior& motion)
-      : scene_(&scene), evaluator_(&evaluator), motion_(&motion) {}
+  /// All must outlive it. The evaluator must have residuals. With `highlights` (or null) tiles have
+  /// them taken off, as they are learned from the states so far.
+  TrajectoryFit(const Scene& scene, Evaluator& evaluator, const MotionPrior& motion,
+                TileHighlights* highlights = nullptr)
+      : scene_(&scene), evaluator_(&evaluator), motion_(&motion), highlights_(highlights) {}
 
   /// Evaluations that one look at a frame takes.
   std::int64_t evaluations_per_look() const;
@@ -43,6 +40,9 @@ class HYPOTRACK_API TrajectoryFit {
     double cost = 0;
     NormalEquations equations;
   };
+  /// Sights without what highlights are there by the free moments' states.
+  std::vector<Sight> matt(const std::vector<Moment>& moments, const std::vector<Sight>& sights,
+                          std::size_t fixed);
   Look look(const Sight& sight, const Eigen::VectorXd& state, double blur);
   std::vector<Look> look_at_all(const std::vector<Moment>& moments,
                                 const std::vector<Sight>& sights, std::size_t fixed, double blur);
@@ -61,6 +61,7 @@ class HYPOTRACK_API TrajectoryFit {
   const Scene* scene_;
   Evaluator* evaluator_;
   const MotionPrior* motion_;
+  TileHighlights* highlights_;
 };
 
 }  // namespace hypotrack

@@ -216,7 +216,8 @@ std::unique_ptr<Hindsight> make_hindsight(const Session& session) {
         "as "
         "they were found; switch one of them off");
   return std::make_unique<Hindsight>(*session.scene, parts.objective, parts.evaluate,
-                                     parts.hindsight);
+                                     parts.hindsight,
+                                     parts.photometric.match && parts.photometric.highlights);
 }
 
 Eigen::VectorXd initial_state(const Session& session, const Frame& first) {

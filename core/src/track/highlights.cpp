@@ -7,10 +7,9 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kLights = 128;    // 18 degrees apart, so half vectors are 9 and highlights 24 wide
-constexpr float kKept = 0.97f;  // of what was learned, per call
-constexpr float kFar = 20;      // of 255: a difference that is off by this counts half
-constexpr float kRidge = 1;     // samples that say that there is no light
+constexpr int kLights = 128;  // 18 degrees apart, so half vectors are 9 and highlights 24 wide
+constexpr float kFar = 20;    // of 255: a difference that is off by this counts half
+constexpr float kRidge = 1;   // samples that say that there is no light
 constexpr int kSweeps = 30;
 
 /// Directions that cover the sphere evenly: Fibonacci's lattice.
@@ -52,8 +51,8 @@ void Highlights::learn(const Eigen::Matrix3Xf& normals, const Eigen::VectorXf& d
   const Eigen::ArrayXf off = (differences - lights.transpose() * strength_).array() / kFar;
   const Eigen::VectorXf weight = (1 + off.square()).inverse();
   const Eigen::MatrixXf weighted = lights * weight.asDiagonal();
-  products_ = kKept * products_ + weighted * lights.transpose();
-  sums_ = kKept * sums_ + weighted * differences;
+  products_ = kept_ * products_ + weighted * lights.transpose();
+  sums_ = kept_ * sums_ + weighted * differences;
   // Least squares with strengths that are not negative, one after the other.
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Eigen::Index l = 0; l < kLights; ++l) {
@@ -61,6 +60,11 @@ void Highlights::learn(const Eigen::Matrix3Xf& normals, const Eigen::VectorXf& d
       strength_[l] = std::max(0.0f, strength_[l] + rest / (products_(l, l) + kRidge));
     }
   }
+}
+
+void Highlights::forget() {
+  products_.setZero();
+  sums_.setZero();
 }
 
 Eigen::VectorXf Highlights::expected(const Eigen::Matrix3Xf& normals,

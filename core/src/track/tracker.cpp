@@ -191,6 +191,12 @@ Solution Tracker::track(const Frame& frame) {
   return solution;
 }
 
+Observation Tracker::seen(const Frame& frame) const {
+  TilePlan plan = plan_;
+  for (CutPlan& cut : plan.cuts) cut.brightness = cv::Mat();
+  return tiles_.cut(frame, plan);
+}
+
 Eigen::MatrixXd Tracker::possible_starts(double time) {
   const Eigen::MatrixXd states = predictor_.at(time);
   // Tiles can be cut around what is seen only.

@@ -72,8 +72,8 @@ class HYPOTRACK_API Tracker {
   /// that the cameras do not see, a frame that an objective cannot work with.
   void check(const Frame& frame);
 
-  /// What the search of `frame`, the last one tracked, saw of it.
-  Observation seen(const Frame& frame) const { return tiles_.cut(frame, plan_); }
+  /// What the search of `frame`, the last one tracked, saw of it; with the highlights.
+  Observation seen(const Frame& frame) const;
 
   /// What evaluates hypotheses, for the run's protocol.
   std::string backend() const { return evaluator_.backend(); }

@@ -1,0 +1,116 @@
+#include "hindsight/tile_highlights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "hindsight/hindsight.hpp"
+#include "hypotrack/objective.hpp"
+#include "shiny_ball.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Frames of a ball, in the colours of the pictures.
+struct Sights {
+  explicit Sights(double strength) {
+    for (int i = 0; i < 5; ++i) {
+      const Frame frame = ball.frame(strength);
+      seen.emplace_back(ball.tiles->cut(frame, ball.tiles->plan(frame, ball.state())));
+      moments.push_back({i / 30.0, ball.state()});
+    }
+  }
+
+  /// Mean absolute difference of the views at the ball's points.
+  double difference(const Observation& tiles) const {
+    ColorSampler sampler(ball.scene);
+    sampler.draw(tiles, ball.state());
+    const ColorSamples samples = sampler.take(tiles, 1);
+    double sum = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      sum += std::abs(samples.first[1][i] - samples.other[1][i]);
+    return sum / static_cast<double>(samples.size());
+  }
+
+  test::ShinyBall ball;
+  std::vector<Sight> seen;
+  std::vector<Moment> moments;
+};
+
+TEST(TileHighlights, TakesOffWhatViewsDifferBy) {
+  const Sights shiny(60), matt(0);
+  TileHighlights highlights(shiny.ball.scene);
+  highlights.learn(shiny.seen, shiny.moments);
+  const Observation off = highlights.off(*shiny.seen[2], shiny.ball.state());
+  const double most = shiny.difference(*shiny.seen[2]), least = matt.difference(*matt.seen[2]);
+  ASSERT_GT(most, least + 2);
+  EXPECT_LT(shiny.difference(off), least + 0.3 * (most - least));
+  EXPECT_EQ(cv::norm(off.views[0].color, shiny.seen[2]->views[0].color, cv::NORM_INF), 0);
+}
+
+TEST(TileHighlights, LeavesTilesWithoutThem) {
+  const Sights matt(0);
+  TileHighlights highlights(matt.ball.scene);
+  highlights.learn(matt.seen, matt.moments);
+  const Observation off = highlights.off(*matt.seen[2], matt.ball.state());
+  EXPECT_LT(matt.difference(off), matt.difference(*matt.seen[2]) + 0.2);
+}
+
+TEST(TileHighlights, LearnsAnewFromTheSameTiles) {
+  const Sights shiny(60);
+  TileHighlights once(shiny.ball.scene), again(shiny.ball.scene);
+  once.learn(shiny.seen, shiny.moments);
+  for (int i = 0; i < 4; ++i) again.learn(shiny.seen, shiny.moments);
+  const double first = shiny.difference(once.off(*shiny.seen[0], shiny.ball.state()));
+  const double later = shiny.difference(again.off(*shiny.seen[0], shiny.ball.state()));
+  EXPECT_LT(later, 1.1 * first);
+}
+
+TEST(TileHighlights, LearnsNothingFromFramesThatWereNotSeenOrHaveNoColour) {
+  Sights shiny(60);
+  const Observation before = *shiny.seen[0];
+  for (Sight& sight : shiny.seen) sight.reset();
+  shiny.seen[1] = before;
+  for (TileView& view : shiny.seen[1]->views) view.color = cv::Mat();
+  TileHighlights highlights(shiny.ball.scene);
+  highlights.learn(shiny.seen, shiny.moments);
+  EXPECT_EQ(cv::norm(highlights.off(before, shiny.ball.state()).views[1].color,
+                     before.views[1].color, cv::NORM_INF),
+            0);
+  EXPECT_TRUE(highlights.off(*shiny.seen[1], shiny.ball.state()).views[1].color.empty());
+}
+
+/// What the views that it is given differ by, in the mean over their tiles; every pose is as good
+/// as another.
+class Differing final : public Objective, public ResidualTerm {
+ public:
+  void prepare(const Observation& seen) override {
+    const auto brightness = [&](std::size_t i) { return cv::mean(seen.views[i].color)[1]; };
+    differences.push_back(brightness(1) - brightness(0));
+  }
+  double cost(const RenderedHypothesis&) const override { return 0; }
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return 1; }
+  void write_residuals(const RenderedHypothesis&, std::span<float> residuals) const override {
+    residuals[0] = 0;
+  }
+  std::vector<double> differences;
+};
+
+TEST(Hindsight, LooksAtTilesWithoutHighlightsWhereItIsToldTo) {
+  const Sights shiny(60);
+  const auto first_difference = [&](bool highlights) {
+    const auto objective = std::make_shared<Differing>();
+    Hindsight hindsight(shiny.ball.scene, {{1.0, objective}},
+                        {.backend = Backend::cpu, .threads = 1}, {.evaluations = 100}, highlights);
+    for (std::size_t i = 0; i < shiny.seen.size(); ++i)
+      hindsight.add(shiny.seen[i], shiny.moments[i]);
+    for (const Hindsight::Settled& one : hindsight.finish()) EXPECT_LE(one.evaluations, 100);
+    return objective->differences.front();
+  };
+  EXPECT_GT(std::abs(first_difference(true) - first_difference(false)), 0.1);
+}
+
+}  // namespace
+}  // namespace hypotrack
