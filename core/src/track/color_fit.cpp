@@ -140,6 +140,26 @@ std::optional<ColorMap> fit_color_map(const ColorSamples& samples) {
   return map;
 }
 
+double correlation(const ColorSamples& samples) {
+  const auto size = static_cast<Eigen::Index>(samples.size());
+  if (size == 0) return 0;
+  double sum = 0;
+  int varying = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto deviations = [&](const std::vector<float>& channel) -> Eigen::VectorXd {
+      const auto values = Eigen::Map<const Eigen::VectorXf>(channel.data(), size).cast<double>();
+      return values.array() - values.mean();
+    };
+    const Eigen::VectorXd first = deviations(samples.first[i]);
+    const Eigen::VectorXd other = deviations(samples.other[i]);
+    const double norms = first.norm() * other.norm();
+    if (norms == 0) continue;
+    sum += first.dot(other) / norms;
+    ++varying;
+  }
+  return varying == 0 ? 0 : sum / varying;
+}
+
 double median_difference(const ColorSamples& samples, const ColorMap& map) {
   std::vector<float> squares(samples.size());
   if (squares.empty()) return 0;

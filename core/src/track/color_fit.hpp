@@ -17,6 +17,11 @@ namespace hypotrack {
 /// fifth of their brightness around the map, or if no camera pair would differ that much.
 HYPOTRACK_API std::optional<ColorMap> fit_color_map(const ColorSamples& samples);
 
+/// Pearson's correlation of the two views' samples, the mean over the channels that vary in both:
+/// near 1 where both show the same points, near 0 where they show points of their own. 0 if no
+/// channel varies.
+HYPOTRACK_API double correlation(const ColorSamples& samples);
+
 /// Median distance of the samples once the other view's are mapped: the Euclidean norm of colours
 /// in 0..1; 0 without samples.
 HYPOTRACK_API double median_difference(const ColorSamples& samples, const ColorMap& map);

@@ -42,6 +42,13 @@ class HYPOTRACK_API PhotometricMatch {
   /// The scene must outlive it.
   PhotometricMatch(const Scene& scene, const PhotometricSettings& settings);
 
+  /// Before the first search: learns from the start's pose, if both views show the same there
+  /// (correlation), as they do if it is no more than some 10 mm off. Where they do not, maps bring
+  /// the whole pictures' colours together until a solution teaches more, and nothing counts as
+  /// learned. To be called while nothing is known.
+  void begin(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
+             const Eigen::VectorXd& start);
+
   /// Looks at a frame with the scene posed in a normalised state, and changes the maps. `plan` is
   /// of the frame. Where a frame teaches nothing (fit_color_map), maps stay. Does nothing with one
   /// view or with match off.
@@ -64,6 +71,7 @@ class HYPOTRACK_API PhotometricMatch {
     int frames = 0;
     Highlights highlights;
   };
+  void learn(Learned& learned, const ColorSamples& samples, std::size_t view) const;
   /// Colours without the highlights known so far, then highlights without these colours.
   void learn_both(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
   void update(Learned& learned, const ColorMap& found, double difference) const;

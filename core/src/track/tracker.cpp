@@ -165,7 +165,7 @@ Solution Tracker::track(const Frame& frame) {
     const auto begin = std::chrono::steady_clock::now();
     const Eigen::MatrixXd starts = possible_starts(frame.time);
     plan_ = tiles_.plan(frame, starts.col(0));
-    if (!photometric_.knows()) photometric_.learn(tiles_, frame, plan_, starts.col(0));
+    if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, starts.col(0));
     photometric_.apply(plan_);
     photometric_.apply_highlights(plan_, starts.col(0));
     evaluator_.prepare(tiles_, frame, plan_);
