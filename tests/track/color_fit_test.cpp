@@ -57,6 +57,23 @@ TEST(ColorFit, IsNotMisledByAFifthOfTheSamples) {
   for (const double level : {80, 110, 140}) expect_value(*map, level, 0.9 * level + 6, 6);
 }
 
+TEST(ColorFit, CorrelationTellsPairsOfTheSamePointFromOthers) {
+  ColorSamples samples = pairs(110, 30, 0.9, 6);
+  EXPECT_GT(correlation(samples), 0.98);
+  std::mt19937_64 random(7);
+  for (std::vector<float>& channel : samples.other) std::ranges::shuffle(channel, random);
+  EXPECT_NEAR(correlation(samples), 0, 0.1);
+}
+
+TEST(ColorFit, CorrelationIsOfTheChannelsThatVary) {
+  ColorSamples samples = pairs(110, 30, 0.9, 6);
+  std::ranges::fill(samples.first[1], 50.0f);
+  EXPECT_GT(correlation(samples), 0.98);
+  for (std::vector<float>& channel : samples.first) std::ranges::fill(channel, 50.0f);
+  EXPECT_EQ(correlation(samples), 0);
+  EXPECT_EQ(correlation({}), 0);
+}
+
 TEST(ColorFit, IgnoresWhatACameraHasCutOff) {
   ColorSamples samples = pairs(110, 30, 1.2, 0);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -122,6 +122,37 @@ TEST(PhotometricMatch, ToleratesAPoseThatIsAFewMillimetresOff) {
   }
 }
 
+TEST(PhotometricMatch, BeginsWithWhatAStartThatIsNearlyRightShows) {
+  const Fixture fixture;
+  const Frame frame = fixture.frame(0.87, 0);
+  PhotometricMatch begun(fixture.scene, fixture.settings), learned(fixture.scene, fixture.settings);
+  begun.begin(*fixture.tiles, frame, fixture.plan, fixture.state());
+  fixture.learn(learned, frame);
+  EXPECT_TRUE(begun.knows());
+  for (const double level : {70, 192}) {
+    EXPECT_EQ(mapped(begun, fixture.plan, level), mapped(learned, fixture.plan, level));
+  }
+}
+
+TEST(PhotometricMatch, BeginsWithThePicturesWhereTheStartIsFarOff) {
+  const Fixture fixture;
+  const Frame frame = fixture.frame(0.87, 0);
+  Eigen::VectorXd far = fixture.state();
+  far.z() -= 0.12;
+  PhotometricMatch match(fixture.scene, fixture.settings);
+  match.begin(*fixture.tiles, frame, fixture.plan, far);
+  EXPECT_FALSE(match.knows()) << "no solution has taught anything";
+  for (const double level : {80, 110, 140}) {
+    EXPECT_NEAR(mapped(match, fixture.plan, 0.87 * level), level, 3);
+  }
+  fixture.learn(match, fixture.frame(1.05, 3));
+  EXPECT_TRUE(match.knows());
+  for (const double level : {80, 110, 140}) {
+    EXPECT_NEAR(mapped(match, fixture.plan, 1.05 * level + 3), level, 1)
+        << "the first counts fully";
+  }
+}
+
 TEST(PhotometricMatch, LearnsNothingWhereTheViewsShowSomethingElse) {
   const Fixture fixture;
   Frame frame = fixture.frame();
