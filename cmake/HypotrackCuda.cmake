@@ -58,8 +58,10 @@ function(hypotrack_cuda_sources target)
   if(HYPOTRACK_HAS_CUDA)
     target_sources(${target} PRIVATE ${ARG_UNPARSED_ARGUMENTS})
     target_link_libraries(${target} PRIVATE CUDA::cudart_static)
+    # Products and sums are contracted where the code says fmaf() and nowhere else: else the compiler
+    # decides, and differently for every kernel that the same arithmetic is in.
     target_compile_options(${target} PRIVATE
-      $<$<COMPILE_LANGUAGE:CUDA>:--expt-relaxed-constexpr>)
+      "$<$<COMPILE_LANGUAGE:CUDA>:--expt-relaxed-constexpr;--fmad=false>")
     # Every library has a runtime of its own; they share the device's primary context.
     set_target_properties(${target} PROPERTIES CUDA_RUNTIME_LIBRARY Static
       CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON CUDA_EXTENSIONS OFF CUDA_VISIBILITY_PRESET hidden)

@@ -100,8 +100,14 @@ HYPOTRACK_PIXEL float quick_sqrt(float a) {
 #endif
 }
 HYPOTRACK_PIXEL float floor(float a) { return std::floor(a); }
-/// a * b + c; one or two roundings.
-HYPOTRACK_PIXEL float mul_add(float a, float b, float c) { return a * b + c; }
+/// a * b + c; one rounding on a GPU and where vectors have it, else one or two.
+HYPOTRACK_PIXEL float mul_add(float a, float b, float c) {
+#if defined(__CUDA_ARCH__)
+  return fmaf(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
 HYPOTRACK_PIXEL float select(bool mask, float yes, float no) { return mask ? yes : no; }
 /// The nearest integer, ties to even.
 HYPOTRACK_PIXEL float round(float a) { return std::nearbyint(a); }

@@ -19,6 +19,13 @@ struct Mapped {
   F inverse_depth;  ///< of the same point, in the other view; negative or infinite behind it
 };
 
+/// a . (x, y, 1) + b w
+template <class F>
+HYPOTRACK_PIXEL F affine(const float (&a)[3], float b, F x, F y, F w) {
+  using pixel::mul_add;
+  return mul_add(F(b), w, mul_add(F(a[0]), x, mul_add(F(a[1]), y, F(a[2]))));
+}
+
 /// The equations of StereoMap for pixel (x, y) with inverse depth w.
 template <bool kRectified, class F>
 HYPOTRACK_PIXEL Mapped<F> map_pixel(const StereoMap& map, F x, F y, F w) {
@@ -26,10 +33,9 @@ HYPOTRACK_PIXEL Mapped<F> map_pixel(const StereoMap& map, F x, F y, F w) {
   if constexpr (kRectified) {
     return {mul_add(F(map.b[0]), w, x + F(map.a[0][2])), y, w};
   } else {
-    const F u = F(map.a[0][0]) * x + F(map.a[0][1]) * y + F(map.a[0][2]) + F(map.b[0]) * w;
-    const F v = F(map.a[1][0]) * x + F(map.a[1][1]) * y + F(map.a[1][2]) + F(map.b[1]) * w;
-    const F q = F(map.a[2][0]) * x + F(map.a[2][1]) * y + F(map.a[2][2]) + F(map.b[2]) * w;
-    const F inverse = F(1.0f) / q;
+    const F u = affine<F>(map.a[0], map.b[0], x, y, w);
+    const F v = affine<F>(map.a[1], map.b[1], x, y, w);
+    const F inverse = F(1.0f) / affine<F>(map.a[2], map.b[2], x, y, w);
     return {u * inverse, v * inverse, w * inverse};
   }
 }

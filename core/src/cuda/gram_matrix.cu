@@ -52,7 +52,7 @@ __device__ void add_square(const GramJob& job, int square, std::int64_t begin, s
 #pragma unroll
     for (int i = 0; i < kGramSide; ++i) {
 #pragma unroll
-      for (int j = 0; j < kGramSide; ++j) sums[i][j] += x[i] * y[j];
+      for (int j = 0; j < kGramSide; ++j) sums[i][j] = fmaf(x[i], y[j], sums[i][j]);
     }
   }
 #pragma unroll

@@ -7,14 +7,28 @@
 /// Bands of rows: how the blocks of a hypothesis share its pixels and join their sums.
 namespace hypotrack::cuda {
 
-/// The first of `rows` that is not of the bands before `band`: every row is of one band, and all
-/// bands have about the same share of the work (FrameLayout::work_ends).
-__device__ __forceinline__ int band_begin(const float* work_ends, const Span& rows, int band,
-                                          int bands) {
+/// The shares of a hypothesis' work that lie above a band's first row and above the row behind its
+/// last one.
+struct BandShares {
+  float before, after;
+};
+
+/// The share of the rows above `band` of `bands`, all of which have about the same share of the
+/// work (FrameLayout::work_ends).
+__device__ __forceinline__ float share_before(const float* work_ends, int band, int bands) {
   const int at = small_quotient(band * kMostBands, bands), rest = band * kMostBands - at * bands;
   const float before = work_ends[at], after = work_ends[min(at + 1, kMostBands)];
-  const float share =
-      fmaf(exact_float(rest) * reciprocal(exact_float(bands)), after - before, before);
+  return fmaf(exact_float(rest) * reciprocal(exact_float(bands)), after - before, before);
+}
+
+/// Those of bands with as many rows each.
+__device__ __forceinline__ BandShares even_shares(int band, int bands) {
+  const float one = reciprocal(exact_float(bands));
+  return {exact_float(band) * one, exact_float(band + 1) * one};
+}
+
+/// The first of `rows` below a share of them. Bands that meet at a share meet at a row.
+__device__ __forceinline__ int row_at(const Span& rows, float share) {
   return rows.first + round_nearest(exact_float(rows.last - rows.first) * share);
 }
 

@@ -32,7 +32,7 @@ __device__ __forceinline__ Span pixel_span(float a, float b, float c, int size) 
 
 /// Twice the signed area, pixels^2; negative if counter-clockwise from outside (y is downwards).
 __device__ __forceinline__ float twice_area(const Corners& t) {
-  return (t.bx - t.ax) * (t.cy - t.ay) - (t.cx - t.ax) * (t.by - t.ay);
+  return fmaf(t.bx - t.ax, t.cy - t.ay, -((t.cx - t.ax) * (t.by - t.ay)));
 }
 
 /// The records of a triangle's corners.
@@ -117,17 +117,19 @@ __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, i
 }
 
 /// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in
-/// a view or, with kPair, in either view of a pair.
+/// a view or, with kPair, in either view of a pair. The first warp has the last triangles, and so
+/// no more of them than any other: one of its threads may come late.
 template <bool kPair, bool kShared>
 __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
                                      const Vertices<kShared>& vertices, int width, int width2,
                                      int y0, int y1, int count, const VisibleList& list) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
+  const int warp = static_cast<int>(threadIdx.x) / kWarp;
+  const int warps = static_cast<int>(blockDim.x) / kWarp;
   const float low = exact_float(y0), high = exact_float(y1 - 1);
   const Heights<kShared> heights(vertices);
 #pragma unroll 1  // the code is long enough
-  for (int base = static_cast<int>(threadIdx.x) - lane; base < count;
-       base += static_cast<int>(blockDim.x)) {
+  for (int base = (warp > 0 ? warp - 1 : warps - 1) * kWarp; base < count; base += warps * kWarp) {
     const bool there = base + lane < count;
     const PackedTriangle triangle = there ? triangles[base + lane] : 0;
     const TriangleCorners corners(triangle);

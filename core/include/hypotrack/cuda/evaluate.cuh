@@ -30,7 +30,14 @@ struct alignas(16) BlockState {
   Bounds bounds;
   VisibleList::Counts counts;
   StagingBarrier staged;
+  BandShares shares;
   PairPiece piece;
+};
+
+/// The z-buffers that triangles are drawn into: of one view twice, or of both views of a pair.
+template <bool kShared>
+struct DepthBuffers {
+  DepthBuffer<kShared> left, right;
 };
 
 /// Everything that the threads of one block know about their hypothesis.
@@ -71,6 +78,7 @@ class BlockEvaluation {
     clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
     reset();
     staging.finish();
+    if (threadIdx.x == 0) state_.shares = shares();
   }
 
   __device__ void run() {
@@ -131,10 +139,10 @@ class BlockEvaluation {
   }
 
   /// Draws all triangles into z-buffers that are zero, after a barrier and before one: of `view`
-  /// or, with kPair, of both views.
-  template <bool kPair, bool kSharedDepth>
-  __device__ void draw(int view, const DepthBuffer<kSharedDepth>& left,
-                       const DepthBuffer<kSharedDepth>& right) {
+  /// or, with kPair, of both views. `rows` are those of the z-buffers, of which `buffers(is_first)`
+  /// tells the rest before every chunk is filled: the whole block calls it.
+  template <bool kPair, bool kSharedDepth, class Buffers>
+  __device__ void draw(int view, const Span& rows, const Buffers& buffers) {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, &state_.counts};
     const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
@@ -151,26 +159,30 @@ class BlockEvaluation {
       const Staged<PackedTriangle> triangles{scene_.triangles + first,
                                              plan_.staged_triangles + kWords * first,
                                              plan_.stages_triangles};
-      cull<kPair>(triangles, vertices_, views[0].width, views[1].width, left.box.y0, left.box.y1,
+      cull<kPair>(triangles, vertices_, views[0].width, views[1].width, rows.first, rows.last,
                   count, list);
       __syncthreads();
+      const DepthBuffers<kSharedDepth> depth = buffers(first == 0);
       const Filler<kPair, kSharedVertices, kSharedDepth> filler{
-          triangles, vertices_, views[0].width, views[1].width, views[0].height, left, right};
+          triangles,       vertices_,  views[0].width, views[1].width,
+          views[0].height, depth.left, depth.right};
       filler.few(list);
       filler.many(list);
     }
   }
 
+  /// The shares of the work at whose ends this block's band begins and ends.
+  __device__ BandShares shares() const {
+    // Where pixels that are not covered are visited, too, all rows take about the same.
+    if (Term::kVisitsUncovered) return even_shares(band_, plan_.bands);
+    return {share_before(frame_.work_ends, band_, plan_.bands),
+            share_before(frame_.work_ends, band_ + 1, plan_.bands)};
+  }
+
   /// The rows of y0 <= y < y1 that this block is responsible for.
   __device__ Span band(int y0, int y1) const {
     const Span rows = {y0, y1};
-    if (plan_.bands == 1) return rows;
-    const auto begin = [&](int band) {
-      // Where pixels that are not covered are visited, too, all rows take about the same.
-      if (Term::kVisitsUncovered) return y0 + small_quotient(band * (y1 - y0), plan_.bands);
-      return band_begin(frame_.work_ends, rows, band, plan_.bands);
-    };
-    return {begin(band_), begin(band_ + 1)};
+    return {row_at(rows, state_.shares.before), row_at(rows, state_.shares.after)};
   }
 
   /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
@@ -205,7 +217,7 @@ class BlockEvaluation {
     if (Term::kVisitsUncovered) box = {0, 0, camera.width, camera.height};
     in_pieces(band(box.y0, box.y1), box.width(), [&](int y0, int y1) {
       const DepthBuffer<true> buffer{{nullptr, plan_.depth}, {box.x0, y0, box.x1, y1}};
-      draw<false>(view, buffer, buffer);
+      draw<false, true>(view, {y0, y1}, [&](bool) { return DepthBuffers<true>{buffer, buffer}; });
       __syncthreads();
       score_view(term_, view, buffer.box, buffer, sums_);
     });
@@ -220,29 +232,36 @@ class BlockEvaluation {
         __syncthreads();
         clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
       }
-      // One thread finds what is the same for all: the others would only take turns at it.
-      if (threadIdx.x == 0) next_piece(first);
+      // One thread finds what is the same for all: the others would only take turns at it. What
+      // they do not need for culling it finds while they cull.
+      if (threadIdx.x == 0) next_boxes(first);
       first = false;
       __syncthreads();
       const PairPiece& piece = state_.piece;
       if (piece.left.empty() && piece.right.empty()) break;
-      const DepthBuffer<true> left{{nullptr, plan_.depth}, piece.left};
-      const DepthBuffer<true> right{{nullptr, piece.right_depth}, piece.right};
+      if (threadIdx.x == 0) lay_out_texels();
+      const auto buffers = [&] {
+        return DepthBuffers<true>{{{nullptr, plan_.depth}, piece.left},
+                                  {{nullptr, piece.right_depth}, piece.right}};
+      };
       using Texels = SharedTexels<Term>;
-      Texels::fetch(term_, frame_, piece.texels);
-      draw<true>(0, left, right);
+      draw<true, true>(0, {piece.left.y0, piece.left.y1}, [&](bool is_first) {
+        if (is_first) Texels::fetch(term_, frame_, piece.texels);
+        return buffers();
+      });
       Texels::wait();
       __syncthreads();
+      const DepthBuffers<true> depth = buffers();
       if (piece.texels.fits) {
-        score_both<true>(left, right, Texels(piece.texels));
+        score_both<true>(depth.left, depth.right, Texels(piece.texels));
       } else {
-        score_both<true>(left, right, TileTexels<Term>(term_, frame_));
+        score_both<true>(depth.left, depth.right, TileTexels<Term>(term_, frame_));
       }
     } while (state_.piece.left.y1 < state_.piece.last_row);
   }
 
-  /// The first or the next piece of the block's band, by one thread.
-  __device__ void next_piece(bool first) {
+  /// The boxes of the first or the next piece of the block's band, by one thread.
+  __device__ void next_boxes(bool first) {
     PairPiece& piece = state_.piece;
     Box left = piece.left, right = piece.right;
     int y0 = left.y1, last_row = piece.last_row;
@@ -264,13 +283,18 @@ class BlockEvaluation {
     const int most = width > 0 ? small_quotient(plan_.depth_capacity - 4, width) : 0;
     left.y0 = right.y0 = y0;
     left.y1 = right.y1 = width > 0 ? min(y0 + most, last_row) : y0;
-    const int rows = left.height();
     piece.left = left;
     piece.right = right;
     piece.last_row = width > 0 ? last_row : y0;
-    piece.right_depth = plan_.depth + left.width() * rows;
-    piece.texels = SharedTexels<Term>::lay_out(frame_, left, right,
-                                               plan_.depth + padded(width * rows), plan_.end);
+  }
+
+  /// Where the z-buffers and texels of those boxes lie, by one thread.
+  __device__ void lay_out_texels() {
+    PairPiece& piece = state_.piece;
+    const int rows = piece.left.height(), left = piece.left.width() * rows;
+    const int end = plan_.depth + padded(left + piece.right.width() * rows);
+    piece.right_depth = plan_.depth + left;
+    piece.texels = SharedTexels<Term>::lay_out(frame_, piece.left, piece.right, end, plan_.end);
   }
 
   template <bool kRectified, bool kSharedDepth, class Texels>
@@ -320,13 +344,20 @@ class BlockEvaluation {
     return box.empty() ? Box{0, 0, 0, 0} : box;
   }
 
+  template <bool kSharedDepth>
+  __device__ void draw_alone(int view, const DepthBuffer<kSharedDepth>& depth) {
+    draw<false, kSharedDepth>(view, {depth.box.y0, depth.box.y1}, [&](bool) {
+      return DepthBuffers<kSharedDepth>{depth, depth};
+    });
+  }
+
   /// The vertices are those of view 0.
   template <bool kSharedDepth>
   __device__ void draw_and_score(const DepthBuffer<kSharedDepth>& left,
                                  const DepthBuffer<kSharedDepth>& right) {
-    draw<false>(0, left, left);
+    draw_alone(0, left);
     place_alone(1);
-    draw<false>(1, right, right);
+    draw_alone(1, right);
     __syncthreads();
     score_both<false>(left, right, TileTexels<Term>(term_, frame_));
   }

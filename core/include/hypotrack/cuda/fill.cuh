@@ -30,10 +30,10 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   const float x = exact_float(p.x0), y = exact_float(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
   const float inverse_area = reciprocal(twice_area(s));
-  p.a = (s.bx * s.cy - s.cx * s.by) * inverse_area;
+  p.a = fmaf(s.bx, s.cy, -(s.cx * s.by)) * inverse_area;
   p.a_dx = (s.by - s.cy) * inverse_area;
   p.a_dy = (s.cx - s.bx) * inverse_area;
-  p.b = (s.cx * s.ay - s.ax * s.cy) * inverse_area;
+  p.b = fmaf(s.cx, s.ay, -(s.ax * s.cy)) * inverse_area;
   p.b_dx = (s.cy - s.ay) * inverse_area;
   p.b_dy = (s.ax - s.cx) * inverse_area;
   p.w_c = t.cw;

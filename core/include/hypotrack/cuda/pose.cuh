@@ -101,13 +101,15 @@ __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, 
   const float* f = frame.first_from_world + 4 * row;
   const float a = f[0], b = f[1], c = f[2];
   float4& out = reinterpret_cast<float4*>(shared_floats() + at.models)[3 * index + row];
-  out = {a * (1 - 2 * (q.y * q.y + q.z * q.z)) + b * (2 * (q.x * q.y + q.w * q.z)) +
-             c * (2 * (q.x * q.z - q.w * q.y)),
-         a * (2 * (q.x * q.y - q.w * q.z)) + b * (1 - 2 * (q.x * q.x + q.z * q.z)) +
-             c * (2 * (q.y * q.z + q.w * q.x)),
-         a * (2 * (q.x * q.z + q.w * q.y)) + b * (2 * (q.y * q.z - q.w * q.x)) +
-             c * (1 - 2 * (q.x * q.x + q.y * q.y)),
-         a * p[0] + b * p[1] + c * p[2] + f[3]};
+  const auto along = [&](float x, float y, float z, float w) {
+    return fmaf(a, x, fmaf(b, y, fmaf(c, z, w)));
+  };
+  const auto same = [](float u, float v) { return fmaf(-2.0f, fmaf(u, u, v * v), 1.0f); };
+  const auto sum = [](float u, float v, float s, float t) { return 2.0f * fmaf(u, v, s * t); };
+  out = {along(same(q.y, q.z), sum(q.x, q.y, q.w, q.z), sum(q.x, q.z, -q.w, q.y), 0.0f),
+         along(sum(q.x, q.y, -q.w, q.z), same(q.x, q.z), sum(q.y, q.z, q.w, q.x), 0.0f),
+         along(sum(q.x, q.z, q.w, q.y), sum(q.y, q.z, -q.w, q.x), same(q.x, q.y), 0.0f),
+         along(p[0], p[1], p[2], f[3])};
   if (row > 0) return;
   float* state = shared_floats() + at.state + model.offset;
   for (int i = 0; i < 3; ++i) state[i] = p[i];
@@ -127,10 +129,13 @@ __device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float
     sincosf(angle, &s, &c);
   }
   const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
-  return {row.x * (d * x * x + c) + row.y * (d * x * y + s * z) + row.z * (d * x * z - s * y),
-          row.x * (d * x * y - s * z) + row.y * (d * y * y + c) + row.z * (d * y * z + s * x),
-          row.x * (d * x * z + s * y) + row.y * (d * y * z - s * x) + row.z * (d * z * z + c),
-          row.w};
+  const float dx = d * x, dy = d * y, dz = d * z;
+  const auto along = [&](float a, float b, float g) {
+    return fmaf(row.x, a, fmaf(row.y, b, row.z * g));
+  };
+  return {along(fmaf(dx, x, c), fmaf(dx, y, s * z), fmaf(dx, z, -s * y)),
+          along(fmaf(dx, y, -s * z), fmaf(dy, y, c), fmaf(dy, z, s * x)),
+          along(fmaf(dx, z, s * y), fmaf(dy, z, -s * x), fmaf(dz, z, c)), row.w};
 }
 
 /// A row of parent_from_bone with all turns of the bone. The parameters that turn bones are the

@@ -64,6 +64,11 @@ struct VertexWords {
   uint2 words[sizeof(VertexLayout) / sizeof(uint2)];
 };
 
+/// A row of a 3x4 matrix times (x y z 1).
+__device__ __forceinline__ float affine(const float4& row, float x, float y, float z) {
+  return fmaf(row.x, x, fmaf(row.y, y, fmaf(row.z, z, row.w)));
+}
+
 /// Linear blend skinning of one vertex.
 __device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* bones) {
   const uint2 xy = vertex.words[0], z_bones = vertex.words[1], weights = vertex.words[2];
@@ -76,9 +81,9 @@ __device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* b
     const float weight = k % 2 == 0 ? exact_low_half(pair) : exact_high_half(pair);
     const auto* m = reinterpret_cast<const float4*>(bones + 12 * (z_bones.y >> (8 * k) & 0xFFu));
     const float4 r0 = m[0], r1 = m[1], r2 = m[2];
-    sum.x += weight * (r0.x * x + r0.y * y + r0.z * z + r0.w);
-    sum.y += weight * (r1.x * x + r1.y * y + r1.z * z + r1.w);
-    sum.z += weight * (r2.x * x + r2.y * y + r2.z * z + r2.w);
+    sum.x = fmaf(weight, affine(r0, x, y, z), sum.x);
+    sum.y = fmaf(weight, affine(r1, x, y, z), sum.y);
+    sum.z = fmaf(weight, affine(r2, x, y, z), sum.z);
   }
   constexpr float kUnit = 1.0f / kWholeWeight;
   return {sum.x * kUnit, sum.y * kUnit, sum.z * kUnit};
@@ -90,8 +95,10 @@ template <bool kPair>
 __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool first) {
   if (!kPair && !first) {
     const float* m = view.view_from_first;
-    p = {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3], m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-         m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+    const auto row = [&](int i) {
+      return affine({m[i], m[i + 1], m[i + 2], m[i + 3]}, p.x, p.y, p.z);
+    };
+    p = {row(0), row(4), row(8)};
   }
   const float w = reciprocal(p.z);
   const float x = fmaf(p.x * w, view.fx, view.cx), y = fmaf(p.y * w, view.fy, view.cy);
