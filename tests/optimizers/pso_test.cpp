@@ -24,7 +24,7 @@ SearchRegion line(double start, double lower, double upper, double spread) {
 
 TEST(Pso, ConstrictionOfThePapersCoefficients) {
   // psi = 4.1: 2 / |2 - 4.1 - sqrt(4.1^2 - 4 * 4.1)| = 2 / (2.1 + sqrt(0.41))
-  const Constriction constriction = Constriction::from(2.8, 1.3, "pso");
+  const Constriction constriction = make_constriction(2.8, 1.3, "pso");
   EXPECT_NEAR(constriction.factor, 0.729843788128, 1e-12);
   EXPECT_NEAR(constriction.velocity(0.5, 2.0, -1.0, 0.25, 0.5), 0.729843788128 * (0.5 + 1.4 - 0.65),
               1e-12);

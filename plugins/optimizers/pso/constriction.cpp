@@ -6,7 +6,7 @@
 
 namespace hypotrack {
 
-Constriction Constriction::from(double cognitive, double social, const std::string& where) {
+Constriction make_constriction(double cognitive, double social, const std::string& where) {
   const double psi = cognitive + social;
   if (!(psi > 4)) {
     throw ConfigError(where + ": cognitive + social is " + std::to_string(psi) +

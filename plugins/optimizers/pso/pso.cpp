@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <limits>
 
+#include "constriction.hpp"
+#include "hypotrack/particle.hpp"
 #include "hypotrack/search.hpp"
 #include "limbs.hpp"
-#include "particle.hpp"
 
 namespace hypotrack {
 namespace {
@@ -70,7 +71,7 @@ struct Swarm {
 }  // namespace
 
 Pso::Pso(const PsoParams& params, const std::string& where)
-    : params_(params), constriction_(Constriction::from(params.cognitive, params.social, where)) {}
+    : params_(params), constriction_(make_constriction(params.cognitive, params.social, where)) {}
 
 std::int64_t Pso::default_evaluations() const {
   return std::int64_t{params_.particles} * params_.generations;

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <string>
 
-#include "constriction.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "pso_params.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "hypotrack/start_points.hpp"
-#include "particle.hpp"
+#include "hypotrack/particle.hpp"
 
 namespace hypotrack {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "constriction.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
@@ -129,7 +130,7 @@ struct PsoCuda::OnDevice {
 
 PsoCuda::PsoCuda(const PsoParams& params, const std::string& where)
     : params_(params),
-      constriction_(Constriction::from(params.cognitive, params.social, where)),
+      constriction_(make_constriction(params.cognitive, params.social, where)),
       where_(where),
       on_device_(std::make_unique<OnDevice>()) {}
 

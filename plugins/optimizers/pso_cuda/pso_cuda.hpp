@@ -4,7 +4,6 @@
 #include <memory>
 #include <string>
 
-#include "constriction.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "pso_params.hpp"
 

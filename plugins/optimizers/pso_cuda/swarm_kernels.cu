@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "best_cost.cuh"
+#include "hypotrack/cuda/best_cost.cuh"
 #include "hypotrack/cuda/runtime.cuh"
-#include "particle.hpp"
+#include "hypotrack/particle.hpp"
 #include "swarm_layout.hpp"
 
 namespace hypotrack::cuda {

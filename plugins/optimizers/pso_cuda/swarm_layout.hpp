@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "constriction.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
-#include "particle.hpp"
+#include "hypotrack/particle.hpp"
 
 namespace hypotrack::cuda {
 

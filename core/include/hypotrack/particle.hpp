@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "constriction.hpp"
 #include "hypotrack/start_sample.hpp"
 
 /// What happens to one dimension of one particle: shared by the CPU and, without Eigen, by CUDA
@@ -13,6 +12,20 @@ namespace hypotrack {
 inline constexpr std::uint32_t kMoveStream = 0;
 inline constexpr std::uint32_t kResetStream = 3;
 inline constexpr std::uint32_t kResetLimbStream = 4;
+
+/// Coefficients of a swarm with constriction (Clerc and Kennedy 2002).
+struct Constriction {
+  double cognitive = 0;
+  double social = 0;
+  double factor = 0;  ///< K
+
+  /// v' = K (v + c1 r1 (own best - x) + c2 r2 (swarm's best - x)), one dimension of one particle.
+  constexpr double velocity(double v, double to_own_best, double to_swarm_best, double r1,
+                            double r2) const {
+    return factor * (v + cognitive * r1 * to_own_best + social * r2 * to_swarm_best);
+  }
+  bool operator==(const Constriction&) const = default;
+};
 
 struct Motion {
   double position;
