@@ -36,11 +36,16 @@ double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
 }
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
+bool cuda::DeviceObjective::enqueue_search(const SceneLayout&, const BatchLayout&,
+                                           const SwarmSearch&, Stream) {
+  return false;
+}
 void cuda::DeviceObjective::enqueue_residuals(const SceneLayout&, const BatchLayout&,
                                               const ResidualLayout&, Stream) {
   throw Error("this objective has no residuals on the GPU");
 }
 cuda::DeviceCost::~DeviceCost() = default;
+bool cuda::DeviceCost::enqueue_search(const SwarmSearch&) { return false; }
 ResidualDifferences::~ResidualDifferences() = default;
 ResidualCost::~ResidualCost() = default;
 std::unique_ptr<ResidualDifferences> ResidualCost::differences() {

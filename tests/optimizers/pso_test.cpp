@@ -8,6 +8,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/random.hpp"
+#include "pso/constriction.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {

@@ -88,6 +88,11 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   void enqueue(const double* points, std::int64_t count, double* costs) override {
     frame_.enqueue({points, count, costs, 0, rotation_vectors_ ? prior_.data() : nullptr, false});
   }
+  bool enqueue_search(const SwarmSearch& search) override {
+    return frame_.enqueue_search(
+        {nullptr, search.particles, nullptr, 0, rotation_vectors_ ? prior_.data() : nullptr, false},
+        search);
+  }
   std::uint64_t revision() const override { return revision_ + frame_.revision(); }
 
  private:

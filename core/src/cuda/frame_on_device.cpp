@@ -61,6 +61,18 @@ void FrameOnDevice::enqueue(BatchLayout batch) {
   clear_costs_without_terms(batch);
 }
 
+bool FrameOnDevice::enqueue_search(BatchLayout batch, const SwarmSearch& search) {
+  std::size_t count = 0, only = 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight == 0) continue;
+    only = i;
+    ++count;
+  }
+  if (count != 1) return false;
+  batch.weight = terms_[only].weight;
+  return objectives_[only]->enqueue_search(scene_.layout(), batch, search, stream());
+}
+
 void FrameOnDevice::enqueue(BatchLayout batch, float* residuals) {
   const std::int64_t stride = residual_count();
   add_up(batch, [&](DeviceObjective& objective) {

@@ -44,6 +44,8 @@ class FrameOnDevice {
 
   /// Enqueues all terms for a batch; `batch.weight` and `batch.add` are set here.
   void enqueue(BatchLayout batch);
+  /// DeviceCost::enqueue_search(), which a single term can do; `batch.weight` is set here.
+  bool enqueue_search(BatchLayout batch, const SwarmSearch& search);
   /// The same with the residuals of all terms, one after the other, each times the root of its
   /// weight: residual_count() of every hypothesis. The terms are a sum of squares (TermResiduals).
   void enqueue(BatchLayout batch, float* residuals);

@@ -30,6 +30,8 @@ struct Schedule {
   std::int64_t count(std::int64_t generation) const {
     return std::min(particles, evaluations - generation * particles);
   }
+  /// Whether the last generation is as large as the others.
+  bool whole() const { return evaluations % particles == 0; }
   bool operator==(const Schedule&) const = default;
 };
 
@@ -117,6 +119,18 @@ struct PsoCuda::OnDevice {
   cuda::SearchGraph graph;
   std::optional<CapturedFor> captured;
 
+  /// Enqueues the search as one kernel, if the cost has one for it.
+  bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
+                      const cuda::Swarming& how, const StartSpread& start,
+                      const SearchRegion& region, std::uint64_t seed) {
+    if (!schedule.whole() || swarm.dimension > cuda::kMostSwarmDimensions) return false;
+    cuda::SwarmSearch search = memory.search(swarm, schedule.generations(), region, seed);
+    search.constriction = how.constriction;
+    search.reset = how.reset;
+    search.start = start;
+    return cost.enqueue_search(search);
+  }
+
   void run_captured(Search& search) {
     if (const CapturedFor wanted = search.captured_for(); captured != wanted) {
       captured.reset();
@@ -155,18 +169,20 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
                           budget.evaluations};
   device->reserve(schedule.particles);
   const SwarmLayout swarm = on_device_->memory.reserve(schedule.particles, cost.dimension());
-  on_device_->memory.write(region, seed);
-
-  Search search(*device, swarm, schedule, {constriction_, params_.reset, params_.start.sigma},
-                params_.start);
-  std::int64_t generations = search.generations();
   const bool timed = std::isfinite(budget.seconds);
-  if (timed || generations > kMostCaptured) {
-    generations = run_directly(search, timed ? &deadline : nullptr);
-  } else {
-    on_device_->run_captured(search);
+  std::int64_t generations = schedule.generations();
+  const cuda::Swarming how{constriction_, params_.reset, params_.start.sigma};
+  if (timed ||
+      !on_device_->enqueue_as_one(*device, swarm, schedule, how, params_.start, region, seed)) {
+    on_device_->memory.write(region, seed);
+    Search search(*device, swarm, schedule, how, params_.start);
+    if (timed || generations > kMostCaptured) {
+      generations = run_directly(search, timed ? &deadline : nullptr);
+    } else {
+      on_device_->run_captured(search);
+    }
   }
-  wait_for(search.stream());
+  wait_for(device->stream());
   OptimizerResult result = on_device_->memory.answer(cost.dimension());
   result.evaluations = std::min(generations * schedule.particles, schedule.evaluations);
   return result;

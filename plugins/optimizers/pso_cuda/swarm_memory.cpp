@@ -35,6 +35,32 @@ SwarmLayout SwarmMemory::reserve(std::int64_t particles, std::int64_t dimension)
   return swarm;
 }
 
+SwarmSearch SwarmMemory::search(const SwarmLayout& swarm, std::int64_t generations,
+                                const SearchRegion& region, std::uint64_t seed) {
+  // Empty before and after every search: all bits set (bands.cuh).
+  if (slots_.reserve(static_cast<std::size_t>(3 * swarm.particles))) {
+    check(cudaMemset(slots_.data(), 0xFF, slots_.size() * sizeof(double)), "emptying memory");
+    check(cudaDeviceSynchronize(), "emptying memory");
+  }
+  const Limbs limbs(region);
+  const std::vector<int> groups = groups_or_dimensions(region);
+  SwarmSearch search{};
+  search.particles = static_cast<std::int32_t>(swarm.particles);
+  search.generations = static_cast<std::int32_t>(generations);
+  search.dimension = static_cast<std::int32_t>(swarm.dimension);
+  search.limbs = limbs.count;
+  search.seed = seed;
+  for (std::size_t d = 0; d < groups.size(); ++d) {
+    const auto i = static_cast<Eigen::Index>(d);
+    search.dimensions[d] = {region.start[i],  region.lower[i], region.upper[i],
+                            region.spread[i], groups[d],       limbs.of_dimension[d]};
+  }
+  search.positions = swarm.velocity;  // and own_best behind it: the kernel keeps its own
+  search.costs = slots_.data();
+  search.answer = swarm.answer;
+  return search;
+}
+
 void SwarmMemory::write(const SearchRegion& region, std::uint64_t seed) {
   const Limbs limbs(region);
   const std::vector<int> groups = groups_or_dimensions(region);

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "hypotrack/cuda/runtime.cuh"
+#include "hypotrack/cuda/swarm_search.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "swarm_layout.hpp"
 
@@ -13,6 +14,10 @@ class SwarmMemory {
  public:
   /// Throws DeviceError if it is not to be had.
   SwarmLayout reserve(std::int64_t particles, std::int64_t dimension);
+  /// The same swarm for a search in one kernel of `generations`, all of it but how it moves. Throws
+  /// DeviceError if memory is not to be had.
+  SwarmSearch search(const SwarmLayout& swarm, std::int64_t generations, const SearchRegion& region,
+                     std::uint64_t seed);
   /// Writes what the kernels of `swarm` read next; none of them may be running.
   void write(const SearchRegion& region, std::uint64_t seed);
   /// Cost and position that the kernels of a swarm in `dimension` dimensions wrote last.
@@ -20,6 +25,7 @@ class SwarmMemory {
 
  private:
   DeviceBuffer<double> memory_;
+  DeviceBuffer<double> slots_;
   DeviceBuffer<std::uint64_t> region_;
   PinnedBuffer<std::uint64_t> frame_;
   PinnedBuffer<double> answer_;

@@ -38,13 +38,22 @@ inline constexpr std::uint64_t kEmptySlot = ~std::uint64_t{0};
 __device__ __forceinline__ void fill_slot(double* slot, double value) {
   asm volatile("st.relaxed.gpu.global.f64 [%0], %1;" ::"l"(slot), "d"(value) : "memory");
 }
+/// The bits of the number, or kEmptySlot.
+__device__ __forceinline__ std::uint64_t look_into_slot(const double* slot) {
+  std::uint64_t bits;
+  asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(bits) : "l"(slot) : "memory");
+  return bits;
+}
+__device__ __forceinline__ void clear_slot(double* slot) {
+  asm volatile("st.relaxed.gpu.global.u64 [%0], %1;" ::"l"(slot), "l"(kEmptySlot) : "memory");
+}
 /// Waits for the number and leaves the slot empty.
 __device__ __forceinline__ double empty_slot(double* slot) {
   std::uint64_t bits;
   do {
-    asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(bits) : "l"(slot) : "memory");
+    bits = look_into_slot(slot);
   } while (bits == kEmptySlot);
-  asm volatile("st.relaxed.gpu.global.u64 [%0], %1;" ::"l"(slot), "l"(kEmptySlot) : "memory");
+  clear_slot(slot);
   return __longlong_as_double(static_cast<long long>(bits));
 }
 

@@ -140,15 +140,21 @@ struct Staged {
   }
 };
 
-/// Sets `count` floats to zero, a multiple of four from a multiple of four on; needs a barrier
-/// after it.
+/// Sets `count` floats to zero, a multiple of four from a multiple of four on, with the first
+/// `threads` threads of the block; needs a barrier after it.
 template <bool kShared>
-__device__ __forceinline__ void clear(const Floats<kShared>& floats, int count) {
+__device__ __forceinline__ void clear(const Floats<kShared>& floats, int count, int threads) {
+  const int thread = static_cast<int>(threadIdx.x);
+  if (thread >= threads) return;
 #pragma unroll 1  // the code is long enough
-  for (int i = 4 * static_cast<int>(threadIdx.x); i < count;
-       i += 4 * static_cast<int>(blockDim.x)) {
+  for (int i = 4 * thread; i < count; i += 4 * threads) {
     *reinterpret_cast<float4*>(floats.at(i)) = {0.0f, 0.0f, 0.0f, 0.0f};
   }
+}
+/// The same with all threads.
+template <bool kShared>
+__device__ __forceinline__ void clear(const Floats<kShared>& floats, int count) {
+  clear(floats, count, static_cast<int>(blockDim.x));
 }
 
 /// A z-buffer of inverse depths over a box of a tile.

@@ -19,6 +19,9 @@ struct PoseMemory {
   int model_layouts, bone_layouts, turns;  ///< of the scene
 };
 
+/// What a particle of a swarm knows of each of its dimensions, in double precision.
+inline constexpr int kParticleNumbers = 8;
+
 /// How one hypothesis is spread over blocks of threads, and what lies where in a block's shared
 /// memory (offsets in floats, multiples of four).
 struct BlockPlan {
@@ -29,6 +32,7 @@ struct BlockPlan {
   int chunk = 0;                   ///< triangles that are culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
   PoseMemory pose{};
+  int particle = 0;  ///< kParticleNumbers arrays of a number per dimension
   int vertices = 0, vertex_stride = 0, list = 0, sums = 0, depth = 0;
   int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
   /// Whether the scene's vertices and triangles are copied to shared memory while the kernel before
@@ -55,6 +59,7 @@ struct PlanRequest {
   bool may_split = true;  ///< into bands
   int sums = 0;
   bool texels = false;  ///< whether it pays to have room for texels
+  bool alone = false;   ///< no other kernel starts while the block is at work
 };
 
 inline constexpr int kMostThreads = 1024;
@@ -102,6 +107,7 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.model_layouts = take_items(sizeof(ModelLayout), r.scene.model_count);
   p.pose.bone_layouts = take_items(sizeof(BoneLayout), r.scene.bone_count);
   p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
+  p.particle = take(2 * kParticleNumbers * r.scene.dimension);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two entries of 16 bits per triangle
   const int floats = bytes / 4;
@@ -130,7 +136,9 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
       std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end - behind) / 4 * 4));
   end += p.depth_capacity;
   p.staged_vertices = p.stages_vertices ? take(vertices) : 0;
-  if (r.texels && bands > 1) end = std::max(end, (floats - kLeftToOthers / 4) / 4 * 4);
+  if (r.texels && bands > 1) {
+    end = std::max(end, (floats - (r.alone ? 0 : kLeftToOthers / 4)) / 4 * 4);
+  }
   p.end = end;
   p.shared_bytes = 4 * end;
   return p;

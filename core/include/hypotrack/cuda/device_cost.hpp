@@ -24,6 +24,10 @@ class HYPOTRACK_API DeviceCost {
   /// They let the next kernel start early only after their own wait (let_next_start()).
   virtual void enqueue(const double* points, std::int64_t count, double* costs) = 0;
 
+  /// Enqueues a whole search in one kernel where that can be done, after reserve() for its
+  /// particles. False: nothing was enqueued.
+  virtual bool enqueue_search(const SwarmSearch& search);
+
   /// A graph captured from enqueue() may be launched again as long as this number stays the same,
   /// frame after frame.
   virtual std::uint64_t revision() const = 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/cuda/swarm_search.hpp"
 #include "hypotrack/export.hpp"
 
 namespace hypotrack {
@@ -72,6 +73,12 @@ class HYPOTRACK_API DeviceObjective {
   /// Enqueues the evaluation of a batch: poses, draws and scores. Only launches kernels, so that it
   /// can be captured into a graph.
   virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) = 0;
+
+  /// Enqueues a whole search in one kernel, if it has one and all of it fits on the device at once;
+  /// after reserve() for a batch of the search's particles. `batch` says how points are read and
+  /// what their costs are weighed with. False: nothing was enqueued.
+  virtual bool enqueue_search(const SceneLayout& scene, const BatchLayout& batch,
+                              const SwarmSearch& search, Stream stream);
 
   /// Whether enqueue_residuals() is there; the same before and after every prepare().
   virtual bool has_residuals() const { return false; }

@@ -46,14 +46,7 @@ class BlockEvaluation {
  public:
   __device__ BlockEvaluation(const SceneLayout& scene, const BatchLayout& batch,
                              const BlockPlan& plan, const Term& term, BlockState& state)
-      : scene_(scene),
-        batch_(batch),
-        plan_(plan),
-        term_(term),
-        state_(state),
-        frame_(state.frame),
-        hypothesis_(blockIdx.x / static_cast<unsigned>(plan.bands)),
-        band_(static_cast<int>(blockIdx.x % static_cast<unsigned>(plan.bands))) {
+      : scene_(scene), batch_(batch), plan_(plan), term_(term), state_(state), frame_(state.frame) {
     float* scratch = nullptr;
     if constexpr (!kSharedVertices) {
       scratch = plan.vertex_scratch + std::int64_t{4} * plan.vertex_stride * blockIdx.x;
@@ -61,7 +54,8 @@ class BlockEvaluation {
     vertices_ = {{scratch, plan.vertices}, plan.heights};
   }
 
-  /// What does not depend on the search: runs while the kernel before is still at work.
+  /// What does not depend on the search: runs while the kernel before is still at work. `frame`
+  /// must be there already; null if it is not (begin_frame()).
   __device__ void begin(const FrameLayout* frame) {
     Staging staging(state_.staged);
     staging.add(frame, 1, &state_.frame);
@@ -81,9 +75,33 @@ class BlockEvaluation {
     if (threadIdx.x == 0) state_.shares = shares();
   }
 
-  __device__ void run() {
+  /// Makes the block ready for another run(): its first `threads` threads, more than a warp, do
+  /// what there is to do, all of them call it. A barrier must follow.
+  __device__ void begin_again(int threads) {
+    vertices_are_used_ = depth_is_used_ = lists_are_used_ = false;
+    for (float& sum : sums_) sum = 0.0f;
+    if (static_cast<int>(threadIdx.x) >= threads) return;
+    clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity, threads);
+    reset(kWarp);
+    if (!stages_again()) return;
+    Staging staging(state_.staged, threads);
+    staging.add(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
+    staging.expect();
+  }
+
+  /// Reads the block's search point; a barrier must follow.
+  __device__ void load() {
     const int size = point_size();
-    pose(scene_, frame_, batch_.points + hypothesis_ * size, size, batch_.prior, plan_.pose);
+    load_point(batch_.points + hypothesis() * size, size, plan_.pose);
+  }
+
+  /// Evaluates the point that is there, after begin_again() for the `number`-th time. One thread of
+  /// one of the hypothesis' blocks calls outcome.prepare() and, much later, outcome.put(cost).
+  template <class Outcome>
+  __device__ void run(unsigned number, const Outcome& outcome) {
+    pose(scene_, frame_, batch_.prior, plan_.pose);
+    if (threadIdx.x == 0 && band() == 0) outcome.prepare();
+    if (number > 0 && stages_again()) Staging::wait(state_.staged, number);
     if constexpr (kWalk == Walk::views) {
       for (int v = 0; v < frame_.view_count; ++v) {
         if (term_.views() >> v & 1) single_view(v);
@@ -93,7 +111,14 @@ class BlockEvaluation {
     } else {
       general_pair();
     }
-    finish();
+    finish(outcome);
+  }
+
+  __device__ std::int64_t hypothesis() const {
+    return blockIdx.x / static_cast<unsigned>(plan_.bands);
+  }
+  __device__ int band() const {
+    return static_cast<int>(blockIdx.x % static_cast<unsigned>(plan_.bands));
   }
 
  private:
@@ -101,8 +126,11 @@ class BlockEvaluation {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
-  __device__ void reset() {
-    if (threadIdx.x > 0) return;
+  /// Whether run() overwrites what was staged: with texels.
+  __device__ bool stages_again() const { return HasTexels<Term> && plan_.stages_vertices; }
+
+  __device__ void reset(int thread = 0) {
+    if (static_cast<int>(threadIdx.x) != thread) return;
     state_.bounds.reset();
     state_.counts.reset();
   }
@@ -174,9 +202,9 @@ class BlockEvaluation {
   /// The shares of the work at whose ends this block's band begins and ends.
   __device__ BandShares shares() const {
     // Where pixels that are not covered are visited, too, all rows take about the same.
-    if (Term::kVisitsUncovered) return even_shares(band_, plan_.bands);
-    return {share_before(frame_.work_ends, band_, plan_.bands),
-            share_before(frame_.work_ends, band_ + 1, plan_.bands)};
+    if (Term::kVisitsUncovered) return even_shares(band(), plan_.bands);
+    return {share_before(frame_.work_ends, band(), plan_.bands),
+            share_before(frame_.work_ends, band() + 1, plan_.bands)};
   }
 
   /// The rows of y0 <= y < y1 that this block is responsible for.
@@ -362,20 +390,19 @@ class BlockEvaluation {
     score_both<false>(left, right, TileTexels<Term>(term_, frame_));
   }
 
-  __device__ void finish() {
+  template <class Outcome>
+  __device__ void finish(const Outcome& outcome) {
     double total[Term::kSums];
     block_sum(sums_, shared_floats() + plan_.sums, total);
     if (threadIdx.x >= kWarp) return;
     if (plan_.bands > 1) {
       constexpr int kSums = Term::kSums;
-      double* slots = plan_.band_sums + hypothesis_ * (plan_.bands * kSums);
+      double* slots = plan_.band_sums + hypothesis() * (plan_.bands * kSums);
       auto* room = reinterpret_cast<double*>(shared_floats() + plan_.sums);
-      if (!join_bands<kSums>(slots, band_, plan_.bands, room, total)) return;
+      if (!join_bands<kSums>(slots, band(), plan_.bands, room, total)) return;
     }
     if (threadIdx.x > 0) return;
-    const double cost = batch_.weight * term_.cost(total, shared_floats() + plan_.pose.state);
-    double& out = batch_.costs[hypothesis_];
-    out = batch_.add ? __ldcg(&out) + cost : cost;
+    outcome.put(batch_.weight * term_.cost(total, shared_floats() + plan_.pose.state));
   }
 
   const SceneLayout& scene_;
@@ -384,13 +411,22 @@ class BlockEvaluation {
   const Term& term_;
   BlockState& state_;
   const FrameLayout& frame_;
-  std::int64_t hypothesis_;
-  int band_;
   Vertices<kSharedVertices> vertices_;
   bool vertices_are_used_ = false;
   bool depth_is_used_ = false;
   bool lists_are_used_ = false;
   float sums_[Term::kSums] = {};
+};
+
+/// Writes a cost where a batch wants it.
+struct CostOfBatch {
+  const BatchLayout& batch;
+  std::int64_t hypothesis;
+  __device__ void prepare() const {}
+  __device__ void put(double cost) const {
+    double& out = batch.costs[hypothesis];
+    out = batch.add ? __ldcg(&out) + cost : cost;
+  }
 };
 
 template <class Term, Walk kWalk, bool kSharedVertices>
@@ -403,7 +439,9 @@ __global__ void __launch_bounds__(kMostThreads)
   block.begin(frame);
   wait_for_previous();
   let_next_start();
-  block.run();
+  block.load();
+  __syncthreads();
+  block.run(0, CostOfBatch{batch, block.hypothesis()});
 }
 
 }  // namespace hypotrack::cuda

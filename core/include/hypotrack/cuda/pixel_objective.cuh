@@ -10,6 +10,7 @@
 #include "hypotrack/cuda/drawn.cuh"
 #include "hypotrack/cuda/evaluate.cuh"
 #include "hypotrack/cuda/pixel_residuals.cuh"
+#include "hypotrack/cuda/swarm_search.cuh"
 
 namespace hypotrack::cuda {
 
@@ -86,15 +87,16 @@ class PixelObjective : public DeviceObjective {
     if (count == reserved_) return;
     reserved_ = 0;
     limits_ = limits;
-    BlockPlan plan = plan_blocks({.scene = scene,
-                                  .limits = limits,
-                                  .count = count,
-                                  .tile_width = width_,
-                                  .tile_height = height_,
-                                  .tiles_at_once = Term::kStereo ? 2 : 1,
-                                  .may_split = !Term::kStereo || rectified_,
-                                  .sums = Term::kSums,
-                                  .texels = HasTexels<Term>});
+    PlanRequest request{.scene = scene,
+                        .limits = limits,
+                        .count = count,
+                        .tile_width = width_,
+                        .tile_height = height_,
+                        .tiles_at_once = Term::kStereo ? 2 : 1,
+                        .may_split = !Term::kStereo || rectified_,
+                        .sums = Term::kSums,
+                        .texels = HasTexels<Term>};
+    BlockPlan plan = plan_blocks(request);
     if (plan.depth_capacity < least_depth_capacity(Term::kStereo ? 2 : 1, width_)) {
       throw DeviceError("CUDA: tiles " + std::to_string(width_) +
                         " pixels wide and this scene's bones do not fit into the device's shared "
@@ -120,7 +122,17 @@ class PixelObjective : public DeviceObjective {
     plan.vertex_scratch = vertex_scratch_.data();
     plan.depth_scratch = depth_scratch_.data();
     plan.band_sums = band_sums_.data();
-    allow_shared<Term>(kernel_for<Term>(plan));
+    allow_shared(kernel_for<Term>(plan));
+    searching_blocks_ = 0;
+    if (plan.vertices_in_shared && (!Term::kStereo || rectified_)) {
+      allow_shared(search_kernel());
+      request.alone = true;
+      search_plan_ = plan_blocks(request);
+      search_plan_.band_sums = plan.band_sums;
+      searching_blocks_ = blocks_at_once(search_kernel(), search_plan_.threads,
+                                         static_cast<std::size_t>(search_plan_.shared_bytes),
+                                         limits.multiprocessors);
+    }
     plan_ = plan;
     reserved_ = count;
     ++revision_;
@@ -131,6 +143,17 @@ class PixelObjective : public DeviceObjective {
     launch(kernel_for<Term>(plan_), dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
            static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_), scene,
            frame_, batch, plan_, term_);
+  }
+
+  bool enqueue_search(const SceneLayout& scene, const BatchLayout& batch, const SwarmSearch& search,
+                      Stream stream) final {
+    const std::int64_t blocks = batch.count * search_plan_.bands;
+    if (blocks > searching_blocks_) return false;
+    launch_together(search_kernel(), dim3(static_cast<unsigned>(blocks)),
+                    dim3(static_cast<unsigned>(search_plan_.threads)),
+                    static_cast<std::size_t>(search_plan_.shared_bytes), stream, scene, frame_,
+                    batch, search_plan_, term_, search);
+    return true;
   }
 
   bool has_residuals() const final { return HasResiduals<Term>; }
@@ -156,7 +179,7 @@ class PixelObjective : public DeviceObjective {
              dim3((pixels + kFillThreads - 1) / kFillThreads, static_cast<unsigned>(kMaxViews)),
              dim3(kFillThreads), 0, stream, false, term_, term.to, batch.count);
       const auto kernel = kernel_for<WithResiduals<Term>>(plan_);
-      allow_shared<WithResiduals<Term>>(kernel);
+      allow_shared(kernel);
       const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
       launch(kernel, dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
              static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_),
@@ -200,9 +223,14 @@ class PixelObjective : public DeviceObjective {
     }
   }
 
+  /// Of rectified pairs and of views.
+  static auto search_kernel() {
+    return &search_with_swarm < Term, Term::kStereo ? Walk::pair : Walk::views > ;
+  }
+
   /// Lets a kernel have all the shared memory that a plan may ask for.
-  template <class AnyTerm>
-  void allow_shared(Kernel<AnyTerm> kernel) {
+  template <class AnyKernel>
+  void allow_shared(AnyKernel* kernel) {
     if (!allowed_.insert(reinterpret_cast<const void*>(kernel)).second) return;
     check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                limits_.shared_bytes_per_block - detail::kReservedBytes),
@@ -252,8 +280,9 @@ class PixelObjective : public DeviceObjective {
   bool rectified_ = false;
   DeviceLimits limits_;
   std::int64_t reserved_ = 0;
+  std::int64_t searching_blocks_ = 0;  ///< of a search in one kernel, at most; 0: there is none
   std::uint64_t revision_ = 0;
-  BlockPlan plan_;
+  BlockPlan plan_, search_plan_;
   DeviceBuffer<float> vertex_scratch_, depth_scratch_;
   DeviceBuffer<double> band_sums_;
   std::set<const void*> allowed_;  // kernels

@@ -61,12 +61,16 @@ __device__ __forceinline__ Quaternion<Real> decode_rotation(const Real* p, const
   return multiply(start, rotation_exp(p[3], p[4], p[5]));
 }
 
-/// Reads a search point, as every thread of the block calls it; a barrier must follow. Numbers that
-/// cannot be drawn become NaN.
+/// Writes a number of a search point; a barrier must follow. One that cannot be drawn becomes NaN.
+__device__ __forceinline__ void put_in_point(int index, double number, const PoseMemory& at) {
+  shared_floats()[at.point + index] =
+      fabs(number) <= kLargestParameter ? static_cast<float>(number) : nanf("");
+}
+
+/// Reads a search point, as every thread of the block calls it; a barrier must follow.
 __device__ __forceinline__ void load_point(const double* point, int size, const PoseMemory& at) {
   for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
-    const double p = __ldcg(point + i);
-    shared_floats()[at.point + i] = fabs(p) <= kLargestParameter ? static_cast<float>(p) : nanf("");
+    put_in_point(i, __ldcg(point + i), at);
   }
 }
 
@@ -197,13 +201,10 @@ __device__ __forceinline__ void decode(const SceneLayout& scene, const FrameLayo
   }
 }
 
-/// Poses the hypothesis of a search point with the whole block; ends with a barrier.
+/// Poses the hypothesis of a search point that is there with the whole block; ends with a barrier.
 __device__ __forceinline__ void pose(const SceneLayout& scene, const FrameLayout& frame,
-                                     const double* point, int size, const double* prior,
-                                     const PoseMemory& at) {
+                                     const double* prior, const PoseMemory& at) {
   const int thread = static_cast<int>(threadIdx.x), threads = static_cast<int>(blockDim.x);
-  load_point(point, size, at);
-  __syncthreads();
   decode(scene, frame, prior, at);
   for (int i = thread; i < 3 * scene.bone_count; i += threads) place_row(i / 3, i % 3, prior, at);
   __syncthreads();

@@ -60,13 +60,13 @@ class TileTexels {
 /// Which texels of a pair of boxes with the same rows lie where in a block's shared memory: a row
 /// of both views at a time, behind the one before. Places in shared memory count texels.
 struct TexelLayout {
-  bool fits = false;
-  int begin = 0;         ///< of all
-  int pitch = 0;         ///< of a row of both views
-  int y0 = 0, rows = 0;  ///< rows of the tiles
-  int columns[2] = {};   ///< the first of each view
-  int in_left = 0;       ///< columns of the first view
-  int first[2] = {};     ///< where the tiles' pixel (0, 0) would be
+  bool fits;
+  int begin;       ///< of all
+  int pitch;       ///< of a row of both views
+  int y0, rows;    ///< rows of the tiles
+  int columns[2];  ///< the first of each view
+  int in_left;     ///< columns of the first view
+  int first[2];    ///< where the tiles' pixel (0, 0) would be
 };
 
 /// Texels of a box per view and of a column beside it, copied to the block's shared memory.
@@ -78,7 +78,7 @@ class SharedTexels {
   /// How texels of the boxes fit between the offsets `begin` and `end` of shared_floats().
   __device__ __forceinline__ static TexelLayout lay_out(const FrameLayout& frame, const Box& left,
                                                         const Box& right, int begin, int end) {
-    TexelLayout layout;
+    TexelLayout layout{};
     if constexpr (HasTexels<Term>) {
       const Columns columns[2] = {Columns(left, frame.views[0].width),
                                   Columns(right, frame.views[1].width)};

@@ -1,0 +1,239 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "hypotrack/cuda/best_cost.cuh"
+#include "hypotrack/cuda/evaluate.cuh"
+#include "hypotrack/cuda/swarm_search.hpp"
+
+/// A search by a particle swarm in one kernel: the blocks of a particle evaluate it, learn from
+/// slots what the others cost, and move it, all of them alike. The same arithmetic as the kernels
+/// of plugins/optimizers/pso_cuda, which take every other objective; nothing is staged anew, and no
+/// kernel waits for the end of another.
+namespace hypotrack::cuda {
+
+/// The random numbers of a dimension's move.
+struct SwarmDraw {
+  std::array<double, 4> uniform;
+  bool anew = false;  ///< it does not move, but is placed
+  double offset = 0;  ///< from the swarm's best, where it is
+
+  __device__ SwarmDraw(const SwarmSearch& swarm, int d, const RandomIndex& index) {
+    uniform = uniform4(swarm.seed, index);
+    if (swarm.limbs == 0 || !swarm.reset.due(index.generation)) return;
+    const int limb = swarm.reset.limb(swarm.seed, index.particle, index.generation, swarm.limbs);
+    anew = limb >= 0 && swarm.dimensions[d].limb == limb;
+    if (anew) {
+      offset = anew_offset(swarm.start.sigma * swarm.dimensions[d].spread, swarm.seed, index);
+    }
+  }
+};
+
+/// A particle in one of its blocks: a thread per dimension, the last ones of the block in whole
+/// warps (movers()), which remember it in shared memory. Generations are numbered from 0 on.
+class SwarmParticle {
+ public:
+  __device__ SwarmParticle(const SwarmSearch& swarm, const BlockPlan& plan)
+      : swarm_(swarm), plan_(plan) {}
+
+  /// Threads that call what follows.
+  __device__ static int movers(const SwarmSearch& swarm) {
+    return (swarm.dimension + kWarp - 1) / kWarp * kWarp;
+  }
+
+  /// Places it in generation 0. A barrier must follow.
+  __device__ void begin() const {
+    if (dimension() >= swarm_.dimension) return;
+    const SwarmDimension& d = swarm_.dimensions[dimension()];
+    double x = d.start;
+    if (number() > 0) {
+      const auto own = static_cast<std::uint32_t>(number());
+      const double deviation =
+          d.spread * swarm_.start.of_group(swarm_.seed, static_cast<std::uint32_t>(d.group), own);
+      x = start_sample(x, deviation, {d.lower, d.upper}, swarm_.seed,
+                       static_cast<std::uint32_t>(dimension()), own);
+    }
+    mine(kPosition) = mine(kOwnBest) = x;
+    mine(kVelocity) = 0;
+    mine(kBest) = d.start;
+    mine(kLower) = d.lower;
+    mine(kUpper) = d.upper;
+    mine(kOwnBestCost) = mine(kBestCost) = std::numeric_limits<double>::infinity();
+    place(0, x);
+  }
+
+  /// Moves it to a generation from 1 on, once all costs of the one before are known. A barrier must
+  /// follow.
+  __device__ void move_to(std::int32_t generation) const {
+    const int d = min(dimension(), swarm_.dimension - 1);  // the threads of a warp stay together
+    const SwarmDraw draw(swarm_, d,
+                         {static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(number()),
+                          static_cast<std::uint32_t>(generation), kMoveStream});
+    const double best = learn(generation - 1);
+    if (dimension() >= swarm_.dimension) return;
+    const Interval bounds{mine(kLower), mine(kUpper)};
+    const Motion motion =
+        draw.anew ? placed_anew(best, draw.offset, bounds)
+                  : moved({mine(kPosition), mine(kVelocity)}, swarm_.constriction, mine(kOwnBest),
+                          best, draw.uniform[0], draw.uniform[1], bounds);
+    place(generation, motion.position);
+    mine(kPosition) = motion.position;
+    mine(kVelocity) = motion.velocity;
+  }
+
+  /// Writes the best of all generations, of which `last` is the last. A barrier must follow, and
+  /// clear().
+  __device__ void answer(std::int32_t last) const {
+    learn(last);
+    const int d = dimension();
+    if (d < swarm_.dimension) swarm_.answer[1 + d] = mine(kBest);
+    if (d == 0) swarm_.answer[0] = mine(kBestCost);
+  }
+  /// Leaves all slots empty.
+  __device__ void clear(std::int32_t last) const {
+    for (std::int32_t generation = max(last - 1, 0); generation <= last; ++generation) {
+      for (int p = dimension(); p < swarm_.particles; p += movers(swarm_)) {
+        clear_slot(slots(generation) + p);
+      }
+    }
+  }
+
+  /// By the thread that will tell(), after a barrier behind the movers, and well before, because it
+  /// takes its time: whoever has heard of the cost then finds the position.
+  __device__ void before_telling() const { __threadfence(); }
+  __device__ void tell(std::int32_t generation, double cost) const {
+    fill_slot(slots(generation) + number(), cost);
+  }
+
+ private:
+  enum Number {
+    kPosition,
+    kVelocity,
+    kOwnBest,
+    kOwnBestCost,
+    kBest,  ///< of the swarm
+    kBestCost,
+    kLower,
+    kUpper
+  };
+  static_assert(kUpper + 1 == kParticleNumbers);
+
+  // Asked for anew every time: registers are scarce between the generations.
+  __device__ std::int32_t number() const {
+    return static_cast<std::int32_t>(blockIdx.x / static_cast<unsigned>(plan_.bands));
+  }
+  /// Whether the block is the one that tells the others.
+  __device__ bool tells() const { return blockIdx.x % static_cast<unsigned>(plan_.bands) == 0; }
+  /// The thread's, or one beyond the last.
+  __device__ int dimension() const {
+    return static_cast<int>(threadIdx.x) - (static_cast<int>(blockDim.x) - movers(swarm_));
+  }
+  __device__ double& mine(Number number) const {
+    auto* numbers = reinterpret_cast<double*>(shared_floats() + plan_.particle);
+    return numbers[number * swarm_.dimension + dimension()];
+  }
+  /// Where generations take turns: those of one are read until the costs of the next are known.
+  __device__ double* positions(std::int32_t generation) const {
+    return swarm_.positions + generation % 2 * (swarm_.particles * swarm_.dimension);
+  }
+  __device__ double* slots(std::int32_t generation) const {
+    return swarm_.costs + generation % 3 * swarm_.particles;
+  }
+
+  __device__ void place(std::int32_t generation, double x) const {
+    put_in_point(dimension(), x, plan_.pose);
+    if (tells()) {
+      __stcg(positions(generation) + (number() * swarm_.dimension + dimension()), x);
+    }
+  }
+
+  /// Takes in the costs of a generation, once they are there; returns the thread's number of the
+  /// swarm's best point.
+  __device__ double learn(std::int32_t generation) const {
+    const int lane = static_cast<int>(threadIdx.x) % kWarp;
+    // Every thread looks at its own numbers only; those without a dimension have none.
+    constexpr double kNothingIsBetter = -std::numeric_limits<double>::infinity();
+    const bool has_dimension = dimension() < swarm_.dimension;
+    const double known = has_dimension ? mine(kBestCost) : kNothingIsBetter;
+    double best = has_dimension ? mine(kBest) : 0, own = 0;
+    Candidate of_lane, found;
+    int next = lane;  // of the particles that the lane looks after
+    bool is_last = false;
+#pragma unroll 1
+    while (!is_last) {
+      const std::uint64_t bits =
+          next < swarm_.particles ? look_into_slot(slots(generation) + next) : kEmptySlot;
+      if (bits != kEmptySlot) {
+        const double cost = __longlong_as_double(static_cast<long long>(bits));
+        of_lane = better(of_lane, {cost, next});
+        if (next == number()) own = cost;
+        next += kWarp;
+      }
+      is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
+      const Candidate now = best_of_warp(of_lane);
+      // Its position is on its way while others are waited for.
+      if (now.particle != found.particle && now.cost < known) {
+        best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
+      }
+      found = now;
+    }
+    own = __shfl_sync(kWholeWarp, own, number() % kWarp);
+    if (!has_dimension) return best;
+    if (own < mine(kOwnBestCost)) {
+      mine(kOwnBest) = mine(kPosition);
+      mine(kOwnBestCost) = own;
+    }
+    if (found.cost < known) {
+      mine(kBest) = best;
+      mine(kBestCost) = found.cost;
+    }
+    // All blocks have read the costs of the generation before, or this one's would not be there.
+    if (tells() && dimension() == 0 && generation > 0) {
+      clear_slot(slots(generation - 1) + number());
+    }
+    return best;
+  }
+
+  const SwarmSearch& swarm_;
+  const BlockPlan& plan_;
+};
+
+/// Hands over what its block's particle costs.
+struct Telling {
+  const SwarmParticle& particle;
+  std::int32_t generation;
+  __device__ void prepare() const { particle.before_telling(); }
+  __device__ void put(double cost) const { particle.tell(generation, cost); }
+};
+
+/// All blocks must be on the device at once (launch_together()).
+template <class Term, Walk kWalk>
+__global__ void __launch_bounds__(kMostThreads)
+    search_with_swarm(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
+                      const __grid_constant__ BatchLayout batch,
+                      const __grid_constant__ BlockPlan plan, const __grid_constant__ Term term,
+                      const __grid_constant__ SwarmSearch swarm) {
+  __shared__ BlockState state;
+  BlockEvaluation<Term, kWalk, true> block(scene, batch, plan, term, state);
+  block.begin(frame);
+  const SwarmParticle particle(swarm, plan);
+  const int others = static_cast<int>(blockDim.x) - SwarmParticle::movers(swarm);
+  const bool moves = static_cast<int>(threadIdx.x) >= others;
+  if (moves) particle.begin();
+#pragma unroll 1
+  for (std::int32_t generation = 0;;) {
+    __syncthreads();
+    block.run(static_cast<unsigned>(generation), Telling{particle, generation});
+    if (++generation == swarm.generations) break;
+    block.begin_again(others);
+    if (moves) particle.move_to(generation);
+  }
+  if (blockIdx.x > 0) return;
+  const std::int32_t last = swarm.generations - 1;
+  if (moves) particle.answer(last);
+  __syncthreads();
+  if (moves) particle.clear(last);
+}
+
+}  // namespace hypotrack::cuda
