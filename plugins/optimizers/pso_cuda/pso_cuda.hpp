@@ -14,11 +14,12 @@ namespace hypotrack {
 /// comes down. Searches in double precision, like Pso; they take the same way but for the rounding
 /// of the initial sample's logarithm and cosine.
 ///
-/// A search is captured into a CUDA graph that is launched again, frame after frame, as long as
-/// particles, budget, dimension and the cost's revision stay the same. A search with a budget of
-/// time, or of more than 1,024 generations, is enqueued generation by generation instead.
+/// A search is one kernel if the cost has one for it (DeviceCost::enqueue_search()). Else it is
+/// captured into a CUDA graph that is launched again, frame after frame, as long as particles,
+/// budget, dimension and the cost's revision stay the same. A search with a budget of time, or of
+/// more than 1,024 generations, is enqueued generation by generation instead.
 ///
-/// Takes 8 (4 D + 3) bytes of GPU memory per particle in D dimensions: 888 bytes in 27, so 0.9 GiB
+/// Takes 8 (4 D + 6) bytes of GPU memory per particle in D dimensions: 912 bytes in 27, so 0.9 GiB
 /// for the most particles there can be, 2^20; the evaluation needs more.
 class PsoCuda : public Optimizer {
  public:
