@@ -117,6 +117,23 @@ TEST_F(StudyTest, TablesMarkTheBestAndWhatSeedsDoNotSeparateFromIt) {
   EXPECT_THAT(tables[1]["note"].get<std::string>(), HasSubstr("not separated from the best by 8"));
 }
 
+TEST_F(StudyTest, ATablePerValueOfAnAxisComparesRowsWithinIt) {
+  study({.seeds = 8, .particles = {16, 256}, .generations = {16, 64}});
+  std::ofstream(folder() / "study.yaml", std::ios::app) << "\ntable_per: optimizer.generations\n";
+  const auto tables = table_data(read_study(folder()));
+  ASSERT_THAT(tables, SizeIs(5));  // the scenes side by side, then two of each scene
+  EXPECT_EQ(tables[1]["id"], "table-1-stereo-16");
+  EXPECT_EQ(tables[2]["id"], "table-1-stereo-64");
+  EXPECT_THAT(tables[2]["title"].get<std::string>(), HasSubstr("generations 64"));
+  for (const int table : {1, 2}) {
+    const auto& rows = tables[table]["rows"];
+    ASSERT_THAT(rows, SizeIs(2));
+    EXPECT_EQ(rows[0]["keys"][1], table == 1 ? "16" : "64");
+    EXPECT_TRUE(rows[1]["cells"][0]["best"]);
+    EXPECT_DOUBLE_EQ(rows[0]["cells"][0]["p"], 2 / 256.0);  // one comparison
+  }
+}
+
 TEST_F(StudyTest, TablesSayWhenThereAreTooFewSeedsForAnyTest) {
   const auto tables = table_data(study({.seeds = 3, .particles = {16, 256}, .generations = {16}}));
   EXPECT_TRUE(tables[1]["rows"][0]["cells"][0]["same"]);

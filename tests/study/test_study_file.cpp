@@ -132,5 +132,13 @@ TEST_F(StudyFileTest, PlotsAreDrawnOverWhatVaries) {
   EXPECT_THAT(complaint("kind: curve", "kind: heatmap"), HasSubstr("is nothing that varies"));
 }
 
+TEST_F(StudyFileTest, TablesArePerAnAxis) {
+  const std::string text = small_study() + "\ntable_per: optimizer.particles\n";
+  EXPECT_THAT(to_yaml(load(text)), HasSubstr("table_per: optimizer.particles\n"));
+  EXPECT_THAT(complaint("frames: 5", "frames: 5\ntable_per: optimizer.partikles"),
+              AllOf(HasSubstr("is no axis of this study"), HasSubstr("'optimizer.particles'")));
+  EXPECT_THAT(complaint("frames: 5", "frames: 5\ntable_per: scene"), HasSubstr("is no axis"));
+}
+
 }  // namespace
 }  // namespace hypotrack::test

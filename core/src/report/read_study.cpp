@@ -78,6 +78,7 @@ void read_study_file(const fs::path& file, StudyData& study) {
     study.axes.push_back(read_axis(key, grid.get(key)));
     study.planned *= study.axes.back().values.size();
   }
+  study.table_per = text_of(root, "table_per");
   read_plots(root.get("plots"), study.plots);
 }
 

@@ -65,6 +65,7 @@ struct HYPOTRACK_API StudyData {
   std::vector<StudyScene> scenes;
   std::vector<StudyAxis> axes;
   std::vector<PlotRequest> plots;
+  std::string table_per;       ///< axis with a table for each value; empty: one for all
   std::vector<StudyRun> runs;  ///< by scene, then axis by axis, then seed
   std::size_t planned = 0;     ///< runs of the complete study
 

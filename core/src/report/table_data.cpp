@@ -23,11 +23,14 @@ struct Cell {
   int failed = 0;
 };
 
-/// The cells of a scene in the order of the runs.
-std::vector<Cell> cells_of(const StudyData& study, const std::string& scene) {
+/// The cells of a scene in the order of the runs; those with one value of the axis that the study
+/// has tables for each value of, if that is given.
+std::vector<Cell> cells_of(const StudyData& study, const std::string& scene,
+                           const std::string& value = {}) {
   std::vector<Cell> cells;
   for (const StudyRun& run : study.runs) {
     if (run.scene != scene) continue;
+    if (!value.empty() && run.on_axis(study.table_per) != value) continue;
     std::vector<std::string> settings;
     for (const StudyAxis& axis : study.axes) settings.push_back(run.on_axis(axis.key));
     if (cells.empty() || cells.back().settings != settings)
@@ -122,11 +125,17 @@ std::string file_name_of(std::string name) {
   return name;
 }
 
-Json scene_table(const StudyData& study, const StudyScene& scene, std::size_t index) {
-  const std::vector<Cell> cells = cells_of(study, scene.name);
+Json scene_table(const StudyData& study, std::size_t index, const std::string& value = {}) {
+  const StudyScene& scene = study.scenes[index];
+  const std::vector<Cell> cells = cells_of(study, scene.name, value);
   const std::vector<MetricInfo> columns = columns_of(study);
   Json table{{"id", fmt::format("table-{}-{}", index + 1, file_name_of(scene.name))},
              {"title", scene.label}};
+  if (!value.empty()) {
+    table["id"] = table["id"].get<std::string>() + "-" + file_name_of(value);
+    table["title"] =
+        fmt::format("{}, {} {}", scene.label, study.axis_label(study.table_per), value);
+  }
   table["note"] =
       note_on_tests(most_seeds(cells), cells.empty() ? 0 : cells.size() - 1, "a column");
   table["keys"] = key_labels(study);
@@ -207,10 +216,13 @@ Json table_data(const StudyData& study) {
     Json table = scenes_table(study);
     if (!table["rows"].empty()) tables.push_back(std::move(table));
   }
-  for (std::size_t i = 0; i < study.scenes.size(); ++i) {
-    Json table = scene_table(study, study.scenes[i], i);
-    if (!table["rows"].empty()) tables.push_back(std::move(table));
-  }
+  std::vector<std::string> parts{""};  // of a scene, each with a table
+  if (study.axis(study.table_per)) parts = study.values_of(study.table_per);
+  for (std::size_t i = 0; i < study.scenes.size(); ++i)
+    for (const std::string& part : parts) {
+      Json table = scene_table(study, i, part);
+      if (!table["rows"].empty()) tables.push_back(std::move(table));
+    }
   return tables;
 }
 

@@ -31,6 +31,7 @@ struct StudyKeys {
   std::optional<int> frames;
   bool overlay = false, recordings = false;
   std::vector<Plot> plots;
+  std::string table_per;
   std::filesystem::path directory;
   void visit(ParamVisitor& v) {
     v("title", title, {.help = "heading of the report", .required = true});
@@ -46,6 +47,8 @@ struct StudyKeys {
     v("recordings", recordings,
       {.help = "whether every source is recorded once, and all runs read the recording"});
     v("plots", plots, {.help = "list of {kind, x, y, value, color, facet, title, ...}"});
+    v("table_per", table_per,
+      {.help = "axis with a table of its own for each value: rows are compared within it"});
     v("variants", variants, {.help = "{NAME: {seeds, frames, scenes, set, grid, overlay}}"});
     v("directory", directory,
       {.help = "folder that relative paths in changes refer to; the study's own by default"});
@@ -199,6 +202,15 @@ void check_plots(const Study& study, const ConfigNode& plots) {
   }
 }
 
+void check_table_per(const Study& study, const ConfigNode& node) {
+  const std::vector<std::string> known = names_of(study.axes);
+  if (study.table_per.empty() ||
+      std::find(known.begin(), known.end(), study.table_per) != known.end())
+    return;
+  fail_at(node, fmt::format("'{}' is no axis of this study{}; there are: {}", study.table_per,
+                            detail::did_you_mean(study.table_per, known), fmt::join(known, ", ")));
+}
+
 }  // namespace
 
 std::span<const std::string_view> enum_names(PlotKind) {
@@ -239,10 +251,12 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.overlay = keys.overlay;
   study.recordings = keys.recordings;
   study.plots = keys.plots;
+  study.table_per = keys.table_per;
   study.directory = keys.directory.empty() ? root.directory() : keys.directory;
   if (!keys.directory.empty() && !std::filesystem::is_directory(keys.directory))
     fail_at(root.get("directory"), fmt::format("there is no folder {}", keys.directory.string()));
   check_plots(study, root.get("plots"));
+  check_table_per(study, root.get("table_per"));
   apply_variants(study, keys.variants, file.string(), variant);
   return study;
 }

@@ -65,6 +65,7 @@ struct Study {
   bool overlay = false;       ///< whether runs write overlay.mp4
   bool recordings = false;    ///< whether sources are recorded once, for all runs to read
   std::vector<Plot> plots;
+  std::string table_per;            ///< axis with a table of its own for each value; may be empty
   std::filesystem::path directory;  ///< absolute; what relative paths in changes refer to
 };
 

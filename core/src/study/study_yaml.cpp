@@ -68,6 +68,8 @@ std::string to_yaml(const Study& study) {
   if (study.frames) text += fmt::format("frames: {}\n", *study.frames);
   text += fmt::format("overlay: {}\nrecordings: {}\ndirectory: {}\n", study.overlay,
                       study.recordings, yaml_scalar(study.directory.string()));
+  if (!study.table_per.empty())
+    text += fmt::format("table_per: {}\n", yaml_scalar(study.table_per));
   if (!study.plots.empty()) text += "plots:\n";
   for (const Plot& plot : study.plots) text += plot_text(plot);
   return text;
