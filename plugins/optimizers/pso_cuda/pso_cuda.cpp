@@ -19,7 +19,7 @@ using cuda::Stream;
 using cuda::SwarmLayout;
 
 constexpr std::int64_t kMostCaptured =
-    1024;  // generations; memory and time of a graph grow with it
+    1024;  // generations; a graph's memory and the time of what cannot be interrupted grow with it
 
 /// Generations of `particles` evaluations; the last one may be partial.
 struct Schedule {
@@ -123,7 +123,8 @@ struct PsoCuda::OnDevice {
   bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
                       const cuda::Swarming& how, const StartSpread& start,
                       const SearchRegion& region, std::uint64_t seed) {
-    if (!schedule.whole() || swarm.dimension > cuda::kMostSwarmDimensions) return false;
+    if (!schedule.whole() || schedule.generations() > kMostCaptured) return false;
+    if (swarm.dimension > cuda::kMostSwarmDimensions) return false;
     cuda::SwarmSearch search = memory.search(swarm, schedule.generations(), region, seed);
     search.constriction = how.constriction;
     search.reset = how.reset;

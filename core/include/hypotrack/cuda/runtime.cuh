@@ -161,11 +161,15 @@ void launch_together(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::
         "launching a kernel");
 }
 
-/// How many blocks of a kernel fit on the current device at once.
+/// How many blocks of a kernel fit on the current device at once; 0 if it cannot promise that.
 template <class... Parameters>
 std::int64_t blocks_at_once(void (*kernel)(Parameters...), int threads, std::size_t shared_bytes,
                             int multiprocessors) {
-  int each = 0;
+  int device = 0, together = 0, each = 0;
+  check(cudaGetDevice(&device), "asking for the device");
+  check(cudaDeviceGetAttribute(&together, cudaDevAttrCooperativeLaunch, device),
+        "asking what the device can do");
+  if (together == 0) return 0;
   check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&each, kernel, threads, shared_bytes),
         "asking how many blocks fit");
   return std::int64_t{each} * multiprocessors;
