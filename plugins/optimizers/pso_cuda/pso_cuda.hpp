@@ -19,7 +19,7 @@ namespace hypotrack {
 /// budget, dimension and the cost's revision stay the same. A search with a budget of time, or of
 /// more than 1,024 generations, is enqueued generation by generation instead.
 ///
-/// Takes 8 (4 D + 6) bytes of GPU memory per particle in D dimensions: 912 bytes in 27, so 0.9 GiB
+/// Takes 8 (4 D + 15) bytes of GPU memory per particle in D dimensions: 984 bytes in 27, so 1.0 GiB
 /// for the most particles there can be, 2^20; the evaluation needs more.
 class PsoCuda : public Optimizer {
  public:

@@ -38,7 +38,7 @@ SwarmLayout SwarmMemory::reserve(std::int64_t particles, std::int64_t dimension)
 SwarmSearch SwarmMemory::search(const SwarmLayout& swarm, std::int64_t generations,
                                 const SearchRegion& region, std::uint64_t seed) {
   // Empty before and after every search: all bits set (bands.cuh).
-  if (slots_.reserve(static_cast<std::size_t>(3 * swarm.particles))) {
+  if (slots_.reserve(static_cast<std::size_t>(3 * kSlotStride * swarm.particles))) {
     check(cudaMemset(slots_.data(), 0xFF, slots_.size() * sizeof(double)), "emptying memory");
     check(cudaDeviceSynchronize(), "emptying memory");
   }

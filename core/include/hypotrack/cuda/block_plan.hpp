@@ -38,6 +38,9 @@ struct BlockPlan {
   /// Whether the scene's vertices and triangles are copied to shared memory while the kernel before
   /// still runs.
   bool stages_vertices = false, stages_triangles = false;
+  /// Whether those vertices stay there for all hypotheses of a search; otherwise texels are copied
+  /// over them.
+  bool keeps_vertices = false;
   int staged_vertices = 0, staged_triangles = 0;
   int end = 0;  ///< of the block's memory; from the z-buffers' last pixel to here there is room for
                 ///< texels, once the vertices are placed
@@ -59,7 +62,7 @@ struct PlanRequest {
   bool may_split = true;  ///< into bands
   int sums = 0;
   bool texels = false;  ///< whether it pays to have room for texels
-  bool alone = false;   ///< no other kernel starts while the block is at work
+  bool alone = false;   ///< no other kernel starts while the block is at work (a whole search)
 };
 
 inline constexpr int kMostThreads = 1024;
@@ -130,12 +133,16 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.stages_triangles = p.vertices_in_shared && staged <= floats;
   p.stages_vertices = p.stages_triangles && staged + vertices <= floats;
   p.staged_triangles = p.stages_triangles ? take(triangles) : 0;
-  const int behind = p.stages_vertices ? rounded(vertices) : 0;
+  // Beside z-buffers and texels of 8 bytes for all rows of a band.
+  p.keeps_vertices = r.alone && r.texels && bands > 1 && p.stages_vertices &&
+                     end + rounded(vertices) + 3 * wanted <= floats;
+  if (p.keeps_vertices) p.staged_vertices = take(vertices);
+  const int behind = p.stages_vertices && !p.keeps_vertices ? rounded(vertices) : 0;
   p.depth = end;
   p.depth_capacity = static_cast<int>(
       std::min<std::int64_t>(rounded(static_cast<int>(wanted)), (floats - end - behind) / 4 * 4));
   end += p.depth_capacity;
-  p.staged_vertices = p.stages_vertices ? take(vertices) : 0;
+  if (behind > 0) p.staged_vertices = take(vertices);
   if (r.texels && bands > 1) {
     end = std::max(end, (floats - (r.alone ? 0 : kLeftToOthers / 4)) / 4 * 4);
   }

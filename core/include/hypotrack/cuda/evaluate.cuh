@@ -127,7 +127,9 @@ class BlockEvaluation {
   }
 
   /// Whether run() overwrites what was staged: with texels.
-  __device__ bool stages_again() const { return HasTexels<Term> && plan_.stages_vertices; }
+  __device__ bool stages_again() const {
+    return HasTexels<Term> && plan_.stages_vertices && !plan_.keeps_vertices;
+  }
 
   __device__ void reset(int thread = 0) {
     if (static_cast<int>(threadIdx.x) != thread) return;

@@ -94,7 +94,7 @@ class SwarmParticle {
   __device__ void clear(std::int32_t last) const {
     for (std::int32_t generation = max(last - 1, 0); generation <= last; ++generation) {
       for (int p = dimension(); p < swarm_.particles; p += movers(swarm_)) {
-        clear_slot(slots(generation) + p);
+        clear_slot(slot(generation, p));
       }
     }
   }
@@ -103,7 +103,7 @@ class SwarmParticle {
   /// takes its time: whoever has heard of the cost then finds the position.
   __device__ void before_telling() const { __threadfence(); }
   __device__ void tell(std::int32_t generation, double cost) const {
-    fill_slot(slots(generation) + number(), cost);
+    fill_slot(slot(generation, number()), cost);
   }
 
  private:
@@ -137,8 +137,8 @@ class SwarmParticle {
   __device__ double* positions(std::int32_t generation) const {
     return swarm_.positions + generation % 2 * (swarm_.particles * swarm_.dimension);
   }
-  __device__ double* slots(std::int32_t generation) const {
-    return swarm_.costs + generation % 3 * swarm_.particles;
+  __device__ double* slot(std::int32_t generation, int particle) const {
+    return swarm_.costs + kSlotStride * (generation % 3 * swarm_.particles + particle);
   }
 
   __device__ void place(std::int32_t generation, double x) const {
@@ -153,9 +153,9 @@ class SwarmParticle {
   __device__ double learn(std::int32_t generation) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     // Every thread looks at its own numbers only; those without a dimension have none.
-    constexpr double kNothingIsBetter = -std::numeric_limits<double>::infinity();
     const bool has_dimension = dimension() < swarm_.dimension;
-    const double known = has_dimension ? mine(kBestCost) : kNothingIsBetter;
+    // A warp's first thread has one.
+    const double known = __shfl_sync(kWholeWarp, has_dimension ? mine(kBestCost) : 0, 0);
     double best = has_dimension ? mine(kBest) : 0, own = 0;
     Candidate of_lane, found;
     int next = lane;  // of the particles that the lane looks after
@@ -163,17 +163,17 @@ class SwarmParticle {
 #pragma unroll 1
     while (!is_last) {
       const std::uint64_t bits =
-          next < swarm_.particles ? look_into_slot(slots(generation) + next) : kEmptySlot;
+          next < swarm_.particles ? look_into_slot(slot(generation, next)) : kEmptySlot;
       if (bits != kEmptySlot) {
         const double cost = __longlong_as_double(static_cast<long long>(bits));
-        of_lane = better(of_lane, {cost, next});
+        if (cost < known) of_lane = better(of_lane, {cost, next});
         if (next == number()) own = cost;
         next += kWarp;
       }
       is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
-      const Candidate now = best_of_warp(of_lane);
+      const Candidate now = best_of_few(of_lane);
       // Its position is on its way while others are waited for.
-      if (now.particle != found.particle && now.cost < known) {
+      if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
       found = now;
@@ -190,9 +190,18 @@ class SwarmParticle {
     }
     // All blocks have read the costs of the generation before, or this one's would not be there.
     if (tells() && dimension() == 0 && generation > 0) {
-      clear_slot(slots(generation - 1) + number());
+      clear_slot(slot(generation - 1, number()));
     }
     return best;
+  }
+
+  /// The best of the candidates of a warp, of which most lanes have none, in all its lanes.
+  __device__ static Candidate best_of_few(const Candidate& mine) {
+    const unsigned lanes = __ballot_sync(kWholeWarp, mine.cost < Candidate().cost);
+    if (lanes == 0) return {};
+    if ((lanes & (lanes - 1)) != 0) return best_of_warp(mine);
+    const int lane = __ffs(static_cast<int>(lanes)) - 1;
+    return {__shfl_sync(kWholeWarp, mine.cost, lane), __shfl_sync(kWholeWarp, mine.particle, lane)};
   }
 
   const SwarmSearch& swarm_;

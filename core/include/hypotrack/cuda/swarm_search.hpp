@@ -9,6 +9,10 @@ namespace hypotrack::cuda {
 /// Most dimensions of a SwarmSearch: it is handed to the kernel by value.
 inline constexpr int kMostSwarmDimensions = 64;
 
+/// From slot to slot of SwarmSearch::costs: a sector of the L2 cache each, for all blocks look at
+/// all of them at the same time.
+inline constexpr int kSlotStride = 4;
+
 /// Where a dimension of a search begins and how far it may go.
 struct SwarmDimension {
   double start, lower, upper, spread;
@@ -29,7 +33,8 @@ struct SwarmSearch {
   StartSpread start;
   SwarmDimension dimensions[kMostSwarmDimensions];
   double* positions;  ///< device memory: room for 2 generations
-  double* costs;      ///< device memory: 3 slots per particle (bands.cuh), empty before and after
+  double* costs;      ///< device memory: 3 slots per particle (bands.cuh), kSlotStride apart, empty
+                      ///< before and after
   double* answer;     ///< page-locked host memory: cost, then position
 };
 
