@@ -73,6 +73,20 @@ TEST(RunDirectory, AHashInAResultStandsForAnyNumber) {
   EXPECT_TRUE(exists(folder.path() / "worst_.jpg"));
 }
 
+TEST(RunDirectory, ASecondRunIsKeptOutUntilTheFirstEnds) {
+  const test::TemporaryDirectory folder;
+  {
+    RunDirectory first(folder.path(), {"a.csv"});
+    TextFile(first.part("a.csv")).write("first");
+    EXPECT_THAT(test::message_of<OutputError>([&] { RunDirectory(folder.path(), {"a.csv"}); }),
+                testing::AllOf(testing::HasSubstr(folder.path().string()),
+                               testing::HasSubstr("another run"), testing::HasSubstr("--out")));
+    EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
+    first.finish();
+  }
+  RunDirectory(folder.path(), {"a.csv"});
+}
+
 TEST(RunDirectory, AFolderWithTheNameOfANumberedResultIsRefused) {
   const test::TemporaryDirectory folder;
   std::filesystem::create_directory(folder.path() / "worst_7.jpg");

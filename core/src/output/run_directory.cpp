@@ -1,9 +1,12 @@
 #include "output/run_directory.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <string_view>
 #include <system_error>
 
@@ -40,6 +43,7 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
         "{}: the output folder cannot be written; change its permissions or name another with "
         "--out",
         directory_.string()));
+  lock();
   // Found at the end, this would cost the whole run.
   for (const std::string& name : results_there(""))
     if (std::filesystem::is_directory(directory_ / name))
@@ -52,10 +56,23 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
 }
 
 RunDirectory::~RunDirectory() {
-  if (keep_) return;
-  std::error_code ignored;
-  for (const std::string& name : names_) std::filesystem::remove(part_path(name), ignored);
-  if (made_) std::filesystem::remove(directory_, ignored);  // only if it is empty
+  if (!keep_) {
+    std::error_code ignored;
+    for (const std::string& name : names_) std::filesystem::remove(part_path(name), ignored);
+    if (made_) std::filesystem::remove(directory_, ignored);  // only if it is empty
+  }
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+void RunDirectory::lock() {
+  descriptor_ = open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  // A file system without locks keeps nobody out, and nobody from working.
+  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(descriptor_);
+  throw OutputError(fmt::format(
+      "{}: another run is writing its results there; name another folder with --out, or wait for "
+      "its end",
+      directory_.string()));
 }
 
 std::filesystem::path RunDirectory::part_path(const std::string& name) const {

@@ -14,7 +14,8 @@ class HYPOTRACK_API RunDirectory {
  public:
   /// Makes the folder if need be and removes what an earlier, killed run left unfinished. `results`
   /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Throws
-  /// OutputError if the folder cannot be made or written or a folder has the name of a result.
+  /// OutputError if the folder cannot be made or written, another run is writing there or a folder
+  /// has the name of a result.
   RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
 
   /// Unless keep() was called, removes the unfinished files, and the folder if it was made here.
@@ -38,11 +39,14 @@ class HYPOTRACK_API RunDirectory {
   std::filesystem::path part_path(const std::string& name) const;
   /// Names in the folder that are `prefix` and a result's name.
   std::vector<std::string> results_there(const std::string& prefix) const;
+  /// Keeps other runs out for as long as this one lives. Throws OutputError if one is there.
+  void lock();
   std::filesystem::path directory_;
   std::vector<std::string> results_;
   std::vector<std::string> names_;
   bool made_ = false;
   bool keep_ = false;
+  int descriptor_ = -1;  ///< of the locked folder
 };
 
 }  // namespace hypotrack
