@@ -16,6 +16,10 @@ TEST_F(BadInputTest, MissingScene) {
   expect_refusal(run_program({"run", file, "--out", path("out").string()}), {file});
 }
 
+TEST_F(BadInputTest, NoNameOfAScene) {
+  expect_refusal(run_program({"run", "", "--out", path("out").string()}), {"empty", "a YAML file"});
+}
+
 TEST_F(BadInputTest, BrokenYaml) { expect_refused("models: [{name: box\n", {"scene.yaml:2:1"}); }
 
 TEST_F(BadInputTest, EmptyScene) { expect_refused("", {"scene.yaml", "models", "missing"}); }
@@ -61,6 +65,10 @@ TEST_F(BadInputTest, NoModels) {
   expect_refused(
       replaced(box_scene(), "[{name: box, type: rigid_box, size_mm: [90, 60, 40]}]", "[]"),
       {"scene.yaml:1:", "at least one"});
+}
+
+TEST_F(BadInputTest, AModelWithoutAName) {
+  expect_refused(replaced(box_scene(), "name: box,", "name: ,"), {"scene.yaml:1:", "name"});
 }
 
 TEST_F(BadInputTest, TwoModelsOfOneName) {
@@ -111,6 +119,13 @@ TEST_F(BadInputTest, BadMeshes) {
   write_text(path("nan.obj"), "v 0 0 0\nv nan 0 0\nv 0 0.1 0\nf 1 2 3\n");
   expect_refused(with("nan.obj"), {"nan.obj"});
   expect_refused(with("missing.obj"), {"missing.obj"});
+}
+
+TEST_F(BadInputTest, WithoutACalibrationItIsSaidWhatIsMissing) {
+  for (const char* source : {"{type: image_sequence, left: l_%d.png, right: r_%d.png}",
+                             "{type: video, left: l.mp4, right: r.mp4}", "{type: rgbd, folder: .}"})
+    expect_refused(box_scene(), {"source.calibration: required key is missing"},
+                   {"--set", std::string("source=") + source});
 }
 
 TEST_F(BadInputTest, OutputFolderUnderAFile) {

@@ -96,6 +96,7 @@ TEST(ParamReader, MissingRequiredKeys) {
   EXPECT_EQ(error("name: a\n"), "scene.yaml:1:1: file: required key is missing");
   EXPECT_THAT(error("fiel: a\n"), HasSubstr("fiel: unknown key; did you mean 'file'?"))
       << "a misspelt required key is unknown, not missing";
+  EXPECT_EQ(error("file: \"\"\n"), "scene.yaml:1:7: file: expected a path, found the text \"\"");
 }
 
 TEST(ParamReader, AbsentSectionIsReadAsAnEmptyMap) {

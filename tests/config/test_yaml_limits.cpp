@@ -71,12 +71,12 @@ TEST(YamlLimits, EndlessFilesAreRefused) {
 
 TEST(YamlLimits, ControlCharactersAndOtherEncodingsAreRefused) {
   EXPECT_EQ(parse_error("a: 1\nb: \x04 2\n"),
-            "scene.yaml:2:4: found the control character 0x04; a scene is UTF-8 text");
+            "scene.yaml:2:4: found the control character 0x04; expected UTF-8 text");
   EXPECT_EQ(parse_error(std::string_view("a: \0", 4)),
-            "scene.yaml:1:4: found the control character 0x00; a scene is UTF-8 text");
+            "scene.yaml:1:4: found the control character 0x00; expected UTF-8 text");
   EXPECT_EQ(parse_error("a: gr\xF6\xDF"
                         "e\n"),
-            "scene.yaml:1:6: no UTF-8: found byte 0xF6; a scene is UTF-8 text");
+            "scene.yaml:1:6: no UTF-8: found byte 0xF6; expected UTF-8 text");
   EXPECT_THAT(parse_error(std::string_view("\xFF\xFE"
                                            "a\0:\0",
                                            6)),

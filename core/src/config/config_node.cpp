@@ -21,6 +21,7 @@ using detail::YamlOrigin;
 namespace {
 
 std::string read_file(const std::filesystem::path& file) {
+  if (file.empty()) throw ConfigError("the name of the file is empty; expected a YAML file");
   if (std::filesystem::is_directory(file)) {
     throw ConfigError(file.string() + ": is a folder; expected a YAML file");
   }
@@ -68,8 +69,8 @@ ConfigNode::ConfigNode(std::shared_ptr<const YamlNode> node) : node_(std::move(n
 
 ConfigNode ConfigNode::load(const std::filesystem::path& file,
                             std::span<const std::string> overrides) {
-  auto root =
-      read_document(read_file(file), file.string(), std::filesystem::absolute(file).parent_path());
+  const std::string text = read_file(file);
+  auto root = read_document(text, file.string(), std::filesystem::absolute(file).parent_path());
   for (const std::string& assignment : overrides) detail::apply_override(*root, assignment);
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
 }

@@ -105,6 +105,7 @@ struct ParamReader::Impl : public ParamVisitor {
     const auto node = take(key, info);
     if (!node) return;
     const std::filesystem::path path = read_text(*node, "a path");
+    if (path.empty() && info.required) fail_type(*node, "a path");
     value = path.empty() ? path : (node->directory() / path).lexically_normal();
   }
 

@@ -80,7 +80,7 @@ void YamlText::check(const YamlOrigin& origin) const {
       const Position at =
           position(static_cast<int>(line), static_cast<int>(i - line_starts_[line]));
       throw ConfigError(fmt::format(
-          "{}: {} 0x{:02X}; a scene is UTF-8 text", describe_position(origin, at.line, at.column),
+          "{}: {} 0x{:02X}; expected UTF-8 text", describe_position(origin, at.line, at.column),
           length == 0 ? "no UTF-8: found byte" : "found the control character",
           static_cast<unsigned char>(text_[i])));
     }

@@ -53,7 +53,7 @@ class Opening {
 std::string text_of(const ConfigNode& node, std::string_view key, std::string otherwise) {
   const ConfigNode value = node.get(key);
   if (!value.defined()) return otherwise;
-  if (!value.is_scalar() || value.scalar().empty())
+  if (!value.is_scalar() || value.is_null() || value.scalar().empty())
     throw ConfigError(fmt::format("{}: {} must be a word", value.where(), key));
   return value.scalar();
 }

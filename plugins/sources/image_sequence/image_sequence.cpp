@@ -47,7 +47,7 @@ struct ImageSequenceParams {
        .max = 1e3,
        .unit = "mm",
        .to_si = kMillimetre});
-    v("calibration", calibration, {.help = "the cameras"});
+    v("calibration", calibration, {.help = "the cameras", .required = true});
     v("start", start,
       {.help = "number (with %d) or position (with *) of the first frame; default: the first found",
        .min = 0});

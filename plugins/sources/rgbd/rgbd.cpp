@@ -45,7 +45,8 @@ struct RgbdParams {
        .min = 1,
        .max = 1e7,
        .unit = "1/m"});
-    v("calibration", calibration, {.help = "the one camera that both images belong to"});
+    v("calibration", calibration,
+      {.help = "the one camera that both images belong to", .required = true});
     v("start", start,
       {.help = "position of the first frame in the colour list", .min = 0, .max = 1e7});
     v("count", count, {.help = "number of frames; default: all", .min = 1, .max = 1e7});

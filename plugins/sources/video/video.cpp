@@ -32,7 +32,7 @@ struct VideoParams {
     v("side_by_side", side_by_side,
       {.help = "one video with the first camera in the left half and the second in the right half, "
                "instead of left and right"});
-    v("calibration", calibration, {.help = "the cameras"});
+    v("calibration", calibration, {.help = "the cameras", .required = true});
     v("offset", offset,
       {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
                "later",
