@@ -144,19 +144,19 @@ void add_limits(CLI::App& command, BenchOptions& options) {
   command
       .add_option("--frames", options.frames,
                   "Frames to measure of each row (default: what the table says, or 50)")
-      ->check(CLI::Range(1, 100'000));
+      ->check(whole_number(1, 100'000));
   command.add_option("--warm-up", options.limits.warm_up, "Frames to track before those")
-      ->check(CLI::Range(0, 100'000))
+      ->check(whole_number(0, 100'000))
       ->capture_default_str();
   command
       .add_option("--seconds", options.limits.seconds,
                   fmt::format("Time for a row; a slow one has fewer frames, at least {}, unless "
                               "even those take {} times as long",
                               bench::kFewestFrames, bench::kLongest))
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->capture_default_str();
   command.add_option("--rounds", options.rounds, "Measure everything so many times")
-      ->check(CLI::Range(1, 1000))
+      ->check(whole_number(1, 1000))
       ->capture_default_str();
 }
 

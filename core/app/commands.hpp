@@ -1,7 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,11 @@ struct SceneOptions {
 };
 void add_scene_options(CLI::App& command, SceneOptions& options);
 void add_set_option(CLI::App& command, std::vector<std::string>& set);
+
+/// Checks of an option's value, whose messages say what is expected.
+CLI::Validator whole_number(std::int64_t lowest,
+                            std::int64_t highest = std::numeric_limits<int>::max());
+CLI::Validator positive_number();
 
 // Each adds one subcommand whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);

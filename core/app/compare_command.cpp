@@ -174,9 +174,9 @@ void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   command->add_option("--out", options->out, "Folder for runs and tables")->required();
   command->add_option("--variant", options->variant, "Variant of the study, for example quick");
   command->add_option("--jobs", options->jobs, "Runs at a time (default: one per core)")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--threads", options->threads, "Threads of each run (default: cores / jobs)")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--shard", options->shard,
                       "Make a part of the runs: i/n, for one of n machines that share the folder");
   command->add_flag("--retry-failed", options->retry_failed, "Make failed runs again");

@@ -131,7 +131,7 @@ void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code)
   add_scene_options(*command, options->scene);
   command->add_option("--out", options->out, "File for the shape")->capture_default_str();
   command->add_option("--frames", options->frames, "Look at the first frames only")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command
       ->add_option("--from", options->from,
                    "images: track and fit in turn; truth: fit to the landmarks that the source "

@@ -1,11 +1,17 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "commands.hpp"
+#include "config/suggest.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
@@ -25,19 +31,44 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set) {
       ->type_name("KEY=VALUE");
 }
 
+namespace {
+
+/// What was wrong with the command line, and what there is where a word is no command.
+std::string mistake(const CLI::App* app, const CLI::Error& error) {
+  const std::string way_out = "\nRun with --help for more information.\n";
+  const std::vector<std::string> left = app->remaining();
+  if (!app->get_subcommands().empty() || left.empty() || left.front().starts_with('-'))
+    return error.what() + way_out;
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app->get_subcommands({})) commands.push_back(command->get_name());
+  return fmt::format("there is no command '{}'{}. There are: {}{}", left.front(),
+                     detail::did_you_mean(left.front(), commands), fmt::join(commands, ", "),
+                     way_out);
+}
+
+/// Whether all that was printed has arrived.
+bool close_output() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  fmt::print(stderr, "hypotrack: the standard output cannot be written: {}\n",
+             std::generic_category().message(errno));
+  return false;
+}
+
+}  // namespace
 }  // namespace hypotrack::app
 
 int main(int argc, char** argv) {
   using namespace hypotrack::app;
   CLI::App app("Model-based 3D tracking from RGB stereo pairs.", "hypotrack");
   app.require_subcommand(1);
+  app.failure_message(mistake);
   app.set_version_flag("--version",
                        fmt::format("hypotrack {} (plugin ABI {}: {})", HYPOTRACK_VERSION,
                                    hypotrack::kAbiVersion, hypotrack::kBuildTag));
   CommonOptions common;
   app.add_option("--plugin-path", common.plugin_path,
                  "Folder to look for plugins in first (may be repeated)")
-      ->expected(1)
+      ->allow_extra_args(false)
       ->take_all();
   app.fallthrough();
   int exit_code = 0;
@@ -53,13 +84,15 @@ int main(int argc, char** argv) {
   add_plugins_command(app, common, exit_code);
   try {
     app.parse(argc, argv);
-    return exit_code;
+    return close_output() ? exit_code : 1;
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   } catch (const hypotrack::Error& e) {
     fmt::print(stderr, "hypotrack: {}\n", e.what());
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "hypotrack: out of memory\n");
+  } catch (const std::system_error& e) {  // of a full disk for what is printed
+    fmt::print(stderr, "hypotrack: {}\n", e.what());
   } catch (const std::exception& e) {
     fmt::print(stderr, "hypotrack: unexpected error: {}\n", e.what());
   } catch (...) {

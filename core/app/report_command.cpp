@@ -40,7 +40,7 @@ void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code) {
                       "gets plots and tables");
   command->add_option("--replays", options->report.replays, "Runs with a 3D replay, at most")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0));
   CLI::Option* images = command->add_flag(
       "--images", options->images,
       "Fail if the plots cannot have files of their own (SVG, PNG), which need nodejs and "

@@ -174,9 +174,9 @@ void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   add_scene_options(*command, options->scene);
   command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
   command->add_option("--frames", options->frames, "Stop after this many frames")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->add_option("--seed", options->seed, "Seed of all random numbers")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()));
   command->callback([=, &common, &exit_code] { exit_code = run(*options, common); });
 }
 

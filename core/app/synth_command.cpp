@@ -60,7 +60,7 @@ void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   add_scene_options(*command, options->scene);
   command->add_option("--out", options->out, "New folder for the recording")->required();
   command->add_option("--frames", options->frames, "Stop after this many frames")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   command->callback([=, &common, &exit_code] { exit_code = synth(*options, common); });
 }
 

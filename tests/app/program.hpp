@@ -13,6 +13,7 @@ struct Start {
   std::vector<std::string> arguments;
   std::filesystem::path directory;       ///< working directory; the test's own if empty
   std::vector<std::string> environment;  ///< `NAME=value`, on top of the test's own
+  std::filesystem::path out;             ///< takes what it prints; if empty, Outcome::out does
   long largest_file = 0;  ///< bytes; 0: no limit. Writing on fails, as on a full disk
 };
 

@@ -58,6 +58,36 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
   }
 }
 
+TEST_F(UsageTest, MistakesOfUsageSayWhatIsExpected) {
+  const auto message = [](const std::vector<std::string>& arguments) {
+    return run_program(arguments).err;
+  };
+  EXPECT_THAT(message({"rum", "a.yaml"}),
+              AllOf(HasSubstr("no command 'rum'; did you mean 'run'?"), HasSubstr("validate")));
+  EXPECT_THAT(message({"run", "a.yaml", "--frames", "0"}),
+              HasSubstr("--frames: expected a whole number from 1 to 2147483647, found '0'"));
+  EXPECT_THAT(message({"run", "a.yaml", "--frames", "1e3"}), HasSubstr("found '1e3'"));
+  EXPECT_THAT(message({"run", "a.yaml", "--seed", "99999999999999999999"}),
+              HasSubstr("--seed: expected a whole number from 0 to"));
+  EXPECT_THAT(message({"bench", "--seconds", "0"}),
+              HasSubstr("--seconds: expected a number above 0, found '0'"));
+}
+
+TEST_F(UsageTest, ThePluginPathMayStandBeforeTheScene) {
+  const Outcome outcome =
+      run_program({"validate", "--plugin-path", folder().string(), scene(box_scene())});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
+TEST_F(UsageTest, WhatCannotBePrintedIsAnError) {
+  Start start;
+  start.arguments = {"validate", scene(box_scene()), "--print"};
+  start.out = "/dev/full";
+  const Outcome outcome = run_program(start);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("No space left on device"));
+}
+
 TEST_F(UsageTest, ValidateSaysWhatTheSceneIs) {
   const std::string file = scene(box_scene());
   const Outcome outcome = run_program({"validate", file});
