@@ -131,7 +131,7 @@ TEST_F(NoDeviceTest, ForBenchItIsARow) {
 }
 
 TEST_F(NoDeviceTest, AutomaticTakesTheCpuAndSaysWhy) {
-  const Outcome outcome = run(box_scene() + "evaluate: {backend: automatic}\n");
+  const Outcome outcome = run(box_scene() + "evaluate: {backend: auto}\n");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("tracking with cpu ("),
                                  HasSubstr("not on a GPU: " + cuda::why_no_device())));

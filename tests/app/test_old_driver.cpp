@@ -26,7 +26,7 @@ TEST_F(OldDriverTest, ARunSaysBothVersionsAndWhatToWrite) {
 }
 
 TEST_F(OldDriverTest, AutomaticTakesTheCpuAndSaysWhy) {
-  const Outcome outcome = run_with_old_driver("automatic");
+  const Outcome outcome = run_with_old_driver("auto");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr(std::string("not on a GPU: ") + kReason));
 }

@@ -32,7 +32,7 @@ TEST(OpenedImages, AreOrdinaryOnesWithoutADevice) {
   ::testing::internal::CaptureStdout();
   ::testing::internal::CaptureStderr();
   cuda::page_lock_images(0);
-  EXPECT_EQ(allocator_of("automatic"), cv::Mat::getStdAllocator());
+  EXPECT_EQ(allocator_of("auto"), cv::Mat::getStdAllocator());
   EXPECT_EQ(allocator_of("cuda"), cv::Mat::getStdAllocator());
   EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");

@@ -38,7 +38,7 @@ cv::Mat first_image(const std::string& backend) {
 TEST(PageLockedImages, AreThoseOfASceneOnTheGpu) {
   SKIP_WITHOUT_DEVICE();
   EXPECT_TRUE(page_locked(first_image("cuda")));
-  EXPECT_TRUE(page_locked(first_image("automatic")));
+  EXPECT_TRUE(page_locked(first_image("auto")));
 }
 
 TEST(PageLockedImages, AreThoseOf64KiBAndMore) {

@@ -155,7 +155,7 @@ TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
   EXPECT_EQ(test::message_of<DeviceError>(
                 [&] { Evaluator(scene, terms, {.backend = Backend::cuda}, {.wanted = true}); }),
             "evaluate.backend: cuda: the optimizer needs residuals, and objective prior has them "
-            "on the CPU only. Write `backend: cpu`, or `automatic` to take what there is");
+            "on the CPU only. Write `backend: cpu`, or `auto` to take what there is");
   const Evaluator automatic(scene, terms, {}, {.wanted = true});
   EXPECT_THAT(automatic.backend(), testing::HasSubstr("objective prior has them on the CPU only"));
 }

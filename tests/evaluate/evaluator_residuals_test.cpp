@@ -61,7 +61,7 @@ TEST_F(EvaluatorResiduals, TakesAnalyticJacobiansOnTheCpu) {
                 Evaluator(scene_, terms, {.backend = Backend::cuda}, {true, Linearization::needed});
               }),
               testing::StartsWith("evaluate.backend: cuda: the optimizer takes analytic Jacobians, "
-                                  "which are computed on the CPU. Write `jacobian: automatic`"));
+                                  "which are computed on the CPU. Write `jacobian: auto`"));
 }
 
 TEST_F(EvaluatorResiduals, SaysWhichResidualsLookAtThePoseOnlyWhereItFellBackToo) {

@@ -133,7 +133,7 @@ TEST_F(EvaluatorTest, SaysWhatDraws) {
   EXPECT_THAT(one.backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 1 thread\\)"));
   const Evaluator two(scene_, {{1, term}}, {.backend = Backend::cpu, .threads = 2});
   EXPECT_THAT(two.backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 2 threads\\)"));
-  // A term without the device capability: automatic says why it is on the CPU.
+  // A term without the device capability: auto says why it is on the CPU.
   const Evaluator automatic(scene_, {{1, term}}, {.threads = 1});
   EXPECT_THAT(automatic.backend(),
               testing::MatchesRegex("cpu \\([A-Z0-9_]+, 1 thread\\); not on a GPU: .+"));

@@ -54,11 +54,15 @@ class Stepper final : public Optimizer {
 template <class E>
 class Failing final : public Optimizer {
  public:
+  explicit Failing(std::string message = "cannot do that") : message_(std::move(message)) {}
   std::int64_t default_evaluations() const override { return 1; }
   OptimizerResult minimize(CostFunction&, const SearchRegion&, const Budget&,
                            std::uint64_t) override {
-    throw E("cannot do that");
+    throw E(message_);
   }
+
+ private:
+  std::string message_;
 };
 
 SearchRegion line() {
@@ -237,6 +241,16 @@ TEST_F(PipelineTest, AnErrorOfAStageNamesIt) {
   Pipeline on_device(std::move(device), 100);
   EXPECT_THAT([&] { on_device.minimize(cost, line(), {10}, 1); },
               ThrowsMessage<DeviceError>(HasSubstr("stage 1 of 1, pso_cuda: cannot do that")));
+}
+
+TEST_F(PipelineTest, AnErrorSaysOnlyOnceWhereTheStageIs) {
+  const std::string where = "--set optimizer=...";
+  stages_.push_back(
+      {"pso_cuda", std::make_unique<Failing<ConfigError>>(where + ": cannot do that"), 1, 1});
+  Pipeline pipeline(std::move(stages_), 100, where);
+  test::RecordingCost cost = away_from(3);
+  EXPECT_THAT([&] { pipeline.minimize(cost, line(), {10}, 1); },
+              ThrowsMessage<ConfigError>(where + ": stage 1 of 1, pso_cuda: cannot do that"));
 }
 
 TEST_F(PipelineTest, WithoutStagesItIsAConfigError) {

@@ -144,7 +144,7 @@ class HYPOTRACK_API Optimizer {
   /// Whether it minimises only costs with residuals(). A scene with it is refused at once if one of
   /// its terms has none.
   virtual bool needs_residuals() const { return false; }
-  /// Of optimizers that need residuals. It decides where `evaluate.backend: automatic` evaluates.
+  /// Of optimizers that need residuals. It decides where `evaluate.backend: auto` evaluates.
   virtual Linearization linearization() const { return Linearization::unused; }
 
   /// The budget its own parameters imply, for scenes that name none.

@@ -139,7 +139,7 @@ std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
   const std::string why = why_not_evaluated(scene, terms, settings, residuals);
   if (!why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why +
-                      ". Write `backend: cpu`, or `automatic` to take what there is");
+                      ". Write `backend: cpu`, or `auto` to take what there is");
   }
   return std::make_unique<CudaEvaluation>(scene, terms, settings);
 }

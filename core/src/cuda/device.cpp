@@ -69,7 +69,7 @@ Device::Device(int index) : index_(index) {
   if (why.empty()) why = why_not_this_device(index);
   if (!why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why +
-                      ". Write `backend: cpu`, or `automatic` to take what there is");
+                      ". Write `backend: cpu`, or `auto` to take what there is");
   }
   use();
   cudaDeviceProp properties{};

@@ -31,7 +31,7 @@ std::unique_ptr<Evaluation> make_cuda_evaluation(const Scene& scene,
                                                  const ResidualUse& use) {
   if (use.wanted && use.linearization == Linearization::needed) {
     throw ConfigError(fmt::format(
-        "evaluate.backend: cuda: {}. Write `jacobian: automatic` or `numerical` in the optimizer, "
+        "evaluate.backend: cuda: {}. Write `jacobian: auto` or `numerical` in the optimizer, "
         "or `backend: cpu`",
         kAnalytic));
   }

@@ -78,7 +78,7 @@ std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
                                                  const EvaluateSettings& settings,
                                                  std::string why_here = {});
 
-/// Why `backend: automatic` evaluates these terms on the CPU; empty if it does so on the GPU.
+/// Why `backend: auto` evaluates these terms on the CPU; empty if it does so on the GPU.
 std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                                  const EvaluateSettings& settings, const ResidualUse& use);
 

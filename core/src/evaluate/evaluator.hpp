@@ -27,7 +27,7 @@ struct EvaluateSettings {
     v("backend", backend,
       {.help =
            "what draws hypotheses: cpu; cuda (an NVIDIA GPU: poses, draws and scores there); egl "
-           "(OpenGL, the paper's way; slow, a cross-check); or automatic: cuda where this build, "
+           "(OpenGL, the paper's way; slow, a cross-check); or auto: cuda where this build, "
            "machine and scene allow it, otherwise cpu"});
     v("threads", threads, {.help = "CPU threads; 0: one per core", .min = 0, .max = 1024});
     v("device", device,

@@ -7,7 +7,7 @@ namespace hypotrack {
 HypothesisRenderer::~HypothesisRenderer() = default;
 
 std::span<const std::string_view> enum_names(Backend) {
-  static constexpr std::array<std::string_view, 4> kNames{"automatic", "cpu", "egl", "cuda"};
+  static constexpr std::array<std::string_view, 4> kNames{"auto", "cpu", "egl", "cuda"};
   return kNames;
 }
 

@@ -8,7 +8,7 @@
 namespace hypotrack {
 
 std::span<const std::string_view> enum_names(Jacobian) {
-  static constexpr std::array<std::string_view, 3> kNames{"automatic", "numerical", "analytic"};
+  static constexpr std::array<std::string_view, 3> kNames{"auto", "numerical", "analytic"};
   return kNames;
 }
 
@@ -36,7 +36,7 @@ OptimizerResult LevenbergMarquardt::minimize(CostFunction& cost, const SearchReg
   if (params_.jacobian == Jacobian::analytic && !residuals->can_linearize()) {
     throw ConfigError(
         "optimizer levenberg_marquardt: jacobian: analytic: a term of this cost has no slopes of "
-        "its residuals, or the backend does not draw on the CPU; write `jacobian: automatic`");
+        "its residuals, or the backend does not draw on the CPU; write `jacobian: auto`");
   }
   return LeastSquaresSearch(cost, *residuals, region, budget, params_).run();
 }

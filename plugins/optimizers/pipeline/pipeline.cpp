@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -64,8 +66,11 @@ Linearization Pipeline::linearization() const {
 OptimizerResult Pipeline::run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
                               const Budget& budget, std::uint64_t seed) {
   const auto named = [&](const std::exception& error) {
-    return where_ + ": stage " + std::to_string(stage + 1) + " of " +
-           std::to_string(stages_.size()) + ", " + stages_[stage].name + ": " + error.what();
+    const std::string place = where_ + ": ";
+    std::string_view what = error.what();
+    if (what.starts_with(place)) what.remove_prefix(place.size());  // said once is enough
+    return place + "stage " + std::to_string(stage + 1) + " of " + std::to_string(stages_.size()) +
+           ", " + stages_[stage].name + ": " + std::string(what);
   };
   try {
     return stages_[stage].optimizer->minimize(
