@@ -34,7 +34,9 @@ class Readings final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return draws_; }
   void prepare(const Observation& seen) override {
     now_ = frames_[static_cast<std::size_t>(seen.frame)];
+    in_hindsight_ = seen.in_hindsight;
   }
+  bool in_hindsight() const { return in_hindsight_; }
   double cost(const RenderedHypothesis& h) const override {
     double sum = 0;
     for (const double r : of(h)) sum += r * r;
@@ -56,6 +58,7 @@ class Readings final : public Objective, public ResidualTerm {
   }
   std::vector<Reading> frames_;
   bool draws_;
+  bool in_hindsight_ = false;
   Reading now_;
 };
 
@@ -152,6 +155,19 @@ TEST(Hindsight, AFrameInWhichTheSceneWasLostTellsNothing) {
     EXPECT_NEAR(revised[i].state[0], hidden.truth[i][0], 0.0005) << "frame " << i;
   EXPECT_EQ(revised[13].evaluations, 0);
   EXPECT_GT(revised[20].evaluations, 0);
+}
+
+TEST(Hindsight, TellsTermsOfItself) {
+  const Fixture f;
+  const auto readings = std::make_shared<Readings>(std::vector<Readings::Reading>(3, {0, 0}));
+  Hindsight hindsight(f.scene, {{1.0, readings}}, f.evaluate, f.settings);
+  for (int i = 0; i < 3; ++i) {
+    Observation seen;
+    seen.frame = i;
+    hindsight.add(seen, {i / kRate, f.state(0)});
+  }
+  hindsight.finish();
+  EXPECT_TRUE(readings->in_hindsight());
 }
 
 TEST(Hindsight, WorksByDifferencesWhereTermsHaveNoSlopes) {

@@ -34,6 +34,7 @@ class PlausibleMotionTest : public testing::Test {
     Observation observation;
     observation.scene = &scene_;
     observation.start = start_;
+    observation.in_hindsight = in_hindsight_;
     objective.prepare(observation);
     return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
   }
@@ -49,6 +50,7 @@ class PlausibleMotionTest : public testing::Test {
                       {"box", make_model("type: rigid_box\n")},
                       {"left", make_model("type: mirrored_hand\n")}}};
   Eigen::VectorXd start_ = scene_.rest_state();
+  bool in_hindsight_ = false;
 };
 
 TEST_F(PlausibleMotionTest, OfNoMotionCoupledFingersAndARelaxedThumbIsNothing) {
@@ -76,6 +78,15 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
   EXPECT_NEAR(cost(params, state), 1, 1e-6);
   angle(state, "left.thumb_abduction") -= 0.4;
   EXPECT_NEAR(cost(params, state), 5, 1e-6);
+}
+
+TEST_F(PlausibleMotionTest, InHindsightHoldsNothingToWhereTheSearchStarted) {
+  in_hindsight_ = true;
+  const Eigen::VectorXd relaxed = start_;
+  const double before = cost({}, relaxed);
+  for (const char* joint : {"index_flexion_1", "index_flexion_2", "thumb_abduction"})
+    angle(start_, std::string("right.") + joint) += 0.5;
+  EXPECT_EQ(cost({}, relaxed), before);
 }
 
 TEST_F(PlausibleMotionTest, LeavesPositionsAndRotationsFree) {

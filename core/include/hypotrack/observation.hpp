@@ -46,6 +46,9 @@ struct Observation {
   /// solutions of recent frames and after what `photometric` does: noise, mostly. The Euclidean
   /// norm of red, green and blue in 0..1; 0: not known.
   double color_difference = 0;
+  /// Later frames are known too, and what motion is likely is weighed over all of them together
+  /// (hindsight): a term about the way here from `start` has no say.
+  bool in_hindsight = false;
 };
 
 }  // namespace hypotrack

@@ -79,7 +79,8 @@ void FrameResiduals::hold(const std::vector<Parameter>& parameters, bool of_thum
   }
 }
 
-FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene& scene) {
+FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene& scene)
+    : motion_factor_(1 / params.motion_sigma) {
   const std::vector<Parameter>& parameters = scene.parameters();
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (parameters[i].kind != ParameterKind::angle) continue;
@@ -95,10 +96,11 @@ FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene&
   }
 }
 
-MotionTerm FrameResiduals::at(const Eigen::VectorXd& start) {
+MotionTerm FrameResiduals::of(const Observation& observation) {
   for (std::size_t i = 0; i < angles_; ++i) {
     LinearResidual& r = residuals_[i];
-    r.offset = r.factor[0] * start[r.index[0]];
+    r.factor[0] = observation.in_hindsight ? 0 : motion_factor_;
+    r.offset = r.factor[0] * observation.start[r.index[0]];
   }
   return {static_cast<std::int64_t>(residuals_.size()), residuals_.data()};
 }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
 #include "motion_term.hpp"
 #include "params.hpp"
@@ -18,9 +19,9 @@ class FrameResiduals {
   /// do not move together.
   FrameResiduals(const PlausibleMotionParams& params, const Scene& scene);
 
-  /// The term of a frame whose search starts at a state of the scene. Points into this object,
-  /// until the next call.
-  MotionTerm at(const Eigen::VectorXd& start);
+  /// The term of a frame: in hindsight joint angles are free to differ from where its search
+  /// started. Points into this object, until the next call.
+  MotionTerm of(const Observation& observation);
 
  private:
   /// A residual for every finger with both joints: one flexion should be a share of the other.
@@ -32,6 +33,7 @@ class FrameResiduals {
   void hold(const std::vector<Parameter>& parameters, bool of_thumb, std::string_view joint,
             double rest, double sigma);
 
+  double motion_factor_;
   std::size_t angles_ = 0;
   std::vector<LinearResidual> residuals_;
 };

@@ -7,7 +7,7 @@
 namespace hypotrack::plausible_motion {
 
 void PlausibleMotion::prepare(const Observation& observation) {
-  term_ = residuals_.at(observation.start);
+  term_ = residuals_.of(observation);
 }
 
 double PlausibleMotion::cost(const RenderedHypothesis& hypothesis) const {
@@ -31,7 +31,7 @@ double PlausibleMotion::cost_and_residuals(const RenderedHypothesis& hypothesis,
 std::unique_ptr<cuda::DeviceObjective> PlausibleMotion::on_device() const {
   return plausible_motion::on_device(
       [residuals = residuals_](const Observation& observation) mutable {
-        return residuals.at(observation.start);
+        return residuals.of(observation);
       });
 }
 

@@ -23,8 +23,9 @@ namespace hypotrack::plausible_motion {
 /// thirds of the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based human
 /// grasping, 1991), and a finger that opens or closes mostly does so as a whole and with those
 /// beside it. A thumb, and a finger sideways, are pulled to where they mostly are. Positions and
-/// rotations of models are free. What is squared are its residuals. Looks at the state only and
-/// costs no rendering.
+/// rotations of models are free. In hindsight, which has its own prior of motion, the first sum is
+/// left out: what was found a frame before is not what hindsight makes of it. What is squared are
+/// its residuals. Looks at the state only and costs no rendering.
 class PlausibleMotion : public Objective, public ResidualTerm {
  public:
   using Params = PlausibleMotionParams;
