@@ -92,6 +92,7 @@ int fit_to_labels(const FitShapeOptions& options, const CommonOptions& common) {
 }
 
 int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
+  expect_writable(options.out);
   if (options.from == "truth") return fit_to_labels(options, common);
   PluginLoader plugins(common.plugin_path);
   Rounds rounds(options, plugins);

@@ -73,6 +73,14 @@ TEST_F(FitShapeTest, ARunThatEstimatesTracksAllFramesAndCanBeRepeated) {
   EXPECT_EQ(track_without_times(path("again")), track_without_times(path("out")));
 }
 
+TEST_F(FitShapeTest, APlaceWhereNothingCanBeWrittenIsFoundBeforeTheWork) {
+  std::filesystem::create_directory(path("folder"));
+  expect_refusal(run_program({"fit-shape", scene(kHand), "--out", path("folder").string()}),
+                 {path("folder").string() + ": is a folder", "--out"});
+  expect_refusal(run_program({"fit-shape", scene(kHand), "--out", path("none/s.yaml").string()}),
+                 {path("none/s.yaml").string(), "check that the folder exists", "--out"});
+}
+
 TEST_F(FitShapeTest, RefusesAModelWithoutAShape) {
   expect_refusal(fit(box_scene()), {"no model of this scene has shape parameters"});
 }

@@ -28,6 +28,18 @@ void TextFile::write(std::string_view text) {
         path_.string(), errno != 0 ? std::strerror(errno) : "unknown reason"));
 }
 
+void expect_writable(const std::filesystem::path& file) {
+  if (std::filesystem::is_directory(file))
+    throw OutputError(fmt::format("{}: is a folder; name a file with --out", file.string()));
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (file.empty() || !std::filesystem::is_directory(folder) ||
+      access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(fmt::format(
+        "{}: cannot be written; check that the folder exists and is writable, or name another file "
+        "with --out",
+        file.string()));
+}
+
 void write_whole(const std::filesystem::path& file, std::string_view text) {
   const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
   std::ofstream out(partial, std::ios::binary);

@@ -22,6 +22,9 @@ class HYPOTRACK_API TextFile {
   std::ofstream out_;
 };
 
+/// For what is written after long work: throws OutputError if write_whole() has no chance there.
+HYPOTRACK_API void expect_writable(const std::filesystem::path& file);
+
 /// Writes beside the file and moves into place, so that nobody sees half of it. Throws OutputError.
 HYPOTRACK_API void write_whole(const std::filesystem::path& file, std::string_view text);
 
