@@ -2,6 +2,7 @@
 
 #include <opencv2/videoio.hpp>
 
+#include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "source_fixture.hpp"
 
@@ -43,6 +44,17 @@ class Video : public test::SourceFixture {
 
 const std::string kTwo =
     "type: video\nleft: left.avi\nright: right.avi\ncalibration: {file: rig.yml}\n";
+
+TEST_F(Video, SaysThatItEndsBeforeItsStart) {
+  write_video("left.avi", 4, {0});
+  write_video("right.avi", 6, {1});
+  const auto first = [&](const std::string& more) {
+    return test::message_of<DataError>([&] { make(kTwo + more)->next(); });
+  };
+  EXPECT_THAT(first("start: 4\n"),
+              HasSubstr("left.avi: ends before frame 4, the first that start"));
+  EXPECT_THAT(first("start: 3\noffset: 4\n"), HasSubstr("right.avi: ends before frame 7"));
+}
 
 TEST_F(Video, YieldsPairsUntilEitherEnds) {
   write_video("left.avi", 8, {0});

@@ -110,7 +110,12 @@ class Video : public Source {
     for (std::size_t i = 0; i < readers_.size(); ++i) {
       cv::Mat image;
       const VideoReader::Result result = readers_[i].next(image);
-      if (result == VideoReader::Result::end) return std::nullopt;
+      if (result == VideoReader::Result::end && index_ > 0) return std::nullopt;
+      if (result == VideoReader::Result::end) {
+        throw DataError(fmt::format("{}: ends before frame {}, the first that start{} for",
+                                    files_[i].string(), first_ + (i == 1 ? params_.offset : 0),
+                                    readers_.size() == 2 ? " and offset ask" : " asks"));
+      }
       if (result == VideoReader::Result::damaged) {
         frame.problem = fmt::format("{}: a frame cannot be decoded", files_[i].string());
       }
