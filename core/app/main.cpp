@@ -41,9 +41,9 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
     return error.what() + way_out;
   std::vector<std::string> commands;
   for (const CLI::App* command : app->get_subcommands({})) commands.push_back(command->get_name());
-  return fmt::format("there is no command '{}'{}. There are: {}{}", left.front(),
-                     detail::did_you_mean(left.front(), commands), fmt::join(commands, ", "),
-                     way_out);
+  const std::string hint = detail::did_you_mean(left.front(), commands);
+  return fmt::format("there is no command '{}'{} There are: {}{}", left.front(),
+                     hint.empty() ? "." : hint, fmt::join(commands, ", "), way_out);
 }
 
 /// Whether all that was printed has arrived.

@@ -89,6 +89,13 @@ bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
   return true;
 }
 
+/// Says where the frames are whose files could not be finished.
+void tell_of_parts(const RunOutput& output, const std::filesystem::path& out) {
+  if (output.empty() || !std::filesystem::exists(out / ".part.track.csv")) return;
+  fmt::print(stderr, "the frames so far are in {}/.part.track.csv and the files beside it\n",
+             out.string());
+}
+
 /// Ends a run by the exception that is being handled: what was tracked so far is kept, unless that
 /// is what fails.
 void finish_after_error(HindsightOutput& frames, RunOutput& output,
@@ -146,12 +153,15 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .hindsight = hindsight != nullptr});
   HindsightOutput frames(std::move(hindsight), output);
   fmt::print(stderr, "tracking with {}\n", tracker.backend());
+  if (const std::string problem = tracker.problem_of_start(); !problem.empty())
+    fmt::print(stderr, "note: {}\n", problem);
   bool complete = false;
   try {
     complete = track_all(session, tracker, frames, first, options.frames, interrupt);
     frames.finish();
-  } catch (const OutputError&) {
-    throw;  // the files cannot be finished either
+  } catch (const OutputError&) {  // the files cannot be finished either
+    tell_of_parts(output, options.out);
+    throw;
   } catch (...) {
     finish_after_error(frames, output, options.out);
     throw;
@@ -160,7 +170,12 @@ int run(const RunOptions& options, const CommonOptions& common) {
     fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  print_summary(output.finish(complete), options.out);
+  try {
+    print_summary(output.finish(complete), options.out);
+  } catch (const OutputError&) {
+    tell_of_parts(output, options.out);
+    throw;
+  }
   if (complete) return 0;
   fmt::print(stderr, "hypotrack: interrupted; the files hold the frames so far\n");
   return kInterruptedExitCode;

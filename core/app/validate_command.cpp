@@ -25,7 +25,11 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   Tracker tracker(*session.scene, std::move(session.parts),
                   usable ? initial_state(session, *first) : session.scene->rest_state(),
                   session.seed);
-  if (usable) tracker.check(*first);
+  if (usable) {
+    tracker.check(*first);
+    if (const std::string problem = tracker.problem_of_start(); !problem.empty())
+      fmt::print(stderr, "note: {}\n", problem);
+  }
   if (print)
     fmt::print("{}", session.resolved);
   else

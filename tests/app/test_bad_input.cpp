@@ -173,6 +173,7 @@ TEST_F(BadInputTest, AFullDiskIsReportedAndLeavesNoFinishedName) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
   EXPECT_THAT(outcome.err, HasSubstr("Make room"));
+  EXPECT_THAT(outcome.err, HasSubstr(path("out/.part.track.csv").string()));
   for (const std::string& name : names_in(path("out")))
     EXPECT_THAT(name, testing::StartsWith(".part."));
 }

@@ -78,8 +78,9 @@ TEST_F(CompareFailureTest, ABadKeyIsFoundBeforeAnythingRuns) {
 }
 
 TEST_F(CompareFailureTest, ABadValueIsNamedWithItsPlaceInTheStudy) {
-  expect_study_refused(replaced(study(), "[4, 8]", "[4, 0]"),
-                       {"study.yaml:5:28: box, optimizer.particles 0: ", "expected an integer from 1"});
+  expect_study_refused(
+      replaced(study(), "[4, 8]", "[4, 0]"),
+      {"study.yaml:5:28: box, optimizer.particles 0: ", "expected an integer from 1"});
 }
 
 TEST_F(CompareFailureTest, AMissingPluginIsFoundBeforeAnythingRuns) {

@@ -111,6 +111,20 @@ TEST_F(UsageTest, ValidateFindsAFrameThatTheObjectiveCannotWorkWith) {
   expect_refusal(outcome, {"stereo_color", "two"});
 }
 
+TEST_F(UsageTest, AStartOutOfViewIsPointedOut) {
+  const std::string file =
+      scene(replaced(box_scene(), "init: {from: truth}",
+                     "init: {from: rest, pose: {box: {position_mm: [300, 0, 400]}}}"));
+  const auto note = AllOf(HasSubstr("note: 0 % of what the models cover"), HasSubstr("(init)"));
+  const Outcome looked_at = run_program({"validate", file});
+  EXPECT_EQ(looked_at.exit_code, 0);
+  EXPECT_THAT(looked_at.err, note);
+  const Outcome tracked = run_program({"run", file, "--out", path("out").string()});
+  EXPECT_EQ(tracked.exit_code, 0);
+  EXPECT_THAT(tracked.err, note);
+  EXPECT_THAT(run_program({"validate", scene(box_scene())}).err, Not(HasSubstr("note")));
+}
+
 TEST_F(UsageTest, ValidateFindsAStartThatNothingCanBeSearchedFrom) {
   const Outcome outcome =
       run_program({"validate", scene(replaced(box_scene(), "init: {from: truth}",

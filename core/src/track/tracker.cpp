@@ -235,6 +235,17 @@ void Tracker::check(const Frame& frame) {
   evaluator_.prepare(tiles_, frame, tiles_.plan(frame, state_));
 }
 
+std::string Tracker::problem_of_start() const {
+  const double visible = tiles_.visible_share(state_);
+  if (visible >= parts_.status.min_visible) return {};
+  return fmt::format(
+      "{:.0f} % of what the models cover at the start is inside every image, and a frame with less "
+      "than {:.0f} % counts as lost (tracker.min_visible); is the start (init) where the models "
+      "are, "
+      "and do the cameras and their units (calibration) belong to the pictures?",
+      100 * visible, 100 * parts_.status.min_visible);
+}
+
 OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior,
                                 std::int64_t evaluated) {
   StateCost cost(space_, prior, evaluator_);
