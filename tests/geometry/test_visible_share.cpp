@@ -83,6 +83,20 @@ TEST(VisibleShare, IsNothingIfAnyVertexLiesBehindACamera) {
   EXPECT_EQ(tiles.visible_share(state), 0);
 }
 
+TEST(VisibleShare, IsNothingIfAnyVertexIsTooNearForATile) {
+  const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
+  const TileMaker tiles(scene, {lens_camera(0, 0, 0)}, {});
+  Eigen::VectorXd state = scene.rest_state();
+  state[2] = 1;
+  const Eigen::Matrix3Xf vertices =
+      posed_vertices(*scene.items()[0].model, scene.part(scene.items()[0], state));
+  const double nearest = 1 - static_cast<double>(vertices.row(2).minCoeff());
+  state[2] = nearest + 0.002;  // metres
+  EXPECT_GT(tiles.visible_share(state), 0);
+  state[2] = nearest + 0.0005;
+  EXPECT_EQ(tiles.visible_share(state), 0);
+}
+
 TEST(VisibleShare, IsOneWhereEverythingIsSeen) {
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});
   const std::vector<Camera> cameras = {lens_camera(8, 0, 0), lens_camera(8, 0.1, 0)};

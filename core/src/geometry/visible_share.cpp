@@ -66,7 +66,6 @@ bool VisibleShare::keep_shown(const SeenBy& view, const ScenePoser& vertices, st
 
 /// What most frames need no count for. True only if the count would find every vertex.
 bool VisibleShare::shown_entirely(const PosedScene& scene) const {
-  if (!scene.in_front()) return false;
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (!surely_shown(views_[i].camera, views_[i].camera_from_ideal, scene.bounds()[i]))
       return false;
@@ -75,6 +74,7 @@ bool VisibleShare::shown_entirely(const PosedScene& scene) const {
 }
 
 double VisibleShare::of(const PosedScene& scene) const {
+  if (!scene.in_front()) return 0;  // no tile can be cut around this state
   if (shown_entirely(scene)) return 1;
   Eigen::Index visible = 0;
   Eigen::Index all = 0;
@@ -82,7 +82,6 @@ double VisibleShare::of(const PosedScene& scene) const {
     for (std::size_t i = 0; i < part.vertex_count; i += kBlock) {
       Eigen::Array<bool, kBlock, 1> mask = Eigen::Array<bool, kBlock, 1>::Constant(true);
       for (const SeenBy& view : views_) {
-        // No tile can be cut around this state.
         if (!keep_shown(view, scene.vertices(), part.first_vertex + i, mask)) return 0;
       }
       const auto filled =

@@ -17,8 +17,8 @@ class VisibleShare {
   /// The cameras, at least one, and their rig.
   VisibleShare(std::span<const Camera> cameras, const IdealRig& rig);
 
-  /// Share of the models' vertices that every image shows; 0 if any lies behind a camera. The scene
-  /// is posed for the same rig.
+  /// Share of the models' vertices that every image shows; 0 if no tile can be cut around them,
+  /// because any lies behind a camera or right before it. The scene is posed for the same rig.
   double of(const PosedScene& scene) const;
 
  private:
