@@ -73,6 +73,23 @@ TEST_F(FitShapeTest, ARunThatEstimatesTracksAllFramesAndCanBeRepeated) {
   EXPECT_EQ(track_without_times(path("again")), track_without_times(path("out")));
 }
 
+TEST_F(FitShapeTest, PicturesAndTruthDoNotFollowTheShapeThatARunFinds) {
+  const std::string as_tracked = replaced(
+      kHand, "  render_models: {hand: {type: hand, shape: {scale: 1.06, index: 1.04}}}\n", "");
+  const std::string shape = "shape={estimate_s: 0.1, rounds: 1, frames: 3, iterations: 1}";
+  ASSERT_EQ(run(as_tracked, {"--set", shape}).exit_code, 0);
+  const Outcome plain = run_program(
+      {"run", path("scene.yaml").string(), "--out", path("plain").string(), "--frames", "8"});
+  ASSERT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_EQ(read_text(path("out/truth_landmarks.csv")),
+            read_text(path("plain/truth_landmarks.csv")));
+  const Outcome again =
+      run_program({"run", path("out/run.yaml").string(), "--out", path("again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(track_without_times(path("again")), track_without_times(path("out")));
+  EXPECT_EQ(read_text(path("again/errors.csv")), read_text(path("out/errors.csv")));
+}
+
 TEST_F(FitShapeTest, APlaceWhereNothingCanBeWrittenIsFoundBeforeTheWork) {
   std::filesystem::create_directory(path("folder"));
   expect_refusal(run_program({"fit-shape", scene(kHand), "--out", path("folder").string()}),

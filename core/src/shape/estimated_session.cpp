@@ -1,18 +1,55 @@
 #include "shape/estimated_session.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "shape/replay_source.hpp"
 
 namespace hypotrack {
+namespace {
+
+/// Overrides by which a synthetic source says itself that it shows the models as the scene has
+/// them: it then knows the landmarks of those, whatever shape is found, and run.yaml, which has
+/// that shape in its models, shows the same pictures again.
+std::vector<std::string> show_models_as_given(const SceneFile& scene) {
+  std::string path = "source";
+  ConfigNode source = scene.source;
+  while (source.is_map() && source.get("source").is_map()) {
+    source = source.get("source");
+    path += ".source";
+  }
+  const ConfigNode type = source.is_map() ? source.get("type") : ConfigNode();
+  std::vector<std::string> overrides;
+  if (!type.is_scalar() || type.scalar() != "synthetic" || !scene.models.is_list())
+    return overrides;
+  const ConfigNode given = source.get("render_models");
+  for (std::size_t i = 0; i < scene.models.size(); ++i) {
+    const ConfigNode model = scene.models.at(i);
+    if (!model.is_map()) continue;
+    const ConfigNode name = model.get(model.get("name").defined() ? "name" : "type");
+    if (!name.is_scalar() || (given.is_map() && given.get(name.scalar()).defined())) continue;
+    for (const std::string& key : model.keys())
+      if (key != "name")
+        overrides.push_back(fmt::format("{}.render_models.{}.{}=\"@models.{}.{}\"", path,
+                                        name.scalar(), key, i, key));
+  }
+  return overrides;
+}
+
+}  // namespace
 
 EstimatedSession open_estimated(const std::filesystem::path& scene_file,
                                 std::span<const std::string> overrides, PluginLoader& plugins,
                                 const ShapeProgress& progress) {
   EstimatedSession opened;
-  opened.first = open_source(scene_file, overrides, plugins);
+  std::vector<std::string> as_given(overrides.begin(), overrides.end());
+  for (std::string& more : show_models_as_given(load_scene(scene_file, overrides).file))
+    as_given.push_back(std::move(more));
+  opened.first = open_source(scene_file, as_given, plugins);
   Session& first = opened.first;
   std::vector<Frame> frames = first_seconds(*first.source, first.shape.seconds);
   const auto open = [&](const std::vector<std::string>& found, std::unique_ptr<Source> source) {
