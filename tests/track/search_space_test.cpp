@@ -7,6 +7,8 @@
 #include <memory>
 #include <random>
 
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "test_models.hpp"
 
@@ -119,6 +121,15 @@ TEST_P(BothParametrisations, StatesHaveUnitQuaternions) {
 
 INSTANTIATE_TEST_SUITE_P(SearchSpace, BothParametrisations,
                          testing::Values(RotationSearch::quaternion, RotationSearch::tangent));
+
+TEST(SearchSpace, APointOfAnotherSizeIsTheOptimizersMistake) {
+  const Scene scene = hand_and_box();
+  const Eigen::VectorXd short_one = Eigen::VectorXd::Zero(2);
+  EXPECT_EQ(test::message_of<PluginError>(
+                [&] { SearchSpace(scene, {}).states(short_one, scene.rest_state()); }),
+            "the optimizer gave a point of 2 numbers, the search has 34; this is a bug in the "
+            "optimizer");
+}
 
 TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
   const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())}});

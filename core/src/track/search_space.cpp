@@ -1,10 +1,13 @@
 #include "track/search_space.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "hypotrack/error.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack {
@@ -79,6 +82,11 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior) const {
 
 Eigen::MatrixXd SearchSpace::states(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                     const Eigen::VectorXd& prior) const {
+  if (points.rows() != dimension_)
+    throw PluginError(
+        fmt::format("the optimizer gave a point of {} numbers, the search has {}; this is a bug in "
+                    "the optimizer",
+                    points.rows(), dimension_));
   Eigen::MatrixXd states(scene_->dimension(), points.cols());
   if (settings_.rotation_as == RotationSearch::quaternion) {
     states = points;
