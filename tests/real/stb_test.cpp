@@ -246,13 +246,17 @@ TEST(StbPair, SearchesEndAndAreRecorded) {
 }
 
 /// Mean distance to the labels, mm, after one search per seed from that far away; the colours are
-/// learned there, too.
-double mean_found(PluginLoader& plugins, int away_mm, int away_deg, int draws) {
+/// learned there, too. `settings` override the scene's.
+double mean_found(PluginLoader& plugins, int away_mm, int away_deg, int draws,
+                  const std::vector<std::string>& settings = {}) {
   double mean = 0;
   for (int seed = 1; seed <= draws; ++seed) {
-    Stb stb = open_stb(plugins, {fmt::format("init.away_mm={}", away_mm),
-                                 fmt::format("init.away_deg={}", away_deg),
-                                 fmt::format("seed={}", seed), "evaluate.threads=1"});
+    std::vector<std::string> overrides = settings;
+    overrides.push_back(fmt::format("init.away_mm={}", away_mm));
+    overrides.push_back(fmt::format("init.away_deg={}", away_deg));
+    overrides.push_back(fmt::format("seed={}", seed));
+    overrides.push_back("evaluate.threads=1");
+    Stb stb = open_stb(plugins, std::move(overrides));
     const Eigen::VectorXd start = stb.fitted;
     Tracker tracker(*stb.session.scene, std::move(stb.session.parts), start, stb.session.seed);
     const Solution solution = tracker.track(stb.frame);
@@ -269,6 +273,27 @@ TEST(StbPair, IsFoundByPatchesAndSkinFromFarAway) {
     const double found = mean_found(plugins, 10 * steps, 5 * steps, 8);
     fmt::print("from {} mm, {} degrees: {:.1f} mm\n", 10 * steps, 5 * steps, found);
     EXPECT_LE(found, 8) << "from " << 10 * steps << " mm away";
+  }
+}
+
+/// The tracker for real and rendered pictures, as overrides of another scene.
+std::vector<std::string> tracker_for_both() {
+  const auto file = test::source_dir() / "configs" / "real" / "sleeve.yaml";
+  const ConfigNode scene = ConfigNode::load(file);
+  std::vector<std::string> overrides;
+  for (const char* key : {"objective", "optimizer", "budget", "search"})
+    overrides.push_back(fmt::format("{}=\n{}", key, scene.get(key).to_yaml()));
+  return overrides;
+}
+
+TEST(StbPair, IsFoundByTheTrackerForRealAndRenderedPicturesFromFarAway) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  PluginLoader plugins;
+  const std::vector<std::string> tracker = tracker_for_both();
+  for (const int steps : {1, 2, 3}) {
+    const double found = mean_found(plugins, 10 * steps, 5 * steps, 8, tracker);
+    fmt::print("from {} mm, {} degrees: {:.1f} mm\n", 10 * steps, 5 * steps, found);
+    EXPECT_LE(found, 9) << "from " << 10 * steps << " mm away";
   }
 }
 
