@@ -26,6 +26,12 @@ struct SamplePart {
   }
 };
 
+/// With a path that a scene may do without.
+struct OptionalFile {
+  std::filesystem::path file;
+  void visit(ParamVisitor& v) { v("file", file, {.help = "a file"}); }
+};
+
 /// One parameter of every type.
 struct SampleParams {
   int particles = 64;

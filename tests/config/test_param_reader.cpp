@@ -204,7 +204,8 @@ TEST(ParamReader, EnumWords) {
 TEST(ParamReader, PathsAreRelativeToTheirFile) {
   EXPECT_EQ(read("file: images/../a.png").file, "/scenes/a.png");
   EXPECT_EQ(read("file: /b.png").file, "/b.png");
-  EXPECT_EQ(read("file: ''").file, "");
+  const ConfigNode none = ConfigNode::parse("file: ''", "scene.yaml", "/scenes");
+  EXPECT_EQ(ParamReader(none).read<OptionalFile>().file, "");
 }
 
 }  // namespace
