@@ -16,6 +16,7 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -110,11 +111,11 @@ int conclude(const std::vector<bench::Row>& rows) {
                          [&](const bench::Row& row) { return row.measurement.outcome == outcome; });
   };
   if (const auto failed = count(bench::Outcome::failed); failed > 0) {
-    fmt::print(stderr, "hypotrack: {} of {} rows failed\n", failed, rows.size());
+    tell("hypotrack: {} of {} rows failed\n", failed, rows.size());
     return kFailedExitCode;
   }
   if (count(bench::Outcome::measured) > 0) return 0;
-  fmt::print(stderr, "hypotrack: nothing could be measured; the reasons are below the table\n");
+  tell("hypotrack: nothing could be measured; the reasons are below the table\n");
   return 1;
 }
 
@@ -136,7 +137,7 @@ int run_bench(BenchOptions options, const CommonOptions& common) {
   }
   print_tables(plan, options, rows);
   if (complete) return conclude(rows);
-  fmt::print(stderr, "hypotrack: interrupted; the tables end early\n");
+  tell("hypotrack: interrupted; the tables end early\n");
   return kInterruptedExitCode;
 }
 

@@ -23,6 +23,7 @@
 #include "study/study_file.hpp"
 #include "study/study_folder.hpp"
 #include "study/tables.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -127,13 +128,12 @@ int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool c
   fmt::print("{} of {} runs are there, {} failed; tables in {}\n", tally.ok + failed, tally.planned,
              failed, folder.path().string());
   if (!complete) {
-    fmt::print(stderr, "hypotrack: interrupted; the same command goes on from here\n");
+    tell("hypotrack: interrupted; the same command goes on from here\n");
     return kInterruptedExitCode;
   }
   if (failed > 0)
-    fmt::print(stderr,
-               "hypotrack: {} run{} failed, results.csv says why; --retry-failed makes {} again\n",
-               failed, failed == 1 ? "" : "s", failed == 1 ? "it" : "them");
+    tell("hypotrack: {} run{} failed, results.csv says why; --retry-failed makes {} again\n",
+         failed, failed == 1 ? "" : "s", failed == 1 ? "it" : "them");
   return failed > 0 ? kFailedRunsExitCode : 0;
 }
 
@@ -144,12 +144,12 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   const study::Launch launch = launch_of(options, common);
   const InterruptGuard interrupt;
   const std::vector<std::size_t> cells = cells_to_check(folder, plan, runs);
-  fmt::print(stderr, "{}: {} runs in {} cells, {} to make here; {} at a time, {} thread{} each\n",
-             plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
-             launch.threads, launch.threads == 1 ? "" : "s");
+  tell("{}: {} runs in {} cells, {} to make here; {} at a time, {} thread{} each\n",
+       plan.study.title, plan.runs.size(), plan.cells.size(), runs.size(), launch.jobs,
+       launch.threads, launch.threads == 1 ? "" : "s");
   study::check_cells(plan, cells, launch, [&] { return !interrupt.interrupted(); });
   if (interrupt.interrupted()) {
-    fmt::print(stderr, "hypotrack: interrupted before the first run\n");
+    tell("hypotrack: interrupted before the first run\n");
     return kInterruptedExitCode;
   }
   folder.begin();

@@ -15,6 +15,7 @@
 #include "progress.hpp"
 #include "session/session.hpp"
 #include "shape/shape_estimate.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -39,10 +40,10 @@ void print_estimate(const ShapeEstimate& e) {
 void warn_of_bounds(const ShapeEstimate& e) {
   for (const ShapeParameter& p : e.wanted) {
     if (p.value > p.lower && p.value < p.upper) continue;
-    fmt::print(stderr,
-               "hypotrack: {} ends at its bound, {:.4g}: the pictures do not determine it, or the "
-               "frames were not tracked (look at the overlay of a run)\n",
-               p.name, p.value);
+    tell(
+        "hypotrack: {} ends at its bound, {:.4g}: the pictures do not determine it, or the "
+        "frames were not tracked (look at the overlay of a run)\n",
+        p.name, p.value);
   }
 }
 
@@ -117,7 +118,7 @@ int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
   const ShapeEstimate estimate =
       estimate_shape(open, settings, options.frames.value_or(0), true, progress);
   if (interrupt.interrupted()) {
-    fmt::print(stderr, "hypotrack: interrupted; nothing was written\n");
+    tell("hypotrack: interrupted; nothing was written\n");
     return kInterruptedExitCode;
   }
   return finish(estimate, options);

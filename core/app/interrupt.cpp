@@ -1,16 +1,19 @@
 #include "interrupt.hpp"
 
+#include <array>
 #include <csignal>
-#include <initializer_list>
 
 namespace hypotrack::app {
 namespace {
+
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_interrupted = 0;
 
 void on_signal(int signal) {
   g_interrupted = 1;
-  std::signal(signal, SIG_DFL);
+  // When a terminal is closed, its shell and the kernel may both say so.
+  if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
 }  // namespace
@@ -18,12 +21,12 @@ void on_signal(int signal) {
 InterruptGuard::InterruptGuard() {
   g_interrupted = 0;
   // A shell's background job and nohup ignore Ctrl-C; so does the program then.
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : kSignals)
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : kSignals)
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 

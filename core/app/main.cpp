@@ -15,6 +15,7 @@
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 
@@ -49,8 +50,8 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
 /// Whether all that was printed has arrived.
 bool close_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
-  fmt::print(stderr, "hypotrack: the standard output cannot be written: {}\n",
-             std::generic_category().message(errno));
+  tell("hypotrack: the standard output cannot be written: {}\n",
+       std::generic_category().message(errno));
   return false;
 }
 
@@ -88,17 +89,17 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? 0 : 2;
   } catch (const hypotrack::Error& e) {
-    fmt::print(stderr, "hypotrack: {}\n", e.what());
+    tell("hypotrack: {}\n", e.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "hypotrack: out of memory\n");
+    tell("hypotrack: out of memory\n");
   } catch (const std::system_error& e) {  // of a full disk for what is printed
-    fmt::print(stderr, "hypotrack: {}\n", e.what());
+    tell("hypotrack: {}\n", e.what());
   } catch (const std::exception& e) {
-    fmt::print(stderr, "hypotrack: unexpected error: {}\n", e.what());
+    tell("hypotrack: unexpected error: {}\n", e.what());
   } catch (...) {
-    fmt::print(stderr,
-               "hypotrack: unexpected error: a plugin threw something that is no "
-               "std::exception\n");
+    tell(
+        "hypotrack: unexpected error: a plugin threw something that is no "
+        "std::exception\n");
   }
   return 1;
 }

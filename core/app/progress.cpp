@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tell.hpp"
+
 namespace hypotrack::app {
 namespace {
 
@@ -26,8 +28,7 @@ Progress::Progress(std::optional<int> total, Unit unit)
 
 Progress::~Progress() {
   if (done_ == 0 || (!terminal_ && shown_done_ == done_)) return;
-  fmt::print(stderr, "{}{}{}\n", terminal_ ? "\r" : "", line(last_note_),
-             terminal_ ? "\x1b[K" : "");
+  tell("{}{}{}\n", terminal_ ? "\r" : "", line(last_note_), terminal_ ? "\x1b[K" : "");
 }
 
 std::string Progress::speed(double per_second) const {
@@ -55,7 +56,7 @@ std::string Progress::line(const std::string& note) const {
 }
 
 void Progress::say(const std::string& text) {
-  fmt::print(stderr, "{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
+  tell("{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
   shown_ = {};  // the next step shows the bar again
 }
 
@@ -69,9 +70,9 @@ void Progress::advance(const std::string& note) {
   shown_ = now;
   shown_done_ = done_;
   if (terminal_)
-    fmt::print(stderr, "\r{}\x1b[K", line(note));
+    tell("\r{}\x1b[K", line(note));
   else
-    fmt::print(stderr, "{}\n", line(note));
+    tell("{}\n", line(note));
   std::fflush(stderr);
 }
 

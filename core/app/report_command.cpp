@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "report/report.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -20,7 +21,7 @@ int report(const ReportCommand& command, const CommonOptions& common) {
   if (command.no_images) options.plot_files = PlotFiles::none;
   PluginLoader plugins(common.plugin_path);
   const ReportSummary summary = write_report(options, plugins);
-  if (!summary.skipped.empty()) fmt::print(stderr, "hypotrack: {}\n", summary.skipped);
+  if (!summary.skipped.empty()) tell("hypotrack: {}\n", summary.skipped);
   fmt::print("{} run{} ({} failed), {} with a 3D replay, {:.1f} MB: {}\n", summary.runs,
              summary.runs == 1 ? "" : "s", summary.failed, summary.replays,
              1e-6 * static_cast<double>(summary.bytes), summary.page.string());

@@ -16,6 +16,7 @@
 #include "progress.hpp"
 #include "session/session.hpp"
 #include "shape/estimated_session.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -92,8 +93,7 @@ bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
 /// Says where the frames are whose files could not be finished.
 void tell_of_parts(const RunOutput& output, const std::filesystem::path& out) {
   if (output.empty() || !std::filesystem::exists(out / ".part.track.csv")) return;
-  fmt::print(stderr, "the frames so far are in {}/.part.track.csv and the files beside it\n",
-             out.string());
+  tell("the frames so far are in {}/.part.track.csv and the files beside it\n", out.string());
 }
 
 /// Ends a run by the exception that is being handled: what was tracked so far is kept, unless that
@@ -104,9 +104,9 @@ void finish_after_error(HindsightOutput& frames, RunOutput& output,
     frames.finish_unchanged();
     if (output.empty()) return;
     output.finish(false);
-    fmt::print(stderr, "hypotrack: the run ends early; {} holds the frames so far\n", out.string());
+    tell("hypotrack: the run ends early; {} holds the frames so far\n", out.string());
   } catch (const OutputError& e) {
-    fmt::print(stderr, "hypotrack: {}\n", e.what());
+    tell("hypotrack: {}\n", e.what());
   }
 }
 
@@ -124,7 +124,7 @@ EstimatedSession open_for_run(const RunOptions& options, const std::vector<std::
   std::string shape;
   for (const ShapeParameter& p : opened.estimate.wanted)
     shape += fmt::format(", {} {:.3f}", p.name, p.value);
-  fmt::print(stderr, "shape from {} frames{}\n", opened.estimate.used_frames, shape);
+  tell("shape from {} frames{}\n", opened.estimate.used_frames, shape);
   return opened;
 }
 
@@ -135,7 +135,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
   const InterruptGuard interrupt;
   EstimatedSession opened = open_for_run(options, overrides, plugins, interrupt);
   if (interrupt.interrupted()) {
-    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
   Session& session = opened.session;
@@ -152,9 +152,9 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .backend = tracker.backend(),
                     .hindsight = hindsight != nullptr});
   HindsightOutput frames(std::move(hindsight), output);
-  fmt::print(stderr, "tracking with {}\n", tracker.backend());
+  tell("tracking with {}\n", tracker.backend());
   if (const std::string problem = tracker.problem_of_start(); !problem.empty())
-    fmt::print(stderr, "note: {}\n", problem);
+    tell("note: {}\n", problem);
   bool complete = false;
   try {
     complete = track_all(session, tracker, frames, first, options.frames, interrupt);
@@ -167,7 +167,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
     throw;
   }
   if (output.empty()) {
-    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
   try {
@@ -177,7 +177,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
     throw;
   }
   if (complete) return 0;
-  fmt::print(stderr, "hypotrack: interrupted; the files hold the frames so far\n");
+  tell("hypotrack: interrupted; the files hold the frames so far\n");
   return kInterruptedExitCode;
 }
 

@@ -12,6 +12,7 @@
 #include "output/recording_writer.hpp"
 #include "progress.hpp"
 #include "session/session.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -40,14 +41,14 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     }
   }
   if (writer.empty() && interrupt.interrupted()) {
-    fmt::print(stderr, "hypotrack: interrupted before the first frame; nothing was written\n");
+    tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
   writer.finish();
   fmt::print("{}", motion_text(writer.motion()));
   fmt::print("recording in {}\n", options.out.string());
   if (!interrupt.interrupted()) return 0;
-  fmt::print(stderr, "hypotrack: interrupted; the recording ends early\n");
+  tell("hypotrack: interrupted; the recording ends early\n");
   return kInterruptedExitCode;
 }
 

@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "session/session.hpp"
+#include "tell.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack::app {
@@ -17,7 +18,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   const auto first = session.source->next();
   if (!first) throw DataError("the source has no frame");
   const bool usable = first->problem.empty();
-  if (!usable) fmt::print(stderr, "frame {} cannot be used: {}\n", first->index, first->problem);
+  if (!usable) tell("frame {} cannot be used: {}\n", first->index, first->problem);
   const int parameters = session.scene->dimension();
   const std::size_t models = session.scene->items().size();
   const std::size_t cameras = session.parts.cameras.size();
@@ -28,7 +29,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   if (usable) {
     tracker.check(*first);
     if (const std::string problem = tracker.problem_of_start(); !problem.empty())
-      fmt::print(stderr, "note: {}\n", problem);
+      tell("note: {}\n", problem);
   }
   if (print)
     fmt::print("{}", session.resolved);

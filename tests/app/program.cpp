@@ -26,7 +26,7 @@ void redirect(int descriptor, const std::filesystem::path& file) {
 /// In the child: becomes the program or ends with 126.
 [[noreturn]] void become(const Start& start, const std::filesystem::path& folder) {
   redirect(STDOUT_FILENO, start.out.empty() ? folder / "out" : start.out);
-  redirect(STDERR_FILENO, folder / "err");
+  redirect(STDERR_FILENO, start.err.empty() ? folder / "err" : start.err);
   if (!start.directory.empty() && chdir(start.directory.c_str()) != 0) _exit(126);
   for (const std::string& variable : start.environment) {
     const auto equals = variable.find('=');

@@ -14,6 +14,7 @@ struct Start {
   std::filesystem::path directory;       ///< working directory; the test's own if empty
   std::vector<std::string> environment;  ///< `NAME=value`, on top of the test's own
   std::filesystem::path out;             ///< takes what it prints; if empty, Outcome::out does
+  std::filesystem::path err;             ///< the same of the standard error
   long largest_file = 0;  ///< bytes; 0: no limit. Writing on fails, as on a full disk
 };
 

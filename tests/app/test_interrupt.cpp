@@ -66,6 +66,33 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
             lines_of(read_text(path("out/track.csv"))).size());
 }
 
+TEST_F(InterruptTest, AClosedTerminalFinishesTheFrameAndTheFiles) {
+  Program program(long_run());
+  wait_for_lines(program, "out/.part.track.csv", 4);
+  program.signal(SIGHUP);
+  program.signal(SIGHUP);  // a shell passes on what it got, and the kernel tells all
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
+  EXPECT_THAT(names_in(path("out")), Each(testing::Not(StartsWith(".part."))));
+  expect_whole_lines(path("out/track.csv"));
+}
+
+TEST_F(InterruptTest, ARunThatNobodyHearsGoesOn) {
+  Start start;
+  start.arguments = {"run", scene(box_scene()), "--out", path("out").string()};
+  start.err = "/dev/full";
+  EXPECT_EQ(run_program(start).exit_code, 0);
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+}
+
+TEST_F(InterruptTest, AnErrorThatNobodyHearsIsOneStill) {
+  Start start;
+  start.arguments = {"run", path("none.yaml").string(), "--out", path("out").string()};
+  start.err = "/dev/full";
+  EXPECT_EQ(run_program(start).exit_code, 1);
+}
+
 TEST_F(InterruptTest, CtrlCLeavesTheFramesThatHindsightStillWaitedFor) {
   Start start = long_run();
   for (const char* set : {"hindsight.enabled=true", "budget.evaluations=256"})

@@ -154,7 +154,7 @@ Script read_joint_file(const JointFileParams& params, const Scene& scene, double
     ModelFit fit(scene, m, first);
     for (const LandmarkRow& row : rows)
       fit.add_row(row, (row.frame - first_frame) / frame_rate, script.motion);
-    fmt::print(stderr, "{}", fit.report(params.file.string(), rows.size()));
+    std::fputs(fit.report(params.file.string(), rows.size()).c_str(), stderr);
     first += fit.landmarks();
   }
   return script;
