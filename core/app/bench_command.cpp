@@ -178,7 +178,7 @@ void add_bench_command(CLI::App& app, CommonOptions& common, int& exit_code) {
                    "Cases of the axis 'backend' to measure, with commas between them (default: "
                    "all)")
       ->delimiter(',')
-      ->expected(1)
+      ->allow_extra_args(false)
       ->take_all();
   add_set_option(*command, options->request.set);
   add_limits(*command, *options);

@@ -108,8 +108,8 @@ void add_evaluate_command(CLI::App& app, int& exit_code) {
       ->add_option("--rename", options->input.rename,
                    "For the run: NAME=LANDMARK gives a name of its table to a landmark of the "
                    "truth, NAME= drops it (may be repeated)")
+      ->allow_extra_args(false)
       ->take_all()
-      ->expected(1)
       ->type_name("NAME=LANDMARK");
   command->add_option("--units", options->units, "Unit of the run's table: m, cm or mm")
       ->check(is_unit)

@@ -79,6 +79,22 @@ TEST_F(UsageTest, ThePluginPathMayStandBeforeTheScene) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
 }
 
+TEST_F(UsageTest, ChangesMayStandBeforeTheScene) {
+  const std::string file = scene(box_scene());
+  for (const char* command : {"validate", "bench"})
+    EXPECT_THAT(run_program({command, "--set", "a=b", file}).err,
+                HasSubstr("--set a=b: a: unknown key. Allowed: models, source"))
+        << command;
+  const Outcome two = run_program(
+      {"run", "--set", "source.frames=2", "--set", "seed=3", file, "--out", path("out").string()});
+  EXPECT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_THAT(read_text(path("out/run.yaml")), AllOf(HasSubstr("frames: 2"), HasSubstr("seed: 3")));
+  EXPECT_THAT(run_program({"bench", "--backends", "cpu,none", file}).err,
+              HasSubstr("--backends none: the table has no such case"));
+  EXPECT_THAT(run_program({"evaluate", "--rename", "a=b", path("no_run").string()}).err,
+              HasSubstr("no_run"));
+}
+
 TEST_F(UsageTest, WhatCannotBePrintedIsAnError) {
   Start start;
   start.arguments = {"validate", scene(box_scene()), "--print"};
