@@ -140,6 +140,26 @@ TEST(PluginLoader, LibrariesThatAreNoPluginsAreNamed) {
                "expected 'hypotrack plugin'"));
 }
 
+TEST(PluginLoader, ALibraryThatWasCutOffAnywhereIsNamed) {
+  const TemporaryDirectory folder;
+  const auto whole = fixture("good", "sample");
+  const auto cut = folder.path() / whole.filename();
+  const auto size = std::filesystem::file_size(whole);
+  for (int part = 0; part < 50; ++part) {
+    std::filesystem::copy(whole, cut, std::filesystem::copy_options::overwrite_existing);
+    const auto kept = part == 49 ? size - 1 : size * part / 49;
+    std::filesystem::resize_file(cut, kept);
+    PluginLoader loader({folder.path()});
+    const std::string said = message_of<PluginError>(
+        [&] { loader.make<Optimizer>(config("optimizer: {type: sample}")); });
+    EXPECT_THAT(said, StartsWith(cut.string() + ": cannot be loaded: "));
+    if (kept >= 64) {
+      EXPECT_THAT(said, EndsWith("the file is cut off: it has " + std::to_string(kept) + " of " +
+                                 std::to_string(size) + " bytes; build or copy it again"));
+    }
+  }
+}
+
 TEST(PluginLoader, MismatchesNameBothSides) {
   EXPECT_THAT(plugin_error("other_abi"),
               EndsWith(": was built for plugin ABI version " + std::to_string(kAbiVersion + 1) +

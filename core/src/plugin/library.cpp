@@ -9,6 +9,7 @@
 #include <set>
 
 #include "hypotrack/error.hpp"
+#include "plugin/whole_file.hpp"
 
 namespace hypotrack::detail {
 namespace {
@@ -55,6 +56,13 @@ std::string tag_difference(std::string_view theirs, std::string_view ours) {
                      missing_from(theirs, ours), missing_from(ours, theirs));
 }
 
+/// 0 for what is no file.
+std::uintmax_t file_size_of(const std::filesystem::path& file) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(file, none);
+  return none ? 0 : size;
+}
+
 }  // namespace
 
 std::string library_file_name(std::string_view kind, std::string_view name) {
@@ -96,6 +104,11 @@ std::vector<std::string> plugin_names(std::string_view kind,
 }
 
 void* load_library(const std::filesystem::path& file) {
+  if (const std::uintmax_t whole = elf_size(file), size = file_size_of(file); size < whole) {
+    throw PluginError(fmt::format(
+        "cannot be loaded: the file is cut off: it has {} of {} bytes; build or copy it again",
+        size, whole));
+  }
   // An absolute path, so that the dynamic linker searches nowhere. NODELETE and no dlclose: types
   // and exceptions of a plugin may live as long as the process does.
   const std::string path = std::filesystem::absolute(file).string();
