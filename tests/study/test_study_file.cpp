@@ -132,6 +132,27 @@ TEST_F(StudyFileTest, PlotsAreDrawnOverWhatVaries) {
   EXPECT_THAT(complaint("kind: curve", "kind: heatmap"), HasSubstr("is nothing that varies"));
 }
 
+TEST_F(StudyFileTest, PlotsAreOfMetrics) {
+  const auto refused = [](const char* name) {
+    return AllOf(HasSubstr("study.yaml:15:"),
+                 HasSubstr("'" + std::string(name) + "' is no metric of a run"),
+                 HasSubstr("did you mean 'mean_error_mm'"), HasSubstr("; there are: frames, "),
+                 HasSubstr(", jitter_mm"), HasSubstr(", success_5mm"), HasSubstr(", fps"));
+  };
+  EXPECT_THAT(complaint("y: mean_error_mm", "y: mean_eror_mm"), refused("mean_eror_mm"));
+  EXPECT_THAT(complaint("kind: curve, x: optimizer.particles, y: mean_error_mm",
+                        "kind: bars, x: optimizer.particles,  y: mean_error"),
+              refused("mean_error"));
+  EXPECT_THAT(complaint("kind: curve, x: optimizer.particles, y: mean_error_mm, color: method",
+                        "kind: heatmap, x: scene, y: method,   value: mean_error_m"),
+              refused("mean_error_m"));
+  for (const char* name : {"lost_frames", "time_to_loss_s", "uncertain_frames", "fps"}) {
+    const std::string y = "y: " + std::string(name);
+    std::string text = small_study();
+    EXPECT_EQ(load(text.replace(text.find("y: mean"), 16, y)).plots[0].y, name);
+  }
+}
+
 TEST_F(StudyFileTest, TablesArePerAnAxis) {
   const std::string text = small_study() + "\ntable_per: optimizer.particles\n";
   EXPECT_THAT(to_yaml(load(text)), HasSubstr("table_per: optimizer.particles\n"));

@@ -53,6 +53,9 @@ struct Metrics {
 /// metrics.json: the numbers, then `models`, `landmarks` and `success_curve`. NaN becomes null.
 HYPOTRACK_API std::string to_json(const Metrics& metrics);
 
+/// The numbers' keys there, in their order.
+HYPOTRACK_API std::vector<std::string> metric_names();
+
 /// Collects Metrics frame by frame.
 class HYPOTRACK_API MetricsCollector {
  public:

@@ -16,9 +16,7 @@ Json table(const std::vector<std::pair<std::string, double>>& entries) {
   return json;
 }
 
-}  // namespace
-
-std::string to_json(const Metrics& m) {
+Json numbers(const Metrics& m) {
   Json json;
   json["frames"] = m.frames;
   json["evaluated_frames"] = m.evaluated_frames;
@@ -38,6 +36,20 @@ std::string to_json(const Metrics& m) {
   json["time_to_loss_s"] = m.time_to_loss_s;
   json["frames_to_loss"] = m.frames_to_loss ? Json(*m.frames_to_loss) : Json();
   json["jitter_mm"] = m.jitter_mm;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::string> metric_names() {
+  std::vector<std::string> names;
+  const Json all = numbers({});
+  for (const auto& [name, value] : all.items()) names.push_back(name);
+  return names;
+}
+
+std::string to_json(const Metrics& m) {
+  Json json = numbers(m);
   json["models"] = table(m.models);
   json["landmarks"] = table(m.landmarks);
   std::array<int, kSuccessCurvePoints> thresholds{};

@@ -13,6 +13,7 @@
 #include "config/read_value.hpp"
 #include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
+#include "metrics/metrics.hpp"
 #include "study/study_grid.hpp"
 #include "study/study_text.hpp"
 
@@ -177,7 +178,18 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
   apply_variant(study, variants.get(*name));
 }
 
-/// What varies must be there to be drawn over.
+/// Throws ConfigError unless a plot can draw it: a number of metrics.json or, of every run,
+/// summary.json.
+void check_metric(const ConfigNode& node, const std::string& name) {
+  if (name.empty()) fail_at(node, "required key is missing: the metric to draw");
+  std::vector<std::string> known = metric_names();
+  known.insert(known.end(), {"uncertain_frames", "fps", "evaluations_per_second"});
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  fail_at(node, fmt::format("'{}' is no metric of a run{}; there are: {}", name,
+                            detail::did_you_mean(name, known), fmt::join(known, ", ")));
+}
+
+/// What varies must be there to be drawn over, and what is drawn must be a metric.
 void check_plots(const Study& study, const ConfigNode& plots) {
   std::vector<std::string> known = names_of(study.axes);
   known.insert(known.end(), {"scene", "seed"});
@@ -195,10 +207,9 @@ void check_plots(const Study& study, const ConfigNode& plots) {
     check(i, "color", plot.color, false);
     check(i, "facet", plot.facet, false);
     if (heatmap) check(i, "y", plot.y, true);
-    if (heatmap && plot.value.empty())
-      fail_at(plots.at(i).get("value"), "required key is missing: the metric to draw");
-    if ((plot.kind == PlotKind::curve || plot.kind == PlotKind::bars) && plot.y.empty())
-      fail_at(plots.at(i).get("y"), "required key is missing: the metric to draw");
+    if (heatmap) check_metric(plots.at(i).get("value"), plot.value);
+    if (plot.kind == PlotKind::curve || plot.kind == PlotKind::bars)
+      check_metric(plots.at(i).get("y"), plot.y);
   }
 }
 
