@@ -61,6 +61,18 @@ TEST_F(BadInputTest, ValuesOutOfRange) {
                  {"--set", "optimizer.particles=no"});
 }
 
+TEST_F(BadInputTest, AnObjectiveWithoutWeight) {
+  const std::string refused = "every pose costs the same; give one a weight above 0";
+  expect_refused(replaced(box_scene(), "{type: stereo_color}", "{type: stereo_color, weight: 0}"),
+                 {"scene.yaml:8:12: objective: the weight of its only term is 0", refused});
+  expect_refused(replaced(box_scene(), "{type: stereo_color}",
+                          "[{type: stereo_color, weight: 0}, {type: stereo_color, weight: 0.0}]"),
+                 {"scene.yaml:8:12: objective: the weight of each of its terms is 0", refused});
+  const Outcome one = run(replaced(box_scene(), "{type: stereo_color}",
+                                   "[{type: stereo_color, weight: 0}, {type: stereo_color}]"));
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+}
+
 TEST_F(BadInputTest, NoModels) {
   expect_refused(
       replaced(box_scene(), "[{name: box, type: rigid_box, size_mm: [90, 60, 40]}]", "[]"),

@@ -134,6 +134,12 @@ void Opening::objective() {
     records.push_back(std::move(record));
     session_.parts.objective.push_back(std::move(term));
   }
+  const auto& terms = session_.parts.objective;
+  if (std::ranges::all_of(terms, [](const ObjectiveTerm& term) { return term.weight == 0; }))
+    throw ConfigError(
+        fmt::format("{}: objective: the weight of {} is 0, so that every pose costs the same; give "
+                    "one a weight above 0",
+                    file_.objective.where(), count == 1 ? "its only term" : "each of its terms"));
   record_.set_list("objective", records);
 }
 
