@@ -122,6 +122,20 @@ TEST_F(NoDeviceTest, SoDoesAStudyBeforeAnythingRuns) {
   expect_refusal(outcome, pieces);
 }
 
+TEST_F(NoDeviceTest, AnOptimizerThatNeedsOneIsRefusedByValidateAsByARun) {
+  for (const char* optimizer :
+       {"{type: pso_cuda}", "{type: pipeline, stages: [{optimizer: {type: pso_cuda}}]}",
+        "{type: limb_search, optimizer: {type: multi_start, optimizer: {type: pso_cuda}}}"}) {
+    const std::string text =
+        replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer);
+    const Outcome tracked = run(text);
+    expect_refusal(tracked, {"scene.yaml:9:", "pso_cuda", "Write", "`type: pso`"});
+    const Outcome looked_at = run_program({"validate", scene(text)});
+    expect_refusal(looked_at, {});
+    EXPECT_EQ(looked_at.err, tracked.err);
+  }
+}
+
 TEST_F(NoDeviceTest, ForBenchItIsARow) {
   const Outcome outcome =
       run_program({"bench", scene(box_scene()), "--backends", "cpu,cuda", "--frames", "3"});

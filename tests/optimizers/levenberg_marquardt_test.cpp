@@ -9,6 +9,7 @@
 
 #include "evaluate/normal_equations.hpp"
 #include "hypotrack/error.hpp"
+#include "limb_search.hpp"
 #include "multi_start.hpp"
 #include "pipeline.hpp"
 #include "random_search/random_search.hpp"
@@ -178,6 +179,7 @@ TEST(LevenbergMarquardt, NeedsResidualsWithinOtherOptimizersToo) {
     return std::make_unique<LevenbergMarquardt>(LevenbergMarquardtParams{});
   };
   EXPECT_TRUE(MultiStart({}, least_squares()).needs_residuals());
+  EXPECT_TRUE(LimbSearch({}, least_squares()).needs_residuals());
   EXPECT_FALSE(
       MultiStart({}, std::make_unique<RandomSearch>(RandomSearchParams{})).needs_residuals());
   std::vector<PipelineStage> stages;
@@ -195,6 +197,7 @@ TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizers
   EXPECT_EQ(with(Jacobian::numerical)->linearization(), Linearization::unused);
   EXPECT_EQ(with(Jacobian::automatic)->linearization(), Linearization::welcome);
   EXPECT_EQ(MultiStart({}, with(Jacobian::analytic)).linearization(), Linearization::needed);
+  EXPECT_EQ(LimbSearch({}, with(Jacobian::analytic)).linearization(), Linearization::needed);
   const auto of_stages = [&](Jacobian first, Jacobian second) {
     std::vector<PipelineStage> stages;
     stages.push_back({"levenberg_marquardt", with(first)});

@@ -9,6 +9,9 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
+#include "limb_search.hpp"
+#include "multi_start.hpp"
+#include "random_search.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {
@@ -251,6 +254,30 @@ TEST_F(PipelineTest, AnErrorSaysOnlyOnceWhereTheStageIs) {
   test::RecordingCost cost = away_from(3);
   EXPECT_THAT([&] { pipeline.minimize(cost, line(), {10}, 1); },
               ThrowsMessage<ConfigError>(where + ": stage 1 of 1, pso_cuda: cannot do that"));
+}
+
+/// Searches on a GPU only.
+class OnDevice final : public Optimizer {
+ public:
+  std::string needs_device() const override { return "scene.yaml:9:3: it needs a GPU"; }
+  std::int64_t default_evaluations() const override { return 1; }
+  OptimizerResult minimize(CostFunction&, const SearchRegion& region, const Budget&,
+                           std::uint64_t) override {
+    return {region.start};
+  }
+};
+
+TEST_F(PipelineTest, WhatNeedsADeviceSaysSoWithinOtherOptimizersToo) {
+  add("pso", 0, 1);
+  EXPECT_EQ(Pipeline(std::move(stages_), 100, "scene.yaml:9:3").needs_device(), "");
+  std::vector<PipelineStage> stages;
+  stages.push_back({"pso", std::make_unique<RandomSearch>(RandomSearchParams{})});
+  stages.push_back({"multi_start", std::make_unique<MultiStart>(
+                                       MultiStartParams{},
+                                       std::make_unique<LimbSearch>(
+                                           LimbSearchParams{}, std::make_unique<OnDevice>()))});
+  EXPECT_EQ(Pipeline(std::move(stages), 100, "scene.yaml:9:3").needs_device(),
+            "scene.yaml:9:3: stage 2 of 2, multi_start: it needs a GPU");
 }
 
 TEST_F(PipelineTest, WithoutStagesItIsAConfigError) {

@@ -147,6 +147,11 @@ class HYPOTRACK_API Optimizer {
   /// Of optimizers that need residuals. It decides where `evaluate.backend: auto` evaluates.
   virtual Linearization linearization() const { return Linearization::unused; }
 
+  /// Of an optimizer that searches only costs with a device(): what to tell of a scene that is not
+  /// evaluated on a GPU, and what to write instead. Such a scene is refused with it at once. Empty
+  /// for all others; those that make other optimizers pass on what these say.
+  virtual std::string needs_device() const { return {}; }
+
   /// The budget its own parameters imply, for scenes that name none.
   virtual std::int64_t default_evaluations() const = 0;
 

@@ -76,6 +76,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     return fmt::format("cuda ({})", frame_.device().name());
   }
 
+  bool on_device() const override { return true; }
   DeviceCost* device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) override {
     frame_.device().use();
     use_prior(rotation_vectors ? &prior : nullptr);

@@ -56,6 +56,8 @@ class Evaluation {
   /// For Evaluator::backend(): `cpu (AVX3, 2 threads)`.
   virtual std::string description() const = 0;
 
+  /// Whether device_cost() is there.
+  virtual bool on_device() const { return false; }
   /// Costs of search points on the device (see Evaluator::device_cost); null on the host.
   virtual cuda::DeviceCost* device_cost(const Eigen::VectorXd&, bool) { return nullptr; }
 

@@ -132,6 +132,8 @@ NormalEquations Evaluator::linearize(const Eigen::Ref<const Eigen::MatrixXd>& st
   return impl_->evaluation->linearize(impl_->normalized, steps, blur);
 }
 
+bool Evaluator::on_device() const { return impl_->evaluation->on_device(); }
+
 cuda::DeviceCost* Evaluator::device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) {
   if (!impl_->prepared) throw Error("evaluate: no frame has been prepared");
   return impl_->evaluation->device_cost(prior, rotation_vectors);

@@ -98,6 +98,8 @@ class HYPOTRACK_API Evaluator {
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
 
+  /// Whether device_cost() is there.
+  bool on_device() const;
   /// Costs of search points that stay on the GPU, for the prepared frame; null on other backends.
   /// Points are states or, with `rotation_vectors`, states in which every model's quaternion is
   /// replaced by a rotation vector (3 numbers) applied to that of `prior` (SearchSpace).

@@ -135,6 +135,9 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
       smoother_(scene, parts_.smoothing),
       state_(std::move(start)),
       seed_(seed) {
+  if (const std::string why = parts_.optimizer->needs_device();
+      !why.empty() && !evaluator_.on_device())
+    throw DeviceError(why);
   scene.normalize(state_);
   output_ = state_;
   if (parts_.budget.evaluations == 0)

@@ -56,6 +56,8 @@ class LimbSearch : public Optimizer {
       : params_(params), optimizer_(std::move(optimizer)) {}
 
   bool needs_residuals() const override { return optimizer_->needs_residuals(); }
+  Linearization linearization() const override { return optimizer_->linearization(); }
+  std::string needs_device() const override { return optimizer_->needs_device(); }
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;

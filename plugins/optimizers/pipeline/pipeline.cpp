@@ -63,22 +63,30 @@ Linearization Pipeline::linearization() const {
   return most;
 }
 
+std::string Pipeline::needs_device() const {
+  for (std::size_t k = 0; k < stages_.size(); ++k) {
+    const std::string why = stages_[k].optimizer->needs_device();
+    if (!why.empty()) return of_stage(k, why);
+  }
+  return {};
+}
+
+std::string Pipeline::of_stage(std::size_t stage, std::string_view what) const {
+  const std::string place = where_ + ": ";
+  if (what.starts_with(place)) what.remove_prefix(place.size());  // said once is enough
+  return place + "stage " + std::to_string(stage + 1) + " of " + std::to_string(stages_.size()) +
+         ", " + stages_[stage].name + ": " + std::string(what);
+}
+
 OptimizerResult Pipeline::run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
                               const Budget& budget, std::uint64_t seed) {
-  const auto named = [&](const std::exception& error) {
-    const std::string place = where_ + ": ";
-    std::string_view what = error.what();
-    if (what.starts_with(place)) what.remove_prefix(place.size());  // said once is enough
-    return place + "stage " + std::to_string(stage + 1) + " of " + std::to_string(stages_.size()) +
-           ", " + stages_[stage].name + ": " + std::string(what);
-  };
   try {
     return stages_[stage].optimizer->minimize(
         cost, region, budget, seed_of_part(seed, static_cast<std::uint32_t>(stage)));
   } catch (const ConfigError& error) {
-    throw ConfigError(named(error));
+    throw ConfigError(of_stage(stage, error.what()));
   } catch (const DeviceError& error) {
-    throw DeviceError(named(error));
+    throw DeviceError(of_stage(stage, error.what()));
   }
 }
 

@@ -55,12 +55,15 @@ class Pipeline : public Optimizer {
 
   bool needs_residuals() const override;         ///< whether a stage does
   Linearization linearization() const override;  ///< the most that a stage wants
+  std::string needs_device() const override;     ///< of the first stage that does
   std::int64_t default_evaluations() const override { return default_evaluations_; }
   /// A ConfigError or DeviceError of a stage names the stage.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
 
  private:
+  /// What a stage says, with its number and name.
+  std::string of_stage(std::size_t stage, std::string_view what) const;
   OptimizerResult run(std::size_t stage, CostFunction& cost, const SearchRegion& region,
                       const Budget& budget, std::uint64_t seed);
 

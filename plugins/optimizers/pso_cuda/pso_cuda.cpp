@@ -155,17 +155,18 @@ std::int64_t PsoCuda::default_evaluations() const {
   return std::int64_t{params_.particles} * params_.generations;
 }
 
+std::string PsoCuda::needs_device() const {
+  return where_ +
+         ": pso_cuda searches on the GPU, and this scene is not evaluated there. Write "
+         "`evaluate: {backend: cuda}`, or `type: pso`, the same search on the CPU";
+}
+
 OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region,
                                   const Budget& budget, std::uint64_t seed) {
   check_search(cost, region, budget);
   const Deadline deadline(budget.seconds);
   DeviceCost* device = cost.device();
-  if (!device) {
-    throw DeviceError(
-        where_ +
-        ": pso_cuda searches on the GPU, and this scene is not evaluated there. Write "
-        "`evaluate: {backend: cuda}`, or `type: pso`, the same search on the CPU");
-  }
+  if (!device) throw DeviceError(needs_device());
   const Schedule schedule{std::min<std::int64_t>(params_.particles, budget.evaluations),
                           budget.evaluations};
   device->reserve(schedule.particles);

@@ -28,6 +28,7 @@ class PsoCuda : public Optimizer {
   explicit PsoCuda(const PsoParams& params, const std::string& where = "pso_cuda");
   ~PsoCuda() override;
 
+  std::string needs_device() const override;
   std::int64_t default_evaluations() const override;
   /// Throws DeviceError where the cost has no device().
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

@@ -229,6 +229,9 @@ bool check_device(Report& report, const Subject& subject) {
     }
     throw Violation("it was accepted, expected a DeviceError");
   });
+  report.row("it says that it needs a device", [&] {
+    require(!subject.make<Optimizer>()->needs_device().empty(), "needs_device() is empty");
+  });
   const std::string why = cuda::why_no_device();
   if (!why.empty()) report.row("it searches on a device", [&] { throw Skipped(why); });
   return why.empty();
