@@ -318,6 +318,20 @@ TEST_F(ImageSequence, FindsTheAnswerByTheNumberOfTheImage) {
   EXPECT_EQ(shifted->next()->truth->state[2], 1);
 }
 
+TEST_F(ImageSequence, RefusesAnAnswerToOtherFrames) {
+  for (int i = 0; i < 3; ++i) write_pair(i);
+  write_states(file("states.csv"), scene_, std::vector<StateRow>{{1, 0, scene_.rest_state()}});
+  const auto with = [&](const std::string& more) {
+    return [this, more] { make(numbered("truth_states: states.csv\n" + more), &scene_); };
+  };
+  EXPECT_NO_THROW(with("")());
+  EXPECT_THAT(with("truth_offset: 7\n"),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("states.csv: has frames 1 to 1"),
+                                             HasSubstr("the source's frames, 7 to 9;"))));
+  EXPECT_THAT(with("start: 2\n"), ThrowsMessage<DataError>(HasSubstr("frames, 2 to 2;")));
+  EXPECT_THAT(with("step: 2\n"), ThrowsMessage<DataError>(HasSubstr("0 to 2 in steps of 2")));
+}
+
 TEST_F(ImageSequence, SaysWhatItDidNotFind) {
   EXPECT_THAT(making(numbered()),
               ThrowsMessage<DataError>(

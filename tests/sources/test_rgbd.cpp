@@ -188,6 +188,9 @@ TEST_F(Rgbd, KnowsTheAnswerByThePositionInTheColourList) {
   const auto source = make(yaml("start: 1\ntruth_states: states.csv\n"), &scene_);
   EXPECT_EQ(source->next()->truth->state[2], 2);
   EXPECT_EQ(source->next()->truth->state[2], 3);
+  EXPECT_THAT(making(yaml("start: 1\ntruth_states: states.csv\ntruth_offset: 2\n")),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("states.csv: has frames 0 to 2"),
+                                             HasSubstr("the source's frames, 3 to 4;"))));
 }
 
 TEST_F(Rgbd, ADamagedListIsRefusedOrReadButNothingElse) {

@@ -226,5 +226,49 @@ TEST_F(Tables, TellASourceTheAnswerFrameByFrame) {
   EXPECT_FALSE(TruthTables().at(0));
 }
 
+TEST_F(Tables, OfAnotherRecordingAreNoAnswer) {
+  const Scene scene = box_scene();
+  write(kHeader + ",frame\n0,0,1,1,0,0,0,100\n0,0,2,1,0,0,0,102\n");
+  TruthSettings settings;
+  settings.states = file_;
+  settings.offset = 90;
+  const TruthTables truth(settings, scene);
+  EXPECT_NO_THROW(truth.expect_some(10, 1, 1));
+  EXPECT_NO_THROW(truth.expect_some(6, 3, 3));
+  EXPECT_NO_THROW(truth.expect_some(0, 1, std::nullopt));
+  EXPECT_NO_THROW(TruthTables().expect_some(0, 1, 5));
+  const auto refused = [&](int first, int step, std::optional<int> count, const char* frames) {
+    EXPECT_THAT(
+        [&] { truth.expect_some(first, step, count); },
+        ThrowsMessage<DataError>(file_.string() +
+                                 ": has frames 100 to 102, and none of them is one of the "
+                                 "source's frames, " +
+                                 frames + "; set truth_offset (now 90), or leave the key out"));
+  };
+  refused(0, 1, 10, "90 to 99");
+  refused(13, 1, 10, "103 to 112");
+  refused(7, 2, 3, "97 to 101 in steps of 2");
+  refused(13, 1, std::nullopt, "103 on");
+}
+
+TEST_F(Tables, WithoutANumberAreNoAnswer) {
+  const Scene scene = box_scene();
+  TruthSettings settings;
+  settings.landmarks = file_;
+  const auto expect_some = [&] { TruthTables(settings, scene).expect_some(0, 1, 2); };
+  const std::string name = scene.landmark_names()[0];
+  const std::string header = "frame," + name + "_x," + name + "_y," + name + "_z\n";
+  write(header + "0,1,2,3\n");
+  EXPECT_NO_THROW(expect_some());
+  write(header + "0,nan,nan,nan\n1,nan,nan,nan\n2,1,2,3\n");
+  EXPECT_THAT(expect_some, ThrowsMessage<DataError>(AllOf(
+                               HasSubstr(file_.string() + ": no landmark is known in any of the"),
+                               HasSubstr("<landmark>_x"))));
+  write("frame,time\n0,0\n1,0\n");
+  EXPECT_THAT(expect_some, ThrowsMessage<DataError>(HasSubstr("no landmark is known")));
+  write(header);
+  EXPECT_THAT(expect_some, ThrowsMessage<DataError>(HasSubstr("has no rows")));
+}
+
 }  // namespace
 }  // namespace hypotrack

@@ -4,6 +4,7 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/tables.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {
@@ -54,6 +55,17 @@ TEST_F(Video, SaysThatItEndsBeforeItsStart) {
   EXPECT_THAT(first("start: 4\n"),
               HasSubstr("left.avi: ends before frame 4, the first that start"));
   EXPECT_THAT(first("start: 3\noffset: 4\n"), HasSubstr("right.avi: ends before frame 7"));
+}
+
+TEST_F(Video, RefusesAnAnswerToOtherFrames) {
+  write_video("left.avi", 4, {0});
+  write_video("right.avi", 6, {1});
+  write_states(file("states.csv"), scene_, std::vector<StateRow>{{2, 0, scene_.rest_state()}});
+  const std::string yaml = kTwo + "truth_states: states.csv\n";
+  EXPECT_FALSE(make(yaml + "start: 1\n", &scene_)->next()->truth);
+  EXPECT_THAT(making(yaml + "start: 3\n"),
+              ThrowsMessage<DataError>(HasSubstr("states.csv: has frames 2 to 2, and none of them "
+                                                 "is one of the source's frames, 3 to 3;")));
 }
 
 TEST_F(Video, YieldsPairsUntilEitherEnds) {

@@ -52,8 +52,15 @@ class HYPOTRACK_API TruthTables {
   /// added to); nothing if they do not mention it.
   std::optional<GroundTruth> at(int number) const;
 
+  /// Throws DataError if tables are named and say nothing of the images `first`, `first + step`,
+  /// ..., of which there are `count` (any number if that is not known): such tables are of another
+  /// recording, and a run would have no errors without a word.
+  void expect_some(int first, int step, std::optional<int> count) const;
+
  private:
   std::map<int, GroundTruth> frames_;
+  std::string files_;  ///< names of the tables
+  int offset_ = 0;
 };
 
 }  // namespace hypotrack

@@ -127,6 +127,7 @@ class ImageSequence : public Source {
     for (std::size_t i = 0; i < layers_.size(); ++i) take_image_size(i);
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
+      truth_.expect_some(first_, params.step, frame_count());
     }
   }
 

@@ -108,6 +108,7 @@ class Rgbd final : public Source {
                     [&](const auto& file) { return read_depth(file, unit()); });
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
+      truth_.expect_some(params.start, 1, frame_count());
     }
   }
 

@@ -72,11 +72,12 @@ class Video : public Source {
       fit_image_size(cameras_[v], split_ ? reader.width() / 2 : reader.width(), reader.height(),
                      files_[split_ ? 0 : v].string());
     }
-    if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
-      truth_ = TruthTables(params.truth, context.scene());
-    }
     // Bring both videos to the first common frame that is wanted.
     first_ = std::max(params.start, -params.offset);
+    if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
+      truth_ = TruthTables(params.truth, context.scene());
+      truth_.expect_some(first_, params.step, frame_count());
+    }
     skip(0, first_);
     if (readers_.size() == 2) skip(1, first_ + params.offset);
   }
