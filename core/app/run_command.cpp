@@ -153,7 +153,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .hindsight = hindsight != nullptr});
   HindsightOutput frames(std::move(hindsight), output);
   tell("tracking with {}\n", tracker.backend());
-  if (const std::string problem = tracker.problem_of_start(); !problem.empty())
+  if (const std::string problem = tracker.problem_of_start(first.back()); !problem.empty())
     tell("note: {}\n", problem);
   bool complete = false;
   try {

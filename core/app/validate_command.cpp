@@ -28,7 +28,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
                   session.seed);
   if (usable) {
     tracker.check(*first);
-    if (const std::string problem = tracker.problem_of_start(); !problem.empty())
+    if (const std::string problem = tracker.problem_of_start(*first); !problem.empty())
       tell("note: {}\n", problem);
   }
   if (print)

@@ -55,6 +55,29 @@ TEST_F(BadRecordingTest, ADamagedImageIsAMissingFrameAndTheRunGoesOn) {
   EXPECT_EQ(metrics.at("evaluated_frames"), 4);
 }
 
+TEST_F(BadRecordingTest, ACalibrationOfOtherCamerasIsNotTrackedBesideTheMasks) {
+  calibrate("T: [-0.08,", "T: [0.08,");
+  const auto note =
+      testing::AllOf(HasSubstr("note: no point of the models at the start is on the foreground of "
+                               "all masks, and such a frame counts as uncertain"),
+                     HasSubstr("calibration"));
+  const Outcome outcome = track();
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, note);
+  EXPECT_THAT(outcome.out, HasSubstr("5 frames (0 lost, 5 uncertain, 0 missing)"));
+  EXPECT_THAT(run_program({"validate", recorded("scene.yaml").string()}).err, note);
+  EXPECT_THAT(track({"--set", "tracker.patience=3"}).out, HasSubstr("(3 lost, 2 uncertain"));
+}
+
+TEST_F(BadRecordingTest, ATruthOfOtherFramesIsRefused) {
+  const std::string table = recorded("truth_landmarks.csv").string();
+  const Outcome outcome = track({"--set", "source.truth_offset=100"});
+  expect_refusal(outcome, {table, "has frames 0 to 4", "frames, 100 to 104; set truth_offset"});
+  expect_refusal(run_program({"validate", recorded("scene.yaml").string(), "--set",
+                              "source.truth_offset=100"}),
+                 {table});
+}
+
 TEST_F(BadRecordingTest, DamageBeforeTheFirstUsableFrameCountsAsFrames) {
   write_text(recorded("left_000000.png"), "no picture");
   const std::vector<std::string> rest{

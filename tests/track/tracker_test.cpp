@@ -45,6 +45,7 @@ class MovingTarget final : public Objective, public ResidualTerm {
 /// The best of normal samples; remembers what it was asked.
 class Sampling final : public Optimizer {
  public:
+  std::string needs_device() const override { return device_needed; }
   std::int64_t default_evaluations() const override { return 300; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override {
@@ -64,6 +65,7 @@ class Sampling final : public Optimizer {
   }
   std::vector<Eigen::VectorXd> starts;
   std::vector<std::int64_t> budgets;
+  std::string device_needed;
 };
 
 struct Fixture {
@@ -73,6 +75,7 @@ struct Fixture {
   SearchSettings search;
   SmoothingSettings smoothing;
   StatusSettings status;
+  std::string needs_device;
 
   Eigen::VectorXd start() const {
     Eigen::VectorXd state = scene.rest_state();
@@ -87,6 +90,7 @@ struct Fixture {
     parts.cameras[1].camera_from_world.translation().x() = -0.06;
     auto sampling = std::make_unique<Sampling>();
     optimizer = sampling.get();
+    optimizer->device_needed = needs_device;
     parts.optimizer = std::move(sampling);
     parts.objective = {{1.0, target}};
     parts.evaluate.threads = 1;
@@ -116,6 +120,36 @@ TEST(Tracker, FollowsATargetFromFrameToFrame) {
     EXPECT_EQ(solution.evaluations, 300);
     EXPECT_EQ(solution.frame, i);
   }
+}
+
+TEST(Tracker, RefusesAnOptimizerThatNeedsADeviceOnTheCpu) {
+  Fixture fixture;
+  fixture.needs_device = "scene.yaml:9:3: it needs a GPU";
+  EXPECT_EQ(test::message_of<DeviceError>([&] { fixture.make(1); }), fixture.needs_device);
+}
+
+TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {
+  Fixture fixture;
+  Tracker tracker = fixture.make(1);
+  const auto masked = [](int index, cv::Rect first, cv::Rect second) {
+    Frame frame = grey_frame(index);
+    for (View& view : frame.views) view.mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
+    frame.views[0].mask(first).setTo(255);
+    frame.views[1].mask(second).setTo(255);
+    return frame;
+  };
+  const cv::Rect middle(200, 120, 240, 240), corner(0, 0, 40, 40);
+  EXPECT_EQ(tracker.problem_of_start(masked(0, middle, middle)), "");
+  EXPECT_EQ(tracker.problem_of_start(grey_frame(0)), "");
+  EXPECT_THAT(tracker.problem_of_start(masked(0, corner, corner)),
+              AllOf(HasSubstr("cover no foreground pixel of any mask"), HasSubstr("counts as lost"),
+                    HasSubstr("(calibration)")));
+  EXPECT_THAT(tracker.problem_of_start(masked(0, middle, corner)),
+              AllOf(HasSubstr("on the foreground of all masks"), HasSubstr("counts as uncertain")));
+  EXPECT_EQ(tracker.track(masked(0, middle, middle)).status, Status::tracked);
+  EXPECT_EQ(tracker.track(masked(1, middle, corner)).status, Status::uncertain);
+  EXPECT_EQ(tracker.track(masked(2, corner, corner)).status, Status::lost);
+  EXPECT_EQ(tracker.track(masked(3, middle, middle)).status, Status::tracked);
 }
 
 TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geometry/crop.hpp"
+#include "geometry/on_foreground.hpp"
 #include "geometry/posed_scene.hpp"
 #include "geometry/rectification.hpp"
 #include "geometry/visible_share.hpp"
@@ -126,6 +127,12 @@ const PosedScene& TileMaker::posed(const Eigen::VectorXd& state) const {
 
 double TileMaker::visible_share(const Eigen::VectorXd& state) const {
   return impl_->visible.of(posed(state));
+}
+
+OnForeground TileMaker::on_foreground(const Frame& frame, const Eigen::VectorXd& state) const {
+  impl_->check(frame);
+  return hypotrack::on_foreground(posed(state), impl_->rig.ideal_from_world[0].inverse(),
+                                  impl_->cameras, frame.views);
 }
 
 TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {

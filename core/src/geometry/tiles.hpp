@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/on_foreground.hpp"
 #include "geometry/posed_scene.hpp"
 #include "geometry/resample.hpp"
 #include "hypotrack/camera.hpp"
@@ -56,6 +57,10 @@ class HYPOTRACK_API TileMaker {
   /// cut. Not from several threads at once. This and plan() cost next to nothing for the state that
   /// either was asked about last.
   double visible_share(const Eigen::VectorXd& state) const;
+
+  /// Where the scene posed in `state` lies in the frame's masks; next to nothing where it covers
+  /// much of their foreground.
+  OnForeground on_foreground(const Frame& frame, const Eigen::VectorXd& state) const;
 
   /// The scene posed in `state`. The same cost, and the same thread.
   const PosedScene& posed(const Eigen::VectorXd& state) const;

@@ -36,8 +36,10 @@ double StatusMonitor::usual_cost() const {
   return expected + settings_.outlier * deviation;
 }
 
-Status StatusMonitor::judge(double cost, double visible, double sigma) {
-  if (!std::isfinite(cost) || visible < settings_.min_visible || sigma > settings_.lost_sigma) {
+Status StatusMonitor::judge(double cost, double visible, double sigma, OnForeground on_foreground) {
+  // Beside all foreground a cost may say nothing: pixels off the mask may weigh nothing.
+  if (!std::isfinite(cost) || visible < settings_.min_visible || sigma > settings_.lost_sigma ||
+      on_foreground == OnForeground::nowhere) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
@@ -47,7 +49,7 @@ Status StatusMonitor::judge(double cost, double visible, double sigma) {
   // expected.
   costs_.push_back(cost);
   if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
-  if (outlier || visible < 2 * settings_.min_visible)
+  if (outlier || visible < 2 * settings_.min_visible || on_foreground == OnForeground::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
   // A sigma that stays large, of hidden fingers, is no reason to give up.

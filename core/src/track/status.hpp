@@ -3,6 +3,7 @@
 #include <deque>
 #include <string_view>
 
+#include "geometry/on_foreground.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "track/uncertainty_settings.hpp"
@@ -12,7 +13,8 @@ namespace hypotrack {
 enum class Status {
   tracked,    ///< cost and sigma are what they should be
   uncertain,  ///< the cost is an outlier, sigma is large, or part of the scene is out of view
-  lost,       ///< out of view, infeasible, an outlier for too long, or sigma says anything goes
+  lost,       ///< out of view, infeasible, an outlier for too long, beside the foreground, or sigma
+              ///< says anything goes
   missing,    ///< there was no usable frame; the state is the last one
 };
 HYPOTRACK_API std::string_view to_string(Status status);
@@ -62,8 +64,9 @@ class HYPOTRACK_API StatusMonitor {
   explicit StatusMonitor(const StatusSettings& settings) : settings_(settings) {}
 
   /// `visible` is the share of the models' vertices that project into every image, `sigma` the mean
-  /// over a model's landmarks, of the model where it is largest; NaN where it is not known.
-  Status judge(double cost, double visible, double sigma);
+  /// over a model's landmarks, of the model where it is largest, NaN where it is not
+  /// known.
+  Status judge(double cost, double visible, double sigma, OnForeground on_foreground);
 
   /// Above it a cost is an outlier of the recent past; -infinity before there is one.
   double usual_cost() const;

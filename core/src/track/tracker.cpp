@@ -182,7 +182,8 @@ Solution Tracker::track(const Frame& frame) {
       solution.sigma = uncertainty_->of(evaluator_, found);
       solution.evaluations += uncertainty_->evaluations();
     }
-    solution.status = monitor_.judge(result.cost, visible, largest_sigma(solution.sigma));
+    solution.status = monitor_.judge(result.cost, visible, largest_sigma(solution.sigma),
+                                     tiles_.on_foreground(frame, found));
     // Where nothing was feasible, or the answer has left every image, the last state is the better
     // place to search the next frame from.
     if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame);
@@ -238,15 +239,28 @@ void Tracker::check(const Frame& frame) {
   evaluator_.prepare(tiles_, frame, tiles_.plan(frame, state_));
 }
 
-std::string Tracker::problem_of_start() const {
+std::string Tracker::problem_of_start(const Frame& frame) const {
+  constexpr const char* kQuestion =
+      "is the start (init) where the models are, and do the cameras and their units (calibration) "
+      "belong to the pictures?";
   const double visible = tiles_.visible_share(state_);
-  if (visible >= parts_.status.min_visible) return {};
-  return fmt::format(
-      "{:.0f} % of what the models cover at the start is inside every image, and a frame with less "
-      "than {:.0f} % counts as lost (tracker.min_visible); is the start (init) where the models "
-      "are, "
-      "and do the cameras and their units (calibration) belong to the pictures?",
-      100 * visible, 100 * parts_.status.min_visible);
+  if (visible < parts_.status.min_visible)
+    return fmt::format(
+        "{:.0f} % of what the models cover at the start is inside every image, and a frame with "
+        "less than {:.0f} % counts as lost (tracker.min_visible); {}",
+        100 * visible, 100 * parts_.status.min_visible, kQuestion);
+  const OnForeground on_foreground = tiles_.on_foreground(frame, state_);
+  if (on_foreground == OnForeground::nowhere)
+    return fmt::format(
+        "the models at the start cover no foreground pixel of any mask, and such a frame counts as "
+        "lost; {}",
+        kQuestion);
+  if (on_foreground == OnForeground::in_parts)
+    return fmt::format(
+        "no point of the models at the start is on the foreground of all masks, and such a frame "
+        "counts as uncertain; {}",
+        kQuestion);
+  return {};
 }
 
 OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior,

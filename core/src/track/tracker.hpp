@@ -72,8 +72,9 @@ class HYPOTRACK_API Tracker {
   /// that the cameras do not see, a frame that an objective cannot work with.
   void check(const Frame& frame);
 
-  /// What people should know of a start at which frames count as lost; nothing of a good one.
-  std::string problem_of_start() const;
+  /// What people should know of a start at which frames like this usable one count as lost or
+  /// uncertain; nothing of a good one.
+  std::string problem_of_start(const Frame& frame) const;
 
   /// What the search of `frame`, the last one tracked, saw of it; with the highlights.
   Observation seen(const Frame& frame) const;
