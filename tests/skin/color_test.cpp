@@ -69,6 +69,34 @@ TEST(SkinColors, OfAFrameAreLearnedOnce) {
   EXPECT_EQ(teller.tell(moved, 0).sum, before);
 }
 
+TEST(SkinColors, OfAGuessCountForLess) {
+  Observation guess = colored_box();
+  guess.start_is_guess = true;
+  ForegroundTeller sure({}), half({.guess_trust = 0.5}), none({.guess_trust = 0});
+  const Means known = means(sure.tell(colored_box(), 0));
+  const Means half_known = means(half.tell(guess, 0)), unknown = means(none.tell(guess, 0));
+  EXPECT_NEAR(half_known.inside, 0.5 + 0.5 * (known.inside - 0.5), 1e-4);
+  EXPECT_NEAR(half_known.outside, 0.5 + 0.5 * (known.outside - 0.5), 1e-4);
+  EXPECT_NEAR(unknown.inside, 0.5, 1e-4);
+  EXPECT_NEAR(unknown.outside, 0.5, 1e-4);
+}
+
+TEST(SkinColors, OfAGuessAreForgottenWhereTheStartIsASolution) {
+  Observation guess = colored_box();
+  guess.start[0] += 0.03;  // half the box
+  guess.start_is_guess = true;
+  const Observation solution = colored_box();  // of the same frame
+  Observation later = colored_box();
+  later.frame = 1;
+  later.start[0] += 0.03;
+  ForegroundTeller teller({}), fresh({});
+  const double guessed = teller.tell(guess, 0).sum;
+  const double found = teller.tell(solution, 0).sum;
+  EXPECT_NE(found, guessed);
+  EXPECT_EQ(found, fresh.tell(solution, 0).sum);
+  EXPECT_EQ(teller.tell(later, 0).sum, found) << "and what a solution taught is kept";
+}
+
 TEST(SkinColors, ThatNoFrameHasShownYetMayBeEither) {
   const Observation entering = colored_box();
   Observation before = colored_box();

@@ -134,6 +134,17 @@ TEST(PhotometricMatch, BeginsWithWhatAStartThatIsNearlyRightShows) {
   }
 }
 
+TEST(PhotometricMatch, BeginsAnewAfterItWasToldToForget) {
+  const Fixture fixture;
+  PhotometricMatch match(fixture.scene, fixture.settings), fresh(fixture.scene, fixture.settings);
+  fixture.learn(match, fixture.frame(1.05, 3));
+  match.forget();
+  EXPECT_FALSE(match.knows());
+  fixture.learn(match, fixture.frame(0.87, 0));
+  fixture.learn(fresh, fixture.frame(0.87, 0));
+  EXPECT_EQ(mapped(match, fixture.plan, 120), mapped(fresh, fixture.plan, 120));
+}
+
 TEST(PhotometricMatch, BeginsWithThePicturesWhereTheStartIsFarOff) {
   const Fixture fixture;
   const Frame frame = fixture.frame(0.87, 0);

@@ -23,7 +23,10 @@ using testing::HasSubstr;
 class MovingTarget final : public Objective, public ResidualTerm {
  public:
   bool needs_rendering() const override { return false; }
-  void prepare(const Observation& observation) override { x_ = 0.005 * observation.frame; }
+  void prepare(const Observation& observation) override {
+    x_ = 0.005 * observation.frame;
+    observed.push_back({observation.start_is_guess, observation.start});
+  }
   double cost(const RenderedHypothesis& h) const override {
     if (infeasible) return std::numeric_limits<double>::infinity();
     return std::hypot(h.state[0] - x_, h.state[1], h.state[2] - 0.5);
@@ -37,6 +40,12 @@ class MovingTarget final : public Objective, public ResidualTerm {
   }
   bool infeasible = false;
   bool offers_residuals = true;
+
+  struct Observed {
+    bool start_is_guess;
+    Eigen::VectorXd start;
+  };
+  std::vector<Observed> observed;
 
  private:
   double x_ = 0;
@@ -206,6 +215,54 @@ TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
   Tracker tracker = fixture.make(1, 9);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(tracker.track(grey_frame(i)).evaluations, 9);
   EXPECT_EQ(fixture.optimizer->budgets.back(), 9);
+}
+
+TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
+  Fixture fixture;
+  fixture.search.second_look = 0.3;
+  Tracker tracker = fixture.make(1);
+  const Solution first = tracker.track(grey_frame(3));
+  EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{210, 90}));
+  EXPECT_EQ(first.evaluations, 300);
+  ASSERT_EQ(fixture.target->observed.size(), 2);
+  EXPECT_TRUE(fixture.target->observed[0].start_is_guess);
+  EXPECT_EQ(fixture.target->observed[0].start, fixture.start());
+  EXPECT_FALSE(fixture.target->observed[1].start_is_guess);
+  EXPECT_EQ(fixture.target->observed[1].start, fixture.optimizer->starts[1]);
+  EXPECT_NE(fixture.optimizer->starts[1], fixture.start());
+
+  tracker.track(grey_frame(4));
+  EXPECT_EQ(fixture.optimizer->budgets.size(), 3) << "once is enough from a solution";
+  EXPECT_EQ(fixture.optimizer->budgets.back(), 300);
+  ASSERT_EQ(fixture.target->observed.size(), 3);
+  EXPECT_FALSE(fixture.target->observed[2].start_is_guess);
+}
+
+TEST(Tracker, LooksAgainUntilSomethingIsFound) {
+  Fixture fixture;
+  fixture.search.second_look = 0.3;
+  fixture.target->infeasible = true;
+  Tracker tracker = fixture.make(1);
+  tracker.track(grey_frame(0));
+  tracker.track(grey_frame(1));
+  EXPECT_EQ(fixture.optimizer->budgets.size(), 4);
+  EXPECT_TRUE(fixture.target->observed[2].start_is_guess);
+}
+
+TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
+  Fixture fixture;
+  Tracker tracker = fixture.make(1);
+  tracker.track(grey_frame(0));
+  EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{300}));
+  EXPECT_TRUE(fixture.target->observed.at(0).start_is_guess);
+}
+
+TEST(Tracker, SpendsABudgetOfOneOnTheFirstLook) {
+  Fixture fixture;
+  fixture.search.second_look = 0.9;
+  Tracker tracker = fixture.make(1, 1);
+  EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 1);
+  EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{1}));
 }
 
 TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {

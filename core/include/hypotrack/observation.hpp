@@ -38,6 +38,10 @@ struct Observation {
   const Scene* scene = nullptr;  ///< outlives the observation
   Eigen::VectorXd start;         ///< the scene's state that the tiles were cut around: where the
                                  ///< search starts, or near it
+  /// Nothing has been found yet, and `start` is where the scene was told to be: some centimetres
+  /// off, maybe. What a term learns there is worth less, and is better learned anew from the first
+  /// observation without this, which may be of the same frame (search.second_look).
+  bool start_is_guess = false;
   std::vector<TileView> views;
   /// Two views whose cameras share rotation, fx, fy and cy: a point has the same y in both, and
   /// x_left - x_right is a constant plus fx * baseline / z.

@@ -55,6 +55,7 @@ class HYPOTRACK_API PhotometricMatch {
   void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& state);
 
+  void forget() { views_.clear(); }
   /// Whether anything has been learned.
   bool knows() const;
   /// Puts the maps, and by how much the first two views still differ, into the plan of a frame.

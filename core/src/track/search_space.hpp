@@ -27,6 +27,7 @@ struct SearchSettings {
   double rotation = 10 * kDegree;
   double angle = 10 * kDegree;
   RotationSearch rotation_as = RotationSearch::quaternion;
+  double second_look = 0;
   PredictionSettings prediction;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
@@ -49,6 +50,12 @@ struct SearchSettings {
        .to_si = kDegree});
     v("rotation_as", rotation_as,
       {.help = "what optimizers see of a rotation: quaternion components or a tangent vector"});
+    v("second_look", second_look,
+      {.help =
+           "before anything has been found: share of a frame's budget that is kept to search it "
+           "once more from what was found, with colours learned anew there; 0: none",
+       .min = 0,
+       .max = 0.9});
     v("prediction", prediction, {.help = "where a search starts"});
   }
 };

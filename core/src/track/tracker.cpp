@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
 
 namespace hypotrack {
 namespace {
@@ -166,27 +167,19 @@ Solution Tracker::track(const Frame& frame) {
     solution.sigma.setConstant(static_cast<Eigen::Index>(landmarks_.names.size()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    const Eigen::MatrixXd starts = possible_starts(frame.time);
-    plan_ = tiles_.plan(frame, starts.col(0));
-    if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, starts.col(0));
-    photometric_.apply(plan_);
-    photometric_.apply_highlights(plan_, starts.col(0));
-    evaluator_.prepare(tiles_, frame, plan_);
-    const Eigen::VectorXd prior = cheapest(starts);
-    const OptimizerResult result = search(frame, prior, starts.cols() > 1 ? starts.cols() : 0);
-    const Eigen::VectorXd found = space_.states(result.point, prior);
-    const double visible = tiles_.visible_share(found);
-    solution.cost = result.cost;
-    solution.evaluations = result.evaluations;
+    const Found found = search(frame);
+    const double visible = tiles_.visible_share(found.state);
+    solution.cost = found.cost;
+    solution.evaluations = found.evaluations;
     if (uncertainty_) {
-      solution.sigma = uncertainty_->of(evaluator_, found);
+      solution.sigma = uncertainty_->of(evaluator_, found.state);
       solution.evaluations += uncertainty_->evaluations();
     }
-    solution.status = monitor_.judge(result.cost, visible, largest_sigma(solution.sigma),
-                                     tiles_.on_foreground(frame, found));
+    solution.status = monitor_.judge(found.cost, visible, largest_sigma(solution.sigma),
+                                     tiles_.on_foreground(frame, found.state));
     // Where nothing was feasible, or the answer has left every image, the last state is the better
     // place to search the next frame from.
-    if (std::isfinite(result.cost) && visible > 0) go_on_from(found, frame);
+    if (std::isfinite(found.cost) && visible > 0) go_on_from(found.state, frame);
     if (solution.status == Status::lost) predictor_.forget_motion();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -219,6 +212,7 @@ Eigen::VectorXd Tracker::cheapest(const Eigen::MatrixXd& states) {
 
 void Tracker::go_on_from(const Eigen::VectorXd& found, const Frame& frame) {
   state_ = found;
+  found_any_ = true;
   predictor_.add(state_, frame.time);
   photometric_.learn(tiles_, frame, plan_, state_);
 }
@@ -263,16 +257,54 @@ std::string Tracker::problem_of_start(const Frame& frame) const {
   return {};
 }
 
-OptimizerResult Tracker::search(const Frame& frame, const Eigen::VectorXd& prior,
-                                std::int64_t evaluated) {
-  StateCost cost(space_, prior, evaluator_);
+void Tracker::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
+  plan_ = tiles_.plan(frame, start);
+  if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, start);
+  photometric_.apply(plan_);
+  photometric_.apply_highlights(plan_, start);
+  plan_.header.start_is_guess = is_guess;
+  evaluator_.prepare(tiles_, frame, plan_);
+}
+
+Tracker::Found Tracker::search(const Frame& frame) {
+  const Eigen::MatrixXd starts = possible_starts(frame.time);
+  const std::uint64_t seed = frame_seed(seed_, frame.index);
   Budget budget = parts_.budget;
-  budget.evaluations -= evaluated;
   budget.usual_cost = monitor_.usual_cost();
-  OptimizerResult result = parts_.optimizer->minimize(cost, space_.region(prior), budget,
-                                                      frame_seed(seed_, frame.index));
-  result.evaluations += evaluated;
-  return result;
+  look(frame, starts.col(0), !found_any_);
+  const Eigen::VectorXd prior = cheapest(starts);
+  const std::int64_t compared = starts.cols() > 1 ? starts.cols() : 0;
+  budget.evaluations -= compared;
+  Found found = plan_.header.start_is_guess ? search_twice(frame, prior, budget, seed)
+                                            : search_from(prior, budget, seed);
+  found.evaluations += compared;
+  return found;
+}
+
+Tracker::Found Tracker::search_twice(const Frame& frame, const Eigen::VectorXd& prior,
+                                     const Budget& budget, std::uint64_t seed) {
+  const double kept = parts_.search.second_look;
+  Budget first = budget, second = budget;
+  first.evaluations -= static_cast<std::int64_t>(kept * static_cast<double>(budget.evaluations));
+  first.seconds *= 1 - kept;
+  Found found = search_from(prior, first, seed);
+  second.evaluations -= found.evaluations;
+  if (kept == 0 || second.evaluations < 1 || tiles_.visible_share(found.state) == 0) return found;
+  second.seconds *= kept;
+  photometric_.forget();
+  look(frame, found.state, false);
+  const std::int64_t before = found.evaluations;
+  found = search_from(found.state, second, seed_of_part(seed, 1));
+  found.evaluations += before;
+  return found;
+}
+
+Tracker::Found Tracker::search_from(const Eigen::VectorXd& prior, const Budget& budget,
+                                    std::uint64_t seed) {
+  StateCost cost(space_, prior, evaluator_);
+  const OptimizerResult result =
+      parts_.optimizer->minimize(cost, space_.region(prior), budget, seed);
+  return {space_.states(result.point, prior), result.cost, result.evaluations};
 }
 
 }  // namespace hypotrack

@@ -83,6 +83,12 @@ class HYPOTRACK_API Tracker {
   std::string backend() const { return evaluator_.backend(); }
 
  private:
+  /// The answer of a search.
+  struct Found {
+    Eigen::VectorXd state;
+    double cost = 0;
+    std::int64_t evaluations = 0;
+  };
   /// States that the search of a frame may start from, the middle one, which is seen, first.
   Eigen::MatrixXd possible_starts(double time);
   Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
@@ -90,8 +96,15 @@ class HYPOTRACK_API Tracker {
   Eigen::VectorXd smoothed(const Solution& solution);
   /// Mean over a model's landmarks, of the model where it is largest; NaN without sigmas.
   double largest_sigma(const Eigen::VectorXd& sigma) const;
-  /// Searches the prepared frame with what `evaluated` hypotheses have left of its budget.
-  OptimizerResult search(const Frame& frame, const Eigen::VectorXd& prior, std::int64_t evaluated);
+  /// Takes the frame in for searches that begin at `start` (Observation::start_is_guess), or near
+  /// it.
+  void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
+  Found search(const Frame& frame);
+  /// Searches the frame as it is taken in, and then again as it looks from the answer.
+  Found search_twice(const Frame& frame, const Eigen::VectorXd& prior, const Budget& budget,
+                     std::uint64_t seed);
+  /// Searches the frame as it is taken in.
+  Found search_from(const Eigen::VectorXd& prior, const Budget& budget, std::uint64_t seed);
 
   TrackerParts parts_;
   TileMaker tiles_;
@@ -106,6 +119,7 @@ class HYPOTRACK_API Tracker {
   OneEuroFilter smoother_;
   Eigen::VectorXd state_;   ///< the last solution as it was found
   Eigen::VectorXd output_;  ///< and as it was given out
+  bool found_any_ = false;  ///< whether `state_` is a solution
   std::uint64_t seed_;
 };
 

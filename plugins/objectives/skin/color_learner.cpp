@@ -40,6 +40,7 @@ bool shows(const cv::Mat1b& silhouette, const cv::Mat1b& valid) {
 
 void ColorLearner::learn(const Observation& observation, const TileCamera& camera,
                          const cv::Mat3b& color, const cv::Mat1b& valid) {
+  if (from_guess_ && !observation.start_is_guess) *this = ColorLearner(settings_);
   last_seen_ = observation.frame;
   const cv::Mat1b models = silhouette(*observation.scene, observation.start, camera);
   if (!shows(models, valid)) {
@@ -50,6 +51,10 @@ void ColorLearner::learn(const Observation& observation, const TileCamera& camer
   colors_.add(color, place_prior(models, valid, std::max(pose_error, 0.1)));
   probabilities_ = colors_.probabilities();
   ++learned_;
+  from_guess_ = observation.start_is_guess;
+  if (!from_guess_) return;
+  const auto trust = static_cast<float>(settings_.guess_trust);
+  for (float& p : probabilities_) p = 0.5f + trust * (p - 0.5f);
 }
 
 }  // namespace hypotrack::skin

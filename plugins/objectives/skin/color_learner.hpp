@@ -11,7 +11,8 @@ namespace hypotrack::skin {
 
 /// Learns one view's colours on the first settings.learn_frames frames that show the models: those
 /// inside the silhouette of the scene as it is posed in observation.start, against those outside,
-/// give or take settings.pose_error (ColorModel::add()).
+/// give or take settings.pose_error (ColorModel::add()). What it learns where the start is a guess
+/// (observation.start_is_guess) counts for less, and is forgotten where it is not.
 class ColorLearner {
  public:
   explicit ColorLearner(const Settings& settings) : settings_(settings) {}
@@ -19,6 +20,7 @@ class ColorLearner {
   /// Whether it may have something to learn from this frame (observation.frame): the same frame
   /// again teaches nothing new.
   bool wants(const Observation& observation) const {
+    if (from_guess_ && !observation.start_is_guess) return true;
     return learned_ < settings_.learn_frames && last_seen_ != observation.frame;
   }
   /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Of the observation's images
@@ -36,6 +38,7 @@ class ColorLearner {
   std::vector<float> probabilities_;
   std::optional<int> last_seen_;
   int learned_ = 0;
+  bool from_guess_ = false;
 };
 
 }  // namespace hypotrack::skin

@@ -28,6 +28,11 @@ struct Params : Settings {
        .max = 1e3,
        .unit = "mm",
        .to_si = kMillimetre});
+    v("guess_trust", guess_trust,
+      {.help = "how much colours count that were learned under a start that is only a guess, "
+               "before the first solution; later frames replace them",
+       .min = 0,
+       .max = 1});
     v("spill", spill,
       {.help = "what covering a background pixel costs; leaving a foreground pixel uncovered "
                "costs 1",
