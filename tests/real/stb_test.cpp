@@ -276,9 +276,9 @@ TEST(StbPair, IsFoundByPatchesAndSkinFromFarAway) {
   }
 }
 
-/// The tracker for real and rendered pictures, as overrides of another scene.
-std::vector<std::string> tracker_for_both() {
-  const auto file = test::source_dir() / "configs" / "real" / "sleeve.yaml";
+/// The recommended tracker, as overrides of another scene.
+std::vector<std::string> recommended_tracker() {
+  const auto file = test::source_dir() / "configs" / "demo.yaml";
   const ConfigNode scene = ConfigNode::load(file);
   std::vector<std::string> overrides;
   for (const char* key : {"objective", "optimizer", "budget", "search"})
@@ -286,10 +286,10 @@ std::vector<std::string> tracker_for_both() {
   return overrides;
 }
 
-TEST(StbPair, IsFoundByTheTrackerForRealAndRenderedPicturesFromFarAway) {
+TEST(StbPair, IsFoundByTheRecommendedTrackerFromFarAway) {
   HYPOTRACK_NEEDS_SHARED_DATA();
   PluginLoader plugins;
-  const std::vector<std::string> tracker = tracker_for_both();
+  const std::vector<std::string> tracker = recommended_tracker();
   for (const int steps : {1, 2, 3}) {
     const double found = mean_found(plugins, 10 * steps, 5 * steps, 8, tracker);
     fmt::print("from {} mm, {} degrees: {:.1f} mm\n", 10 * steps, 5 * steps, found);
