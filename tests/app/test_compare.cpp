@@ -126,6 +126,21 @@ TEST_F(CompareTest, APartOfTheSceneGoesIntoAnother) {
   EXPECT_EQ(table("results.csv"), table("results.csv", "plain"));
 }
 
+TEST_F(CompareTest, APartOfAnotherSceneIsTakenFromTheStudysFolder) {
+  ASSERT_EQ(run_program({"synth", path("box.yaml").string(), "--out", path("recording").string()})
+                .exit_code,
+            0);
+  const std::string text = replaced(study(), "{file: box.yaml}",
+                                    "{file: box.yaml, set: {source: \"@recording/scene.yaml\"}}");
+  Start elsewhere = start(text, "out");
+  elsewhere.directory = path("recording");  // to which its paths refer, not the study's
+  const Outcome outcome = run_program(elsewhere);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string protocol = read_text(path("out/runs") / run_names().back() / "run.yaml");
+  EXPECT_THAT(protocol, AllOf(HasSubstr(path("recording/left_%06d.png").string()),
+                              testing::Not(HasSubstr("@"))));
+}
+
 TEST_F(CompareTest, RelativePathsInChangesReferToTheStudysFolder) {
   ASSERT_EQ(run_program({"synth", path("box.yaml").string(), "--out", path("recording").string()})
                 .exit_code,

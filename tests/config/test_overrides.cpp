@@ -18,7 +18,7 @@ class Overrides : public ::testing::Test {
     const auto file = folder_.path() / "scene.yaml";
     std::ofstream(file)
         << "models:\n  - type: hand\n  - type: box\noptimizer: {type: pso}\nnone:\n";
-    return ConfigNode::load(file, overrides);
+    return ConfigNode::load_scene(file, overrides);
   }
   std::string error(const std::string& assignment) {
     return message_of<ConfigError>([&] { load({assignment}); });

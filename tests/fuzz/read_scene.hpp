@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -26,23 +28,33 @@ inline bool same_content(const ConfigNode& a, const ConfigNode& b) {
   return true;
 }
 
-/// Reads a text the way a scene is read. Whatever it holds, it is read or refused with a
-/// ConfigError that says where; anything else leaves this function as an exception. Returns whether
-/// it was read to the end.
-inline bool read_scene(std::string_view text) {
+/// Writes a scene of which others in the folder may take parts.
+inline void write_other_scene(const std::filesystem::path& folder) {
+  std::ofstream(folder / "other.yaml")
+      << "optimizer: {file: a.png, particles: 8, words: [a, b]}\nempty:\n";
+}
+
+/// Reads a text the way a scene is read, as `scene.yaml` of a folder. Whatever it holds, it is read
+/// or refused with a ConfigError that says where; anything else leaves this function as an
+/// exception. Returns whether it was read to the end.
+inline bool read_scene(std::string_view text, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "scene.yaml";
+  std::ofstream(file, std::ios::binary) << text;
   try {
-    const ConfigNode root = ConfigNode::parse(text, "scene.yaml", "/scenes");
+    const ConfigNode root = ConfigNode::load_scene(file);
     // Writing and reading again changes nothing, but may reach the limit on sizes.
     const std::string written = root.to_yaml();
-    if (!same_content(root, ConfigNode::parse(written, "scene.yaml", "/scenes"))) {
+    if (!same_content(root, ConfigNode::parse(written, file.string(), folder))) {
       throw std::logic_error("written and read again it is another scene:\n" + written);
     }
     const ConfigNode optimizer = root.get("optimizer");
     dump_params(ParamReader(optimizer, {"type"}).read<SampleParams>());
     return true;
   } catch (const ConfigError& error) {
-    if (!std::string_view(error.what()).starts_with("scene.yaml:")) {
-      throw std::logic_error(std::string("no position: ") + error.what());
+    const std::string_view message = error.what();
+    if (!message.starts_with(file.string() + ":") &&
+        !message.starts_with((folder / "other.yaml").string() + ":")) {
+      throw std::logic_error("no position: " + std::string(message));
     }
     return false;
   }

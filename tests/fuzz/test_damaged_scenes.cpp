@@ -49,6 +49,10 @@ optimizer:
     depth:   12
 notes: "a long
   line"
+)",
+      R"(optimizer: "@other.yaml"
+models: ["@other.yaml#optimizer.words", {type: "@other.yaml#optimizer.words.1"}]
+empty: '@other.yaml'
 )"};
   return scenes;
 }
@@ -147,6 +151,9 @@ class Damage {
                                                  "ü",
                                                  "手",
                                                  "\xFF",
+                                                 "\"@other.yaml\"",
+                                                 "\"@scene.yaml#models.0\"",
+                                                 "@",
                                                  "\x04",
                                                  "\xEF\xBB\xBF",
                                                  "9223372036854775808",
@@ -158,18 +165,27 @@ class Damage {
   std::mt19937_64 random_;
 };
 
-TEST(DamagedScenes, ValidOnesAreRead) {
-  for (const std::string& text : valid_scenes()) EXPECT_TRUE(read_scene(text)) << text;
+class DamagedScenes : public ::testing::Test {
+ protected:
+  DamagedScenes() { write_other_scene(folder_.path()); }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
+ private:
+  TemporaryDirectory folder_;
+};
+
+TEST_F(DamagedScenes, ValidOnesAreRead) {
+  for (const std::string& text : valid_scenes()) EXPECT_TRUE(read_scene(text, folder())) << text;
 }
 
-TEST(DamagedScenes, AreReadOrRefusedWithTheirPosition) {
+TEST_F(DamagedScenes, AreReadOrRefusedWithTheirPosition) {
   Damage damage(2017);
   int read = 0;
   constexpr int kCases = 6000;
   for (int i = 0; i < kCases; ++i) {
     const std::string text = damage.damaged();
     try {
-      read += read_scene(text);
+      read += read_scene(text, folder());
     } catch (const std::exception& error) {
       FAIL() << "case " << i << ": " << error.what() << "\n" << text;
     }
@@ -179,27 +195,27 @@ TEST(DamagedScenes, AreReadOrRefusedWithTheirPosition) {
   EXPECT_LT(read, kCases / 2);
 }
 
-TEST(DamagedScenes, AreRefusedWhereverTheyEnd) {
+TEST_F(DamagedScenes, AreRefusedWhereverTheyEnd) {
   for (const std::string& text : valid_scenes()) {
     for (std::size_t length = 0; length < text.size(); ++length) {
-      EXPECT_NO_THROW(read_scene(text.substr(0, length))) << text.substr(0, length);
+      EXPECT_NO_THROW(read_scene(text.substr(0, length), folder())) << text.substr(0, length);
     }
   }
 }
 
-TEST(DamagedScenes, DamagedOverridesAreAppliedOrRefused) {
-  const TemporaryDirectory folder;
-  const auto file = folder.path() / "scene.yaml";
+TEST_F(DamagedScenes, DamagedOverridesAreAppliedOrRefused) {
+  const auto file = folder() / "scene.yaml";
   std::ofstream(file) << valid_scenes().front();
   const std::vector<std::string> valid = {"models.0.type=box", "optimizer.center=[1, 2, 3]",
-                                          "models.2={type: a}", "source.left='x.png'"};
+                                          "models.2={type: a}", "source.left='x.png'",
+                                          "optimizer=@" + (folder() / "other.yaml").string()};
   Damage damage(7);
   int applied = 0;
   for (int i = 0; i < 1000; ++i) {
     std::vector<std::string> overrides = {damage.pick(valid)};
     for (auto n = damage.below(3); n > 0; --n) damage.change(overrides[0]);
     try {
-      applied += ConfigNode::load(file, overrides).is_map();
+      applied += ConfigNode::load_scene(file, overrides).is_map();
     } catch (const ConfigError& error) {
       EXPECT_TRUE(std::string_view(error.what()).starts_with("--set ")) << error.what();
     }

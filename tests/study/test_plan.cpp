@@ -84,6 +84,36 @@ TEST_F(PlanTest, WhateverDecidesTheResultChangesTheId) {
   EXPECT_TRUE(differ(ids(plan(small_study()))));
 }
 
+TEST_F(PlanTest, WhatIsTakenFromOtherScenesCountsAsIfItWereWrittenThere) {
+  write("best.yaml", "seed: 1\noptimizer: {type: pso} # the best\n");
+  const auto taken = ids_with("optimizer: {type: pso}", "optimizer: \"@best.yaml\"");
+  EXPECT_EQ(taken, ids(plan(small_study())));
+  write("best.yaml", "seed: 2\noptimizer: {type: pso}\n");
+  EXPECT_EQ(taken, ids_with("optimizer: {type: pso}", "optimizer: \"@best.yaml\""));
+  write("best.yaml", "seed: 1\noptimizer: {type: nlopt}\n");
+  EXPECT_NE(taken, ids_with("optimizer: {type: pso}", "optimizer: \"@best.yaml\""));
+}
+
+TEST_F(PlanTest, WhatSceneFilesTakeFromOthersCounts) {
+  write("best.yaml", "seed: 1\noptimizer: {type: pso}\n");
+  write("box.yaml", "models: []\noptimizer: \"@best.yaml\"\n");
+  const Plan before = plan(small_study());
+  write("best.yaml", "seed: 2\noptimizer: {type: pso}\n");
+  EXPECT_EQ(ids(plan(small_study())), ids(before));
+  write("best.yaml", "seed: 1\noptimizer: {type: nlopt}\n");
+  const Plan after = plan(small_study());
+  EXPECT_NE(after.runs.front().id, before.runs.front().id);  // box
+  EXPECT_EQ(after.runs.back().id, before.runs.back().id);    // hand
+  EXPECT_NE(recording_id(after, after.cells[0]), recording_id(before, before.cells[0]));
+}
+
+TEST_F(PlanTest, ScenesWhosePartsAreNotThereAreRefusedWithTheirPlace) {
+  write("box.yaml", "models: []\noptimizer: \"@best.yaml\"\n");
+  const std::string complaint = message_of<ConfigError>([&] { plan(small_study()); });
+  EXPECT_THAT(complaint, HasSubstr("study.yaml:4:3: box: "));
+  EXPECT_THAT(complaint, HasSubstr("box.yaml:2:12: '@best.yaml' stands for"));
+}
+
 TEST_F(PlanTest, IdsDoNotDependOnWhereTheStudyLies) {
   const auto before = ids(plan(small_study()));
   std::filesystem::create_directory(path("elsewhere"));

@@ -124,6 +124,17 @@ TEST_F(StudyFileTest, EveryVariantIsReadWhicheverIsAskedFor) {
               AllOf(HasSubstr("has no variant 'quik'"), HasSubstr("did you mean 'quick'")));
 }
 
+TEST_F(StudyFileTest, PartsOfOtherScenesThatAreNotThereAreNamedWithTheirPlace) {
+  EXPECT_THAT(
+      complaint("{type: stereo_color, window: 3}", "\"@box.yaml\""),
+      AllOf(HasSubstr("study.yaml:5:33: '@box.yaml' stands for a part of another scene: "),
+            HasSubstr("box.yaml has nothing at 'objective'"), HasSubstr("a map of models")));
+  EXPECT_THAT(complaint("{type: random_search}", "\"@bax.yaml\""),
+              AllOf(HasSubstr("study.yaml:11:14"), HasSubstr("bax.yaml: cannot be opened")));
+  EXPECT_THAT(complaint("set: {tile.size: 16}", "set: {tile: \"@box.yaml\"}"),
+              AllOf(HasSubstr("study.yaml:18:"), HasSubstr("has nothing at 'tile'")));
+}
+
 TEST_F(StudyFileTest, PlotsAreDrawnOverWhatVaries) {
   EXPECT_THAT(complaint("x: optimizer.particles", "x: optimizer.partikles"),
               AllOf(HasSubstr("is nothing that varies"), HasSubstr("'optimizer.particles'")));

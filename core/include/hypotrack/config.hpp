@@ -24,17 +24,21 @@ class HYPOTRACK_API ConfigNode {
   /// An undefined node: neither map, list nor scalar.
   ConfigNode();
 
-  /// Reads a YAML file. Overrides are `key.path=value` (list items by index: `models.0.type=hand`);
-  /// the value is YAML and relative paths in it are relative to the working directory.
-  /// Absent keys on the way are created, and so is the item after a list's last one. Throws
-  /// ConfigError on unreadable files, broken YAML, duplicate keys, aliases, tags, several
-  /// documents, files over 8 MiB or a million values, nesting over 64 levels and overrides that do
-  /// not parse. An empty file is an empty map.
-  static ConfigNode load(const std::filesystem::path& file,
-                         std::span<const std::string> overrides = {});
+  /// Reads a YAML file. Throws ConfigError on unreadable files, broken YAML, duplicate keys,
+  /// aliases, tags, several documents, files over 8 MiB or a million values and nesting over 64
+  /// levels. An empty file is an empty map.
+  static ConfigNode load(const std::filesystem::path& file);
 
-  /// The same for a text; `name` takes the place of the file name in messages, and `directory` is
-  /// what relative paths refer to (the working directory if empty).
+  /// Reads a scene: the same, and a text `@FILE.yaml` is what the scene FILE has at the same place,
+  /// `@FILE.yaml#key.path` what it has there. Overrides are `key.path=value` (list items by index:
+  /// `models.0.type=hand`); the value is YAML and relative paths in it are relative to the working
+  /// directory. Absent keys on the way are created, and so is the item after a list's last one.
+  /// Throws ConfigError also on overrides that do not parse and on parts that are not there.
+  static ConfigNode load_scene(const std::filesystem::path& file,
+                               std::span<const std::string> overrides = {});
+
+  /// Reads a text as load() reads a file; `name` takes the place of the file name in messages, and
+  /// `directory` is what relative paths refer to (the working directory if empty).
   static ConfigNode parse(std::string_view text, std::string name,
                           std::filesystem::path directory = {});
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <fstream>
-#include <system_error>
+#include <utility>
 
 #include "config/overrides.hpp"
+#include "config/parts.hpp"
+#include "config/yaml_file.hpp"
 #include "config/yaml_node.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_text.hpp"
@@ -19,36 +19,6 @@ using detail::YamlNode;
 using detail::YamlOrigin;
 
 namespace {
-
-std::string read_file(const std::filesystem::path& file) {
-  if (file.empty()) throw ConfigError("the name of the file is empty; expected a YAML file");
-  if (std::filesystem::is_directory(file)) {
-    throw ConfigError(file.string() + ": is a folder; expected a YAML file");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
-                                  std::generic_category().message(errno)));
-  }
-  // One byte more than allowed is enough to know that there is too much.
-  std::string text(detail::kMaxYamlBytes + 4, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) throw ConfigError(file.string() + ": cannot be read");
-  return text;
-}
-
-/// Reads a document and makes a map of an empty one, so that readers name the keys it lacks.
-std::unique_ptr<YamlNode> read_document(std::string_view text, std::string name,
-                                        const std::filesystem::path& directory) {
-  auto origin = std::make_shared<YamlOrigin>();
-  origin->name = std::move(name);
-  origin->directory =
-      std::filesystem::absolute(directory.empty() ? std::filesystem::current_path() : directory);
-  auto root = detail::read_yaml(text, origin);
-  if (root->kind == YamlNode::Kind::kNull) root->kind = YamlNode::Kind::kMap;
-  return root;
-}
 
 std::string step_of(const YamlNode& node) {
   const auto& siblings = node.parent->entries;
@@ -67,10 +37,14 @@ std::string join_path(const std::string& head, const std::string& tail) {
 ConfigNode::ConfigNode() = default;
 ConfigNode::ConfigNode(std::shared_ptr<const YamlNode> node) : node_(std::move(node)) {}
 
-ConfigNode ConfigNode::load(const std::filesystem::path& file,
-                            std::span<const std::string> overrides) {
-  const std::string text = read_file(file);
-  auto root = read_document(text, file.string(), std::filesystem::absolute(file).parent_path());
+ConfigNode ConfigNode::load(const std::filesystem::path& file) {
+  return ConfigNode(std::shared_ptr<const YamlNode>(detail::read_yaml_file(file)));
+}
+
+ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
+                                  std::span<const std::string> overrides) {
+  auto root = detail::read_yaml_file(file);
+  detail::take_parts(root, {}, file);
   for (const std::string& assignment : overrides) detail::apply_override(*root, assignment);
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
 }
@@ -78,7 +52,7 @@ ConfigNode ConfigNode::load(const std::filesystem::path& file,
 ConfigNode ConfigNode::parse(std::string_view text, std::string name,
                              std::filesystem::path directory) {
   return ConfigNode(
-      std::shared_ptr<const YamlNode>(read_document(text, std::move(name), directory)));
+      std::shared_ptr<const YamlNode>(detail::read_document(text, std::move(name), directory)));
 }
 
 bool ConfigNode::defined() const { return node_ && !missing_; }

@@ -4,30 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <optional>
 #include <utility>
 
+#include "config/key_path.hpp"
+#include "config/parts.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail {
 namespace {
-
-std::optional<std::size_t> as_index(std::string_view step) {
-  std::size_t index = 0;
-  const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
-  if (error != std::errc() || end != step.data() + step.size()) return std::nullopt;
-  return index;
-}
-
-std::size_t depth_of(const YamlNode& node) {
-  std::size_t deepest = 0;
-  for (const auto& entry : node.entries) deepest = std::max(deepest, depth_of(*entry.value));
-  const bool nests = node.kind == YamlNode::Kind::kList || node.kind == YamlNode::Kind::kMap;
-  return deepest + (nests ? 1 : 0);
-}
 
 std::unique_ptr<YamlNode>& list_slot(YamlNode& list, std::string_view step, std::string_view path,
                                      const std::string& say) {
@@ -61,46 +47,41 @@ std::unique_ptr<YamlNode>& slot(YamlNode& node, const std::string& step, std::st
 }
 
 /// What the scene has at a path.
-const YamlNode& node_at(const YamlNode& root, std::string_view path, const std::string& say) {
-  const YamlNode* node = &root;
-  for (const std::string& step : split_path(path)) {
-    const auto index = as_index(step);
-    const YamlNode::Entry* entry = node->find(step);
-    if (node->kind == YamlNode::Kind::kList && index && *index < node->entries.size())
-      entry = &node->entries[*index];
-    if (!entry) {
-      throw ConfigError(fmt::format(
-          "{}: '@{}' stands for what the scene has at '{}', and there is nothing; a text that "
-          "begins with @ is written with two",
-          say, path, path));
-    }
-    node = entry->value.get();
-  }
-  return *node;
+const YamlNode& node_at(const YamlNode& root, const std::string& path, const std::string& say) {
+  if (const YamlNode* node = find_at(root, split_path(path))) return *node;
+  throw ConfigError(fmt::format(
+      "{}: '@{}' stands for what the scene has at '{}', and there is nothing; a text that "
+      "begins with @ is written with two, and the name of a scene file ends in .yaml",
+      say, path, path));
 }
 
-/// Replaces texts `@path` in a value by what the scene has there, and `@@text` by `@text`.
+/// Replaces texts `@path` in what an override says by what the scene has there, and `@@text` by
+/// `@text`.
 void resolve_references(std::unique_ptr<YamlNode>& value, const YamlNode& root,
-                        const std::string& say) {
+                        const YamlOrigin& written) {
+  if (value->origin.get() != &written) return;  // was taken from another scene
   for (auto& entry : value->entries) {
-    resolve_references(entry.value, root, say);
+    resolve_references(entry.value, root, written);
     entry.value->parent = value.get();
   }
   if (value->kind != YamlNode::Kind::kScalar || !value->text.starts_with('@')) return;
   value->text.erase(0, 1);
-  if (!value->text.starts_with('@')) value = clone(node_at(root, value->text, say));
+  if (!value->text.starts_with('@')) value = clone(node_at(root, value->text, written.name));
 }
 
 }  // namespace
 
-std::vector<std::string> split_path(std::string_view path) {
-  std::vector<std::string> steps;
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const std::size_t end = std::min(path.find('.', begin), path.size());
-    steps.emplace_back(path.substr(begin, end - begin));
-    begin = end + 1;
+std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
+                                        const std::shared_ptr<const YamlOrigin>& origin) {
+  std::unique_ptr<YamlNode> value;
+  if (text.starts_with('@')) {  // which YAML wants in quotes
+    value = make_scalar(std::string(text), false);
+    value->origin = origin;
+  } else {
+    value = read_yaml(text, origin);
   }
-  return steps;
+  take_parts(value, split_path(path));
+  return value;
 }
 
 void assign(YamlNode& root, std::span<const std::string> path, std::unique_ptr<YamlNode> value,
@@ -134,8 +115,9 @@ void apply_override(YamlNode& root, const std::string& assignment) {
   origin->name = say;
   origin->directory = std::filesystem::current_path();
   origin->is_override = true;
-  auto value = read_yaml(std::string_view(assignment).substr(equals + 1), origin);
-  resolve_references(value, root, say);
+  auto value = read_assigned(assignment.substr(0, equals),
+                             std::string_view(assignment).substr(equals + 1), origin);
+  resolve_references(value, root, *origin);
   assign(root, path, std::move(value), say);
 }
 

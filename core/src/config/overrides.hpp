@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "config/yaml_node.hpp"
 
@@ -13,8 +12,10 @@ namespace hypotrack::detail {
 /// Applies one `key.path=value`. Throws ConfigError, naming the override.
 void apply_override(YamlNode& root, const std::string& assignment);
 
-/// The steps of a path: `models.0.type`.
-std::vector<std::string> split_path(std::string_view path);
+/// The value of an assignment to `path`, with the parts that it takes from other scenes. Throws
+/// ConfigError.
+std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
+                                        const std::shared_ptr<const YamlOrigin>& origin);
 
 /// Puts a value at a path below `root`, creating what is missing on the way. `say` is how messages
 /// name the assignment.

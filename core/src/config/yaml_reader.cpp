@@ -207,7 +207,9 @@ std::unique_ptr<YamlNode> read_yaml(std::string_view text,
     // Never in a loop: yaml-cpp 0.7.0 can find a further document at the same place for ever.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const YAML::Exception& e) {
-    builder.fail(e.mark, fmt::format("broken YAML: {}", e.msg));
+    const bool at = checked.from(e.mark.line, e.mark.column).starts_with('@');
+    builder.fail(e.mark, fmt::format("broken YAML: {}{}", e.msg,
+                                     at ? "; a text that begins with @ needs quotes" : ""));
   }
   auto root = builder.take_root();
   if (!root) {

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "config/key_path.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"

@@ -15,7 +15,7 @@ std::span<const std::string_view> enum_names(InitFrom) {
 
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
   LoadedScene scene;
-  scene.root = ConfigNode::load(path, overrides);
+  scene.root = ConfigNode::load_scene(path, overrides);
   if (!scene.root.is_map())
     throw ConfigError(fmt::format(
         "{}: a scene is a map with models, source, objective and optimizer", scene.root.where()));

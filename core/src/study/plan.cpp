@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
 #include "study/hash.hpp"
 
@@ -14,13 +15,20 @@ namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
 
+/// The content of a scene's file and, where it takes parts from other scenes, what it comes to.
 std::string read_scene_text(const StudyScene& scene) {
   std::ifstream in(scene.file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in)
     throw ConfigError(fmt::format("{}: scene '{}': cannot read {}", scene.where, scene.name,
                                   scene.file.string()));
-  return text;
+  try {
+    const std::string written = ConfigNode::load(scene.file).to_yaml();
+    const std::string whole = ConfigNode::load_scene(scene.file).to_yaml();
+    return whole == written ? text : text + whole;
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}: {}", scene.where, scene.name, error.what()));
+  }
 }
 
 std::vector<Cell> make_cells(const Study& study) {
@@ -50,7 +58,7 @@ std::vector<Cell> make_cells(const Study& study) {
 std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
   Hash hash;
   hash.add(plan.scene_texts[cell.scene]);
-  for (const Change& change : plan.changes_of(cell)) hash.add(change.assignment());
+  for (const Change& change : plan.changes_of(cell)) hash.add(change.meaning());
   for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
     hash.add(plan.study.axes[axis].name);
     hash.add(plan.choice_of(cell, axis).label);

@@ -27,11 +27,11 @@ struct PlannedRun {
 /// order in which they are made, all cells with the first seed before any with the second.
 ///
 /// A run's id is made of the scene's name, the seed and a hash of all that decides the result: the
-/// content of the scene file, every change, the seed and the number of frames. So a study may grow
-/// (further seeds, values, scenes) and keeps the runs it has.
+/// content of the scene file, every change, what they take from other scenes, the seed and the
+/// number of frames. So a study may grow (further seeds, values, scenes) and keeps the runs it has.
 struct Plan {
   Study study;
-  std::vector<std::string> scene_texts;  ///< content of each scene's file
+  std::vector<std::string> scene_texts;  ///< of each scene's file, with what it takes from others
   std::vector<Cell> cells;
   std::vector<PlannedRun> runs;
 

@@ -101,7 +101,7 @@ class Recorder {
 std::string recording_id(const Plan& plan, const Cell& cell) {
   Hash hash;
   hash.add(plan.scene_texts[cell.scene]);
-  for (const Change& change : select(plan.changes_of(cell), true)) hash.add(change.assignment());
+  for (const Change& change : select(plan.changes_of(cell), true)) hash.add(change.meaning());
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
   return fmt::format("{}_{:016x}", plan.scene_of(cell).file.stem().string(), hash.value());
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -159,6 +160,21 @@ void apply_variant(Study& study, const ConfigNode& node) {
   for (StudyScene& scene : study.scenes) add_changes(scene.changes, changes);
 }
 
+/// Finds out what the changes take from other scenes.
+void take_parts(Study& study) {
+  std::map<std::string, std::string> contents;  // of assignments, which scenes share
+  const auto take = [&](std::vector<Change>& changes) {
+    for (Change& change : changes) {
+      std::string& content = contents[change.assignment()];
+      if (content.empty()) content = content_of(change, study.directory);
+      change.content = content;
+    }
+  };
+  for (StudyScene& scene : study.scenes) take(scene.changes);
+  for (Axis& axis : study.axes)
+    for (Choice& choice : axis.choices) take(choice.changes);
+}
+
 /// Every variant is read, so that a mistake in one is found before it is asked for.
 void apply_variants(Study& study, const ConfigNode& variants, const std::string& file,
                     const std::optional<std::string>& name) {
@@ -168,6 +184,7 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
   for (const std::string& other : names) {
     Study copy = study;
     apply_variant(copy, variants.get(other));
+    take_parts(copy);
   }
   if (!name) return;
   if (std::find(names.begin(), names.end(), *name) == names.end())
@@ -269,6 +286,7 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   check_plots(study, root.get("plots"));
   check_table_per(study, root.get("table_per"));
   apply_variants(study, keys.variants, file.string(), variant);
+  take_parts(study);
   return study;
 }
 

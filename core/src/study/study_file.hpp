@@ -15,10 +15,13 @@ namespace hypotrack::study {
 
 /// One change to a scene, as `--set` takes it.
 struct Change {
-  std::string key;    ///< dotted path
-  std::string value;  ///< YAML on one line
-  std::string where;  ///< in the study: `study.yaml:12:5`
+  std::string key;              ///< dotted path
+  std::string value;            ///< YAML on one line
+  std::string where;            ///< in the study: `study.yaml:12:5`
+  std::string content = value;  ///< the value with the parts that it takes from other scenes
   std::string assignment() const { return key + "=" + value; }
+  /// What the change comes to, whatever the files are called that it takes parts from.
+  std::string meaning() const { return key + "=" + content; }
 };
 
 /// A scene of a study: a scene file and what the study changes in it.

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <string_view>
 
+#include "config/key_path.hpp"
 #include "config/numbers.hpp"
 #include "config/overrides.hpp"
 #include "config/read_value.hpp"
 #include "config/suggest.hpp"
+#include "config/yaml_writer.hpp"
 #include "study/study_text.hpp"
 
 namespace hypotrack::study {
@@ -96,6 +99,15 @@ std::vector<Change> read_changes(const ConfigNode& map) {
   if (map.defined() && !map.is_map()) fail_type(map, "a map of changes, `{key: value, ...}`");
   for (const std::string& key : map.keys()) changes.push_back(read_change(map, key));
   return changes;
+}
+
+std::string content_of(const Change& change, const std::filesystem::path& directory) {
+  auto origin = std::make_shared<detail::YamlOrigin>();
+  origin->name = change.where;
+  origin->directory = directory;
+  origin->is_override = true;
+  const auto value = detail::read_assigned(change.key, change.value, origin);
+  return to_flow(ConfigNode::parse(detail::write_yaml(*value), change.where));
 }
 
 void add_changes(std::vector<Change>& changes, const std::vector<Change>& more) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,10 @@ namespace hypotrack::study {
 
 /// The changes of a map of dotted keys to values. Throws ConfigError; an undefined node has none.
 std::vector<Change> read_changes(const ConfigNode& map);
+
+/// The value of a change with the parts that it takes from other scenes, whose names refer to
+/// `directory`. Throws ConfigError.
+std::string content_of(const Change& change, const std::filesystem::path& directory);
 
 /// Adds changes; one of the same key takes the place of an earlier one.
 void add_changes(std::vector<Change>& changes, const std::vector<Change>& more);

@@ -86,7 +86,7 @@ bool has_word(const std::string& text, const std::string& wanted) {
 
 ConfigNode Subject::config() const {
   if (config_file.empty()) return ConfigNode::parse("type: " + name, "contract.yaml");
-  return ConfigNode::load(config_file, std::vector{"type=" + name});
+  return ConfigNode::load_scene(config_file, std::vector{"type=" + name});
 }
 
 ConfigNode Subject::config_with(const std::string& more) const {

@@ -1,0 +1,141 @@
+#include "config/parts.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <optional>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "config/key_path.hpp"
+#include "config/suggest.hpp"
+#include "config/yaml_file.hpp"
+#include "config/yaml_text.hpp"
+#include "config/yaml_writer.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::detail {
+namespace {
+
+/// `@FILE.yaml` or `@FILE.yaml#key.path`, taken apart.
+struct PartName {
+  std::filesystem::path file;
+  std::optional<std::string> path;
+};
+
+std::optional<PartName> part_name(const YamlNode& node) {
+  std::string_view text = node.text;
+  if (node.kind != YamlNode::Kind::kScalar || !text.starts_with('@') || text.starts_with("@@"))
+    return std::nullopt;
+  text.remove_prefix(1);
+  const std::size_t hash = text.find('#');
+  const std::string_view file = text.substr(0, hash);
+  if (!file.ends_with(".yaml") && !file.ends_with(".yml")) return std::nullopt;
+  PartName name{file, std::nullopt};
+  if (hash != std::string_view::npos) name.path = text.substr(hash + 1);
+  return name;
+}
+
+std::size_t count_of(const YamlNode& node) {
+  std::size_t count = 1;
+  for (const auto& entry : node.entries) count += count_of(*entry.value);
+  return count;
+}
+
+/// Says how far a path leads, and what there is instead of its next step.
+[[noreturn]] void fail_missing(const YamlNode& root, const std::string& file,
+                               std::span<const std::string> path) {
+  std::size_t known = 0;
+  while (find_at(root, path.first(known + 1))) ++known;
+  const YamlNode& last = *find_at(root, path.first(known));
+  std::string there = "a value without parts";
+  if (last.kind == YamlNode::Kind::kList) there = fmt::format("a list of {}", last.entries.size());
+  if (last.kind == YamlNode::Kind::kMap) {
+    std::vector<std::string> keys;
+    for (const auto& entry : last.entries) keys.push_back(entry.key);
+    there = keys.empty() ? "an empty map"
+                         : fmt::format("a map of {}{}", fmt::join(keys, ", "),
+                                       did_you_mean(path[known], keys));
+  }
+  throw ConfigError(fmt::format(
+      "{} has nothing at '{}'; expected the key path of one of its parts, after a #; {} is {}",
+      file, fmt::join(path, "."),
+      known == 0 ? "it" : fmt::format("its '{}'", fmt::join(path.first(known), ".")), there));
+}
+
+/// One name for a file, whatever it is called by.
+std::filesystem::path identity(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto canonical = std::filesystem::canonical(file, error);
+  return error ? file : canonical;
+}
+
+class Parts {
+ public:
+  explicit Parts(const std::filesystem::path& file) {
+    if (!file.empty()) scenes_[identity(file)];
+  }
+
+  void take(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path) {
+    for (std::size_t i = 0; i < value->entries.size(); ++i) {
+      auto& entry = value->entries[i];
+      path.push_back(value->kind == YamlNode::Kind::kList ? fmt::format("{}", i) : entry.key);
+      take(entry.value, path);
+      entry.value->parent = value.get();
+      path.pop_back();
+    }
+    const auto name = part_name(*value);
+    if (!name) return;
+    try {
+      value = part(value->origin->directory / name->file,
+                   name->path ? split_path(*name->path) : path, path.size());
+    } catch (const ConfigError& error) {
+      throw ConfigError(fmt::format("{}: '{}' stands for a part of another scene: {}",
+                                    describe_position(*value->origin, value->line, value->column),
+                                    value->text, error.what()));
+    }
+  }
+
+ private:
+  std::unique_ptr<YamlNode> part(const std::filesystem::path& file,
+                                 const std::vector<std::string>& path, std::size_t level) {
+    const YamlNode& root = scene(file.lexically_normal());
+    const YamlNode* found = find_at(root, path);
+    if (!found) fail_missing(root, root.origin->name, path);
+    if (level + depth_of(*found) > kMaxYamlDepth)
+      throw ConfigError(fmt::format("nested deeper than {} levels", kMaxYamlDepth));
+    values_ += count_of(*found);
+    if (values_ > kMaxYamlNodes)
+      throw ConfigError(fmt::format("more than {} values were taken", kMaxYamlNodes));
+    return clone(*found);
+  }
+
+  const YamlNode& scene(const std::filesystem::path& file) {
+    const auto [at, is_new] = scenes_.try_emplace(identity(file));
+    if (!is_new && !at->second)
+      throw ConfigError(fmt::format("{} takes parts of this file itself; write out one of the two",
+                                    file.string()));
+    if (is_new) {
+      auto root = read_yaml_file(file);
+      std::vector<std::string> path;
+      take(root, path);
+      at->second = std::move(root);
+    }
+    return *at->second;
+  }
+
+  /// What was read, its own parts taken; null while that is under way.
+  std::map<std::filesystem::path, std::unique_ptr<YamlNode>> scenes_;
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+void take_parts(std::unique_ptr<YamlNode>& value, std::vector<std::string> path,
+                const std::filesystem::path& file) {
+  Parts(file).take(value, path);
+}
+
+}  // namespace hypotrack::detail
