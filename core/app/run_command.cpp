@@ -113,12 +113,17 @@ void finish_after_error(HindsightOutput& frames, RunOutput& output,
 /// With the shape of the first seconds where the scene asks for it.
 EstimatedSession open_for_run(const RunOptions& options, const std::vector<std::string>& overrides,
                               PluginLoader& plugins, const InterruptGuard& interrupt) {
-  if (load_scene(options.scene.scene, overrides).file.shape.seconds == 0) {
+  const ShapeEstimateSettings shapes = load_scene(options.scene.scene, overrides).file.shape;
+  if (shapes.seconds == 0) {
     EstimatedSession opened;
     opened.session = open_session(options.scene.scene, overrides, plugins);
     return opened;
   }
   ShapeProgress progress;
+  progress.begin_round = [&](int round) {
+    tell("fitting the shape to the first {:g} s, round {} of {}; this takes a while\n",
+         shapes.seconds, round + 1, shapes.rounds);
+  };
   progress.stop = [&] { return interrupt.interrupted(); };
   EstimatedSession opened = open_estimated(options.scene.scene, overrides, plugins, progress);
   std::string shape;

@@ -65,6 +65,7 @@ TEST_F(FitShapeTest, ARunThatEstimatesTracksAllFramesAndCanBeRepeated) {
   const Outcome outcome =
       run(kHand, {"--set", "shape={estimate_s: 0.1, rounds: 1, frames: 3, iterations: 1}"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("fitting the shape to the first 0.1 s, round 1 of 1"));
   EXPECT_THAT(outcome.err, HasSubstr("shape from 3 frames, scale "));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), testing::SizeIs(9));
   const Outcome again =

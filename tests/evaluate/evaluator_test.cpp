@@ -74,6 +74,19 @@ TEST_F(EvaluatorTest, PreparesEveryTerm) {
   EXPECT_EQ(off->frame, 12);
 }
 
+TEST_F(EvaluatorTest, DrawsFramesThatItsTermsHaveTakenInForAnother) {
+  const auto term = drawn(total_inverse_depth);
+  Evaluator first(scene_, {{1, term}}, threads(1)), second(scene_, {{1, term}}, threads(1));
+  const Eigen::MatrixXd states = random_states(6);
+  Eigen::VectorXd costs(6);
+  first.prepare(observation_);
+  term->frame = -1;
+  second.prepare_drawing(observation_);
+  second.evaluate(states, costs);
+  EXPECT_EQ(term->frame, -1);
+  EXPECT_EQ(costs, evaluate({{1, term}}, states));
+}
+
 TEST_F(EvaluatorTest, KeepsInfinity) {
   const auto infeasible = undrawn([](const RenderedHypothesis&) { return kInfinity; });
   EXPECT_EQ(evaluate({{1, infeasible}}, random_states(1))[0], kInfinity);

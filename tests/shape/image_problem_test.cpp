@@ -67,17 +67,19 @@ class Silhouette final : public Objective, public ResidualTerm {
   int frame_ = 0;
 };
 
-/// Remembers how bright the second view is.
+/// Remembers how bright the second view is, and counts the frames.
 class Brightness final : public Objective, public ResidualTerm {
  public:
   void prepare(const Observation& observation) override {
     second_view = observation.views[1].color.at<cv::Vec3b>(kTile / 2, kTile / 2)[0];
+    ++prepared;
   }
   double cost(const RenderedHypothesis&) const override { return 0; }
   const ResidualTerm* residual_term() const override { return this; }
   std::int64_t residual_count() const override { return 0; }
   void write_residuals(const RenderedHypothesis&, std::span<float>) const override {}
   double second_view = 0;
+  int prepared = 0;
 };
 
 /// A hand of another shape in four postures before a pair of cameras.
@@ -169,6 +171,16 @@ TEST_F(ShapeFromImages, IsSoughtInColoursThatAreMatched) {
   const ShapeTargets targets(scene_, {}, {});
   const ImageProblem problem(scene_, targets, parts_, frames_);
   EXPECT_NEAR(brightness->second_view, 90, 1);
+}
+
+TEST_F(ShapeFromImages, TakesEveryFrameInOnceForTheDerivativesByAllOfTheShape) {
+  const auto counter = std::make_shared<Brightness>();
+  parts_.objective = {{.objective = counter}};
+  const ShapeTargets targets(scene_, {}, {});
+  ImageProblem problem(scene_, targets, parts_, frames_);
+  counter->prepared = 0;
+  problem.systems(problem.start());
+  EXPECT_EQ(counter->prepared, 4);
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ class Evaluation {
   /// `prepare`.
   virtual void prepare(const Observation& observation) = 0;
 
+  /// The same for a frame that its terms have taken in already, for another evaluation of them.
+  virtual void prepare_drawing(const Observation& observation) { prepare(observation); }
+
   /// The same for a frame whose tiles are not cut yet. Frame and plan outlive every use until the
   /// next `prepare`.
   virtual void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) {

@@ -73,6 +73,12 @@ void Evaluator::prepare(const Observation& observation) {
   impl_->prepared = true;
 }
 
+void Evaluator::prepare_drawing(const Observation& observation) {
+  impl_->prepared = false;
+  impl_->evaluation->prepare_drawing(observation);
+  impl_->prepared = true;
+}
+
 void Evaluator::prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   impl_->prepared = false;
   impl_->plan = std::move(plan);

@@ -67,6 +67,9 @@ class HYPOTRACK_API Evaluator {
 
   /// Takes a frame in, for the terms as well; the observation must outlive the evaluations.
   void prepare(const Observation& observation);
+  /// The same after another evaluator of the same terms has taken that observation in, and nobody
+  /// another one since: on the CPU the terms are as they should be.
+  void prepare_drawing(const Observation& observation);
   /// The same for a frame whose tiles are not cut yet: on the GPU they are cut there. The frame
   /// must outlive the evaluations.
   void prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan);

@@ -44,6 +44,9 @@ class HostEvaluation final : public Evaluation {
     arena_.execute([&] {
       for (const ObjectiveTerm& term : terms_) term.objective->prepare(observation);
     });
+    prepare_drawing(observation);
+  }
+  void prepare_drawing(const Observation& observation) override {
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
     if (linearizer_) linearizer_->prepare(observation);

@@ -188,7 +188,7 @@ std::vector<FrameSystem> ImageProblem::systems(const JointTrial& trial) {
     for (Index i = 0; i < p; ++i) {
       for (const Index side : {0, 1}) {
         Evaluator& evaluator = *(side == 0 ? forth : back)[static_cast<std::size_t>(i)].evaluator;
-        prepare(evaluator, k);
+        evaluator.prepare_drawing(observations_[k]);
         evaluator.evaluate(trial.poses[k], r.middleCols(side, 1), costs.segment<1>(side));
       }
       system.gradient[d + i] = (costs[0] - costs[1]) / widths[i];
