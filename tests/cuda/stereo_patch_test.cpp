@@ -124,6 +124,17 @@ TEST_F(StereoPatchOnDevice, ScoresAsTheCpu) {
   }
 }
 
+TEST_F(StereoPatchOnDevice, ScoresAsTheCpuWherePixelsCountForAPartOnly) {
+  const Scene hand = test::hand_scene();
+  Observation frame = test::colored(test::rectified_pair(hand, 256));
+  frame.color_difference = 0.01;
+  Params params;
+  params.sharpness = 1;
+  params.full_at_difference = 0.02;
+  test::expect_like_the_cpu(hand, frame,
+                            [params] { return std::make_shared<StereoPatch>(params); });
+}
+
 TEST_F(StereoPatchOnDevice, CostsNothingWhereNothingIsSeen) {
   const Scene scene = test::hand_scene();
   Eigen::MatrixXd states = test::scored_states(scene).leftCols(2);

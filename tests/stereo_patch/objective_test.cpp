@@ -44,6 +44,25 @@ TEST(StereoPatch, NothingCoveredCostsNothing) {
   EXPECT_FALSE(std::signbit(cost));
 }
 
+TEST(StereoPatch, CountsTheLessTheBetterTheViewsAgreeOnColours) {
+  PatchPair pair({.size = 64}, true);
+  Params params;
+  const auto cost = [&](double difference) {
+    pair.observation.color_difference = difference;
+    StereoPatch objective(params);
+    objective.prepare(pair.observation);
+    return objective.cost(pair.hypothesis());
+  };
+  const double full = cost(0.001);
+  ASSERT_LT(full, 0);
+  params.full_at_difference = 0.02;
+  EXPECT_EQ(cost(0), full);  // not known
+  EXPECT_EQ(cost(0.02), full);
+  EXPECT_EQ(cost(0.1), full);
+  EXPECT_NEAR(cost(0.01) / full, 0.25, 0.25 * 0.05);  // up to half a step of a tenth
+  EXPECT_NEAR(cost(0.002) / full, 0.01, 0.01 * 0.05);
+}
+
 /// Cost of a plane at a depth that fills both tiles of a pair that looks at one at 0.5 m.
 double cost_of_plane(const StereoPatch& objective, double depth) {
   std::vector<float> tile(128 * 128, static_cast<float>(1 / depth));

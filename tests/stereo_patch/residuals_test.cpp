@@ -12,6 +12,7 @@
 #include "patch_pair.hpp"
 #include "planes.hpp"
 #include "score.hpp"
+#include "share.hpp"
 #include "stereo_patch.hpp"
 #include "volume_kernel.hpp"
 #include "written_residuals.hpp"
@@ -34,6 +35,7 @@ void expect_cost_as_squares(const PatchPair& pair, const Params& params) {
     ASSERT_LT(cost, 0);
     const TileView& view = pair.observation.views[0];
     const double counting =
+        share_of(params, pair.observation) *
         cv::countNonZero(view.mask.empty() ? view.valid : cv::Mat(view.valid & view.mask));
     const double squares =
         test::sum_of_squares(test::written_residuals(objective, pair.hypothesis()));
@@ -53,6 +55,15 @@ TEST(PatchResiduals, SquaredAreTheCostPlusTheNumberOfPixelsThatCount) {
       }
     }
   }
+}
+
+TEST(PatchResiduals, SquaredAreTheCostWherePixelsCountForAPartOnly) {
+  PatchPair pair({.mask = true, .size = 64}, true);
+  pair.observation.color_difference = 0.01;
+  Params params;
+  params.full_at_difference = 0.02;
+  ASSERT_LT(share_of(params, pair.observation), 0.3);
+  expect_cost_as_squares(pair, params);
 }
 
 TEST(PatchResiduals, AreThereForEveryPixelOfTilesOfAnySize) {
@@ -85,14 +96,18 @@ TEST(PatchResiduals, OfPixelsThatNothingCoversAreOneWithinImageAndMask) {
 
 TEST(PatchResiduals, HaveSlopesThatAreTheirDifferencesOverDepth) {
   for (const bool rectified : {true, false}) {
-    const PatchPair pair({.rectified = rectified, .size = 64}, true);
+    PatchPair pair({.rectified = rectified, .size = 64}, true);
+    pair.observation.color_difference = 0.01;
     Params params;
+    params.full_at_difference = 0.011;
     params.r = 0.1;  // so generous that what is seen stays seen
     StereoPatch objective(params);
     objective.prepare(pair.observation);
     ASSERT_TRUE(objective.has_slopes());
     ASSERT_THAT(objective.pixel_views(), testing::ElementsAre(0));
     const float step = planes_around(pair.observation, params).step;
+    const auto unseen = std::sqrt(static_cast<float>(share_of(params, pair.observation)));
+    ASSERT_LT(unseen, 1);
     const auto nearer = [&](float planes) {
       std::vector<float> depth[2] = {pair.depth[0], pair.depth[1]};
       for (float& w : depth[0]) w += w > 0 ? planes * step : 0;
@@ -108,7 +123,7 @@ TEST(PatchResiduals, HaveSlopesThatAreTheirDifferencesOverDepth) {
       EXPECT_EQ(found, expected);
       int compared = 0;
       for (std::size_t i = 0; i < found.size(); ++i) {
-        if (slopes[i] == 0 || near[i] == 1 || far[i] == 1) continue;  // 1: not seen twice any more
+        if (slopes[i] == 0 || near[i] == unseen || far[i] == unseen) continue;
         EXPECT_NEAR(slopes[i] * step, near[i] - far[i], 1e-3) << i;
         ++compared;
       }

@@ -1,19 +1,18 @@
 #include "beta.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation.hpp"
+#include "hypotrack/stepped.hpp"
 
 namespace hypotrack::stereo_color {
 
 double beta_of(const Settings& settings, const Observation& observation) {
   if (settings.beta_by_difference <= 0 || observation.color_difference <= 0) return settings.beta;
-  constexpr double kStep = 1.1;
   const double wanted = settings.beta_by_difference / observation.color_difference;
-  const double stepped = std::pow(kStep, std::round(std::log(wanted) / std::log(kStep)));
-  return std::clamp(stepped, settings.beta_min, settings.beta_max);  // StereoColor checks them
+  // StereoColor checks the bounds.
+  return std::clamp(stepped(wanted), settings.beta_min, settings.beta_max);
 }
 
 double beta_of(const Settings& settings, const cuda::DeviceObservation& observation) {

@@ -12,9 +12,8 @@ struct DeviceObservation;
 namespace hypotrack::stereo_color {
 
 /// The beta of a frame: that of the settings or, where beta_by_difference says so and the frame
-/// knows how its views differ, beta_by_difference / color_difference within beta_min .. beta_max.
-/// That goes in steps of a tenth: costs of one frame and the next compare, and searches that were
-/// captured into a graph are rarely captured again.
+/// knows how its views differ, beta_by_difference / color_difference within beta_min .. beta_max,
+/// stepped().
 double beta_of(const Settings& settings, const Observation& observation);
 double beta_of(const Settings& settings, const cuda::DeviceObservation& observation);
 

@@ -44,6 +44,13 @@ struct Params : Settings {
        .max = 1e3,
        .unit = "mm",
        .to_si = kMillimetre});
+    v("full_at_difference", full_at_difference,
+      {.help = "patches are for cameras that do not agree on colours: they count the less, the "
+               "less the colours that both views showed of the same surface in recent frames "
+               "differ (red, green and blue in 0..1, after `photometric`), and in full from this "
+               "difference on. 0: always in full, as in the first frame",
+       .min = 0,
+       .max = 1});
     v("use_mask", use_mask,
       {.help = "pixels outside the frame's foreground mask, where it has one, weigh nothing"});
   }

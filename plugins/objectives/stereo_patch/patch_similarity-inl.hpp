@@ -58,7 +58,7 @@ HYPOTRACK_PIXEL PlaneShare<F> plane_share(F position, F last) {
 }
 
 /// What is squared: sqrt(weight - s) of a pixel, s being 0 unless both views see it between the
-/// planes. `weight` is 0 or 1.
+/// planes. `weight` and `s` are times what the pixel counts.
 template <class F>
 HYPOTRACK_PIXEL F patch_residual(F weight, F similarity) {
   using pixel::max;

@@ -46,8 +46,7 @@ HWY_EXPORT(write_counting);
 
 double write_residuals(const Volume& volume, const DepthTile& left, const DepthTile& right,
                        const StereoMap& map, float tolerance, std::span<float> residuals) {
-  // The root of 0 or 1.
-  std::copy_n(volume.weight.row(0), residuals.size(), residuals.data());
+  std::copy_n(volume.uncovered.row(0), residuals.size(), residuals.data());
   return HWY_DYNAMIC_DISPATCH(write_counting)(volume, left, right, map, tolerance,
                                               residuals.data());
 }

@@ -13,6 +13,7 @@ struct Settings {
   double range = 100e-3;  ///< m
   double step = 0.5;      ///< pixels of the tile
   double r = 3e-3;        ///< m
+  double full_at_difference = 0;
   bool use_mask = true;
 };
 

@@ -51,7 +51,7 @@ HWY_EXPORT(write_slopes_counting);
 void write_slopes(const Volume& volume, const DepthTile& left, const DepthTile& right,
                   const StereoMap& map, float tolerance, std::span<float> residuals,
                   std::span<float> slopes) {
-  std::copy_n(volume.weight.row(0), residuals.size(), residuals.data());  // the root of 0 or 1
+  std::copy_n(volume.uncovered.row(0), residuals.size(), residuals.data());
   std::ranges::fill(slopes, 0.0f);
   HWY_DYNAMIC_DISPATCH(write_slopes_counting)
   (volume, left, right, map, tolerance, residuals.data(), slopes.data());

@@ -1,22 +1,28 @@
 #include "volume.hpp"
 
+#include <cmath>
+
 #include "gray_tile.hpp"
+#include "share.hpp"
 #include "volume_kernel.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {
 
-PixelPlane<float> weights(const TileView& view, bool use_mask) {
-  PixelPlane<float> out(view.camera.width, view.camera.height);
+void weigh(const TileView& view, bool use_mask, float share, Volume& volume) {
+  volume.weight = PixelPlane<float>(view.camera.width, view.camera.height);
+  volume.uncovered = volume.weight;
+  const float root = std::sqrt(share);
   const bool masked = use_mask && !view.mask.empty();
-  for (int y = 0; y < out.height(); ++y) {
+  for (int y = 0; y < volume.weight.height(); ++y) {
     const auto* mask = masked ? view.mask.ptr(y) : nullptr;
     const auto* valid = view.valid.ptr(y);
-    for (int x = 0; x < out.width(); ++x) {
-      out.row(y)[x] = valid[x] && (!masked || mask[x]) ? 1.0f : 0.0f;
+    for (int x = 0; x < volume.weight.width(); ++x) {
+      const bool counts = valid[x] && (!masked || mask[x]);
+      volume.weight.row(y)[x] = counts ? share : 0.0f;
+      volume.uncovered.row(y)[x] = counts ? root : 0.0f;
     }
   }
-  return out;
 }
 
 }  // namespace
@@ -29,7 +35,7 @@ void make_volume(const Observation& observation, const Settings& settings, Volum
   volume.width = left.camera.width;
   volume.height = left.camera.height;
   volume.words.resize(volume.row_stride() * static_cast<std::size_t>(volume.height) + kPadding);
-  volume.weight = weights(left, settings.use_mask);
+  weigh(left, settings.use_mask, static_cast<float>(share_of(settings, observation)), volume);
   const int margin = left.camera.width;
   fill_volume({stereo_map(observation, 0, 1), gray_tile(left, 0), gray_tile(right, margin), margin},
               settings, volume);

@@ -18,9 +18,10 @@ namespace hypotrack::stereo_patch {
 struct Volume {
   Planes planes;
   int width = 0, height = 0;
-  /// What a pixel counts: 0 outside of the image and of the mask, otherwise 1. Its similarities are
-  /// times this.
+  /// What a pixel counts: 0 outside of the image and of the mask, otherwise share_of() the frame.
+  /// Its similarities are times this.
   PixelPlane<float> weight;
+  PixelPlane<float> uncovered;  ///< residuals of pixels that nothing covers: the root of weight
   std::vector<std::uint32_t> words;
 
   std::size_t row_stride() const {

@@ -1,9 +1,11 @@
+#include <cmath>
 #include <memory>
 
 #include "cuda/device_volume.hpp"
 #include "cuda/patch_term.cuh"
 #include "hypotrack/cuda/pixel_objective.cuh"
 #include "on_device.hpp"
+#include "share.hpp"
 
 namespace hypotrack::stereo_patch {
 namespace {
@@ -22,6 +24,8 @@ class DeviceStereoPatch final : public cuda::PixelObjective<PatchTerm> {
     term.pixels = left.layout.pixels;
     term.counting =
         cuda::kValidFlag | (settings_.use_mask && left.has_mask ? cuda::kForegroundFlag : 0);
+    term.share = static_cast<float>(share_of(settings_, observation));
+    term.root = std::sqrt(term.share);
     term.width = observation.tiles[0].layout.width;
     term.tolerance = static_cast<float>(settings_.r);
     return term;

@@ -19,6 +19,7 @@ struct PatchTerm {
   const Planes* planes;         ///< device memory: another one in every frame
   const std::uint32_t* pixels;  ///< of the first view's tile
   std::uint32_t counting;       ///< flags of pixels that count
+  float share, root;            ///< what these count (share_of()), and its square root
   int width;                    ///< of that tile
   float tolerance;
 
@@ -28,18 +29,16 @@ struct PatchTerm {
   __device__ float pixel(const cuda::StereoPixel& p, float (&sums)[kSums]) const {
     const float s = p.seen ? similarity(p) : 0.0f;
     sums[0] += s;
-    return scalar::patch_residual(weight(p.y * width + p.x), s);
+    return scalar::patch_residual(counts(p.y * width + p.x) ? share : 0.0f, s);
   }
-  __device__ float uncovered_residual(int, int i) const { return weight(i); }
+  __device__ float uncovered_residual(int, int i) const { return counts(i) ? root : 0.0f; }
 
   __device__ double cost(const double (&sums)[kSums], const float*) const {
     return 0.0 - sums[0];  // not -0.0
   }
 
  private:
-  __device__ __forceinline__ float weight(int i) const {
-    return (pixels[i] & counting) == counting ? 1.0f : 0.0f;
-  }
+  __device__ __forceinline__ bool counts(int i) const { return (pixels[i] & counting) == counting; }
   __device__ __forceinline__ float similarity(const cuda::StereoPixel& p) const {
     const Planes known = *planes;
     const auto last = static_cast<float>(known.count - 1);
@@ -49,7 +48,7 @@ struct PatchTerm {
     const std::uint32_t pair =
         words[(p.y * known.count + static_cast<int>(at.before)) * width + p.x];
     const float before = cuda::exact_low_half(pair), after = cuda::exact_high_half(pair);
-    return pixel::mul_add(after - before, at.share, before) * kUnit;
+    return pixel::mul_add(after - before, at.share, before) * (kUnit * share);
   }
 };
 
