@@ -90,6 +90,17 @@ TEST_F(BadInputTest, TwoModelsOfOneName) {
                  {"scene.yaml:1:", "two models are called 'box'", "name"});
 }
 
+TEST_F(BadInputTest, LeastSquaresOnAnObjectiveWithoutResiduals) {
+  const std::string folder = (build_dir() / "tests/plugin_fixtures/app").string();
+  const std::string least_squares = replaced(
+      box_scene(), "{type: pso, particles: 8, generations: 4}", "{type: levenberg_marquardt}");
+  for (const char* objective :
+       {"{type: failing}", "[{type: stereo_color}, {type: failing}]", "[{type: failing}]"})
+    expect_refused(replaced(least_squares, "{type: stereo_color}", objective),
+                   {"objective failing", "offers no residuals", "optimizer: {type: pso}"},
+                   {"--plugin-path", folder});
+}
+
 TEST_F(BadInputTest, StereoObjectiveOnOneCamera) {
   expect_refused(replaced(box_scene(), "focal_px: 160,", "focal_px: 160, count: 1,"),
                  {"stereo_color", "two"});

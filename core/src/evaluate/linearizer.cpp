@@ -157,8 +157,9 @@ struct Linearizer::Impl {
 
 bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   return std::ranges::all_of(terms, [](const ObjectiveTerm& term) {
-    return term.weight == 0 || !term.objective->needs_rendering() ||
-           term.objective->residual_term()->has_slopes();
+    if (term.weight == 0) return true;
+    const ResidualTerm* residuals = term.objective->residual_term();
+    return residuals && (!term.objective->needs_rendering() || residuals->has_slopes());
   });
 }
 
