@@ -23,9 +23,12 @@ InterruptGuard::InterruptGuard() {
   // A shell's background job and nohup ignore Ctrl-C; so does the program then.
   for (const int signal : kSignals)
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+  // Ctrl-C ends a `| tee log`, too, before the files are finished.
+  of_broken_pipe_ = std::signal(SIGPIPE, SIG_IGN);
 }
 
 InterruptGuard::~InterruptGuard() {
+  std::signal(SIGPIPE, of_broken_pipe_);
   for (const int signal : kSignals)
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }

@@ -1,3 +1,7 @@
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -76,6 +80,23 @@ TEST_F(InterruptTest, AClosedTerminalFinishesTheFrameAndTheFiles) {
   EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
   EXPECT_THAT(names_in(path("out")), Each(testing::Not(StartsWith(".part."))));
   expect_whole_lines(path("out/track.csv"));
+}
+
+TEST_F(InterruptTest, CtrlCThatEndsTheReaderOfItsOutputFinishesTheFiles) {
+  const std::string pipe = path("pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  Start start = long_run();
+  start.out = start.err = pipe;  // as `2>&1 | tee log`
+  Program program(start);
+  wait_for_lines(program, "out/.part.track.csv", 4);
+  close(reader);
+  program.signal(SIGINT);
+  EXPECT_NE(program.wait().exit_code, 0);
+  EXPECT_THAT(names_in(path("out")), Each(testing::Not(StartsWith(".part."))));
+  expect_whole_lines(path("out/track.csv"));
+  EXPECT_EQ(nlohmann::json::parse(read_text(path("out/summary.json"))).at("complete"), false);
 }
 
 TEST_F(InterruptTest, ARunThatNobodyHearsGoesOn) {
