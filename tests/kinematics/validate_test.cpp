@@ -171,6 +171,19 @@ TEST(Validate, Rotations) {
             "hand.glb: rotation 3 has a zero or a scale that is NaN or infinite");
 }
 
+TEST(Validate, NamesFitIntoTheHeaderOfATable) {
+  for (const char* name : {"a,b", "a\"b", "a\nb", "a\tb"}) {
+    const std::string refused = std::string("'") + name +
+                                "' may not contain commas, quotes or control characters: it is "
+                                "written into the headers of CSV tables";
+    EXPECT_EQ(message([&](ModelData& d) { d.landmarks[1].name = name; }),
+              "hand.glb: the name of landmark 1 " + refused);
+    EXPECT_EQ(message([&](ModelData& d) { d.parameters[9].name = name; }),
+              "hand.glb: the name of parameter 9 " + refused);
+    EXPECT_EQ(message([&](ModelData& d) { d.bones[2].name = name; }), "no error") << "in no table";
+  }
+}
+
 TEST(Validate, Landmarks) {
   EXPECT_EQ(message([](ModelData& d) { d.landmarks[1].name.clear(); }),
             "hand.glb: landmark 1 has no name");

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <string>
@@ -42,6 +44,21 @@ class Validator {
       if (!seen.insert(items[i].name).second) {
         fail("two {}s are called '{}': names must be unique", kind, items[i].name);
       }
+    }
+  }
+
+  /// For what gets a column in the tables of a run.
+  template <class Items>
+  void check_column_names(const Items& items, std::string_view kind) const {
+    check_names(items, kind);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const bool fits = std::ranges::none_of(
+          items[i].name, [](unsigned char c) { return c == ',' || c == '"' || std::iscntrl(c); });
+      if (fits) continue;
+      fail(
+          "the name of {} {} '{}' may not contain commas, quotes or control characters: it is "
+          "written into the headers of CSV tables",
+          kind, i, items[i].name);
     }
   }
 
@@ -150,7 +167,7 @@ void Validator::check_parameters() const {
         "quaternion",
         parameters.size());
   }
-  check_names(parameters, "parameter");
+  check_column_names(parameters, "parameter");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const auto expected = i < 3   ? ParameterKind::position
                           : i < 7 ? ParameterKind::quaternion
@@ -200,7 +217,7 @@ void Validator::check_rotations() const {
 }
 
 void Validator::check_landmarks() const {
-  check_names(data_.landmarks, "landmark");
+  check_column_names(data_.landmarks, "landmark");
   for (const Landmark& landmark : data_.landmarks) {
     check_bone_index(landmark.bone, fmt::format("landmark '{}'", landmark.name));
     if (!landmark.position.allFinite()) {
