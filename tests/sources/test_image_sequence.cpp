@@ -177,6 +177,23 @@ TEST_F(ImageSequence, FindsNumberedFolders) {
   EXPECT_EQ(source->next()->problem, "");
 }
 
+TEST_F(ImageSequence, ReadsFormatsBesidePng) {
+  for (const char* extension : {"webp", "bmp", "tiff", "ppm"}) {
+    for (int v = 0; v < 2; ++v)
+      cv::imwrite(file(cv::format("%s_0000.%s", v ? "right" : "left", extension)).string(),
+                  picture(0, v), {cv::IMWRITE_WEBP_QUALITY, 101});  // lossless
+    const auto frame =
+        make(cv::format("type: image_sequence\nleft: left_%%04d.%s\nright: right_%%04d.%s\n"
+                        "calibration: {file: rig.yml}\n",
+                        extension, extension))
+            ->next();
+    ASSERT_TRUE(frame);
+    ASSERT_EQ(frame->problem, "") << extension;
+    for (int v = 0; v < 2; ++v)
+      EXPECT_EQ(cv::norm(frame->views[v].color, picture(0, v), cv::NORM_INF), 0) << extension;
+  }
+}
+
 TEST_F(ImageSequence, MakesEightBitColourOfEverything) {
   const cv::Mat grey(48, 64, CV_8U, cv::Scalar(77));
   cv::imwrite(file("left_0000.png").string(), grey);

@@ -18,8 +18,8 @@ namespace {
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;
 
 /// Whether a JPEG or PNG has its end marker. Decoders fill up what is missing with grey.
-bool is_truncated(const std::vector<char>& bytes) {
-  const std::string_view all(bytes.data(), bytes.size());
+bool is_truncated(const std::vector<unsigned char>& bytes) {
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
   if (all.starts_with("\xFF\xD8\xFF")) return tail.find("\xFF\xD9") == std::string_view::npos;
   if (all.starts_with("\x89PNG\r\n")) return tail.find("IEND") == std::string_view::npos;
@@ -34,8 +34,9 @@ ReadImage decode(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > kLargestFile) return {{}, name + ": is larger than 512 MiB"};
   std::ifstream in(file, std::ios::binary);
-  const std::vector<char> bytes((std::istreambuf_iterator<char>(in)),
-                                std::istreambuf_iterator<char>());
+  // Unsigned: OpenCV's WebP decoder refuses a vector of char.
+  const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)),
+                                         std::istreambuf_iterator<char>());
   if (!in.good() && !in.eof()) return {{}, name + ": cannot be read; check its permissions"};
   if (bytes.empty()) return {{}, name + ": is empty"};
   if (is_truncated(bytes)) return {{}, name + ": is cut off before its end"};
