@@ -163,6 +163,23 @@ TEST_F(ImageSequence, ReadsOneFileAndOneView) {
   EXPECT_FALSE(source->next());
 }
 
+TEST_F(ImageSequence, SaysThatTimeStampsAreNoNumbersOfFrames) {
+  for (const char* stamp : {"1690000000123456789", "1690000000156789000"})
+    for (int v = 0; v < 2; ++v)
+      cv::imwrite(file(cv::format("%s_%s.png", v ? "right" : "left", stamp)).string(),
+                  picture(0, v));
+  const auto yaml = [](const std::string& number) {
+    return "type: image_sequence\nleft: left_" + number + ".png\nright: right_" + number +
+           ".png\ncalibration: {file: rig.yml}\n";
+  };
+  EXPECT_THAT(making(yaml("%d")), ThrowsMessage<DataError>(
+                                      AllOf(HasSubstr("looked for"), HasSubstr("left_%d.png in "),
+                                            HasSubstr("left_1690000000123456789.png is there, but"),
+                                            HasSubstr("none from 0 to 2147483647"),
+                                            HasSubstr("with * instead of the number"))));
+  EXPECT_EQ(make(yaml("*"))->frame_count(), 2);
+}
+
 TEST_F(ImageSequence, FindsNumberedFolders) {
   for (int i = 8; i < 12; ++i) {
     const auto folder = file(cv::format("%d", i));

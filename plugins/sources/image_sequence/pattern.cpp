@@ -129,7 +129,21 @@ ImageList glob(const fs::path& pattern) {
   return files;
 }
 
-[[noreturn]] void nothing_found(const std::vector<fs::path>& patterns) {
+/// Where files of a numbered pattern are there, but with other numbers than it takes: what to do.
+std::string other_numbers(const std::vector<Numbered>& views) {
+  for (const Numbered& view : views) {
+    const ImageList files = glob(view.before + "*" + view.after);
+    if (files.empty()) continue;
+    return fmt::format(
+        "\n{} is there, but what it has in place of the number is none from 0 to {} as the pattern "
+        "writes it; with * instead of the number, files are taken in the order of their names",
+        files.front().filename().string(), std::numeric_limits<int>::max());
+  }
+  return {};
+}
+
+[[noreturn]] void nothing_found(const std::vector<fs::path>& patterns,
+                                const std::string& what_is_there = {}) {
   std::string tried;
   for (const fs::path& pattern : patterns) {
     fs::path folder = pattern.parent_path();
@@ -140,14 +154,14 @@ ImageList glob(const fs::path& pattern) {
     tried += fmt::format("\n  {} in {}{}", pattern.filename().string(), folder.string(),
                          exists || numbered ? "" : " (no such folder)");
   }
-  throw DataError("no image was found; looked for" + tried);
+  throw DataError("no image was found; looked for" + tried + what_is_there);
 }
 
 Images numbered_lists(const std::vector<fs::path>& patterns, const std::vector<Numbered>& views,
                       const Selection& selection) {
   std::set<int> numbers;
   for (const Numbered& view : views) numbers.merge(existing_numbers(view));
-  if (numbers.empty()) nothing_found(patterns);
+  if (numbers.empty()) nothing_found(patterns, other_numbers(views));
   const int start = selection.start.value_or(*numbers.begin());
   const auto span = std::int64_t{*numbers.rbegin()} - start;
   const std::int64_t found = span < 0 ? 0 : span / selection.step + 1;
