@@ -26,7 +26,9 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 
 void add_set_option(CLI::App& command, std::vector<std::string>& set) {
   command
-      .add_option("--set", set, "Change a key of the scene: key.path=value (list items by index)")
+      .add_option("--set", set,
+                  "Change a key of the scene: key.path=value (list items by index; may be "
+                  "repeated)")
       ->allow_extra_args(false)
       ->take_all()
       ->type_name("KEY=VALUE");
