@@ -53,6 +53,34 @@ TEST_F(BadInputTest, PluginOfAnotherAbi) {
       {"libhypotrack_optimizer_other_abi.so", "ABI"}, {"--plugin-path", folder});
 }
 
+TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
+  const auto with = [](const std::string& fault) {
+    std::string scene = replaced(box_scene(), "init: {from: truth}",
+                                 "init: {pose: {box: {position_mm: [0, 0, 400]}}}");
+    const auto begin = scene.find("source:");
+    const auto end = scene.find("objective:");
+    return scene.replace(begin, end - begin,
+                         "source: {type: broken, frames: 5, fault: " + fault + "}\n");
+  };
+  const std::vector<std::string> plugins{"--plugin-path",
+                                         (build_dir() / "tests/broken_plugins").string()};
+  const std::string bug = "this is a bug in the source";
+  expect_refused(with("no_cameras"), {"source 'broken' has no camera", bug}, plugins);
+  expect_refused(with("no_frame_rate"), {"source 'broken'", "0 frames per second", bug}, plugins);
+  expect_refused(with("endless_frame_rate"), {"source 'broken'", "inf frames per second", bug},
+                 plugins);
+  const Outcome late = run(with("time_stands_still"), plugins);
+  EXPECT_EQ(late.exit_code, 1);
+  EXPECT_THAT(late.err, HasSubstr("frame 1 at 0 s follows frame 0 at 0 s, expected"));
+  EXPECT_THAT(late.err, HasSubstr("holds the frames so far"));
+  std::filesystem::remove_all(path("out"));
+  expect_refused(with("truth_of_another_scene"),
+                 {"source 'broken', frame 0", "5 numbers in the true state, the scene has 7", bug},
+                 plugins);
+  expect_refused(with("landmarks_of_another_scene"),
+                 {"source 'broken', frame 0", "2 true landmarks, the scene has 3", bug}, plugins);
+}
+
 TEST_F(BadInputTest, ValuesOutOfRange) {
   expect_refused(replaced(box_scene(), "particles: 8", "particles: 0"),
                  {"scene.yaml:9:", "0 is out of range"});

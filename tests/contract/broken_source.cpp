@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "hypotrack/plugin.hpp"
@@ -12,25 +13,31 @@ namespace {
 enum class Fault {
   none,
   bad_camera,
+  no_cameras,
   no_frame_rate,
+  endless_frame_rate,
   one_view_too_few,
   wrong_size,
   silent_gap,
   time_stands_still,
   truth_of_another_scene,
+  landmarks_of_another_scene,
   draws_over_old_frames,
   never_the_same,
   ends_late,
   gives_nothing,
 };
-constexpr std::array<std::string_view, 12> kFaults = {"none",
+constexpr std::array<std::string_view, 15> kFaults = {"none",
                                                       "bad_camera",
+                                                      "no_cameras",
                                                       "no_frame_rate",
+                                                      "endless_frame_rate",
                                                       "one_view_too_few",
                                                       "wrong_size",
                                                       "silent_gap",
                                                       "time_stands_still",
                                                       "truth_of_another_scene",
+                                                      "landmarks_of_another_scene",
                                                       "draws_over_old_frames",
                                                       "never_the_same",
                                                       "ends_late",
@@ -55,11 +62,14 @@ class Broken final : public Source {
     camera.cx = 20;
     camera.cy = 15;
     if (has(Fault::bad_camera)) camera.fx = std::nan("");
-    cameras_ = {camera, camera};
+    if (!has(Fault::no_cameras)) cameras_ = {camera, camera};
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return has(Fault::no_frame_rate) ? 0 : 25; }
+  double frame_rate() const override {
+    if (has(Fault::endless_frame_rate)) return std::numeric_limits<double>::infinity();
+    return has(Fault::no_frame_rate) ? 0 : 25;
+  }
   std::optional<int> frame_count() const override { return params_.frames; }
 
   std::optional<Frame> next() override {
@@ -83,6 +93,9 @@ class Broken final : public Source {
     }
     if (has(Fault::truth_of_another_scene)) {
       frame.truth = GroundTruth{.state = Eigen::VectorXd::Zero(5), .landmarks = {}};
+    }
+    if (has(Fault::landmarks_of_another_scene)) {
+      frame.truth = GroundTruth{.state = {}, .landmarks = Eigen::Matrix3Xd::Zero(3, 2)};
     }
     return frame;
   }

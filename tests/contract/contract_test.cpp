@@ -147,6 +147,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"source", "bad_camera", "its cameras are valid", "camera 0", kFrames},
         Case{"source", "no_frame_rate", "its frame rate is positive", "it is 0.0", kFrames},
+        Case{"source", "no_cameras", "its cameras are valid", "it has no cameras", kFrames},
+        Case{"source", "endless_frame_rate", "its frame rate is positive", "it is inf", kFrames},
         Case{"source", "one_view_too_few",
              "every frame has a picture of the right size for each camera, or a problem",
              "frame 0 has 1 views, expected 2", kFrames},
@@ -160,6 +162,8 @@ INSTANTIATE_TEST_SUITE_P(
              "frame 1 at 0.000000 s follows frame 0", kFrames},
         Case{"source", "truth_of_another_scene", "ground truth fits the scene",
              "the true state has 5 numbers, expected 27", kFrames},
+        Case{"source", "landmarks_of_another_scene", "ground truth fits the scene",
+             "2 true landmarks", kFrames},
         Case{"source", "draws_over_old_frames", "pictures belong to their frame",
              "frame 0, view 0: the pictures differ", kFrames},
         Case{"source", "never_the_same", "a second object yields the same frames",

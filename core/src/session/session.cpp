@@ -12,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
+#include "session/checked_source.hpp"
 #include "session/displace.hpp"
 
 namespace hypotrack {
@@ -106,7 +107,9 @@ void Opening::models() {
 void Opening::source() {
   YamlDocument record;
   auto made = make<Source>(file_.source, {}, record);
-  source(std::move(made), record.text());
+  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene,
+                                         text_of(file_.source, "type", "")),
+         record.text());
 }
 
 void Opening::source(std::unique_ptr<Source> open, const std::string& resolved) {

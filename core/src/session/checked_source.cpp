@@ -1,0 +1,58 @@
+#include "session/checked_source.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+
+CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin)
+    : source_(std::move(source)),
+      plugin_(std::move(plugin)),
+      parameters_(scene.dimension()),
+      landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())) {
+  if (source_->cameras().empty())
+    throw DataError(fmt::format(
+        "source '{}' has no camera, expected one at least; this is a bug in the source", plugin_));
+  const double rate = source_->frame_rate();
+  if (!(std::isfinite(rate) && rate > 0))
+    throw DataError(fmt::format(
+        "source '{}' says that it has {} frames per second, expected a number above 0; this is a "
+        "bug in the source",
+        plugin_, rate));
+}
+
+std::optional<Frame> CheckedSource::next() {
+  std::optional<Frame> frame = source_->next();
+  if (!frame) return frame;
+  check_order(*frame);
+  if (frame->truth) {
+    check_truth(*frame, "numbers in the true state", frame->truth->state.size(), parameters_);
+    check_truth(*frame, "true landmarks", frame->truth->landmarks.cols(), landmarks_);
+  }
+  return frame;
+}
+
+void CheckedSource::check_order(const Frame& frame) {
+  if (!(frame.index > last_index_ && frame.time > last_time_ && std::isfinite(frame.time)))
+    throw DataError(fmt::format(
+        "source '{}': frame {} at {} s follows frame {} at {} s, expected numbers from 0 on and "
+        "times that grow; this is a bug in the source",
+        plugin_, frame.index, frame.time, last_index_, last_time_));
+  last_index_ = frame.index;
+  last_time_ = frame.time;
+}
+
+void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Index found,
+                                Eigen::Index expected) const {
+  if (found == 0 || found == expected) return;  // 0: unknown
+  throw DataError(
+      fmt::format("source '{}', frame {}: there are {} {}, the scene has {}; this is a bug in the "
+                  "source",
+                  plugin_, frame.index, found, what, expected));
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotrack/scene.hpp"
+#include "hypotrack/source.hpp"
+
+namespace hypotrack {
+
+/// The source of a plugin, with what the program relies on and no other part checks: that there are
+/// cameras, the frame rate, the order of frames and the sizes of the ground truth.
+class CheckedSource final : public Source {
+ public:
+  /// Throws DataError, naming the plugin.
+  CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin);
+
+  const std::vector<Camera>& cameras() const override { return source_->cameras(); }
+  double frame_rate() const override { return source_->frame_rate(); }
+  std::optional<int> frame_count() const override { return source_->frame_count(); }
+  /// Throws DataError, naming the plugin and the frame.
+  std::optional<Frame> next() override;
+
+ private:
+  void check_order(const Frame& frame);
+  void check_truth(const Frame& frame, const char* what, Eigen::Index found,
+                   Eigen::Index expected) const;
+
+  std::unique_ptr<Source> source_;
+  std::string plugin_;
+  Eigen::Index parameters_, landmarks_;
+  int last_index_ = -1;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+};
+
+}  // namespace hypotrack
