@@ -10,6 +10,7 @@
 namespace hypotrack {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -17,10 +18,10 @@ class Video : public test::SourceFixture {
  protected:
   /// Frame i of a view has brightness 20 + 10 i in blue and 100 * view in green.
   void write_video(const std::string& name, int frames, const std::vector<int>& views,
-                   cv::Size size = {64, 48}) {
+                   cv::Size size = {64, 48}, double frame_rate = 12) {
     const cv::Size whole(size.width * static_cast<int>(views.size()), size.height);
-    cv::VideoWriter writer(file(name).string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 12,
-                           whole);
+    cv::VideoWriter writer(file(name).string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),
+                           frame_rate, whole);
     ASSERT_TRUE(writer.isOpened());
     for (int i = 0; i < frames; ++i) {
       cv::Mat image(whole, CV_8UC3);
@@ -55,6 +56,18 @@ TEST_F(Video, SaysThatItEndsBeforeItsStart) {
   EXPECT_THAT(first("start: 4\n"),
               HasSubstr("left.avi: ends before frame 4, the first that start"));
   EXPECT_THAT(first("start: 3\noffset: 4\n"), HasSubstr("right.avi: ends before frame 7"));
+}
+
+TEST_F(Video, VideosOfUnequalFrameRatesAreNoPairUnlessTheirRateIsGiven) {
+  write_video("left.avi", 4, {0});
+  write_video("right.avi", 4, {1}, {64, 48}, 25);
+  EXPECT_THAT(making(kTwo),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("left.avi has 12 frames per second, "),
+                                             HasSubstr("right.avi 25"), HasSubstr("frame by frame"),
+                                             HasSubstr("frame_rate"))));
+  EXPECT_EQ(make(kTwo + "frame_rate: 12\n")->frame_rate(), 12);
+  write_video("right.avi", 4, {1}, {64, 48}, 12.01);  // what a file says is rounded, or a mean
+  EXPECT_EQ(make(kTwo)->frame_rate(), 12);
 }
 
 TEST_F(Video, RefusesAnAnswerToOtherFrames) {

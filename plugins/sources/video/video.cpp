@@ -50,6 +50,9 @@ struct VideoParams {
   }
 };
 
+/// By how much the frame rates that two files say may differ: they are rounded, or means.
+constexpr double kSameRate = 0.01;
+
 /// Two synchronous videos, or one with both views side by side. Ends when either ends. Tables of
 /// the answer (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp;
 /// their frames are those of the first video, unless `truth_offset` shifts them.
@@ -145,12 +148,24 @@ class Video : public Source {
       throw ConfigError(fmt::format("{}: offset is for two videos", where));
     }
     for (const std::filesystem::path& file : files_) readers_.emplace_back(file);
+    if (files_.size() == 2 && !params_.frame_rate) check_rates();
     if (split_ && readers_[0].width() % 2 != 0) {
       throw DataError(
           fmt::format("{}: is {} pixels wide; expected an even number, half for each "
                       "view",
                       files_[0].string(), readers_[0].width()));
     }
+  }
+
+  void check_rates() const {
+    const double left = readers_[0].frame_rate();
+    const double right = readers_[1].frame_rate();
+    if (left <= 0 || right <= 0 || std::abs(left - right) <= kSameRate * left) return;
+    throw DataError(
+        fmt::format("{} has {:.4g} frames per second, {} {:.4g}; expected equal ones, since the "
+                    "videos are paired frame by frame. Convert one of them, or give `frame_rate` "
+                    "if what the files say is wrong",
+                    files_[0].string(), left, files_[1].string(), right));
   }
 
   void skip(std::size_t reader, int frames) {
