@@ -69,6 +69,14 @@ TEST_F(BadRecordingTest, ACalibrationOfOtherCamerasIsNotTrackedBesideTheMasks) {
   EXPECT_THAT(track({"--set", "tracker.patience=3"}).out, HasSubstr("(3 lost, 2 uncertain"));
 }
 
+TEST_F(BadRecordingTest, ARunDoesNotReplaceTheAnswerOfItsRecording) {
+  const std::string truth = read_text(recorded("truth_landmarks.csv"));
+  const Outcome outcome = run_program({"run", recorded("scene.yaml").string(), "--frames", "2",
+                                       "--out", path("recording").string()});
+  expect_refusal(outcome, {path("recording/truth_").string(), "not of a run", "--out"});
+  EXPECT_EQ(read_text(recorded("truth_landmarks.csv")), truth);
+}
+
 TEST_F(BadRecordingTest, ATruthOfOtherFramesIsRefused) {
   const std::string table = recorded("truth_landmarks.csv").string();
   const Outcome outcome = track({"--set", "source.truth_offset=100"});

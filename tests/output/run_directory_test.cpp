@@ -59,6 +59,19 @@ TEST(RunDirectory, RemovesOldResultsAndOldUnfinishedFilesButNothingElse) {
   EXPECT_TRUE(exists(folder.path() / ".part.mine"));
 }
 
+TEST(RunDirectory, FilesOfOthersWithTheNamesOfResultsAreRefusedAndStay) {
+  const test::TemporaryDirectory folder;
+  const std::vector<std::string> results{"run.yaml", "a.csv", "b.csv"};
+  std::ofstream(folder.path() / "b.csv") << "mine";
+  EXPECT_THAT(
+      test::message_of<OutputError>([&] { RunDirectory(folder.path(), results); }),
+      testing::AllOf(testing::HasSubstr((folder.path() / "b.csv").string()),
+                     testing::HasSubstr("no run.yaml beside it"), testing::HasSubstr("--out")));
+  EXPECT_TRUE(exists(folder.path() / "b.csv"));
+  std::ofstream(folder.path() / ".part.run.yaml") << "of a run that was killed at its end";
+  RunDirectory(folder.path(), results);
+}
+
 TEST(RunDirectory, AHashInAResultStandsForAnyNumber) {
   const test::TemporaryDirectory folder;
   for (const char* name : {"worst_7.jpg", "worst_case.jpg", "worst_.jpg", ".part.worst_12.jpg"})

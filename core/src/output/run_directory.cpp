@@ -43,7 +43,6 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
         "{}: the output folder cannot be written; change its permissions or name another with "
         "--out",
         directory_.string()));
-  lock();
   // Found at the end, this would cost the whole run.
   for (const std::string& name : results_there(""))
     if (std::filesystem::is_directory(directory_ / name))
@@ -51,8 +50,24 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
           "{}: is a folder, and a result of the run has this name; move it away or name "
           "another output folder with --out",
           (directory_ / name).string()));
+  spare_foreign_files();
+  lock();
   for (const std::string& name : results_there(kPartPrefix))
     std::filesystem::remove(directory_ / name, error);
+}
+
+void RunDirectory::spare_foreign_files() const {
+  const std::vector<std::string> there = results_there("");
+  const std::vector<std::string> parts = results_there(kPartPrefix);  // of one killed at its end
+  const bool of_a_run =
+      std::ranges::any_of(
+          there, [&](const std::string& name) { return matches(name, results_.front()); }) ||
+      std::ranges::find(parts, kPartPrefix + results_.front()) != parts.end();
+  if (there.empty() || of_a_run) return;
+  throw OutputError(fmt::format(
+      "{}: a run would replace or remove this file, which is not of a run (there is no {} beside "
+      "it); name another folder with --out, or move it away",
+      (directory_ / there.front()).string(), results_.front()));
 }
 
 RunDirectory::~RunDirectory() {

@@ -13,9 +13,10 @@ namespace hypotrack {
 class HYPOTRACK_API RunDirectory {
  public:
   /// Makes the folder if need be and removes what an earlier, killed run left unfinished. `results`
-  /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Throws
-  /// OutputError if the folder cannot be made or written, another run is writing there or a folder
-  /// has the name of a result.
+  /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Every
+  /// run writes the first of them. Throws OutputError if the folder cannot be made or written,
+  /// another run is writing there, a folder has the name of a result, or files that no run wrote
+  /// have.
   RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
 
   /// Unless keep() was called, removes the unfinished files, and the folder if it was made here.
@@ -39,6 +40,9 @@ class HYPOTRACK_API RunDirectory {
   std::filesystem::path part_path(const std::string& name) const;
   /// Names in the folder that are `prefix` and a result's name.
   std::vector<std::string> results_there(const std::string& prefix) const;
+  /// Throws OutputError if there are files with the names of results, such as the answer of a
+  /// recording, in a folder that is not a run's.
+  void spare_foreign_files() const;
   /// Keeps other runs out for as long as this one lives. Throws OutputError if one is there.
   void lock();
   std::filesystem::path directory_;
