@@ -119,6 +119,9 @@ TEST(ConfigNode, BrokenYamlSaysWhere) {
             "scene.yaml:2:4: broken YAML: the quote that begins here is never closed");
   EXPECT_NO_THROW(parse("a: 'it''s'\nb: \"\\\"\"\n"));
   EXPECT_THAT(parse_error("a: b: c\n"), StartsWith("scene.yaml:1:5: broken YAML: "));
+  EXPECT_THAT(parse_error("a:\n\tb: 1\n"),
+              EndsWith("; this line is indented with a tab, YAML takes "
+                       "spaces only"));
 }
 
 TEST(ConfigNode, DuplicateKeysAreRefusedWithBothLines) {

@@ -195,6 +195,17 @@ class TreeBuilder : public YAML::EventHandler {
   int documents_ = 0;
 };
 
+/// Of mistakes whose message does not tell what to do.
+const char* hint_about(const YamlText& text, const YAML::Mark& mark) {
+  if (text.from(mark.line, mark.column).starts_with('@'))
+    return "; a text that begins with @ needs quotes";
+  const std::string_view line = text.from(mark.line, 0);
+  const std::string_view indentation = line.substr(0, line.find_first_not_of(" \t"));
+  if (indentation.find('\t') != std::string_view::npos)
+    return "; this line is indented with a tab, YAML takes spaces only";
+  return "";
+}
+
 }  // namespace
 
 std::unique_ptr<YamlNode> read_yaml(std::string_view text,
@@ -207,9 +218,7 @@ std::unique_ptr<YamlNode> read_yaml(std::string_view text,
     // Never in a loop: yaml-cpp 0.7.0 can find a further document at the same place for ever.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const YAML::Exception& e) {
-    const bool at = checked.from(e.mark.line, e.mark.column).starts_with('@');
-    builder.fail(e.mark, fmt::format("broken YAML: {}{}", e.msg,
-                                     at ? "; a text that begins with @ needs quotes" : ""));
+    builder.fail(e.mark, fmt::format("broken YAML: {}{}", e.msg, hint_about(checked, e.mark)));
   }
   auto root = builder.take_root();
   if (!root) {
