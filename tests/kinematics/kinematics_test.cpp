@@ -163,6 +163,26 @@ TEST(PosesItself, IsAskedForVerticesAndLandmarks) {
   EXPECT_EQ(posed_landmarks(balloon, parameters), Eigen::Matrix3Xd::Constant(3, 3, 5));
 }
 
+TEST(PosesItself, OtherNumbersOfVerticesOrLandmarksThanItsDataAreRefused) {
+  class Wrong final : public Balloon {
+   public:
+    Wrong(int vertices, int landmarks) : vertices_(vertices), landmarks_(landmarks) {}
+    void pose(std::span<const double>, Eigen::Matrix3Xf& vertices,
+              Eigen::Matrix3Xd& landmarks) const override {
+      vertices.setZero(3, vertices_);
+      landmarks.setZero(3, landmarks_);
+    }
+
+   private:
+    int vertices_, landmarks_;
+  };
+  const auto count = static_cast<int>(Balloon().data().mesh.vertices.cols());
+  const std::vector<double> parameters = {5, 0, 0, 1, 0, 0, 0};
+  EXPECT_NO_THROW(posed_vertices(Wrong(count, 3), parameters));
+  EXPECT_THROW(posed_vertices(Wrong(2, 3), parameters), PluginError);
+  EXPECT_THROW(posed_landmarks(Wrong(count, 0), parameters), PluginError);
+}
+
 TEST(PosesItself, DefaultPoseIsTheSkinningOfTheData) {
   const Model hand(test::make_test_hand());
   const std::vector<double> parameters(27, 0.2);

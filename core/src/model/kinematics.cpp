@@ -97,24 +97,41 @@ Eigen::Matrix3Xd place_landmarks(const ModelData& data,
   return placed;
 }
 
+namespace {
+
+struct Posed {
+  Eigen::Matrix3Xf vertices;
+  Eigen::Matrix3Xd landmarks;
+};
+
+/// Of a model that poses itself.
+Posed pose_itself(const Model& model, std::span<const double> parameters) {
+  Posed posed;
+  model.pose(parameters, posed.vertices, posed.landmarks);
+  const auto landmarks = static_cast<Eigen::Index>(model.data().landmarks.size());
+  if (posed.vertices.cols() == model.data().mesh.vertices.cols() &&
+      posed.landmarks.cols() == landmarks)
+    return posed;
+  throw PluginError(fmt::format(
+      "a model that poses itself returned {} vertices and {} landmarks, expected the {} and {} of "
+      "its data; this is a bug in the model",
+      posed.vertices.cols(), posed.landmarks.cols(), model.data().mesh.vertices.cols(), landmarks));
+}
+
+}  // namespace
+
 Eigen::Matrix3Xd posed_landmarks(const Model& model, std::span<const double> parameters) {
   if (!model.poses_itself()) {
     return place_landmarks(model.data(), world_from_bones(model.data(), parameters));
   }
-  Eigen::Matrix3Xf vertices;
-  Eigen::Matrix3Xd landmarks;
-  model.pose(parameters, vertices, landmarks);
-  return landmarks;
+  return pose_itself(model, parameters).landmarks;
 }
 
 Eigen::Matrix3Xf posed_vertices(const Model& model, std::span<const double> parameters) {
   if (!model.poses_itself()) {
     return skin(model.data(), world_from_bones(model.data(), parameters));
   }
-  Eigen::Matrix3Xf vertices;
-  Eigen::Matrix3Xd landmarks;
-  model.pose(parameters, vertices, landmarks);
-  return vertices;
+  return pose_itself(model, parameters).vertices;
 }
 
 }  // namespace hypotrack
