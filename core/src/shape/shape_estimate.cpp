@@ -227,7 +227,7 @@ ShapeEstimate shape_of_labels(Session session, const ShapeEstimateSettings& sett
 std::string shape_file_text(const ShapeEstimate& estimate) {
   std::string text = fmt::format(
       "# The shape of a model, for its `shape_file`. Written by hypotrack fit-shape from {} of {} "
-      "tracked frames.\n",
+      "frames.\n",
       estimate.used_frames, estimate.tracked_frames);
   for (std::size_t i = 0; i < estimate.wanted.size(); ++i) {
     const double deviation = estimate.deviation[static_cast<Eigen::Index>(i)];
