@@ -1,4 +1,5 @@
 #include <array>
+#include <csignal>
 #include <cstdint>
 #include <cstring>
 
@@ -51,6 +52,19 @@ TEST_F(BadInputTest, PluginOfAnotherAbi) {
   expect_refused(
       replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", "{type: other_abi}"),
       {"libhypotrack_optimizer_other_abi.so", "ABI"}, {"--plugin-path", folder});
+}
+
+TEST_F(BadInputTest, APluginThatCrashesWhenItIsLoadedIsNamed) {
+  const std::filesystem::path folder = build_dir() / "tests/plugin_fixtures/harmful";
+  for (const std::string how : {"abort", "throw"}) {
+    const std::string library = (folder / ("libhypotrack_optimizer_" + how + ".so")).string();
+    const Outcome outcome =
+        run(replaced(box_scene(), "type: pso, particles: 8, generations: 4", "type: " + how),
+            {"--plugin-path", folder.string()});
+    EXPECT_EQ(outcome.exit_code, 128 + SIGABRT) << how;
+    EXPECT_THAT(outcome.err, HasSubstr(library + ": crashed while it was loaded"));
+    EXPECT_THAT(outcome.err, HasSubstr("`hypotrack plugins check " + library + "`"));
+  }
 }
 
 TEST_F(BadInputTest, ASourceThatBreaksItsContract) {

@@ -11,6 +11,7 @@
 #include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "plugin/crash_note.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
 
@@ -114,6 +115,7 @@ struct PluginLoader::Impl {
                                             const detail::PluginId& id) {
     std::string problem;
     try {
+      const detail::CrashNote note(file);
       const HypotrackPlugin& plugin = detail::descriptor_of(detail::load_library(file));
       problem = detail::find_mismatch(plugin, id);
       if (problem.empty()) return plugin;
