@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "notes.hpp"
 #include "output/hindsight_output.hpp"
 #include "output/run_output.hpp"
 #include "progress.hpp"
@@ -158,8 +159,7 @@ int run(const RunOptions& options, const CommonOptions& common) {
                     .hindsight = hindsight != nullptr});
   HindsightOutput frames(std::move(hindsight), output);
   tell("tracking with {}\n", tracker.backend());
-  if (const std::string problem = tracker.problem_of_start(first.back()); !problem.empty())
-    tell("note: {}\n", problem);
+  tell_notes(*session.source, tracker, first.back());
   bool complete = false;
   try {
     complete = track_all(session, tracker, frames, first, options.frames, interrupt);

@@ -4,6 +4,7 @@
 
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
+#include "notes.hpp"
 #include "session/session.hpp"
 #include "tell.hpp"
 #include "track/tracker.hpp"
@@ -28,8 +29,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
                   session.seed);
   if (usable) {
     tracker.check(*first);
-    if (const std::string problem = tracker.problem_of_start(*first); !problem.empty())
-      tell("note: {}\n", problem);
+    tell_notes(*session.source, tracker, *first);
   }
   if (print)
     fmt::print("{}", session.resolved);

@@ -77,6 +77,19 @@ TEST_F(BadRecordingTest, ARunDoesNotReplaceTheAnswerOfItsRecording) {
   EXPECT_EQ(read_text(recorded("truth_landmarks.csv")), truth);
 }
 
+TEST_F(BadRecordingTest, ASecondCameraToTheLeftIsPointedOut) {
+  EXPECT_THAT(track().err, Not(HasSubstr("note:")));
+  calibrate("T: [-0.08,", "T: [0.08,");
+  const auto note = HasSubstr("note: the second camera stands 80 mm to the left of the first");
+  EXPECT_THAT(track().err, note);
+  EXPECT_THAT(run_program({"validate", recorded("scene.yaml").string()}).err, note);
+}
+
+TEST_F(BadRecordingTest, OnePictureForBothViewsIsPointedOut) {
+  EXPECT_THAT(track({"--set", "source.right=" + recorded("left_%06d.png").string()}).err,
+              HasSubstr("note: both views of frame 0 show the same picture"));
+}
+
 TEST_F(BadRecordingTest, ATruthOfOtherFramesIsRefused) {
   const std::string table = recorded("truth_landmarks.csv").string();
   const Outcome outcome = track({"--set", "source.truth_offset=100"});

@@ -1,0 +1,16 @@
+#include "notes.hpp"
+
+#include <string>
+
+#include "geometry/pair_check.hpp"
+#include "tell.hpp"
+
+namespace hypotrack::app {
+
+void tell_notes(const Source& source, const Tracker& tracker, const Frame& first) {
+  for (const std::string& problem :
+       {problem_of_pair(source.cameras(), first), tracker.problem_of_start(first)})
+    if (!problem.empty()) tell("note: {}\n", problem);
+}
+
+}  // namespace hypotrack::app
