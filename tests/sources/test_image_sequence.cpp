@@ -180,6 +180,21 @@ TEST_F(ImageSequence, SaysThatTimeStampsAreNoNumbersOfFrames) {
   EXPECT_EQ(make(yaml("*"))->frame_count(), 2);
 }
 
+TEST_F(ImageSequence, RefusesAPatternThatFindsMasksAmongThePictures) {
+  for (int i = 0; i < 2; ++i) write_pair(i);
+  const std::string yaml =
+      "type: image_sequence\nleft: left_*.png\nright: right_*.png\n"
+      "calibration: {file: rig.yml}\n";
+  EXPECT_EQ(make(yaml)->frame_count(), 2);
+  for (const char* other : {"left_mask_0000.png", "left_depth_0000.png"}) {
+    cv::imwrite(file(other).string(), picture(0, 0));
+    EXPECT_THAT(making(yaml), ThrowsMessage<DataError>(
+                                  AllOf(HasSubstr("left_*.png finds left_0000.png and "),
+                                        HasSubstr(other), HasSubstr("Use a number instead of *"))));
+    std::filesystem::remove(file(other));
+  }
+}
+
 TEST_F(ImageSequence, FindsNumberedFolders) {
   for (int i = 8; i < 12; ++i) {
     const auto folder = file(cv::format("%d", i));

@@ -142,6 +142,23 @@ std::string other_numbers(const std::vector<Numbered>& views) {
   return {};
 }
 
+/// Throws DataError if a pattern of pictures finds the masks or depth images beside them, too.
+void refuse_other_kinds(const fs::path& pattern, const ImageList& files) {
+  for (const char* kind : {"mask", "depth"}) {
+    const auto is_kind = [&](const fs::path& file) {
+      return file.filename().string().find(kind) != std::string::npos;
+    };
+    const auto other = std::ranges::find_if(files, is_kind);
+    const auto picture = std::ranges::find_if_not(files, is_kind);
+    if (other == files.end() || picture == files.end()) continue;
+    throw DataError(
+        fmt::format("{} finds {} and {}; expected images of one kind. Use a number instead of * "
+                    "(%06d), or more "
+                    "of the name",
+                    pattern.string(), picture->filename().string(), other->filename().string()));
+  }
+}
+
 [[noreturn]] void nothing_found(const std::vector<fs::path>& patterns,
                                 const std::string& what_is_there = {}) {
   std::string tried;
@@ -197,6 +214,7 @@ Images listed(const std::vector<fs::path>& patterns, const Selection& selection)
     std::error_code error;
     if (wild) {
       lists.push_back(glob(plain));
+      refuse_other_kinds(pattern, lists.back());
     } else {
       lists.push_back(fs::is_regular_file(plain, error) ? ImageList{plain} : ImageList{});
     }
