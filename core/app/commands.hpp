@@ -26,6 +26,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set);
 CLI::Validator whole_number(std::int64_t lowest,
                             std::int64_t highest = std::numeric_limits<int>::max());
 CLI::Validator positive_number();
+CLI::Validator file_name();
 
 // Each adds one subcommand whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);

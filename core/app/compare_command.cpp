@@ -171,7 +171,9 @@ void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("compare", "Run a study: scenes, settings and seeds, and tabulate it");
   command->add_option("study", options->study, "Study file (YAML)")->required();
-  command->add_option("--out", options->out, "Folder for runs and tables")->required();
+  command->add_option("--out", options->out, "Folder for runs and tables")
+      ->required()
+      ->check(file_name());
   command->add_option("--variant", options->variant, "Variant of the study, for example quick");
   command->add_option("--jobs", options->jobs, "Runs at a time (default: one per core)")
       ->check(whole_number(1));

@@ -131,7 +131,9 @@ void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code)
   CLI::App* command = app.add_subcommand(
       "fit-shape", "Find how the models of a scene are built and write it for their shape_file");
   add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "File for the shape")->capture_default_str();
+  command->add_option("--out", options->out, "File for the shape")
+      ->capture_default_str()
+      ->check(file_name());
   command->add_option("--frames", options->frames, "Look at the first frames only")
       ->check(whole_number(1));
   command

@@ -40,4 +40,11 @@ CLI::Validator positive_number() {
   return {check, "ABOVE 0"};
 }
 
+CLI::Validator file_name() {
+  const auto check = [](std::string& text) {
+    return std::string(text.empty() ? "is empty, expected a name" : "");
+  };
+  return {check, ""};
+}
+
 }  // namespace hypotrack::app

@@ -71,7 +71,9 @@ void add_reliability_command(CLI::App& app, int& exit_code) {
       ->add_option("runs", options->runs,
                    "Folders of runs with tracker.uncertainty.enabled and a known truth")
       ->required();
-  command->add_option("--out", options->out, "Where to draw it (SVG)")->capture_default_str();
+  command->add_option("--out", options->out, "Where to draw it (SVG)")
+      ->capture_default_str()
+      ->check(file_name());
   command->add_option("--title", options->title, "What to write above the plot");
   command->callback([=, &exit_code] { exit_code = print_reliability(*options); });
 }

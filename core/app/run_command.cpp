@@ -192,7 +192,9 @@ void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Track a scene and write the results");
   add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "Folder for the results")->capture_default_str();
+  command->add_option("--out", options->out, "Folder for the results")
+      ->capture_default_str()
+      ->check(file_name());
   command->add_option("--frames", options->frames, "Stop after this many frames")
       ->check(whole_number(1));
   command->add_option("--seed", options->seed, "Seed of all random numbers")

@@ -59,7 +59,9 @@ void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "synth", "Write a scene's source as a recording: images, calibration, ground truth");
   add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "New folder for the recording")->required();
+  command->add_option("--out", options->out, "New folder for the recording")
+      ->required()
+      ->check(file_name());
   command->add_option("--frames", options->frames, "Stop after this many frames")
       ->check(whole_number(1));
   command->callback([=, &common, &exit_code] { exit_code = synth(*options, common); });

@@ -41,7 +41,12 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"run", "a.yaml", "--seed", "-1"},
       {"run", "a.yaml", "b.yaml"},
       {"run", "a.yaml", "--no-such-option"},
+      {"run", "a.yaml", "--out", ""},
       {"synth", "a.yaml"},
+      {"synth", "a.yaml", "--out", ""},
+      {"compare", "a.yaml", "--out", ""},
+      {"fit-shape", "a.yaml", "--out", ""},
+      {"reliability", "a", "--out", ""},
       {"evaluate"},
       {"evaluate", "a", "--units", "inch"},
       {"bench", "--frames", "0"},
@@ -69,6 +74,8 @@ TEST_F(UsageTest, MistakesOfUsageSayWhatIsExpected) {
   EXPECT_THAT(message({"run", "a.yaml", "--frames", "1e3"}), HasSubstr("found '1e3'"));
   EXPECT_THAT(message({"run", "a.yaml", "--seed", "99999999999999999999"}),
               HasSubstr("--seed: expected a whole number from 0 to"));
+  EXPECT_THAT(message({"run", "a.yaml", "--out", ""}),
+              HasSubstr("--out: is empty, expected a name"));
   EXPECT_THAT(message({"bench", "--seconds", "0"}),
               HasSubstr("--seconds: expected a number above 0, found '0'"));
 }
