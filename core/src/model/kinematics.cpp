@@ -99,23 +99,13 @@ Eigen::Matrix3Xd place_landmarks(const ModelData& data,
 
 namespace {
 
-struct Posed {
-  Eigen::Matrix3Xf vertices;
-  Eigen::Matrix3Xd landmarks;
-};
-
-/// Of a model that poses itself.
-Posed pose_itself(const Model& model, std::span<const double> parameters) {
-  Posed posed;
-  model.pose(parameters, posed.vertices, posed.landmarks);
-  const auto landmarks = static_cast<Eigen::Index>(model.data().landmarks.size());
-  if (posed.vertices.cols() == model.data().mesh.vertices.cols() &&
-      posed.landmarks.cols() == landmarks)
-    return posed;
+/// Throws PluginError unless a model that poses itself returned as many as its data has.
+void require_count(Eigen::Index found, Eigen::Index expected, const char* what) {
+  if (found == expected) return;
   throw PluginError(fmt::format(
-      "a model that poses itself returned {} vertices and {} landmarks, expected the {} and {} of "
-      "its data; this is a bug in the model",
-      posed.vertices.cols(), posed.landmarks.cols(), model.data().mesh.vertices.cols(), landmarks));
+      "a model that poses itself returned {} {}, expected the {} of its data; this is a bug in the "
+      "model",
+      found, what, expected));
 }
 
 }  // namespace
@@ -124,14 +114,23 @@ Eigen::Matrix3Xd posed_landmarks(const Model& model, std::span<const double> par
   if (!model.poses_itself()) {
     return place_landmarks(model.data(), world_from_bones(model.data(), parameters));
   }
-  return pose_itself(model, parameters).landmarks;
+  Eigen::Matrix3Xf vertices;
+  Eigen::Matrix3Xd landmarks;
+  model.pose(parameters, vertices, landmarks);
+  require_count(landmarks.cols(), static_cast<Eigen::Index>(model.data().landmarks.size()),
+                "landmarks");
+  return landmarks;
 }
 
 Eigen::Matrix3Xf posed_vertices(const Model& model, std::span<const double> parameters) {
   if (!model.poses_itself()) {
     return skin(model.data(), world_from_bones(model.data(), parameters));
   }
-  return pose_itself(model, parameters).vertices;
+  Eigen::Matrix3Xf vertices;
+  Eigen::Matrix3Xd landmarks;
+  model.pose(parameters, vertices, landmarks);
+  require_count(vertices.cols(), model.data().mesh.vertices.cols(), "vertices");
+  return vertices;
 }
 
 }  // namespace hypotrack
