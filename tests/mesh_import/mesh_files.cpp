@@ -166,6 +166,33 @@ std::string binary_stl() {
   return file;
 }
 
+std::string ply() {
+  return "ply\nformat ascii 1.0\ncomment made up\nelement vertex 4\nproperty float x\n"
+         "property float y\nproperty float z\nelement face 4\n"
+         "property list uchar int vertex_indices\nend_header\n"
+         "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+}
+
+std::string binary_ply() {
+  std::string file =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\nproperty uchar red\nelement face 4\n"
+      "property list uchar int vertex_indices\nend_header\n";
+  const std::array<std::array<float, 3>, 4> vertices = {
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const std::array<std::array<std::int32_t, 3>, 4> faces = {
+      {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  for (const auto& vertex : vertices) {
+    file.append(reinterpret_cast<const char*>(&vertex), sizeof(vertex));
+    file.append(1, '\x80');
+  }
+  for (const auto& face : faces) {
+    file.append(1, '\3');
+    file.append(reinterpret_cast<const char*>(&face), sizeof(face));
+  }
+  return file;
+}
+
 std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
   return path;

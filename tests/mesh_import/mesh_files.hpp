@@ -38,6 +38,8 @@ std::string glb(const GlbContent& content);
 /// A tetrahedron.
 std::string obj();
 std::string binary_stl();
+std::string ply();
+std::string binary_ply();
 
 std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes);
 

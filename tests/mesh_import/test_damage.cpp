@@ -73,6 +73,11 @@ TEST_F(DamagedMesh, TruncatedFilesAreToldFromTheirLength) {
               AllOf(HasSubstr("the GLB file is damaged"), HasSubstr("copy or export it again")));
   EXPECT_THAT(error("a.stl", binary_stl().substr(0, 200)),
               HasSubstr("its header says 4 triangles, which take 284 bytes; it has 200"));
+  EXPECT_THAT(error("a.ply", ply().substr(0, ply().size() - 10)),
+              HasSubstr("its header says 4 vertex, 4 face, which take 8 lines at least, and 7 "));
+  EXPECT_THAT(
+      error("b.ply", binary_ply().substr(0, binary_ply().size() - 1)),
+      HasSubstr("its header says 4 vertex, 4 face, which take 104 bytes at least, and 103 "));
 }
 
 TEST_F(DamagedMesh, BoneScaledUnevenlyIsRefused) {

@@ -31,7 +31,8 @@ double volume(const Mesh& mesh) {
 
 TEST_F(MeshFormats, EveryFormatGivesTheSameWeldedTetrahedronWithItsOutsideOut) {
   for (const auto& path :
-       {file("a.obj", obj()), file("a.STL", binary_stl()), file("a.glb", glb({}))}) {
+       {file("a.obj", obj()), file("a.STL", binary_stl()), file("a.glb", glb({})),
+        file("a.ply", ply()), file("b.ply", binary_ply())}) {
     const ImportedMesh imported = import_mesh(path);
     EXPECT_EQ(imported.mesh.vertices.cols(), 4) << path;
     EXPECT_EQ(imported.mesh.triangles.cols(), 4) << path;
@@ -54,11 +55,11 @@ TEST_F(MeshFormats, RigidFilesHaveNoBonesAndNoWeights) {
 }
 
 TEST_F(MeshFormats, OtherFormatsAreRefusedByNameWithTheListOfThoseThatAreRead) {
-  for (const char* name : {"a.fbx", "a.ply", "a.dae", "a.3ds", "a.mesh", "a"}) {
+  for (const char* name : {"a.fbx", "a.x3d", "a.dae", "a.3ds", "a.mesh", "a"}) {
     const std::filesystem::path path(name);
     EXPECT_THAT(import_error(file(name, "ply\n")),
                 AllOf(HasSubstr(name), HasSubstr("does not read meshes of type"),
-                      HasSubstr("OBJ, STL, glTF (.gltf) and GLB")));
+                      HasSubstr("OBJ, PLY, STL, glTF (.gltf) and GLB")));
   }
 }
 
@@ -68,6 +69,17 @@ TEST_F(MeshFormats, ContentThatBeliesTheNameIsRefused) {
   EXPECT_THAT(import_error(file("a.obj", glb({}))), HasSubstr("this is no OBJ file"));
   EXPECT_THAT(import_error(file("b.obj", "ply\nformat ascii 1.0\n")),
               HasSubstr("this is no OBJ file: it begins with 'ply'"));
+  EXPECT_THAT(import_error(file("a.ply", obj())),
+              HasSubstr("this is no PLY file: it does not begin with 'ply'"));
+  EXPECT_THAT(import_error(file("b.ply", "ply\nformat ascii 1.0\n")),
+              HasSubstr("this is no PLY file: its header does not end"));
+  EXPECT_THAT(import_error(file("c.ply", "ply\nelement vertex 0\nend_header\n")),
+              HasSubstr("this is no PLY file: its header has no line 'format'"));
+  for (const char* line : {"format text 1.0", "format ascii 2.0", "element vertex -3",
+                           "element vertex", "property float x", "hello"}) {
+    EXPECT_THAT(import_error(file("d.ply", std::string("ply\n") + line + "\nend_header\n")),
+                HasSubstr(std::string("its header has the line '") + line + "'"));
+  }
   EXPECT_THAT(import_error(file("a.stl", "hello")), HasSubstr("this is no STL file"));
 }
 

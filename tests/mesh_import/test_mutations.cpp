@@ -61,6 +61,10 @@ void mutate(const char* name, const std::string& good, std::uint32_t seed) {
 
 TEST(MutatedMesh, ObjIsReadOrRefused) { mutate("a.obj", obj(), 1); }
 TEST(MutatedMesh, StlIsReadOrRefused) { mutate("a.stl", binary_stl(), 2); }
+TEST(MutatedMesh, PlyIsReadOrRefused) {
+  mutate("a.ply", ply(), 4);
+  mutate("b.ply", binary_ply(), 5);
+}
 TEST(MutatedMesh, GlbIsReadOrRefused) { mutate("a.glb", glb({}), 3); }
 
 }  // namespace

@@ -13,12 +13,13 @@
 #include <system_error>
 
 #include "hypotrack/error.hpp"
+#include "mesh_import/ply_header.hpp"
 
 namespace hypotrack {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
-constexpr std::string_view kFormats = "OBJ, STL, glTF (.gltf) and GLB";
+constexpr std::string_view kFormats = "OBJ, PLY, STL, glTF (.gltf) and GLB";
 
 struct MeshFile {
   std::string name;
@@ -83,6 +84,24 @@ void check_obj(const MeshFile& file) {
   }
 }
 
+void check_ply(const MeshFile& file) {
+  std::ifstream in(file.name, std::ios::binary);
+  const PlyHeader header = read_ply_header(in);
+  if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
+  std::uint64_t found = 0;
+  std::string line;
+  if (header.is_text) {
+    while (std::getline(in, line)) found += line.find_first_not_of(" \t\r") != std::string::npos;
+  } else {
+    found = file.size - static_cast<std::uint64_t>(in.tellg());
+  }
+  if (const auto least = header.is_text ? header.count : header.least; found < least) {
+    fail(file, fmt::format("the PLY file is damaged: its header says {}, which take {} {} at "
+                           "least, and {} follow; copy or export it again",
+                           header.elements, least, header.is_text ? "lines" : "bytes", found));
+  }
+}
+
 MeshFile open(const std::filesystem::path& path) {
   MeshFile file;
   file.name = path.string();
@@ -109,6 +128,7 @@ void check_mesh_format(const std::filesystem::path& path) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   using Check = void (*)(const MeshFile&);
   Check check = extension == ".obj"    ? check_obj
+                : extension == ".ply"  ? check_ply
                 : extension == ".stl"  ? check_stl
                 : extension == ".gltf" ? check_gltf
                 : extension == ".glb"  ? check_glb

@@ -6,8 +6,9 @@
 
 namespace hypotrack {
 
-/// Throws DataError unless `file` exists, is at most 256 MiB, is OBJ, STL, glTF or GLB by its name,
-/// and begins (and, for GLB and binary STL, ends) like one. Nothing else is given to the importer.
+/// Throws DataError unless `file` exists, is at most 256 MiB, is OBJ, PLY, STL, glTF or GLB by its
+/// name, and begins (and, for GLB, PLY and binary STL, ends) like one. Nothing else is given to the
+/// importer.
 HYPOTRACK_API void check_mesh_format(const std::filesystem::path& file);
 
 }  // namespace hypotrack
