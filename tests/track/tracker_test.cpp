@@ -70,11 +70,13 @@ class Sampling final : public Optimizer {
     cost.evaluate(points, costs);
     Eigen::Index best = 0;
     const double lowest = costs.minCoeff(&best);
-    return {points.col(best), lowest, budget.evaluations};
+    if (nan_in_answer) points(0, best) = std::nan("");
+    return {points.col(best), nan_as_cost ? std::nan("") : lowest, budget.evaluations};
   }
   std::vector<Eigen::VectorXd> starts;
   std::vector<std::int64_t> budgets;
   std::string device_needed;
+  bool nan_in_answer = false, nan_as_cost = false;
 };
 
 struct Fixture {
@@ -372,6 +374,19 @@ TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
   const Solution solution = tracker.track(grey_frame(1));
   EXPECT_EQ(solution.status, Status::lost);
   EXPECT_EQ(solution.state, before.state);
+}
+
+TEST(Tracker, RefusesAnAnswerThatIsNoNumber) {
+  for (const bool as_cost : {false, true}) {
+    Fixture fixture;
+    Tracker tracker = fixture.make(1);
+    tracker.track(grey_frame(0));
+    (as_cost ? fixture.optimizer->nan_as_cost : fixture.optimizer->nan_in_answer) = true;
+    const std::string message =
+        test::message_of<PluginError>([&] { tracker.track(grey_frame(1)); });
+    EXPECT_NE(message.find("this is a bug in the optimizer"), std::string::npos) << message;
+    EXPECT_EQ(message.find("cost nan") != std::string::npos, as_cost) << message;
+  }
 }
 
 /// Remembers the second view's tile of the last frame; every pose is as good as another.

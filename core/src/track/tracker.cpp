@@ -304,6 +304,11 @@ Tracker::Found Tracker::search_from(const Eigen::VectorXd& prior, const Budget& 
   StateCost cost(space_, prior, evaluator_);
   const OptimizerResult result =
       parts_.optimizer->minimize(cost, space_.region(prior), budget, seed);
+  if (!result.point.allFinite() || std::isnan(result.cost))
+    throw PluginError(
+        fmt::format("the optimizer's answer of cost {} has numbers that are none; this is a bug in "
+                    "the optimizer",
+                    result.cost));
   return {space_.states(result.point, prior), result.cost, result.evaluations};
 }
 
