@@ -28,8 +28,8 @@ struct MeshImportOptions {
   std::filesystem::path texture = {};  ///< image to use instead of the one that the file names
 };
 
-/// Reads OBJ, PLY, STL, glTF or GLB. The import runs in a child process with a time limit, so that a
-/// damaged file cannot take the program down. Throws DataError on other formats, files over 256
+/// Reads OBJ, PLY, STL, glTF or GLB. The import runs in a child process with a time limit, so that
+/// a damaged file cannot take the program down. Throws DataError on other formats, files over 256
 /// MiB, unreadable or damaged files, no faces, NaN vertices or weights, indices out of range,
 /// vertices of a skinned mesh that no bone holds.
 HYPOTRACK_API ImportedMesh import_mesh(const std::filesystem::path& file,
