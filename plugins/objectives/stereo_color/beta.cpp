@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/stepped.hpp"
 
@@ -13,10 +12,6 @@ double beta_of(const Settings& settings, const Observation& observation) {
   const double wanted = settings.beta_by_difference / observation.color_difference;
   // StereoColor checks the bounds.
   return std::clamp(stepped(wanted), settings.beta_min, settings.beta_max);
-}
-
-double beta_of(const Settings& settings, const cuda::DeviceObservation& observation) {
-  return beta_of(settings, *observation.header);
 }
 
 }  // namespace hypotrack::stereo_color

@@ -4,9 +4,6 @@
 
 namespace hypotrack {
 struct Observation;
-namespace cuda {
-struct DeviceObservation;
-}
 }  // namespace hypotrack
 
 namespace hypotrack::stereo_color {
@@ -15,6 +12,5 @@ namespace hypotrack::stereo_color {
 /// knows how its views differ, beta_by_difference / color_difference within beta_min .. beta_max,
 /// stepped().
 double beta_of(const Settings& settings, const Observation& observation);
-double beta_of(const Settings& settings, const cuda::DeviceObservation& observation);
 
 }  // namespace hypotrack::stereo_color

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/stepped.hpp"
 
@@ -12,10 +11,6 @@ double share_of(const Settings& settings, const Observation& observation) {
   if (settings.full_at_difference <= 0 || observation.color_difference <= 0) return 1;
   const double ratio = observation.color_difference / settings.full_at_difference;
   return std::min(stepped(ratio * ratio), 1.0);
-}
-
-double share_of(const Settings& settings, const cuda::DeviceObservation& observation) {
-  return share_of(settings, *observation.header);
 }
 
 }  // namespace hypotrack::stereo_patch

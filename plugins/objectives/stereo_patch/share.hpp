@@ -4,9 +4,6 @@
 
 namespace hypotrack {
 struct Observation;
-namespace cuda {
-struct DeviceObservation;
-}
 }  // namespace hypotrack
 
 namespace hypotrack::stereo_patch {
@@ -15,6 +12,5 @@ namespace hypotrack::stereo_patch {
 /// knows how its views differ, (color_difference / full_at_difference)^2 up to 1, stepped(). The
 /// square: what colours say of a pose is worth as much as the inverse of their noise's variance.
 double share_of(const Settings& settings, const Observation& observation);
-double share_of(const Settings& settings, const cuda::DeviceObservation& observation);
 
 }  // namespace hypotrack::stereo_patch

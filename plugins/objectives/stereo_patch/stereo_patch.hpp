@@ -25,10 +25,13 @@ namespace hypotrack::stereo_patch {
 /// one lookup, interpolated in depth. In a rectified pair the volume is one over disparities; other
 /// pairs are resampled by the general projection.
 ///
+/// With full_at_difference s is times what a pixel counts in the frame, c in 0..1 (share.hpp);
+/// otherwise c is 1.
+///
 /// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
 ///
 /// The cost is a sum of squares, up to a constant of the frame: every pixel of the left tile within
-/// the image and the mask, covered or not, has the residual sqrt(1 - s), where s is 0 unless both
+/// the image and the mask, covered or not, has the residual sqrt(c - s), where s is 0 unless both
 /// views see its surface.
 class StereoPatch : public Objective, public ResidualTerm {
  public:

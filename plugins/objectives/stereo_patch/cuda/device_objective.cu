@@ -24,7 +24,7 @@ class DeviceStereoPatch final : public cuda::PixelObjective<PatchTerm> {
     term.pixels = left.layout.pixels;
     term.counting =
         cuda::kValidFlag | (settings_.use_mask && left.has_mask ? cuda::kForegroundFlag : 0);
-    term.share = static_cast<float>(share_of(settings_, observation));
+    term.share = static_cast<float>(share_of(settings_, *observation.header));
     term.root = std::sqrt(term.share);
     term.width = observation.tiles[0].layout.width;
     term.tolerance = static_cast<float>(settings_.r);
