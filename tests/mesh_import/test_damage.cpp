@@ -75,6 +75,8 @@ TEST_F(DamagedMesh, TruncatedFilesAreToldFromTheirLength) {
               HasSubstr("its header says 4 triangles, which take 284 bytes; it has 200"));
   EXPECT_THAT(error("a.ply", ply().substr(0, ply().size() - 10)),
               HasSubstr("its header says 4 vertex, 4 face, which take 8 lines at least, and 7 "));
+  const std::string header = binary_ply().substr(0, binary_ply().find("end_header") + 10);
+  EXPECT_THAT(error("header.ply", header), HasSubstr("104 bytes at least, and 0 follow"));
   EXPECT_THAT(
       error("b.ply", binary_ply().substr(0, binary_ply().size() - 1)),
       HasSubstr("its header says 4 vertex, 4 face, which take 104 bytes at least, and 103 "));

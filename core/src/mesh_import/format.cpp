@@ -93,7 +93,7 @@ void check_ply(const MeshFile& file) {
   if (header.is_text) {
     while (std::getline(in, line)) found += line.find_first_not_of(" \t\r") != std::string::npos;
   } else {
-    found = file.size - static_cast<std::uint64_t>(in.tellg());
+    found = in.eof() ? 0 : file.size - static_cast<std::uint64_t>(in.tellg());
   }
   if (const auto least = header.is_text ? header.count : header.least; found < least) {
     fail(file, fmt::format("the PLY file is damaged: its header says {}, which take {} {} at "
