@@ -3,6 +3,7 @@
 
 #include "device.hpp"
 #include "evaluate/evaluator.hpp"
+#include "every_target.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
@@ -13,6 +14,7 @@ namespace hypotrack {
 namespace {
 
 using test::covered_probe;
+using test::mark_probe;
 using test::seen_probe;
 
 Scene two_hands() {
@@ -90,6 +92,17 @@ TEST_P(CudaEvaluationTest, CoversTheCpusPixelsInEveryView) {
   for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
     expect_like_the_cpu(scene, test::rectified_pair(scene), covered_probe(), GetParam());
     expect_like_the_cpu(scene, test::general_pair(scene), covered_probe(), GetParam());
+  }
+}
+
+TEST_P(CudaEvaluationTest, DrawsTheCpusPixelsToTheLastBit) {
+  if (!test::fuses_products_and_sums()) GTEST_SKIP() << "this CPU has no fused multiply-add";
+  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
+    const Eigen::MatrixXd states = random_states(scene, GetParam());
+    for (const Observation& o : {test::rectified_pair(scene), test::general_pair(scene)}) {
+      EXPECT_EQ(costs_on(Backend::cuda, scene, o, mark_probe(), states),
+                costs_on(Backend::cpu, scene, o, mark_probe(), states));
+    }
   }
 }
 

@@ -20,6 +20,21 @@ struct CoveredTerm {
   __device__ double cost(const double (&sums)[kSums], const float*) const { return sums[0]; }
 };
 
+struct MarkTerm {
+  static constexpr bool kStereo = false;
+  static constexpr bool kVisitsUncovered = false;
+  static constexpr int kSums = 2;
+  __device__ int views() const { return -1; }
+  __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const {
+    const PixelMark mark = mark_of_pixel(p.x, p.y, p.inverse_depth);
+    sums[0] += static_cast<float>(mark.first);
+    sums[1] += static_cast<float>(mark.second);
+  }
+  __device__ double cost(const double (&sums)[kSums], const float*) const {
+    return sums[0] + kSecondMark * sums[1];
+  }
+};
+
 template <bool kUncovered>
 struct SeenTerm {
   static constexpr bool kStereo = true;
@@ -55,6 +70,10 @@ class Probe final : public cuda::PixelObjective<Term> {
 
 std::unique_ptr<cuda::DeviceObjective> covered_probe_on_device() {
   return std::make_unique<Probe<CoveredTerm>>(CoveredTerm{});
+}
+
+std::unique_ptr<cuda::DeviceObjective> mark_probe_on_device() {
+  return std::make_unique<Probe<MarkTerm>>(MarkTerm{});
 }
 
 std::unique_ptr<cuda::DeviceObjective> seen_probe_on_device(bool uncovered) {

@@ -31,6 +31,28 @@ class CoveredProbe final : public Objective {
   }
 };
 
+class MarkProbe final : public Objective {
+ public:
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    double sum = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x < tile.width; ++x) {
+          const float w = depth_at(tile, x, y);
+          if (!(w > 0)) continue;
+          const PixelMark mark = mark_of_pixel(x, y, w);
+          sum += mark.first + kSecondMark * mark.second;
+        }
+      }
+    }
+    return sum;
+  }
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+    return mark_probe_on_device();
+  }
+};
+
 class SeenProbe final : public Objective {
  public:
   explicit SeenProbe(bool uncovered) : uncovered_(uncovered) {}
@@ -81,6 +103,7 @@ class SeenProbe final : public Objective {
 
 }  // namespace
 
+std::shared_ptr<Objective> mark_probe() { return std::make_shared<MarkProbe>(); }
 std::shared_ptr<Objective> covered_probe() { return std::make_shared<CoveredProbe>(); }
 std::shared_ptr<Objective> seen_probe(bool uncovered) {
   return std::make_shared<SeenProbe>(uncovered);

@@ -15,4 +15,8 @@ std::shared_ptr<Objective> covered_probe();
 /// weigh 0.01.
 std::shared_ptr<Objective> seen_probe(bool uncovered);
 
+/// An objective that is the same only where the same pixels of every view are covered and have the
+/// same depth, to the last bit; for tiles of up to 256 x 256 pixels.
+std::shared_ptr<Objective> mark_probe();
+
 }  // namespace hypotrack::test

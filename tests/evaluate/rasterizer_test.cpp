@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "evaluate/hypothesis_drawer.hpp"
+#include "every_target.hpp"
 #include "observations.hpp"
 #include "reference_rasterizer.hpp"
 #include "test_models.hpp"
@@ -48,17 +49,39 @@ bool empty_outside_bounds(const DepthTile& tile) {
   return true;
 }
 
+// All pixels of all tiles.
+std::vector<float> pixels(std::span<const DepthTile> tiles) {
+  std::vector<float> all;
+  for (const DepthTile& tile : tiles) {
+    for (int y = 0; y < tile.height; ++y) {
+      const float* row = tile.inverse_depth + y * tile.stride;
+      all.insert(all.end(), row, row + tile.width);
+    }
+  }
+  return all;
+}
+
+std::vector<std::int64_t> targets_of_this_machine() {
+  std::vector<std::int64_t> targets;
+  for (std::int64_t left = hwy::SupportedTargets() & compiled_simd_targets(); left != 0;
+       left &= left - 1) {
+    targets.push_back(left & -left);
+  }
+  return targets;
+}
+
+void use_target(std::int64_t target) {  // 0: the best one
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 class Rasterizer : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override {
-    hwy::SetSupportedTargetsForTest(GetParam());
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    use_target(GetParam());
     ASSERT_STREQ(simd_target(), hwy::TargetName(GetParam()));
   }
-  void TearDown() override {
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
+  void TearDown() override { use_target(0); }
 
   // Draws random states one after the other with one drawer, so that clearing is tested as well.
   void expect_reference(const Scene& scene, const Observation& observation, int states,
@@ -189,13 +212,24 @@ TEST_P(Rasterizer, LeavesNoGapsBetweenTriangles) {
   }
 }
 
-std::vector<std::int64_t> targets_of_this_machine() {
-  std::vector<std::int64_t> targets;
-  for (std::int64_t left = hwy::SupportedTargets() & compiled_simd_targets(); left != 0;
-       left &= left - 1) {
-    targets.push_back(left & -left);
+TEST_P(Rasterizer, DrawsTheSameToTheLastBitWhereverThereIsAFusedMultiplyAdd) {
+  if (!test::fuses_products_and_sums(GetParam())) GTEST_SKIP() << "there is none";
+  const Scene scene = test::hand_and_box_scene();
+  std::mt19937_64 random(5);
+  for (const Observation& observation : {test::rectified_pair(scene), test::general_pair(scene)}) {
+    const ScenePlan plan(scene);
+    const FrameProjection frame(observation);
+    HypothesisDrawer drawer(plan);
+    drawer.prepare(frame);
+    for (int i = 0; i < 10; ++i) {
+      const Eigen::VectorXd state = test::random_state(scene, random);
+      const std::vector<float> here = pixels(drawer.draw(span(state)));
+      use_target(0);
+      const std::vector<float> best = pixels(drawer.draw(span(state)));
+      use_target(GetParam());
+      ASSERT_EQ(here, best) << i;
+    }
   }
-  return targets;
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, Rasterizer, testing::ValuesIn(targets_of_this_machine()),

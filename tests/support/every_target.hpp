@@ -4,11 +4,26 @@
 #include <hwy/highway.h>
 
 #include <cstdint>
+#include <type_traits>
 
 namespace hypotrack::test {
 
-/// Runs a body once per instruction set that this machine has and something is compiled for
-/// (Highway's bits). Its users link Highway.
+/// Whether an instruction set (Highway's bit) has a fused multiply-add.
+constexpr bool fuses_products_and_sums(std::int64_t target) {
+#if HWY_ARCH_X86
+  return target <= HWY_AVX2;  // smaller ones are better
+#else
+  return target != HWY_SCALAR && target != HWY_EMU128;
+#endif
+}
+/// Whether the best one of this machine has.
+inline bool fuses_products_and_sums() {
+  const std::int64_t targets = hwy::SupportedTargets();
+  return fuses_products_and_sums(targets & -targets);
+}
+
+/// Runs a body, which may take it, once per instruction set that this machine has and something is
+/// compiled for (Highway's bits). Its users link Highway.
 template <class Body>
 void on_every_target(std::int64_t compiled, Body body) {
   int targets = 0;
@@ -17,7 +32,11 @@ void on_every_target(std::int64_t compiled, Body body) {
     SCOPED_TRACE(hwy::TargetName(target));
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    body();
+    if constexpr (std::is_invocable_v<Body, std::int64_t>) {
+      body(target);
+    } else {
+      body();
+    }
     ++targets;
   }
   hwy::SetSupportedTargetsForTest(0);

@@ -15,6 +15,8 @@ namespace hypotrack {
 /// say where their surface is.
 struct HYPOTRACK_API Skeleton {
   explicit Skeleton(const Scene& scene);
+  /// Of a single model, whose parameters are the state.
+  explicit Skeleton(const ModelData& data);
 
   /// Points into this object.
   SkeletonLayout layout() const;
@@ -23,6 +25,9 @@ struct HYPOTRACK_API Skeleton {
   std::vector<cuda::BoneLayout> bones;
   std::vector<cuda::Turn> turns;
   std::vector<std::int32_t> level;  ///< of every bone: 0 where there is no parent
+
+ private:
+  void add(const ModelData& data, int offset);
 };
 
 }  // namespace hypotrack

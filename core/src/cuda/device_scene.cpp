@@ -8,6 +8,7 @@
 #include "cuda/triangle_order.hpp"
 #include "evaluate/mesh_topology.hpp"
 #include "evaluate/vertex_order.hpp"
+#include "evaluate/whole_weights.hpp"
 #include "hypotrack/skeleton.hpp"
 
 namespace hypotrack::cuda {
@@ -40,28 +41,16 @@ void HostSurface::add(const ModelData& data) {
   bones += data.bones.size();
 }
 
-/// Weights in units of 1 / kWholeWeight that add up: the largest takes what rounding leaves over.
-void quantize(const Eigen::Vector4f& weights, std::uint16_t* out) {
-  int sum = 0;
-  for (int k = 0; k < 4; ++k) {
-    out[k] = static_cast<std::uint16_t>(std::lround(weights[k] * kWholeWeight));
-    sum += out[k];
-  }
-  Eigen::Index largest = 0;
-  weights.maxCoeff(&largest);
-  out[largest] = static_cast<std::uint16_t>(out[largest] + kWholeWeight - sum);
-}
-
 void HostSurface::add_vertices(const Mesh& mesh, const std::vector<int>& order,
                                std::size_t first_bone) {
   for (const int v : order) {
     VertexLayout vertex{};
     for (int i = 0; i < 3; ++i) vertex.position[i] = mesh.vertices(i, v);
-    quantize(mesh.bone_weights.col(v), vertex.weight);
-    for (int k = 0; k < 4; ++k) {
-      const auto bone =
-          static_cast<std::size_t>(vertex.weight[k] > 0 ? mesh.bone_indices(k, v) : 0);
-      vertex.bone[k] = static_cast<std::uint8_t>(first_bone + bone);
+    const WholeWeights held = whole_weights(mesh, v);
+    for (std::size_t k = 0; k < 4; ++k) {
+      vertex.weight[k] = held.weight[k];
+      vertex.bone[k] =
+          static_cast<std::uint8_t>(first_bone + static_cast<std::size_t>(held.bone[k]));
     }
     vertices.push_back(vertex);
   }

@@ -34,9 +34,6 @@ EglModel::EglModel(const Scene::Item& item)
       weights_(gl::make_buffer()),
       triangles_(gl::make_buffer()) {
   const ModelData& data = item.model->data();
-  for (const Eigen::Isometry3d& bind : bind_transforms(data)) {
-    bone_from_model_.emplace_back(bind.inverse().matrix().cast<float>());
-  }
   glBindVertexArray(vertex_array_);
   upload(GL_ARRAY_BUFFER, positions_, data.mesh.vertices, GL_DYNAMIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -66,12 +63,7 @@ void EglModel::pose(std::span<const double> parameters, const Eigen::Isometry3d&
     }
     return;
   }
-  poser_.pose(parameters.data(), first_from_world, workspace, matrices);
-  for (const Eigen::Matrix4f& bone_from_model : bone_from_model_) {
-    Eigen::Map<Rows> rows(matrices);
-    rows = (rows * bone_from_model).eval();
-    matrices += 12;
-  }
+  poser_.pose(parameters, first_from_world, workspace, matrices);
 }
 
 void EglModel::upload_vertices(std::span<const double> parameters) const {

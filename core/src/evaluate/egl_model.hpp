@@ -17,7 +17,7 @@ class EglModel {
   /// The item must outlive the model.
   explicit EglModel(const Scene::Item& item);
 
-  int matrices() const { return static_cast<int>(bone_from_model_.size()); }
+  int matrices() const { return poser_.bones(); }
   bool poses_itself() const { return item_->model->poses_itself(); }
 
   /// Its parameters; empty if they are out of reach, so that it is not to be drawn.
@@ -38,7 +38,6 @@ class EglModel {
  private:
   const Scene::Item* item_;
   BonePoser poser_;
-  std::vector<Eigen::Matrix4f> bone_from_model_;  // at the bind pose
   bool two_sided_;
   gl::VertexArray vertex_array_;
   gl::Buffer positions_, bones_, weights_, triangles_;

@@ -1,6 +1,6 @@
-#define HWY_TARGET_INCLUDE "evaluate/pixel_rows.cpp"
 #include "evaluate/pixel_rows.hpp"
 
+#define HWY_TARGET_INCLUDE "evaluate/pixel_rows.cpp"
 #include <algorithm>
 #include <cmath>
 #include <hypotrack/foreach_target-inl.hpp>

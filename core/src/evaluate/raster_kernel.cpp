@@ -27,6 +27,8 @@ constexpr float kSmallestArea = 1e-6f;
 // Edges are inclusive by this share of a triangle's height, so that no pixel falls between two
 // triangles.
 constexpr float kInclusive = 1e-5f;
+// Edges with smaller slopes, barycentric coordinate per pixel, count as horizontal.
+constexpr float kHorizontal = 1e-20f;
 
 // The same corner of kLanes triangles: x, y, 1/z, and x in the second view.
 struct Corner {
@@ -176,12 +178,35 @@ void cull(const std::uint32_t* corners, const TriangleRange& range, const float*
   if (pair) visible[1] = lists[1];
 }
 
-// What drawing needs of kLanes triangles: their boxes, and the barycentric coordinates of corners a
-// and b as planes over the pixels, from the first pixel of the box.
+// Where an edge crosses the rows of kLanes triangles: x = at + dy * per_row, in pixels from the
+// first of the box. What lies within is to the right of it, or to the left.
+struct Crossing {
+  Vec at, per_row;
+  Mask right;
+
+  // Cuts the part within the edge out of first .. last; `first` is not negative.
+  HWY_INLINE void cut(Vec dy, Vec& first, Vec& last) const {
+    const Vec x = hn::MulAdd(dy, per_row, at);
+    first = hn::Max(first, hn::IfThenElseZero(right, x));
+    last = hn::IfThenElse(right, last, hn::Min(last, x));
+  }
+};
+
+// Of the edge where a + dx * a_dx + dy * a_dy = 0, a little widened.
+HWY_INLINE Crossing crossing(Vec a, Vec a_dx, Vec a_dy) {
+  const Vec horizontal = hn::Set(f, kHorizontal);
+  const Vec slope = hn::IfThenElse(hn::Lt(hn::Abs(a_dx), horizontal), horizontal, a_dx);
+  const Vec inverse = hn::Neg(hn::Div(hn::Set(f, 1.0f), slope));
+  return {hn::Mul(hn::Add(a, hn::Set(f, kInclusive)), inverse), hn::Mul(a_dy, inverse),
+          hn::Gt(slope, hn::Zero(f))};
+}
+
+// What drawing needs of kLanes triangles: their boxes, where their edges cross the rows, and 1/z,
+// which is linear on the screen, as a plane over the pixels from the first one of the box.
 struct Planes {
   Vec x0, y0, x1, y1;
-  Vec a, a_dx, a_dy, b, b_dx, b_dy;
-  Vec w_c, w_ac, w_bc;  // 1/z = w_c + a w_ac + b w_bc: linear on the screen
+  Crossing a, b, c;  // opposite to the corners
+  Vec w, w_dx, w_dy;
 };
 
 HWY_INLINE Planes make_planes(const Corners& corners, bool second, const ViewProjection& view) {
@@ -195,17 +220,40 @@ HWY_INLINE Planes make_planes(const Corners& corners, bool second, const ViewPro
   // Coordinates from the first pixel are small, so that their products are exact enough.
   ax = hn::Sub(ax, p.x0), bx = hn::Sub(bx, p.x0), cx = hn::Sub(cx, p.x0);
   const Vec ay = hn::Sub(a.y, p.y0), by = hn::Sub(b.y, p.y0), cy = hn::Sub(c.y, p.y0);
-  const Vec inverse_area = hn::Div(hn::Set(f, 1.0f), twice_area(ax, ay, bx, by, cx, cy));
-  p.a = hn::Mul(hn::MulSub(bx, cy, hn::Mul(cx, by)), inverse_area);
-  p.a_dx = hn::Mul(hn::Sub(by, cy), inverse_area);
-  p.a_dy = hn::Mul(hn::Sub(cx, bx), inverse_area);
-  p.b = hn::Mul(hn::MulSub(cx, ay, hn::Mul(ax, cy)), inverse_area);
-  p.b_dx = hn::Mul(hn::Sub(cy, ay), inverse_area);
-  p.b_dy = hn::Mul(hn::Sub(ax, cx), inverse_area);
-  p.w_c = c.w;
-  p.w_ac = hn::Sub(a.w, c.w);
-  p.w_bc = hn::Sub(b.w, c.w);
+  const Vec area = twice_area(ax, ay, bx, by, cx, cy), one = hn::Set(f, 1.0f);
+  const Vec inverse_area = hn::Div(one, area);
+  // A triangle without area has no column.
+  p.x1 = hn::IfThenElse(hn::Eq(area, hn::Zero(f)), hn::Sub(p.x0, one), p.x1);
+  // Barycentric coordinates of corners a and b as planes.
+  const Vec at_a = hn::Mul(hn::MulSub(bx, cy, hn::Mul(cx, by)), inverse_area);
+  const Vec a_dx = hn::Mul(hn::Sub(by, cy), inverse_area);
+  const Vec a_dy = hn::Mul(hn::Sub(cx, bx), inverse_area);
+  const Vec at_b = hn::Mul(hn::MulSub(cx, ay, hn::Mul(ax, cy)), inverse_area);
+  const Vec b_dx = hn::Mul(hn::Sub(cy, ay), inverse_area);
+  const Vec b_dy = hn::Mul(hn::Sub(ax, cx), inverse_area);
+  p.a = crossing(at_a, a_dx, a_dy);
+  p.b = crossing(at_b, b_dx, b_dy);
+  p.c = crossing(hn::Sub(hn::Sub(one, at_a), at_b), hn::Neg(hn::Add(a_dx, b_dx)),
+                 hn::Neg(hn::Add(a_dy, b_dy)));
+  const Vec w_ac = hn::Sub(a.w, c.w), w_bc = hn::Sub(b.w, c.w);
+  p.w = hn::MulAdd(at_a, w_ac, hn::MulAdd(at_b, w_bc, c.w));
+  p.w_dx = hn::MulAdd(a_dx, w_ac, hn::Mul(b_dx, w_bc));
+  p.w_dy = hn::MulAdd(a_dy, w_ac, hn::Mul(b_dy, w_bc));
   return p;
+}
+
+// The columns of row y0 + dy that triangles cover, from x0 on: first <= dx <= last.
+struct Columns {
+  Vec first, last;
+};
+
+HWY_INLINE Columns columns_of_row(const Crossing& a, const Crossing& b, const Crossing& c, Vec dy,
+                                  Vec last_column) {
+  Columns columns{hn::Zero(f), last_column};
+  a.cut(dy, columns.first, columns.last);
+  b.cut(dy, columns.first, columns.last);
+  c.cut(dy, columns.first, columns.last);
+  return columns;
 }
 
 // Covered pixels that wait to be written: several triangles of a vector may cover the same one.
@@ -230,42 +278,53 @@ HWY_INLINE void flush(Fragments& fragments, float* tile) {
 // such a square.
 template <int kSize>
 HWY_INLINE void draw_boxes(const Planes& p, int stride, Fragments& fragments) {
-  const Vec c_dx = hn::Neg(hn::Add(p.a_dx, p.b_dx));
   auto row_origin =
       hn::Add(hn::Mul(hn::ConvertTo(s32, p.y0), hn::Set(s32, stride)), hn::ConvertTo(s32, p.x0));
-  Vec row_a = p.a, row_b = p.b;
+  const Vec last_row = hn::Sub(p.y1, p.y0), last_column = hn::Sub(p.x1, p.x0);
   std::size_t count = fragments.count;
-  for (int dy = 0; dy < kSize; ++dy) {
-    Vec a = row_a, b = row_b, c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), row_a), row_b);
+  for (int y = 0; y < kSize; ++y) {
+    const Vec dy = hn::Set(f, static_cast<float>(y));
+    const Mask is_row = hn::Le(dy, last_row);
+    const Columns columns = columns_of_row(p.a, p.b, p.c, dy, last_column);
+    const Vec last = hn::IfThenElse(is_row, columns.last, hn::Set(f, -1.0f));
+    const Vec row_w = hn::MulAdd(dy, p.w_dy, p.w);
 #pragma GCC unroll 8
-    for (int dx = 0; dx < kSize; ++dx) {
-      const Mask covered = hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
-      const Vec w = hn::MulAdd(a, p.w_ac, hn::MulAdd(b, p.w_bc, p.w_c));
-      const auto at = hn::Add(row_origin, hn::Set(s32, dx));
+    for (int x = 0; x < kSize; ++x) {
+      const Vec dx = hn::Set(f, static_cast<float>(x));
+      const Mask covered = hn::And(hn::Le(columns.first, dx), hn::Le(dx, last));
+      const Vec w = hn::MulAdd(dx, p.w_dx, row_w);
+      const auto at = hn::Add(row_origin, hn::Set(s32, x));
       hn::StoreU(hn::Compress(w, covered), f, fragments.inverse_depth + count);
       hn::StoreU(hn::Compress(at, hn::RebindMask(s32, covered)), s32, fragments.pixel + count);
       count += hn::CountTrue(f, covered);
-      a = hn::Add(a, p.a_dx), b = hn::Add(b, p.b_dx), c = hn::Add(c, c_dx);
     }
-    row_a = hn::Add(row_a, p.a_dy), row_b = hn::Add(row_b, p.b_dy);
     row_origin = hn::Add(row_origin, hn::Set(s32, stride));
   }
   fragments.count = count;
 }
 
-// One triangle of Planes in plain numbers.
+// Planes in plain numbers, to be taken out one by one.
 struct Plane {
+  struct Edge {
+    alignas(64) float at[kLanes], per_row[kLanes], right[kLanes];
+    HWY_INLINE void set(const Crossing& from) {
+      hn::Store(from.at, f, at), hn::Store(from.per_row, f, per_row);
+      hn::Store(hn::IfThenElseZero(from.right, hn::Set(f, 1.0f)), f, right);
+    }
+    HWY_INLINE Crossing get(std::size_t i) const {
+      return {hn::Set(f, at[i]), hn::Set(f, per_row[i]), hn::Gt(hn::Set(f, right[i]), hn::Zero(f))};
+    }
+  };
   alignas(64) float x0[kLanes], y0[kLanes], x1[kLanes], y1[kLanes];
-  alignas(64) float a[kLanes], a_dx[kLanes], a_dy[kLanes], b[kLanes], b_dx[kLanes], b_dy[kLanes];
-  alignas(64) float w_c[kLanes], w_ac[kLanes], w_bc[kLanes];
+  Edge a, b, c;
+  alignas(64) float w[kLanes], w_dx[kLanes], w_dy[kLanes];
 };
 
 HWY_INLINE void store(const Planes& p, Plane& out) {
   hn::Store(p.x0, f, out.x0), hn::Store(p.y0, f, out.y0);
   hn::Store(p.x1, f, out.x1), hn::Store(p.y1, f, out.y1);
-  hn::Store(p.a, f, out.a), hn::Store(p.a_dx, f, out.a_dx), hn::Store(p.a_dy, f, out.a_dy);
-  hn::Store(p.b, f, out.b), hn::Store(p.b_dx, f, out.b_dx), hn::Store(p.b_dy, f, out.b_dy);
-  hn::Store(p.w_c, f, out.w_c), hn::Store(p.w_ac, f, out.w_ac), hn::Store(p.w_bc, f, out.w_bc);
+  out.a.set(p.a), out.b.set(p.b), out.c.set(p.c);
+  hn::Store(p.w, f, out.w), hn::Store(p.w_dx, f, out.w_dx), hn::Store(p.w_dy, f, out.w_dy);
 }
 
 // Draws one triangle of any size, kLanes pixels of a row at a time, at multiples of kLanes: equal
@@ -274,23 +333,22 @@ HWY_INLINE void draw_large(const Plane& p, std::size_t i, int stride, float* til
   constexpr int kStep = static_cast<int>(kLanes);
   const int x0 = static_cast<int>(p.x0[i]), x1 = static_cast<int>(p.x1[i]);
   const int y0 = static_cast<int>(p.y0[i]), y1 = static_cast<int>(p.y1[i]);
-  const int start = x0 - x0 % kStep;
-  const Vec a_dx = hn::Set(f, p.a_dx[i]), b_dx = hn::Set(f, p.b_dx[i]);
-  const Vec w_c = hn::Set(f, p.w_c[i]), w_ac = hn::Set(f, p.w_ac[i]), w_bc = hn::Set(f, p.w_bc[i]);
-  const Vec last = hn::Set(f, static_cast<float>(x1 - x0));
-  const Vec lanes = hn::Iota(f, static_cast<float>(start - x0));
+  const Crossing a = p.a.get(i), b = p.b.get(i), c = p.c.get(i);
+  const Vec w_dx = hn::Set(f, p.w_dx[i]), w_dy = hn::Set(f, p.w_dy[i]), at_w = hn::Set(f, p.w[i]);
+  const Vec last_column = hn::Set(f, static_cast<float>(x1 - x0));
   for (int y = y0; y <= y1; ++y) {
-    const auto dy = static_cast<float>(y - y0);
-    const Vec row_a = hn::Set(f, p.a[i] + dy * p.a_dy[i]);
-    const Vec row_b = hn::Set(f, p.b[i] + dy * p.b_dy[i]);
+    const Vec dy = hn::Set(f, static_cast<float>(y - y0));
+    const Columns columns = columns_of_row(a, b, c, dy, last_column);
+    const float first = hn::GetLane(columns.first), last = hn::GetLane(columns.last);
+    if (!(first <= last)) continue;  // so that both lie within the box
+    const int begin = x0 + static_cast<int>(first), end = x0 + static_cast<int>(last);
+    const Vec row_w = hn::MulAdd(dy, w_dy, at_w);
     float* row = tile + static_cast<std::ptrdiff_t>(y) * stride;
-    Vec dx = lanes;
-    for (int x = start; x <= x1; x += kStep) {
-      const Vec a = hn::MulAdd(dx, a_dx, row_a), b = hn::MulAdd(dx, b_dx, row_b);
-      const Vec c = hn::Sub(hn::Sub(hn::Set(f, 1.0f), a), b);
-      const Mask inside = hn::Ge(hn::Min(hn::Min(a, b), c), hn::Set(f, -kInclusive));
-      const Mask covered = hn::And(inside, hn::Le(dx, last));
-      const Vec w = hn::MulAdd(a, w_ac, hn::MulAdd(b, w_bc, w_c));
+    const int start = begin - begin % kStep;
+    Vec dx = hn::Iota(f, static_cast<float>(start - x0));
+    for (int x = start; x <= end; x += kStep) {
+      const Mask covered = hn::And(hn::Le(columns.first, dx), hn::Le(dx, columns.last));
+      const Vec w = hn::MulAdd(dx, w_dx, row_w);
       const Vec nearest = hn::Load(f, row + x);
       hn::Store(hn::Max(nearest, hn::IfThenElseZero(covered, w)), f, row + x);
       dx = hn::Add(dx, hn::Set(f, static_cast<float>(kStep)));

@@ -3,16 +3,24 @@
 #include <algorithm>
 #include <cstring>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "evaluate/mesh_topology.hpp"
 #include "evaluate/vertex_order.hpp"
-#include "hypotrack/kinematics.hpp"
+#include "evaluate/whole_weights.hpp"
 
 namespace hypotrack {
 namespace {
 
 std::uint32_t round_up(std::size_t count) {
   return static_cast<std::uint32_t>((count + kBlock - 1) / kBlock * kBlock);
+}
+
+AlignedFloats to_aligned(const std::vector<float>& from) {
+  auto out = hwy::AllocateAligned<float>(std::max<std::size_t>(from.size(), 1));
+  std::copy(from.begin(), from.end(), out.get());
+  return out;
 }
 
 }  // namespace
@@ -22,10 +30,11 @@ ScenePlan::ScenePlan(const Scene& scene) {
     if (!item.model->poses_itself()) add_skinned(item);
   }
   blocks.first_entry.push_back(static_cast<std::uint32_t>(blocks.bone.size()));
-  aligned_entries_ = hwy::AllocateAligned<float>(std::max<std::size_t>(entries_.size(), 1));
-  std::copy(entries_.begin(), entries_.end(), aligned_entries_.get());
-  blocks.aligned_entries = aligned_entries_.get();
-  entries_ = {};
+  aligned_positions_ = to_aligned(std::exchange(positions_, {}));
+  aligned_weights_ = to_aligned(std::exchange(weights_, {}));
+  blocks.aligned_positions = aligned_positions_.get();
+  blocks.aligned_weights = aligned_weights_.get();
+  blocks.weight_unit = 1.0f / cuda::kWholeWeight;
   for (const Scene::Item& item : scene.items()) {
     if (item.model->poses_itself()) add_posed(item);
   }
@@ -41,38 +50,38 @@ void ScenePlan::add_skinned(const Scene::Item& item) {
   }
   for (std::size_t i = 0; i < order.size(); i += kBlock) {
     const std::size_t count = std::min<std::size_t>(kBlock, order.size() - i);
-    add_block(data, bone_count, order.data() + i, static_cast<int>(count));
+    add_block(data.mesh, bone_count, order.data() + i, static_cast<int>(count));
   }
   add_triangles(data.mesh, new_index);
   add_part(item);
   bone_count += static_cast<int>(data.bones.size());
 }
 
-void ScenePlan::add_block(const ModelData& data, int first_bone, const int* vertices, int count) {
-  const Mesh& mesh = data.mesh;
-  const auto bind = bind_transforms(data);
-  const std::size_t first = blocks.bone.size();
-  blocks.first_entry.push_back(static_cast<std::uint32_t>(first));
+void ScenePlan::add_block(const Mesh& mesh, int first_bone, const int* vertices, int count) {
+  std::vector<WholeWeights> held;
+  std::set<int> bones;
+  const std::size_t at = positions_.size();
+  positions_.resize(at + 3 * kBlock, 0.0f);
   for (int i = 0; i < count; ++i) {
-    for (int k = 0; k < 4; ++k) {
-      const float weight = mesh.bone_weights(k, vertices[i]);
-      if (weight == 0) continue;
-      const int bone = mesh.bone_indices(k, vertices[i]);
-      const auto wanted = static_cast<std::uint32_t>(first_bone + bone);
-      const auto begin = blocks.bone.begin() + static_cast<std::ptrdiff_t>(first);
-      const auto found = std::find(begin, blocks.bone.end(), wanted);
-      const auto entry = static_cast<std::size_t>(found - blocks.bone.begin());
-      if (found == blocks.bone.end()) {
-        blocks.bone.push_back(wanted);
-        entries_.resize(entries_.size() + 4 * kBlock, 0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      positions_[at + static_cast<std::size_t>(axis * kBlock + i)] =
+          mesh.vertices(axis, vertices[i]);
+    }
+    const WholeWeights& own = held.emplace_back(whole_weights(mesh, vertices[i]));
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (own.weight[k] > 0) bones.insert(own.bone[k]);
+    }
+  }
+  blocks.first_entry.push_back(static_cast<std::uint32_t>(blocks.bone.size()));
+  for (const int bone : bones) {
+    blocks.bone.push_back(static_cast<std::uint32_t>(first_bone + bone));
+    weights_.resize(weights_.size() + kBlock, 0.0f);
+    float* lanes = weights_.data() + weights_.size() - kBlock;
+    for (const WholeWeights& own : held) {
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (own.bone[k] == bone) *lanes += own.weight[k];
       }
-      const Eigen::Vector3d local = bind[static_cast<std::size_t>(bone)].inverse() *
-                                    mesh.vertices.col(vertices[i]).cast<double>();
-      float* lane = entries_.data() + entry * 4 * kBlock + i;
-      for (int axis = 0; axis < 3; ++axis) {
-        lane[axis * kBlock] += static_cast<float>(weight * local[axis]);
-      }
-      lane[3 * kBlock] += weight;
+      ++lanes;
     }
   }
 }

@@ -59,10 +59,10 @@ struct HYPOTRACK_API ScenePlan {
   void add_posed(const Scene::Item& item);
   void add_part(const Scene::Item& item);
   void add_triangles(const Mesh& mesh, const std::vector<std::uint32_t>& new_index);
-  void add_block(const ModelData& data, int first_bone, const int* vertices, int count);
+  void add_block(const Mesh& mesh, int first_bone, const int* vertices, int count);
 
-  std::vector<float> entries_;
-  AlignedFloats aligned_entries_;
+  std::vector<float> positions_, weights_;
+  AlignedFloats aligned_positions_, aligned_weights_;
 };
 
 }  // namespace hypotrack

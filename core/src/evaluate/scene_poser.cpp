@@ -31,11 +31,7 @@ ScenePoser::ScenePoser(const ScenePlan& plan)
       matrices_(zeros(std::max<std::size_t>(12 * static_cast<std::size_t>(plan.bone_count), 1))),
       x_(zeros(plan.vertex_count)),
       y_(zeros(plan.vertex_count)),
-      z_(zeros(plan.vertex_count)) {
-  for (const auto& model : plan.skinned) {
-    bones_.resize(std::max(bones_.size(), static_cast<std::size_t>(model.poser.bones())));
-  }
-}
+      z_(zeros(plan.vertex_count)) {}
 
 void ScenePoser::pose(std::span<const double> state, const Eigen::Isometry3d& camera_from_world) {
   for (const ScenePlan::Skinned& model : plan_->skinned) {
@@ -43,7 +39,7 @@ void ScenePoser::pose(std::span<const double> state, const Eigen::Isometry3d& ca
                                           static_cast<std::size_t>(model.dimension));
     float* matrices = matrices_.get() + 12 * static_cast<std::size_t>(model.first_bone);
     if (drawable(parameters)) {
-      model.poser.pose(parameters.data(), camera_from_world, bones_, matrices);
+      model.poser.pose(parameters, camera_from_world, bones_, matrices);
     } else {
       std::fill_n(matrices, 12 * model.poser.bones(), 0.0f);
     }

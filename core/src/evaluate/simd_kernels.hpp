@@ -8,6 +8,10 @@
 
 // The vectorised inner loops of the CPU renderer, behind plain data, compiled once per instruction
 // set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
+//
+// Wherever there is a fused multiply-add, vertices, coverage and inverse depths are the same to the
+// last bit, on the GPU as well (hypotrack/cuda/{vertices,cull,fill}.cuh): the same operations on
+// the same numbers, fused alike. Who changes one side changes the other.
 namespace hypotrack {
 
 /// Vertices are handled in blocks of this many, whatever the width of the machine's vectors.
@@ -21,16 +25,20 @@ inline constexpr float kFar = 1000.0f;
 inline constexpr float kGuard = 1 << 20;
 
 /// Linear blend skinning prepared for vectors: the vertices, ordered by the bones that hold them,
-/// in blocks; per block a few entries, one per bone that holds any of its vertices.
+/// in blocks; per block a few entries, one per bone that holds any of its vertices, in rising
+/// order.
 struct SkinBlocks {
   std::vector<std::uint32_t> first_entry;  ///< per block, and one more at the end
   std::vector<std::uint32_t> bone;         ///< per entry
-  /// Per entry, 4 x kBlock floats: weight * x, weight * y, weight * z (bone frame) and weight.
-  const float* aligned_entries = nullptr;
+  /// Per block, 3 x kBlock floats: x, y, z in the model's frame at the bind pose.
+  const float* aligned_positions = nullptr;
+  /// Per entry, kBlock floats: whole numbers of weight_unit.
+  const float* aligned_weights = nullptr;
+  float weight_unit = 1;
 };
 
-/// Moves all blocks: x, y, z (each kBlock per block, aligned) in the frame that `bones` lead to.
-/// `bones` holds 3x4 row-major matrices.
+/// Moves all blocks: x, y, z (each kBlock per block, aligned) in the frame that `bones` lead to
+/// from the bind pose. `bones` holds 3x4 row-major matrices.
 HYPOTRACK_API void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y,
                                float* z);
 

@@ -10,32 +10,32 @@ HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
 
-// Row of a 3x4 matrix times (x y z w), added to `sum`.
-HWY_INLINE Vec transform(const float* row, Vec x, Vec y, Vec z, Vec w, Vec sum) {
-  sum = hn::MulAdd(hn::Set(f, row[3]), w, sum);
-  sum = hn::MulAdd(hn::Set(f, row[2]), z, sum);
-  sum = hn::MulAdd(hn::Set(f, row[1]), y, sum);
-  return hn::MulAdd(hn::Set(f, row[0]), x, sum);
+// Row of a 3x4 matrix times (x y z 1).
+HWY_INLINE Vec transform(const float* row, Vec x, Vec y, Vec z) {
+  const Vec sum = hn::MulAdd(hn::Set(f, row[2]), z, hn::Set(f, row[3]));
+  return hn::MulAdd(hn::Set(f, row[0]), x, hn::MulAdd(hn::Set(f, row[1]), y, sum));
 }
 
 void skin(const SkinBlocks& blocks, const float* bones, float* out_x, float* out_y, float* out_z) {
   const std::size_t count = blocks.first_entry.size() - 1;
+  const Vec unit = hn::Set(f, blocks.weight_unit);
   for (std::size_t block = 0; block < count; ++block) {
     for (std::size_t lane = 0; lane < kBlock; lane += kLanes) {
+      const float* position = blocks.aligned_positions + block * 3 * kBlock + lane;
+      const Vec at_x = hn::Load(f, position), at_y = hn::Load(f, position + kBlock);
+      const Vec at_z = hn::Load(f, position + 2 * kBlock);
       Vec x = hn::Zero(f), y = hn::Zero(f), z = hn::Zero(f);
       for (auto e = blocks.first_entry[block]; e < blocks.first_entry[block + 1]; ++e) {
-        const float* entry = blocks.aligned_entries + std::size_t{e} * 4 * kBlock + lane;
         const float* bone = bones + std::size_t{blocks.bone[e]} * 12;
-        const Vec wx = hn::Load(f, entry), wy = hn::Load(f, entry + kBlock);
-        const Vec wz = hn::Load(f, entry + 2 * kBlock), w = hn::Load(f, entry + 3 * kBlock);
-        x = transform(bone, wx, wy, wz, w, x);
-        y = transform(bone + 4, wx, wy, wz, w, y);
-        z = transform(bone + 8, wx, wy, wz, w, z);
+        const Vec w = hn::Load(f, blocks.aligned_weights + std::size_t{e} * kBlock + lane);
+        x = hn::MulAdd(w, transform(bone, at_x, at_y, at_z), x);
+        y = hn::MulAdd(w, transform(bone + 4, at_x, at_y, at_z), y);
+        z = hn::MulAdd(w, transform(bone + 8, at_x, at_y, at_z), z);
       }
       const std::size_t at = block * kBlock + lane;
-      hn::Store(x, f, out_x + at);
-      hn::Store(y, f, out_y + at);
-      hn::Store(z, f, out_z + at);
+      hn::Store(hn::Mul(x, unit), f, out_x + at);
+      hn::Store(hn::Mul(y, unit), f, out_y + at);
+      hn::Store(hn::Mul(z, unit), f, out_z + at);
     }
   }
 }
@@ -58,12 +58,12 @@ void project_one(const float* in_x, const float* in_y, const float* in_z, std::s
   Range range_x = no_range(kBeyond), range_y = no_range(kBeyond);
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Vec px = hn::Load(f, in_x + i), py = hn::Load(f, in_y + i), pz = hn::Load(f, in_z + i);
-    const Vec z = transform(m + 8, px, py, pz, one, zero);
+    const Vec z = transform(m + 8, px, py, pz);
     const Vec w = hn::Div(one, z);
-    const Vec x = hn::MulAdd(hn::Mul(transform(m, px, py, pz, one, zero), w), hn::Set(f, view.fx),
-                             hn::Set(f, view.cx));
-    const Vec y = hn::MulAdd(hn::Mul(transform(m + 4, px, py, pz, one, zero), w),
-                             hn::Set(f, view.fy), hn::Set(f, view.cy));
+    const Vec x =
+        hn::MulAdd(hn::Mul(transform(m, px, py, pz), w), hn::Set(f, view.fx), hn::Set(f, view.cx));
+    const Vec y = hn::MulAdd(hn::Mul(transform(m + 4, px, py, pz), w), hn::Set(f, view.fy),
+                             hn::Set(f, view.cy));
     const Mask valid = hn::And(within_depth(z), hn::And(within_guard(x), within_guard(y)));
     range_x.add(valid, x);
     range_y.add(valid, y);

@@ -27,26 +27,31 @@ Turn to_turn(const BoneRotation& rotation, int offset) {
 
 Skeleton::Skeleton(const Scene& scene) {
   for (const Scene::Item& item : scene.items()) {
-    const ModelData& data = item.model->data();
-    const auto bind = bind_transforms(data);
-    const auto first = static_cast<int>(bones.size());
-    for (std::size_t b = 0; b < data.bones.size(); ++b) {
-      const Bone& bone = data.bones[b];
-      BoneLayout out{};
-      out.parent = bone.parent < 0 ? -1 : first + bone.parent;
-      out.model = static_cast<int>(models.size());
-      out.first_turn = static_cast<int>(turns.size());
-      for (const BoneRotation& rotation : data.rotations) {
-        if (rotation.bone == static_cast<int>(b)) turns.push_back(to_turn(rotation, item.offset));
-      }
-      out.turn_count = static_cast<int>(turns.size()) - out.first_turn;
-      store(bone.parent_from_bone, out.parent_from_bone);
-      store(bind[b].inverse(), out.bone_from_model);
-      bones.push_back(out);
-      level.push_back(out.parent < 0 ? 0 : level[static_cast<std::size_t>(out.parent)] + 1);
-    }
-    models.push_back({item.offset, item.model->dimension()});
+    add(item.model->data(), item.offset);
   }
+}
+
+Skeleton::Skeleton(const ModelData& data) { add(data, 0); }
+
+void Skeleton::add(const ModelData& data, int offset) {
+  const auto bind = bind_transforms(data);
+  const auto first = static_cast<int>(bones.size());
+  for (std::size_t b = 0; b < data.bones.size(); ++b) {
+    const Bone& bone = data.bones[b];
+    BoneLayout out{};
+    out.parent = bone.parent < 0 ? -1 : first + bone.parent;
+    out.model = static_cast<int>(models.size());
+    out.first_turn = static_cast<int>(turns.size());
+    for (const BoneRotation& rotation : data.rotations) {
+      if (rotation.bone == static_cast<int>(b)) turns.push_back(to_turn(rotation, offset));
+    }
+    out.turn_count = static_cast<int>(turns.size()) - out.first_turn;
+    store(bone.parent_from_bone, out.parent_from_bone);
+    store(bind[b].inverse(), out.bone_from_model);
+    bones.push_back(out);
+    level.push_back(out.parent < 0 ? 0 : level[static_cast<std::size_t>(out.parent)] + 1);
+  }
+  models.push_back({offset, static_cast<std::int32_t>(data.parameters.size())});
 }
 
 SkeletonLayout Skeleton::layout() const {

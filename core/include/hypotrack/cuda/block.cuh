@@ -86,6 +86,14 @@ __device__ __forceinline__ float reciprocal(float x) {
   return r;
 }
 
+/// 1 / x rounded correctly, as on the CPU, for x whose reciprocal is a normal number
+/// (P. Markstein, "Computation of elementary functions on the IBM RISC System/6000 processor",
+/// 1990).
+__device__ __forceinline__ float exact_reciprocal(float x) {
+  const float r = reciprocal(x);
+  return fmaf(fmaf(-x, r, 1.0f), r, r);
+}
+
 /// a / b for 0 <= a < 2^20, 0 < b.
 __device__ __forceinline__ int small_quotient(int a, int b) {
   // (a + 1/2) / b is at least 1 / (2 b) away from every integer, which is more than the error.

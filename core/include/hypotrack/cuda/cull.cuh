@@ -3,8 +3,8 @@
 #include "hypotrack/cuda/vertices.cuh"
 
 /// Which triangles may cover pixels, found by a block of threads.
-/// The same geometry and the same rules as the CPU's kernels
-/// (core/src/evaluate/{skin,raster}_kernel.cpp), so that the same pixels are covered.
+/// The same operations as in the CPU's kernel (core/src/evaluate/raster_kernel.cpp), so that the
+/// same pixels are covered and have the same depth.
 namespace hypotrack::cuda {
 
 /// Triangles with less area (twice, pixels^2) are noise of single precision.

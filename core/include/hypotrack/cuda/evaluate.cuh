@@ -142,7 +142,11 @@ class BlockEvaluation {
   template <bool kPair>
   __device__ __forceinline__ void place_vertices(int view) {
     const float* bones = shared_floats() + plan_.pose.bones;
-    const ViewLayout& camera = frame_.views[view];
+    // The second view of a pair is seen from the first, also where it is drawn alone: as on the
+    // CPU.
+    const bool of_pair = kPair || frame_.pair != 0;
+    const bool second = !kPair && of_pair && view == 1;
+    const ViewLayout& camera = frame_.views[of_pair ? 0 : view];
     const Parallax parallax = pair_parallax();
     ThreadBounds own;
     const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
@@ -154,18 +158,19 @@ class BlockEvaluation {
       const int thread = static_cast<int>(threadIdx.x);
       const int i = round * threads + (round % 2 == 0 ? thread : threads - 1 - thread);
       if (i >= scene_.vertex_count) continue;
-      const float3 v = project<kPair>(skin(layouts[i], bones), camera, view == 0);
-      const float x2 = kPair ? parallax(v.x, v.z) : 0.0f;
+      const float3 v = project<kPair>(skin(layouts[i], bones), camera, of_pair || view == 0);
+      const float x2 = of_pair ? parallax(v.x, v.z) : 0.0f, x = second ? x2 : v.x;
       const bool valid = v.z > 0.0f && fabsf(x2) <= kFarthestPixel;
-      vertices_.put(i, {v.x, v.y, valid ? v.z : 0.0f, x2});
-      if (valid) own.add(v.x, x2, v.y);
+      vertices_.put(i, {x, v.y, valid ? v.z : 0.0f, x2});
+      if (valid) own.add(x, x2, v.y);
     }
     own.join(state_.bounds, kPair);
     __syncthreads();
   }
 
   __device__ Parallax pair_parallax() const {
-    return {frame_.maps[0].a[0][2], frame_.maps[0].b[0]};
+    const ViewLayout* v = frame_.views;
+    return {v[1].cx - v[0].cx, v[1].fx * v[1].view_from_first[3]};
   }
 
   /// Draws all triangles into z-buffers that are zero, after a barrier and before one: of `view`

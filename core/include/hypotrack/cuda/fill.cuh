@@ -6,18 +6,60 @@
 #include "hypotrack/cuda/cull.cuh"
 
 /// Drawing into z-buffers by a block of threads.
-/// The same geometry and the same rules as the CPU's kernels
-/// (core/src/evaluate/{skin,raster}_kernel.cpp), so that the same pixels are covered.
+/// The same operations as in the CPU's kernel (core/src/evaluate/raster_kernel.cpp), so that the
+/// same pixels are covered and have the same depth.
 namespace hypotrack::cuda {
 
 /// Edges are inclusive by this share of a triangle's height, so that no pixel falls between two.
 inline constexpr float kInclusive = 1e-5f;
 
-/// Barycentric coordinates of corners a and b as planes over the pixels from (x0, y0), and 1/z.
+/// Edges with smaller slopes, barycentric coordinate per pixel, count as horizontal.
+inline constexpr float kHorizontal = 1e-20f;
+
+/// Where an edge crosses the rows: x = at + dy * per_row, in pixels from Planes::x0. What lies
+/// within is to the right of it, or to the left.
+struct Crossing {
+  float at, per_row;
+  bool right;
+
+  /// Cuts the part within the edge out of first .. last.
+  __device__ __forceinline__ void cut(float dy, float& first, float& last) const {
+    const float x = fmaf(dy, per_row, at);
+    if (right) {
+      first = fmaxf(first, x);
+    } else {
+      last = fminf(last, x);
+    }
+  }
+};
+
+/// Of the edge where a + dx * a_dx + dy * a_dy = 0, a little widened.
+__device__ __forceinline__ Crossing crossing(float a, float a_dx, float a_dy) {
+  const float slope = fabsf(a_dx) < kHorizontal ? kHorizontal : a_dx;
+  const float inverse = -exact_reciprocal(slope);
+  return {(a + kInclusive) * inverse, a_dy * inverse, slope > 0.0f};
+}
+
+/// Where the edges opposite to the corners cross the rows, and 1/z as a plane, from (x0, y0) on.
 struct Planes {
   int x0, x1, y0;
-  float a, a_dx, a_dy, b, b_dx, b_dy;
-  float w_c, w_ac, w_bc;
+  Crossing a, b, c;
+  float w, w_dx, w_dy;
+
+  /// The columns of row y0 + dy that are covered: x0 + first .. x0 + last.
+  __device__ __forceinline__ Span columns(float dy) const {
+    return columns_of_row(a, b, c, dy, exact_float(x1 - x0));
+  }
+  __device__ __forceinline__ static Span columns_of_row(const Crossing& a, const Crossing& b,
+                                                        const Crossing& c, float dy,
+                                                        float last_column) {
+    float first = 0.0f, last = last_column;
+    a.cut(dy, first, last);
+    b.cut(dy, first, last);
+    c.cut(dy, first, last);
+    // At most one column beyond either end: a thin triangle's edges may meet far away.
+    return {round_up(fminf(first, last_column + 1.0f)), round_down(fmaxf(last, -1.0f))};
+  }
 };
 
 __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int first_row) {
@@ -29,16 +71,22 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   // Coordinates from the first pixel are small, so that their products are exact enough.
   const float x = exact_float(p.x0), y = exact_float(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
-  const float inverse_area = reciprocal(twice_area(s));
-  p.a = fmaf(s.bx, s.cy, -(s.cx * s.by)) * inverse_area;
-  p.a_dx = (s.by - s.cy) * inverse_area;
-  p.a_dy = (s.cx - s.bx) * inverse_area;
-  p.b = fmaf(s.cx, s.ay, -(s.ax * s.cy)) * inverse_area;
-  p.b_dx = (s.cy - s.ay) * inverse_area;
-  p.b_dy = (s.ax - s.cx) * inverse_area;
-  p.w_c = t.cw;
-  p.w_ac = t.aw - t.cw;
-  p.w_bc = t.bw - t.cw;
+  const float area = twice_area(s), inverse_area = exact_reciprocal(area);
+  // Barycentric coordinates of corners a and b as planes.
+  const float a = fmaf(s.bx, s.cy, -(s.cx * s.by)) * inverse_area;
+  const float a_dx = (s.by - s.cy) * inverse_area;
+  const float a_dy = (s.cx - s.bx) * inverse_area;
+  const float b = fmaf(s.cx, s.ay, -(s.ax * s.cy)) * inverse_area;
+  const float b_dx = (s.cy - s.ay) * inverse_area;
+  const float b_dy = (s.ax - s.cx) * inverse_area;
+  p.a = crossing(a, a_dx, a_dy);
+  if (area == 0.0f) p.a = {kFarthestPixel, 0.0f, true};  // covers nothing
+  p.b = crossing(b, b_dx, b_dy);
+  p.c = crossing(1.0f - a - b, -(a_dx + b_dx), -(a_dy + b_dy));
+  const float w_ac = t.aw - t.cw, w_bc = t.bw - t.cw;
+  p.w = fmaf(a, w_ac, fmaf(b, w_bc, t.cw));
+  p.w_dx = fmaf(a_dx, w_ac, b_dx * w_bc);
+  p.w_dy = fmaf(a_dy, w_ac, b_dy * w_bc);
   return p;
 }
 
@@ -84,44 +132,18 @@ class PixelWriter {
   Address next_;
 };
 
-/// Where an edge crosses the rows: x = at + dy * per_row, in pixels from Planes::x0. What lies
-/// within is to the right of it, or to the left.
-struct Crossing {
-  float at, per_row;
-  bool right;
-
-  /// Of the edge where a + dx * a_dx + dy * a_dy = 0, a little widened.
-  __device__ __forceinline__ Crossing(float a, float a_dx, float a_dy) {
-    constexpr float kHorizontal = 1e-20f;  // keeps the slopes of horizontal edges from being zero
-    const float slope = a_dx == 0.0f ? kHorizontal : a_dx;
-    const float inverse = -reciprocal(slope);
-    at = (a + kInclusive) * inverse;
-    per_row = a_dy * inverse;
-    right = slope > 0.0f;
-  }
-  /// Cuts the part within the edge out of first .. last.
-  __device__ __forceinline__ void cut(float dy, float& first, float& last) const {
-    const float x = fmaf(dy, per_row, at);
-    if (right) {
-      first = fmaxf(first, x);
-    } else {
-      last = fminf(last, x);
-    }
-  }
-};
-
 /// The rows of a thread's triangle of few pixels, for the threads of its warp: what of every row
 /// lies within all three edges.
 class FewRows {
  public:
   /// `rows` are those to be drawn, `pixel` where the z-buffers have the first of them at p.x0.
   __device__ __forceinline__ FewRows(const Planes& p, Span rows, int pixel, bool second)
-      : a_(p.a, p.a_dx, p.a_dy),
-        b_(p.b, p.b_dx, p.b_dy),
-        c_(1.0f - p.a - p.b, -(p.a_dx + p.b_dx), -(p.a_dy + p.b_dy)),
-        w_(fmaf(p.a, p.w_ac, fmaf(p.b, p.w_bc, p.w_c))),
-        w_dx_(fmaf(p.a_dx, p.w_ac, p.b_dx * p.w_bc)),
-        w_dy_(fmaf(p.a_dy, p.w_ac, p.b_dy * p.w_bc)),
+      : a_(p.a),
+        b_(p.b),
+        c_(p.c),
+        w_(p.w),
+        w_dx_(p.w_dx),
+        w_dy_(p.w_dy),
         pixel_(pixel),
         count_(rows.last - rows.first + 1),
         shape_(pack(a_.right, 0) | pack(b_.right, 1) | pack(c_.right, 2) | pack(second, kSecond) |
@@ -189,19 +211,14 @@ class FewRows {
     const int row = number - unpack(kBegin, kSkipped - kBegin);
     const float dy = exact_float(row + unpack(kSkipped, 32 - kSkipped));
     const float last_column = exact_float(unpack(kLast, kBegin - kLast));
-    float left = 0.0f, right = last_column;
-    a_.cut(dy, left, right);
-    b_.cut(dy, left, right);
-    c_.cut(dy, left, right);
-    // At most one column beyond either end: a thin triangle's edges may meet far away.
-    const int first = round_up(fminf(left, last_column + 1.0f));
-    const int last = round_down(fmaxf(right, -1.0f));
-    const int count = is_row ? last - first + 1 : 0, most = warp_max(count);
-    float w = fmaf(exact_float(first), w_dx_, fmaf(dy, w_dy_, w_));
+    const Span columns = Planes::columns_of_row(a_, b_, c_, dy, last_column);
+    const int count = is_row ? columns.last - columns.first + 1 : 0, most = warp_max(count);
+    const float row_w = fmaf(dy, w_dy_, w_);
     const int pitch = unpack(kSecond, 1) != 0 ? pitches.y : pitches.x;
-    PixelWriter<kShared> pixels(depth, pixel_ + row * pitch + first);
+    PixelWriter<kShared> pixels(depth, pixel_ + row * pitch + columns.first);
+    float dx = exact_float(columns.first);
 #pragma unroll 1  // one or two pixels in most rows
-    for (int k = 0; k < most; ++k, w += w_dx_) pixels.put(w, k < count);
+    for (int k = 0; k < most; ++k, dx += 1.0f) pixels.put(fmaf(dx, w_dx_, row_w), k < count);
   }
 
   Crossing a_, b_, c_;
@@ -217,13 +234,10 @@ __device__ __forceinline__ void fill_many(const Planes& p, Span rows,
   constexpr int kWide = 8, kHigh = kWarp / kWide;  // pixels that the warp draws together
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   for (int y = rows.first + lane / kWide; y <= rows.last; y += kHigh) {
-    const float dy = exact_float(y - p.y0);
-    const float row_a = fmaf(dy, p.a_dy, p.a), row_b = fmaf(dy, p.b_dy, p.b);
-    for (int x = p.x0 + lane % kWide; x <= p.x1; x += kWide) {
-      const float dx = exact_float(x - p.x0);
-      const float a = fmaf(dx, p.a_dx, row_a), b = fmaf(dx, p.b_dx, row_b);
-      if (least(a, b, 1.0f - a - b) < -kInclusive) continue;
-      put(buffer.inverse_depth, buffer.index(x, y), fmaf(a, p.w_ac, fmaf(b, p.w_bc, p.w_c)));
+    const float dy = exact_float(y - p.y0), row_w = fmaf(dy, p.w_dy, p.w);
+    const Span columns = p.columns(dy);
+    for (int dx = columns.first + lane % kWide; dx <= columns.last; dx += kWide) {
+      put(buffer.inverse_depth, buffer.index(p.x0 + dx, y), fmaf(exact_float(dx), p.w_dx, row_w));
     }
   }
 }

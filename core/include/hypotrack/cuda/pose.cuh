@@ -4,8 +4,9 @@
 #include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/layout.hpp"
 
-/// From search points to bone matrices: what SearchSpace::states, Scene::normalize and BonePoser do
-/// on the CPU.
+/// From search points to bone matrices: what SearchSpace::states and Scene::normalize do on the
+/// CPU, and then the same operations as in core/src/evaluate/pose_kernel.cpp, so that states that
+/// are normalised have the same matrices.
 namespace hypotrack::cuda {
 
 /// Models with larger parameters, or NaN, are not drawn.
@@ -37,6 +38,17 @@ __device__ __forceinline__ Quaternion<Real> rotation_exp(Real x, Real y, Real z)
   return {cos(angle / 2), x * factor, y * factor, z * factor};
 }
 
+/// 1 / the norm of four numbers whose squares are not out of range.
+__device__ __forceinline__ double inverse_norm(double w, double x, double y, double z) {
+  return rsqrt(w * w + x * x + y * y + z * z);
+}
+__device__ __forceinline__ float inverse_norm(float w, float x, float y, float z) {
+  const float square = fmaf(w, w, fmaf(x, x, fmaf(y, y, z * z))), excess = square - 1.0f;
+  // As on the CPU, which gets states only: they are normalised but for rounding.
+  if (fabsf(excess) < 1e-3f) return fmaf(excess, fmaf(excess, 0.375f, -0.5f), 1.0f);
+  return rsqrtf(square);
+}
+
 /// Four numbers as a unit quaternion; zeros are the identity.
 template <class Real>
 __device__ __forceinline__ Quaternion<Real> unit_quaternion(Real w, Real x, Real y, Real z) {
@@ -45,7 +57,7 @@ __device__ __forceinline__ Quaternion<Real> unit_quaternion(Real w, Real x, Real
   if (!(scale > Real(1e-3) && scale < Real(1e3))) {  // the sum of squares might leave the range
     w /= scale, x /= scale, y /= scale, z /= scale;
   }
-  const Real inverse = rsqrt(w * w + x * x + y * y + z * z);
+  const Real inverse = inverse_norm(w, x, y, z);
   return {w * inverse, x * inverse, y * inverse, z * inverse};
 }
 
@@ -123,15 +135,31 @@ __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, 
   state[6] = q.z;
 }
 
+/// Within 1e-7 for angles up to some hundreds: Taylor's polynomials of what is left of the angle
+/// behind quarters of a turn, which are taken off in two steps (Cody and Waite). The host's and the
+/// GPU's own functions differ in the last digits.
+__device__ __forceinline__ void sine_and_cosine(float angle, float& sine, float& cosine) {
+  const float biased = angle * 0.636619772f + kIntegerBias;
+  const float quarters = biased - kIntegerBias;
+  const float r = fmaf(-quarters, -4.37113883e-8f, fmaf(-quarters, 1.57079637f, angle));
+  const float z = r * r;
+  const float s = fmaf(
+      fmaf(fmaf(fmaf(2.75573192e-6f, z, -1.98412698e-4f), z, 8.33333333e-3f), z, -1.66666667e-1f),
+      z * r, r);
+  const float c = fmaf(
+      fmaf(fmaf(fmaf(2.48015873e-5f, z, -1.38888889e-3f), z, 4.16666667e-2f), z, -0.5f), z, 1.0f);
+  const int bits = __float_as_int(biased);
+  const bool odd = (bits & 1) != 0;
+  sine = odd ? c : s;
+  cosine = odd ? s : c;
+  if ((bits & 2) != 0) sine = -sine;
+  if (((bits + 1) & 2) != 0) cosine = -cosine;
+}
+
 /// A row of a transform whose frame is turned about a unit axis.
 __device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float value) {
-  const float angle = t.scale * (value - t.zero);
   float s, c;
-  if (fabsf(angle) < 3.2f) {
-    __sincosf(angle, &s, &c);  // within 4e-7 here
-  } else {
-    sincosf(angle, &s, &c);
-  }
+  sine_and_cosine(t.scale * (value - t.zero), s, c);
   const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
   const float dx = d * x, dy = d * y, dz = d * z;
   const auto along = [&](float a, float b, float g) {

@@ -4,8 +4,8 @@
 #include "hypotrack/cuda/layout.hpp"
 
 /// Skinning and projection by a block of threads.
-/// The same geometry and the same rules as the CPU's kernels
-/// (core/src/evaluate/{skin,raster}_kernel.cpp), so that the same pixels are covered.
+/// The same operations as in the CPU's kernel (core/src/evaluate/skin_kernel.cpp), so that the same
+/// pixels are covered and have the same depth.
 namespace hypotrack::cuda {
 
 // The CPU's simd_kernels.hpp explains these.
@@ -100,7 +100,7 @@ __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool
     };
     p = {row(0), row(4), row(8)};
   }
-  const float w = reciprocal(p.z);
+  const float w = exact_reciprocal(p.z);
   const float x = fmaf(p.x * w, view.fx, view.cx), y = fmaf(p.y * w, view.fy, view.cy);
   const bool valid = p.z >= kNearest && p.z <= kFarthest && fabsf(x) <= kFarthestPixel &&
                      fabsf(y) <= kFarthestPixel;

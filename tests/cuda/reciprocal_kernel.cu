@@ -1,0 +1,28 @@
+#include "reciprocal_kernel.hpp"
+
+#include "hypotrack/cuda/block.cuh"
+#include "hypotrack/cuda/runtime.cuh"
+
+namespace hypotrack::test {
+namespace {
+
+constexpr unsigned kThreads = 256;
+
+__global__ void reciprocals(std::uint32_t first, std::uint32_t count, float* out) {
+  const std::uint32_t i = blockIdx.x * kThreads + threadIdx.x;
+  if (i < count) out[i] = cuda::exact_reciprocal(__uint_as_float(first + i));
+}
+
+}  // namespace
+
+std::vector<float> exact_reciprocals(std::uint32_t first, std::uint32_t count) {
+  cuda::DeviceBuffer<float> buffer;
+  buffer.reserve(count);
+  reciprocals<<<(count + kThreads - 1) / kThreads, kThreads>>>(first, count, buffer.data());
+  std::vector<float> out(count);
+  cuda::check(cudaMemcpy(out.data(), buffer.data(), count * sizeof(float), cudaMemcpyDeviceToHost),
+              "finding reciprocals");
+  return out;
+}
+
+}  // namespace hypotrack::test
