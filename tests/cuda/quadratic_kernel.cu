@@ -11,6 +11,7 @@ __global__ void quadratic(const double* target, int dimension, const double* poi
                           std::int64_t count, double* costs) {
   cuda::wait_for_previous();
   cuda::let_next_start();
+  if (!target) __trap();
   const std::int64_t i = std::int64_t{blockIdx.x} * kThreads + threadIdx.x;
   if (i >= count) return;
   double sum = 0;
