@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <atomic>
+#include <opencv2/core.hpp>
 
 #include "evaluator_fixture.hpp"
 
@@ -72,6 +73,54 @@ TEST_F(EvaluatorTest, PreparesEveryTerm) {
   evaluate({{1, term}, {0, off}}, random_states(1));
   EXPECT_EQ(term->frame, 12);
   EXPECT_EQ(off->frame, 12);
+}
+
+/// Remembers which images it was given.
+class Onlooker final : public Objective {
+ public:
+  explicit Onlooker(ImageUse use) : use_(use) {}
+  ImageUse image_use() const override { return use_; }
+  void prepare(const Observation& observation) override {
+    seen.clear();
+    for (const TileView& view : observation.views) {
+      seen += view.color.empty() ? '-' : 'c';
+      seen += view.mask.empty() ? '-' : 'm';
+      seen += view.depth.empty() ? '-' : 'd';
+    }
+  }
+  double cost(const RenderedHypothesis&) const override { return 0; }
+
+  std::string seen;
+
+ private:
+  ImageUse use_;
+};
+
+TEST_F(EvaluatorTest, CutsTheImagesThatAnyOfItsTermsLooksAt) {
+  Camera camera;
+  camera.width = camera.height = 200;
+  camera.fx = camera.fy = 200;
+  camera.cx = camera.cy = 99.5;
+  const TileMaker tiles(scene_, {camera}, {});
+  Frame frame;
+  frame.views.push_back({cv::Mat(200, 200, CV_8UC3, cv::Scalar::all(90)),
+                         cv::Mat(200, 200, CV_8UC1, cv::Scalar::all(255)),
+                         cv::Mat(200, 200, CV_32FC1, cv::Scalar::all(0.5))});
+  Eigen::VectorXd state = scene_.rest_state();
+  state[2] = 0.5;
+  const auto none = std::make_shared<Onlooker>(ImageUse{.mask = false, .depth = false});
+  const auto mask = std::make_shared<Onlooker>(ImageUse{.mask = true, .depth = false});
+  const auto depth = std::make_shared<Onlooker>(ImageUse{.mask = false, .depth = true});
+  const auto seen_with = [&](const std::vector<ObjectiveTerm>& terms) {
+    Evaluator(scene_, terms, threads(1)).prepare(tiles, frame, tiles.plan(frame, state));
+    return none->seen;
+  };
+  EXPECT_EQ(seen_with({{1, none}}), "c--");
+  EXPECT_EQ(seen_with({{1, none}, {1, mask}}), "cm-");
+  EXPECT_EQ(seen_with({{1, none}, {0, mask}}), "cm-");  // it is prepared all the same
+  EXPECT_EQ(seen_with({{1, none}, {1, depth}}), "c-d");
+  EXPECT_EQ(seen_with({{1, none}, {1, undrawn([](const auto&) { return 0.0; })}}), "cmd");
+  EXPECT_FALSE(frame.views[0].mask.empty() || frame.views[0].depth.empty());
 }
 
 TEST_F(EvaluatorTest, DrawsFramesThatItsTermsHaveTakenInForAnother) {

@@ -66,6 +66,12 @@ class HYPOTRACK_API ResidualTerm {
                             std::span<float> residuals, std::span<float> slopes) const;
 };
 
+/// What an objective looks at of a view beside its colours.
+struct ImageUse {
+  bool mask = true;
+  bool depth = true;
+};
+
 /// Says how badly a hypothesis explains a frame. A scene adds several up with weights.
 class HYPOTRACK_API Objective {
  public:
@@ -76,6 +82,10 @@ class HYPOTRACK_API Objective {
 
   /// False for a term that looks at the state only (joint limits, priors); it costs no rendering.
   virtual bool needs_rendering() const { return true; }
+
+  /// Images that no objective of a scene looks at may be missing from what `prepare` gets, although
+  /// the frame has them: they need not be cut, nor uploaded to a GPU.
+  virtual ImageUse image_use() const { return {}; }
 
   /// Takes the frame in: features and whatever makes scoring cheap. The observation outlives every
   /// `cost` until the next `prepare`. Throws DataError if it cannot work with what it is given (one

@@ -27,6 +27,27 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
   return terms;
 }
 
+/// What any of the terms looks at.
+ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
+  ImageUse all{.mask = false, .depth = false};
+  for (const ObjectiveTerm& term : terms) {
+    const ImageUse use = term.objective->image_use();
+    all.mask = all.mask || use.mask;
+    all.depth = all.depth || use.depth;
+  }
+  return all;
+}
+
+/// The images of a frame that are looked at.
+Frame looked_at(const Frame& frame, const ImageUse& use) {
+  Frame out{frame.index, frame.time, frame.views, {}, {}};
+  for (View& view : out.views) {
+    if (!use.mask) view.mask.release();
+    if (!use.depth) view.depth.release();
+  }
+  return out;
+}
+
 }  // namespace
 
 struct Evaluator::Impl final : ResidualDifferences {
@@ -56,7 +77,8 @@ struct Evaluator::Impl final : ResidualDifferences {
   const Scene& scene;
   std::vector<ObjectiveTerm> terms;
   std::unique_ptr<Evaluation> evaluation;
-  TilePlan plan;  // of the frame that is prepared
+  Frame frame;    // that is prepared, as far as the terms look at it
+  TilePlan plan;  // of that frame
   Eigen::MatrixXd normalized;
   bool prepared = false;
 };
@@ -82,7 +104,8 @@ void Evaluator::prepare_drawing(const Observation& observation) {
 void Evaluator::prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   impl_->prepared = false;
   impl_->plan = std::move(plan);
-  impl_->evaluation->prepare(tiles, frame, impl_->plan);
+  impl_->frame = looked_at(frame, joined_use(impl_->terms));
+  impl_->evaluation->prepare(tiles, impl_->frame, impl_->plan);
   impl_->prepared = true;
 }
 

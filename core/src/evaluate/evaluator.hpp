@@ -70,8 +70,8 @@ class HYPOTRACK_API Evaluator {
   /// The same after another evaluator of the same terms has taken that observation in, and nobody
   /// another one since: on the CPU the terms are as they should be.
   void prepare_drawing(const Observation& observation);
-  /// The same for a frame whose tiles are not cut yet: on the GPU they are cut there. The frame
-  /// must outlive the evaluations.
+  /// The same for a frame whose tiles are not cut yet, of images that a term looks at: on the GPU
+  /// they are cut there. The frame's images must outlive the evaluations.
   void prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan);
 
   /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the

@@ -15,6 +15,11 @@ std::span<const std::string_view> enum_names(Foreground) {
 
 RgbdDepth::RgbdDepth(const Params& params) : params_(params) {}
 
+ImageUse RgbdDepth::image_use() const {
+  const Foreground by = params_.foreground;
+  return {.mask = by == Foreground::automatic || by == Foreground::mask, .depth = true};
+}
+
 void RgbdDepth::prepare(const Observation& observation) {
   views_.clear();
   check(observation, params_.foreground);

@@ -61,6 +61,7 @@ class RgbdDepth : public Objective, public ResidualTerm {
 
   explicit RgbdDepth(const Params& params);
 
+  ImageUse image_use() const override;
   /// Uses the views that have depth. Throws DataError if none has, if a view lacks the mask or the
   /// colour that the parameters ask for, and on images that do not have their tile's size and type.
   void prepare(const Observation& observation) override;

@@ -18,6 +18,12 @@ std::span<const std::string_view> enum_names(Foreground) {
 
 Skin::Skin(const Params& params) : params_(params) {}
 
+ImageUse Skin::image_use() const {
+  const Foreground by = params_.foreground;
+  return {.mask = by == Foreground::automatic || by == Foreground::mask,
+          .depth = by == Foreground::depth};
+}
+
 void Skin::prepare(const Observation& observation) {
   views_.clear();
   view_numbers_.clear();

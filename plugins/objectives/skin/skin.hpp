@@ -29,6 +29,7 @@ class Skin : public Objective, public ResidualTerm {
 
   explicit Skin(const Params& params);
 
+  ImageUse image_use() const override;
   /// Uses the views that have what the parameters ask for. Throws DataError if none has, and on
   /// images that do not have their tile's size and type.
   void prepare(const Observation& observation) override;

@@ -55,6 +55,8 @@ StereoColor::StereoColor(const Params& params) : params_(params), of_frame_(para
         enum_names(params.color_space)[static_cast<std::size_t>(params.color_space)]));
 }
 
+ImageUse StereoColor::image_use() const { return {.mask = params_.use_mask, .depth = false}; }
+
 void StereoColor::prepare(const Observation& observation) {
   check(observation);
   of_frame_.beta = beta_of(params_, observation);

@@ -51,6 +51,7 @@ class StereoColor : public Objective, public ResidualTerm {
 
   explicit StereoColor(const Params& params);
 
+  ImageUse image_use() const override;
   /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
   /// that do not have their tile's size and type.
   void prepare(const Observation& observation) override;

@@ -18,6 +18,8 @@ std::span<const std::string_view> enum_names(Measure) {
 
 StereoPatch::StereoPatch(const Params& params) : params_(params) {}
 
+ImageUse StereoPatch::image_use() const { return {.mask = params_.use_mask, .depth = false}; }
+
 void StereoPatch::prepare(const Observation& observation) {
   check_color_pair("stereo_patch", observation);
   map_ = stereo_map(observation, 0, 1);

@@ -39,6 +39,7 @@ class StereoPatch : public Objective, public ResidualTerm {
 
   explicit StereoPatch(const Params& params);
 
+  ImageUse image_use() const override;
   /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
   /// that do not have their tile's size and type.
   void prepare(const Observation& observation) override;
