@@ -114,7 +114,7 @@ class HYPOTRACK_API PluginContext {
 /// installation or the build tree.
 HYPOTRACK_API std::filesystem::path data_file(const std::filesystem::path& relative);
 
-inline constexpr std::uint32_t kAbiVersion = 12;
+inline constexpr std::uint32_t kAbiVersion = 13;
 
 /// The C face of a plugin library. Nothing else is looked at before magic, sizes, version and tag
 /// have been compared, so all of it must stay plain C and only ever grow at the end.
