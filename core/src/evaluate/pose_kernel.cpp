@@ -6,6 +6,8 @@
 #include <cstring>
 #include <hypotrack/foreach_target-inl.hpp>
 
+#include "hypotrack/sine_cosine.hpp"
+
 #ifndef HYPOTRACK_POSE_KERNEL_TYPES_
 #define HYPOTRACK_POSE_KERNEL_TYPES_
 namespace hypotrack::pose_kernel {
@@ -35,18 +37,14 @@ HWY_INLINE float fma(float a, float b, float c) {
   return hn::GetLane(hn::MulAdd(hn::Set(one, a), hn::Set(one, b), hn::Set(one, c)));
 }
 
-// See sine_and_cosine() of hypotrack/cuda/pose.cuh.
+// See hypotrack/sine_cosine.hpp.
 HWY_INLINE SineCosine sine_and_cosine(float angle) {
-  constexpr float kIntegerBias = 12582912.0f;
-  const float biased = angle * 0.636619772f + kIntegerBias;
-  const float quarters = biased - kIntegerBias;
-  const float r = fma(-quarters, -4.37113883e-8f, fma(-quarters, 1.57079637f, angle));
-  const float z = r * r;
-  const float s =
-      fma(fma(fma(fma(2.75573192e-6f, z, -1.98412698e-4f), z, 8.33333333e-3f), z, -1.66666667e-1f),
-          z * r, r);
-  const float c =
-      fma(fma(fma(fma(2.48015873e-5f, z, -1.38888889e-3f), z, 4.16666667e-2f), z, -0.5f), z, 1.0f);
+  using namespace hypotrack::sine_cosine;
+  const float biased = angle * kQuartersPerRadian + kRoundingBias;
+  const float n = biased - kRoundingBias;
+  const float r = fma(-n, kQuarterLow, fma(-n, kQuarterHigh, angle)), z = r * r;
+  const float s = fma(fma(fma(fma(kS9, z, kS7), z, kS5), z, kS3), z * r, r);
+  const float c = fma(fma(fma(fma(kC8, z, kC6), z, kC4), z, kC2), z, 1.0f);
   std::int32_t bits;
   std::memcpy(&bits, &biased, sizeof bits);
   const bool odd = (bits & 1) != 0;

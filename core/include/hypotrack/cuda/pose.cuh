@@ -3,6 +3,7 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/block_plan.hpp"
 #include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/sine_cosine.hpp"
 
 /// From search points to bone matrices: what SearchSpace::states and Scene::normalize do on the
 /// CPU, and then the same operations as in core/src/evaluate/pose_kernel.cpp, so that states that
@@ -135,19 +136,14 @@ __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, 
   state[6] = q.z;
 }
 
-/// Within 1e-7 for angles up to some hundreds: Taylor's polynomials of what is left of the angle
-/// behind quarters of a turn, which are taken off in two steps (Cody and Waite). The host's and the
-/// GPU's own functions differ in the last digits.
+/// See hypotrack/sine_cosine.hpp.
 __device__ __forceinline__ void sine_and_cosine(float angle, float& sine, float& cosine) {
-  const float biased = angle * 0.636619772f + kIntegerBias;
-  const float quarters = biased - kIntegerBias;
-  const float r = fmaf(-quarters, -4.37113883e-8f, fmaf(-quarters, 1.57079637f, angle));
-  const float z = r * r;
-  const float s = fmaf(
-      fmaf(fmaf(fmaf(2.75573192e-6f, z, -1.98412698e-4f), z, 8.33333333e-3f), z, -1.66666667e-1f),
-      z * r, r);
-  const float c = fmaf(
-      fmaf(fmaf(fmaf(2.48015873e-5f, z, -1.38888889e-3f), z, 4.16666667e-2f), z, -0.5f), z, 1.0f);
+  using namespace hypotrack::sine_cosine;
+  const float biased = angle * kQuartersPerRadian + kRoundingBias;
+  const float n = biased - kRoundingBias;
+  const float r = fmaf(-n, kQuarterLow, fmaf(-n, kQuarterHigh, angle)), z = r * r;
+  const float s = fmaf(fmaf(fmaf(fmaf(kS9, z, kS7), z, kS5), z, kS3), z * r, r);
+  const float c = fmaf(fmaf(fmaf(fmaf(kC8, z, kC6), z, kC4), z, kC2), z, 1.0f);
   const int bits = __float_as_int(biased);
   const bool odd = (bits & 1) != 0;
   sine = odd ? c : s;
