@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 #include "hypotrack/skeleton.hpp"
 
@@ -11,7 +12,7 @@ namespace hypotrack {
 
 /// Forward kinematics of one model, prepared so that a hypothesis costs no allocation: what
 /// world_from_bones() says in single precision, by the same operations as on the GPU.
-class BonePoser {
+class HYPOTRACK_API BonePoser {
  public:
   /// Room for a pose; one per thread.
   using Workspace = std::vector<float>;

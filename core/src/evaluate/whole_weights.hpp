@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
@@ -16,6 +17,6 @@ struct WholeWeights {
   std::array<std::uint16_t, 4> weight{};
 };
 
-WholeWeights whole_weights(const Mesh& mesh, int vertex);
+HYPOTRACK_API WholeWeights whole_weights(const Mesh& mesh, int vertex);
 
 }  // namespace hypotrack
