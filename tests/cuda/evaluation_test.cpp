@@ -75,7 +75,8 @@ void expect_like_the_cpu(const Scene& scene, const Observation& observation,
   const Eigen::VectorXd gpu = costs_on(Backend::cuda, scene, observation, objective, states);
   ASSERT_GT(cpu.mean(), 300);  // pixels: something is drawn
   const Eigen::ArrayXd difference = (gpu - cpu).array().abs();
-  // Vertices differ by some 1e-5 pixels, so that rarely one pixel is covered, or seen, on one side
+  // Probes map pixels on the host without fused operations, and a CPU that has none moves vertices
+  // by some 1e-5 pixels, so that rarely one pixel is covered, or seen, on one side
   // only: once in either direction, at less than 1.5 each.
   EXPECT_TRUE((difference < (1e-3 * cpu.array()).max(3)).all()) << difference.maxCoeff();
   EXPECT_LT((difference / cpu.array().max(1000)).mean(), 5e-5);

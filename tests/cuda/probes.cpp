@@ -11,20 +11,27 @@ float depth_at(const DepthTile& tile, int x, int y) {
   return tile.inverse_depth[y * tile.stride + x];
 }
 
+/// The sum of pixel(x, y, inverse depth) over what a hypothesis covers in all views.
+template <class Pixel>
+double sum_covered(const RenderedHypothesis& hypothesis, const Pixel& pixel) {
+  double sum = 0;
+  for (const DepthTile& tile : hypothesis.views) {
+    for (int y = 0; y < tile.height; ++y) {
+      for (int x = 0; x < tile.width; ++x) {
+        const float w = depth_at(tile, x, y);
+        if (w > 0) sum += pixel(x, y, w);
+      }
+    }
+  }
+  return sum;
+}
+
 class CoveredProbe final : public Objective {
  public:
   void prepare(const Observation&) override {}
   double cost(const RenderedHypothesis& hypothesis) const override {
-    double sum = 0;
-    for (const DepthTile& tile : hypothesis.views) {
-      for (int y = 0; y < tile.height; ++y) {
-        for (int x = 0; x < tile.width; ++x) {
-          const float w = depth_at(tile, x, y);
-          if (w > 0) sum += 1 + x * 0.002 + y * 0.003 + w * 0.25;
-        }
-      }
-    }
-    return sum;
+    return sum_covered(hypothesis,
+                       [](int x, int y, float w) { return 1 + x * 0.002 + y * 0.003 + w * 0.25; });
   }
   std::unique_ptr<cuda::DeviceObjective> on_device() const override {
     return covered_probe_on_device();
@@ -35,18 +42,10 @@ class MarkProbe final : public Objective {
  public:
   void prepare(const Observation&) override {}
   double cost(const RenderedHypothesis& hypothesis) const override {
-    double sum = 0;
-    for (const DepthTile& tile : hypothesis.views) {
-      for (int y = 0; y < tile.height; ++y) {
-        for (int x = 0; x < tile.width; ++x) {
-          const float w = depth_at(tile, x, y);
-          if (!(w > 0)) continue;
-          const PixelMark mark = mark_of_pixel(x, y, w);
-          sum += mark.first + kSecondMark * mark.second;
-        }
-      }
-    }
-    return sum;
+    return sum_covered(hypothesis, [](int x, int y, float w) {
+      const PixelMark mark = mark_of_pixel(x, y, w);
+      return mark.first + kSecondMark * mark.second;
+    });
   }
   std::unique_ptr<cuda::DeviceObjective> on_device() const override {
     return mark_probe_on_device();
