@@ -70,6 +70,14 @@ std::vector<std::int64_t> targets_of_this_machine() {
   return targets;
 }
 
+// Another instruction set of this machine with a fused multiply-add; 0: there is none.
+std::int64_t other_that_fuses(std::int64_t target) {
+  for (const std::int64_t other : targets_of_this_machine()) {
+    if (other != target && test::fuses_products_and_sums(other)) return other;
+  }
+  return 0;
+}
+
 void use_target(std::int64_t target) {  // 0: the best one
   hwy::SetSupportedTargetsForTest(target);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
@@ -214,6 +222,8 @@ TEST_P(Rasterizer, LeavesNoGapsBetweenTriangles) {
 
 TEST_P(Rasterizer, DrawsTheSameToTheLastBitWhereverThereIsAFusedMultiplyAdd) {
   if (!test::fuses_products_and_sums(GetParam())) GTEST_SKIP() << "there is none";
+  const std::int64_t other = other_that_fuses(GetParam());
+  if (other == 0) GTEST_SKIP() << "no other instruction set of this machine has one";
   const Scene scene = test::hand_and_box_scene();
   std::mt19937_64 random(5);
   for (const Observation& observation : {test::rectified_pair(scene), test::general_pair(scene)}) {
@@ -224,10 +234,10 @@ TEST_P(Rasterizer, DrawsTheSameToTheLastBitWhereverThereIsAFusedMultiplyAdd) {
     for (int i = 0; i < 10; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random);
       const std::vector<float> here = pixels(drawer.draw(span(state)));
-      use_target(0);
-      const std::vector<float> best = pixels(drawer.draw(span(state)));
+      use_target(other);
+      const std::vector<float> there = pixels(drawer.draw(span(state)));
       use_target(GetParam());
-      ASSERT_EQ(here, best) << i;
+      ASSERT_EQ(here, there) << i;
     }
   }
 }
