@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <span>
-#include <vector>
 
 #include "evaluate/bone_poser.hpp"
 #include "hypotrack/scene.hpp"
