@@ -18,7 +18,8 @@ __global__ void reciprocals(std::uint32_t first, std::uint32_t count, float* out
 std::vector<float> exact_reciprocals(std::uint32_t first, std::uint32_t count) {
   cuda::DeviceBuffer<float> buffer;
   buffer.reserve(count);
-  reciprocals<<<(count + kThreads - 1) / kThreads, kThreads>>>(first, count, buffer.data());
+  cuda::launch(&reciprocals, (count + kThreads - 1) / kThreads, kThreads, 0, {}, false, first,
+               count, buffer.data());
   std::vector<float> out(count);
   cuda::check(cudaMemcpy(out.data(), buffer.data(), count * sizeof(float), cudaMemcpyDeviceToHost),
               "finding reciprocals");

@@ -40,6 +40,7 @@
 
 /// Before every per-pixel function.
 #if defined(__CUDACC__)
+#include "hypotrack/cuda/instructions.cuh"
 #define HYPOTRACK_PIXEL __host__ __device__ __forceinline__
 #else
 #define HYPOTRACK_PIXEL inline __attribute__((always_inline))
@@ -92,9 +93,7 @@ HYPOTRACK_PIXEL float sqrt(float a) { return std::sqrt(a); }
 /// The root within 3e-7 relative; of subnormal numbers it may be 0.
 HYPOTRACK_PIXEL float quick_sqrt(float a) {
 #if defined(__CUDA_ARCH__)
-  float root;
-  asm("sqrt.approx.ftz.f32 %0, %1;" : "=f"(root) : "f"(a));
-  return root;
+  return cuda::approximate_sqrt(a);
 #else
   return std::sqrt(a);
 #endif
@@ -120,8 +119,7 @@ HYPOTRACK_PIXEL float exp(float x) {
   constexpr float kLn2 = 0.693147181f, kLog2ERest = 1.92596299e-8f;
   const float high = x * kLog2E;
   const float low = fmaf(x, kLog2ERest, fmaf(x, kLog2E, -high));
-  float power;
-  asm("ex2.approx.ftz.f32 %0, %1;" : "=f"(power) : "f"(high));
+  const float power = cuda::approximate_exp2(high);
   return fmaf(power, low * kLn2, power);
 #else
   const float n = round(x * kLog2E);

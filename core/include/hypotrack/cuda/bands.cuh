@@ -36,17 +36,13 @@ __device__ __forceinline__ int row_at(const Span& rows, float share) {
 /// in it all its bits are set, which no arithmetic makes.
 inline constexpr std::uint64_t kEmptySlot = ~std::uint64_t{0};
 __device__ __forceinline__ void fill_slot(double* slot, double value) {
-  asm volatile("st.relaxed.gpu.global.f64 [%0], %1;" ::"l"(slot), "d"(value) : "memory");
+  store_relaxed(slot, value);
 }
 /// The bits of the number, or kEmptySlot.
 __device__ __forceinline__ std::uint64_t look_into_slot(const double* slot) {
-  std::uint64_t bits;
-  asm volatile("ld.relaxed.gpu.global.u64 %0, [%1];" : "=l"(bits) : "l"(slot) : "memory");
-  return bits;
+  return load_relaxed_bits(slot);
 }
-__device__ __forceinline__ void clear_slot(double* slot) {
-  asm volatile("st.relaxed.gpu.global.u64 [%0], %1;" ::"l"(slot), "l"(kEmptySlot) : "memory");
-}
+__device__ __forceinline__ void clear_slot(double* slot) { store_relaxed_bits(slot, kEmptySlot); }
 /// Waits for the number and leaves the slot empty.
 __device__ __forceinline__ double empty_slot(double* slot) {
   std::uint64_t bits;

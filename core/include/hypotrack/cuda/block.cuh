@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "hypotrack/cuda/instructions.cuh"
 #include "hypotrack/cuda/layout.hpp"
 
 /// Small things that a block of threads does together.
@@ -77,13 +78,6 @@ __device__ __forceinline__ float exact_low_half(std::uint32_t word) {
 }
 __device__ __forceinline__ float exact_high_half(std::uint32_t word) {
   return biased_high_half(word) - kHalfBias;
-}
-
-/// 1 / x within a unit of the last digit, for x whose reciprocal is a normal number.
-__device__ __forceinline__ float reciprocal(float x) {
-  float r;
-  asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(x));
-  return r;
 }
 
 /// 1 / x rounded correctly, as on the CPU, for x whose reciprocal is a normal number

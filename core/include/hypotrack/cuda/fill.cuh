@@ -108,14 +108,7 @@ class PixelWriter {
   __device__ __forceinline__ void put(float w, bool is_there) {
     if constexpr (kShared) {
       // Without a branch, and without finding the block's shared memory anew for every pixel.
-      asm volatile(
-          "{\n"
-          ".reg .pred there;\n"
-          "setp.ne.s32 there, %2, 0;\n"
-          "@there red.relaxed.cta.shared::cta.max.s32 [%0], %1;\n"
-          "}" ::"r"(next_),
-          "r"(__float_as_int(w)), "r"(static_cast<int>(is_there))
-          : "memory");
+      shared_max(next_, __float_as_int(w), is_there);
     } else if (is_there) {
       atomicMax(reinterpret_cast<int*>(next_), __float_as_int(w));
     }
@@ -123,9 +116,9 @@ class PixelWriter {
   }
 
  private:
-  using Address = std::conditional_t<kShared, unsigned, std::uintptr_t>;
+  using Address = std::conditional_t<kShared, SharedAddress, std::uintptr_t>;
   __device__ __forceinline__ static Address address(float* pixel) {
-    if constexpr (kShared) return static_cast<unsigned>(__cvta_generic_to_shared(pixel));
+    if constexpr (kShared) return shared_address(pixel);
     return reinterpret_cast<std::uintptr_t>(pixel);
   }
 

@@ -95,9 +95,6 @@ class Staging {
 #endif
   }
 #if __CUDA_ARCH__ >= 900
-  __device__ __forceinline__ static unsigned shared_address(const void* object) {
-    return static_cast<unsigned>(__cvta_generic_to_shared(object));
-  }
   __device__ __forceinline__ static void await(unsigned barrier, unsigned parity) {
     unsigned is_done = 0;
     while (is_done == 0) {

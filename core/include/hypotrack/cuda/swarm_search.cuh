@@ -172,7 +172,8 @@ class SwarmParticle {
       }
       is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
       const Candidate now = best_of_few(of_lane);
-      // Its position is on its way while others are waited for.
+      // Its position is on its way while others are waited for. It comes from the L2 cache, and its
+      // place is known only from the slot, so that it is not read before that without a fence.
       if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
