@@ -84,5 +84,17 @@ TEST_F(BrokenKernels, TellThatThreadsWaitInVain) {
               "wait for others that do not come");
 }
 
+TEST_F(BrokenKernels, AreToldByTheThreadSanitizerThatABarrierIsMissing) {
+#ifndef __SANITIZE_THREAD__
+  GTEST_SKIP() << "this needs the preset cuda_on_cpu_tsan";
+#endif
+  const auto run = [](Barriers barriers) {
+    sum_of_block(64, barriers);
+    std::exit(0);  // or what the sanitizer makes of it
+  };
+  EXPECT_EXIT(run(Barriers::all), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(run(Barriers::one_is_missing), testing::ExitedWithCode(66), "data race");
+}
+
 }  // namespace
 }  // namespace hypotrack::test

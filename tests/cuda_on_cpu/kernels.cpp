@@ -59,10 +59,13 @@ void store_in_order(double* to, std::uint64_t bits) {
 std::uint64_t load_in_order(const double* from) {
   const std::uint64_t bits =
       __atomic_load_n(reinterpret_cast<const std::uint64_t*>(from), __ATOMIC_ACQUIRE);
-  runner().heard(from);
   if (kernel_has_failed()) runner().fail("another block has failed");
   // Nothing in it yet (kEmptySlot of bands.cuh): whoever is waited for may need this core.
-  if (bits == ~std::uint64_t{0}) std::this_thread::sleep_for(std::chrono::microseconds(20));
+  if (bits == ~std::uint64_t{0}) {
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+  } else {
+    runner().heard(from);
+  }
   return bits;
 }
 

@@ -7,8 +7,9 @@
 /// Kernels that show how the CPU stands in for a GPU, and what it says of broken ones.
 namespace hypotrack::test {
 
+enum class Barriers { all, one_is_missing };
 /// 1 + 2 + ... + the number of threads, added up in shared memory by halves.
-int sum_of_block(int threads);
+int sum_of_block(int threads, Barriers barriers = Barriers::all);
 
 /// What the lanes of a warp get of one another: of lane 5, of their neighbour (lane ^ 1), of the
 /// lane two below (or their own), and the bits of the lanes that are multiples of 3.
