@@ -172,8 +172,9 @@ class SwarmParticle {
       }
       is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
       const Candidate now = best_of_few(of_lane);
-      // Its position is on its way while others are waited for. It comes from the L2 cache, and its
-      // place is known only from the slot, so that it is not read before that without a fence.
+      // Its position is on its way while others are waited for. It is read from the L2 cache, at a
+      // place that only the slot tells, and so after the slot: no GPU reads ahead of an address.
+      // (PTX's memory model promises that only behind a fence, which would cost a microsecond.)
       if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
