@@ -174,7 +174,7 @@ class SwarmParticle {
       const Candidate now = best_of_few(of_lane);
       // Its position is on its way while others are waited for. It is read from the L2 cache, at a
       // place that only the slot tells, and so after the slot: no GPU reads ahead of an address.
-      // (PTX's memory model promises that only behind a fence, which would cost a microsecond.)
+      // (PTX's memory model promises that only behind a fence.)
       if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
