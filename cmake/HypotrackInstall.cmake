@@ -9,7 +9,7 @@ install(EXPORT hypotrack NAMESPACE hypotrack:: FILE hypotrack-targets.cmake
   DESTINATION ${package_dir})
 
 set(built_for)
-if(HYPOTRACK_HAS_CUDA)
+if(CMAKE_CUDA_COMPILER)
   set(built_for ${CMAKE_CUDA_ARCHITECTURES})
 endif()
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/hypotrack-config.cmake.in

@@ -3,6 +3,8 @@
 #include <alloca.h>
 #include <sys/mman.h>
 
+#include <algorithm>
+#include <iterator>
 #include <new>
 #include <string>
 #include <utility>
@@ -93,7 +95,7 @@ void BlockRunner::prepare(int threads) {
     thread->race_checker = new_fiber();
     thread->fiber = boost::context::fiber(
         std::allocator_arg, stacks_.stack(threads_.size()), KeepStack(),
-        [this, own = thread.get()](boost::context::fiber&& runner) {
+        [this, own = thread.get()](boost::context::fiber&& runner) -> boost::context::fiber {
           own->runner = std::move(runner);
           // Stacks that begin at the same place of a page would all have the same lines of a cache.
           *static_cast<volatile char*>(alloca(kColour * (own->number % kWarp + 1))) = 0;
@@ -107,7 +109,6 @@ void BlockRunner::prepare(int threads) {
             end_thread();
             wait();
           }
-          return std::move(own->runner);
         });
     threads_.push_back(std::move(thread));
   }
@@ -127,6 +128,7 @@ void BlockRunner::run(const ThreadPlace& block, const std::function<void()>& thr
     warp.waiting = {};
     warp.kind = Kind::none;
     warp.live = 0;
+    for (auto& turn : warp.heard) std::fill(std::begin(turn), std::end(turn), nullptr);
   }
   for (int i = 0; i < count; ++i) {
     Thread& t = *threads_[static_cast<std::size_t>(i)];
@@ -140,7 +142,7 @@ void BlockRunner::run(const ThreadPlace& block, const std::function<void()>& thr
   release(&begin_);
   while (live_ > 0) {
     if (ready_.size == 0) {
-      if (failure_.empty()) failure_ = "threads wait for others that do not come";
+      note_failure("threads wait for others that do not come", waiting_thread());
       wake_all();
     }
     resume(ready_.pop());
@@ -168,13 +170,25 @@ void BlockRunner::wake_all() {
   ready_.append(meeting_);
 }
 
+const BlockRunner::Thread& BlockRunner::waiting_thread() const {
+  if (meeting_.first) return *meeting_.first;
+  const auto warp = std::find_if(warps_.begin(), warps_.end(),
+                                 [](const Warp& w) { return w.waiting.first != nullptr; });
+  return *warp->waiting.first;
+}
+
+/// The first one counts.
+void BlockRunner::note_failure(const std::string& why, const Thread& thread) {
+  if (!failure_.empty()) return;
+  const auto text = [](const uint3& at) {
+    return "(" + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " + std::to_string(at.z) +
+           ")";
+  };
+  failure_ = why + ", block " + text(thread.place.block) + ", thread " + text(thread.place.thread);
+}
+
 void BlockRunner::fail(const std::string& why) {
-  if (failure_.empty()) {
-    const ThreadPlace& at = running_->place;
-    failure_ = why + ", block (" + std::to_string(at.block.x) + ", " + std::to_string(at.block.y) +
-               ", " + std::to_string(at.block.z) + "), thread (" + std::to_string(at.thread.x) +
-               ", " + std::to_string(at.thread.y) + ", " + std::to_string(at.thread.z) + ")";
-  }
+  note_failure(why, *running_);
   wake_all();
   throw Stopped();
 }

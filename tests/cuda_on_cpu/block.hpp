@@ -84,6 +84,8 @@ class BlockRunner {
   void resume(Thread& thread);
   void wait();
   void wake_all();
+  void note_failure(const std::string& why, const Thread& thread);
+  const Thread& waiting_thread() const;
   void finish_exchange(Warp& warp);
   void finish_meeting();
   void end_thread();

@@ -25,7 +25,8 @@ class Workers {
     next_ = 0;
     failed_ = false;
     failure_ = nullptr;
-    const unsigned few = std::max(std::thread::hardware_concurrency(), 2u);
+    const unsigned few = std::clamp(std::thread::hardware_concurrency(), 2u,
+                                    static_cast<unsigned>(multiprocessors()));
     wanted_ = at_once ? blocks() : std::min(blocks(), few);
     for (; workers_ < wanted_; ++workers_) {
       std::thread([this, own = workers_, seen = kernel_] { work(own, seen); }).detach();

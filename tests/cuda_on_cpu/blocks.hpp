@@ -14,7 +14,8 @@ inline constexpr int kMostThreadsOfBlock = 1024;
 /// for threads and knows 8,128 of them at most.
 int multiprocessors();
 
-/// On the calling thread of the CPU, of which only one block at a time is worked on.
+/// On the calling thread of the CPU, of which only one block at a time is worked on. In its dynamic
+/// shared memory there is nothing that anybody may rely on.
 void run_block(const ThreadPlace& block, const std::function<void()>& thread);
 
 /// Runs all blocks: all at once, of which there are at most as many as multiprocessors, or a few at

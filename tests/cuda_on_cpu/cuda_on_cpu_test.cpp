@@ -81,7 +81,7 @@ TEST_F(BrokenKernels, TellThatAWarpDiverged) {
 }
 TEST_F(BrokenKernels, TellThatThreadsWaitInVain) {
   EXPECT_EXIT(run(Mistake::wait_in_vain), testing::ExitedWithCode(3),
-              "wait for others that do not come");
+              R"(wait for others that do not come, block \(0, 0, 0\), thread)");
 }
 
 TEST_F(BrokenKernels, AreToldByTheThreadSanitizerThatABarrierIsMissing) {

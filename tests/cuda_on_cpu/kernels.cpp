@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cstring>
 #include <string>
 #include <thread>
 
@@ -26,6 +27,7 @@ BlockRunner& runner() {
 }  // namespace
 
 void run_block(const ThreadPlace& block, const std::function<void()>& thread) {
+  std::memset(hypotrack::cuda::hypotrack_shared_memory, 0xA5, kSharedBytes);
   runner().run(block, thread);
 }
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "block.hpp"
@@ -69,6 +70,7 @@ const Description& description(cudaError_t error) {
 class Memory {
  public:
   cudaError_t reserve(void** memory, std::size_t bytes, cudaMemoryType type) {
+    if (of_kernel != cudaSuccess) return result(of_kernel);
     const std::lock_guard<std::mutex> lock(mutex_);
     if (type == cudaMemoryTypeDevice && bytes > kMemory - used_) {
       return result(cudaErrorMemoryAllocation);
@@ -169,9 +171,8 @@ cudaError_t launch(const cudaLaunchConfig_t& config, std::function<void()> threa
 const char* cudaGetErrorName(cudaError_t error) { return description(error).name; }
 const char* cudaGetErrorString(cudaError_t error) { return description(error).text; }
 cudaError_t cudaGetLastError() {
-  const cudaError_t error = last;
-  last = of_kernel;
-  return error;
+  if (of_kernel != cudaSuccess) return of_kernel;
+  return std::exchange(last, cudaSuccess);
 }
 cudaError_t cudaDriverGetVersion(int* version) {
   *version = CUDART_VERSION;

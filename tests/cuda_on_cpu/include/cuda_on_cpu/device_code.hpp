@@ -66,7 +66,7 @@ T shuffle(unsigned mask, T value, int lane) {
 }  // namespace cuda_on_cpu
 template <class T>
 T __shfl_sync(unsigned mask, T value, int lane) {
-  return cuda_on_cpu::shuffle(mask, value, lane % 32);
+  return cuda_on_cpu::shuffle(mask, value, lane & 31);
 }
 template <class T>
 T __shfl_xor_sync(unsigned mask, T value, int lanes) {
