@@ -2,8 +2,9 @@
 
 #include <cstdint>
 
-/// Instructions that CUDA C++ has no name for (PTX ISA). Everything else that a kernel does is C++,
-/// so that it can also be compiled for a CPU (tests/cuda_on_cpu).
+/// Instructions that CUDA C++ has no name for (PTX ISA), but for those of the copy engine
+/// (staging.cuh, which does without for older devices). The rest of all kernels is C++, so that
+/// they can also be compiled for a CPU: tests/cuda_on_cpu has a header in place of this one.
 namespace hypotrack::cuda {
 
 /// 1 / x within a unit of the last digit, for x whose reciprocal is a normal number.

@@ -173,8 +173,8 @@ class SwarmParticle {
       is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
       const Candidate now = best_of_few(of_lane);
       // Its position is on its way while others are waited for. It is read from the L2 cache, at a
-      // place that only the slot tells, and so after the slot: no GPU reads ahead of an address.
-      // (PTX's memory model promises that only behind a fence.)
+      // place that only the slot tells, and so after the slot. (PTX's memory model itself promises
+      // that behind a fence only.)
       if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
