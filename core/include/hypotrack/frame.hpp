@@ -22,6 +22,9 @@ struct GroundTruth {
   Eigen::VectorXd state;       ///< state of the scene (size 0: unknown)
   Eigen::Matrix3Xd landmarks;  ///< world positions in the order of Scene::landmark_names(), metres;
                                ///< NaN columns are unknown (size 0: use `state`)
+  /// For each model of the scene, whether it is known not to be in any picture; its landmarks are
+  /// then NaN. Empty: every model is in view.
+  std::vector<bool> absent;
 };
 
 /// One moment of a recording.

@@ -18,7 +18,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 std::string_view to_string(Status status) {
-  static constexpr std::array<std::string_view, 4> names{"tracked", "uncertain", "lost", "missing"};
+  static constexpr std::array<std::string_view, 5> names{"tracked", "uncertain", "lost",
+                                                             "absent", "missing"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -15,6 +15,7 @@ enum class Status {
   uncertain,  ///< the cost is an outlier, sigma is large, or part of the scene is out of view
   lost,       ///< out of view, infeasible, an outlier for too long, beside the foreground, or sigma
               ///< says anything goes
+  absent,     ///< the whole pictures were searched and show no such thing
   missing,    ///< there was no usable frame; the state is the last one
 };
 HYPOTRACK_API std::string_view to_string(Status status);
