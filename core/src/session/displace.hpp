@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
@@ -16,7 +17,7 @@ struct Displacement {
 
 /// The state displaced within the parameters' bounds. Directions and axes are uniform, and all is a
 /// function of the seed.
-Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displacement& by,
-                          std::uint64_t seed);
+HYPOTRACK_API Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state,
+                                        const Displacement& by, std::uint64_t seed);
 
 }  // namespace hypotrack

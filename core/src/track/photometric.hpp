@@ -56,6 +56,10 @@ class HYPOTRACK_API PhotometricMatch {
              const Eigen::VectorXd& state);
 
   void forget() { views_.clear(); }
+  /// The map of a view's colours to the first's (view from 1 on); identity where nothing is known.
+  ColorMap colors(std::size_t view) const {
+    return view <= views_.size() ? views_[view - 1].map : ColorMap{};
+  }
   /// Whether anything has been learned.
   bool knows() const;
   /// Puts the maps, and by how much the first two views still differ, into the plan of a frame.

@@ -62,6 +62,9 @@ class HYPOTRACK_API Predictor {
   /// The solution at hand is no continuation of those before: no motion is known.
   void forget_motion() { velocity_.reset(); }
 
+  /// The last motion per second, as tangent.hpp has differences; nothing where it is not known.
+  const std::optional<Eigen::VectorXd>& velocity() const { return velocity_; }
+
  private:
   bool is_gap(double seconds) const;
   Eigen::VectorXd led(double seconds, double pose_share, double angle_share) const;

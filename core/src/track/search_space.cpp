@@ -50,7 +50,8 @@ SearchSpace::SearchSpace(const Scene& scene, const SearchSettings& settings)
   groups_ = search_groups(scene, rotation_vectors());
 }
 
-SearchRegion SearchSpace::region(const Eigen::VectorXd& prior) const {
+SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
+                                 const std::optional<Reach>& reach) const {
   SearchRegion region;
   region.groups = groups_;
   for (auto* v : {&region.start, &region.lower, &region.upper, &region.spread})
@@ -68,14 +69,22 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior) const {
   for (int i = 0; i < scene_->dimension(); ++i) {
     const Parameter& p = parameters[static_cast<std::size_t>(i)];
     if (p.kind == ParameterKind::quaternion && settings_.rotation_as == RotationSearch::tangent) {
-      for (int k = 0; k < 3; ++k) add(0, -std::numbers::pi, std::numbers::pi, settings_.rotation);
+      const double most = reach ? std::min(reach->rotation, std::numbers::pi) : std::numbers::pi;
+      for (int k = 0; k < 3; ++k) add(0, -most, most, settings_.rotation);
       i += 3;
       continue;
     }
     const double spread = p.kind == ParameterKind::position     ? settings_.position
                           : p.kind == ParameterKind::quaternion ? component
                                                                 : settings_.angle;
-    add(prior[i], p.lower, p.upper, spread);
+    double lower = p.lower, upper = p.upper;
+    if (reach && p.kind != ParameterKind::quaternion) {
+      const double most = p.kind == ParameterKind::position ? reach->position : reach->angle;
+      const double middle = std::clamp(prior[i], p.lower, p.upper);
+      lower = std::max(lower, middle - most);
+      upper = std::min(upper, middle + most);
+    }
+    add(prior[i], lower, upper, spread);
   }
   return region;
 }

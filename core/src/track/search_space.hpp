@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
+#include "track/motion_limits.hpp"
 #include "track/prediction.hpp"
 
 namespace hypotrack {
@@ -73,8 +75,10 @@ class HYPOTRACK_API SearchSpace {
   bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
 
   /// The region around a prior state; its groups are the models' (parameter_groups()). Angles of
-  /// the prior outside the models' bounds are moved onto them.
-  SearchRegion region(const Eigen::VectorXd& prior) const;
+  /// the prior outside the models' bounds are moved onto them. With `reach`, nothing is farther
+  /// from the prior along any axis; quaternions are not bounded.
+  SearchRegion region(const Eigen::VectorXd& prior,
+                      const std::optional<Reach>& reach = std::nullopt) const;
 
   /// States (DxN, normalised) of search points (dimension() x N) found around a prior.
   Eigen::MatrixXd states(const Eigen::Ref<const Eigen::MatrixXd>& points,

@@ -18,8 +18,8 @@ double median(std::vector<double> values) {
 }  // namespace
 
 std::string_view to_string(Status status) {
-  static constexpr std::array<std::string_view, 5> names{"tracked", "uncertain", "lost",
-                                                             "absent", "missing"};
+  static constexpr std::array<std::string_view, 5> names{"tracked", "uncertain", "lost", "absent",
+                                                         "missing"};
   return names[static_cast<std::size_t>(status)];
 }
 
@@ -37,24 +37,48 @@ double StatusMonitor::usual_cost() const {
   return expected + settings_.outlier * deviation;
 }
 
-Status StatusMonitor::judge(double cost, double visible, double sigma, OnForeground on_foreground) {
+void StatusMonitor::remember(double cost) {
+  costs_.push_back(cost);
+  if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
+}
+
+Status StatusMonitor::judge(const StatusEvidence& evidence) {
+  const Status status = decide(evidence);
+  was_tracked_ = status == Status::tracked;
+  return status;
+}
+
+Status StatusMonitor::decide(const StatusEvidence& evidence) {
+  if (!evidence.in_view) return Status::absent;
   // Beside all foreground a cost may say nothing: pixels off the mask may weigh nothing.
-  if (!std::isfinite(cost) || visible < settings_.min_visible || sigma > settings_.lost_sigma ||
-      on_foreground == OnForeground::nowhere) {
+  if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
+      evidence.sigma > settings_.lost_sigma || evidence.on_foreground == OnForeground::nowhere ||
+      evidence.probability < settings_.uncertain_above) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }
+  if (std::isnan(evidence.probability)) return judge_by_cost(evidence);
+  const bool doubtful = evidence.probability < needed() ||
+                        evidence.visible < 2 * settings_.min_visible ||
+                        evidence.on_foreground == OnForeground::in_parts ||
+                        evidence.sigma > settings_.uncertain_sigma;
+  if (doubtful) return Status::uncertain;
+  remember(evidence.cost);
+  return Status::tracked;
+}
+
+Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
   const double usual = usual_cost();
-  const bool outlier = std::isfinite(usual) && cost > usual;
+  const bool outlier = std::isfinite(usual) && evidence.cost > usual;
   // Outliers are remembered, too: a closing fist changes the cost for good, and must become what is
   // expected.
-  costs_.push_back(cost);
-  if (costs_.size() > static_cast<std::size_t>(settings_.history)) costs_.pop_front();
-  if (outlier || visible < 2 * settings_.min_visible || on_foreground == OnForeground::in_parts)
+  remember(evidence.cost);
+  if (outlier || evidence.visible < 2 * settings_.min_visible ||
+      evidence.on_foreground == OnForeground::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
   // A sigma that stays large, of hidden fingers, is no reason to give up.
-  return sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
+  return evidence.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 
 }  // namespace hypotrack

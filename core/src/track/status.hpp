@@ -6,6 +6,8 @@
 #include "geometry/on_foreground.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
+#include "recover/recovery_settings.hpp"
+#include "track/motion_limits.hpp"
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {
@@ -22,6 +24,12 @@ HYPOTRACK_API std::string_view to_string(Status status);
 
 /// `tracker:` of a scene.
 struct StatusSettings {
+  bool evidence = true;
+  double tracked_above = 0.5;
+  double surely_above = 0.85;
+  double uncertain_above = 0.15;
+  MotionLimits motion;
+  RecoverySettings recovery;
   int history = 30;
   double outlier = 6.0;
   int patience = 15;
@@ -30,6 +38,19 @@ struct StatusSettings {
   double lost_sigma = 0.040;
   UncertaintySettings uncertainty;
   void visit(ParamVisitor& v) {
+    v("evidence", evidence,
+      {.help = "judge solutions by what both pictures show where the models are; off: by their "
+               "costs alone"});
+    v("tracked_above", tracked_above,
+      {.help = "with `evidence`: stays tracked from this probability of being right on",
+       .min = 0,
+       .max = 1});
+    v("surely_above", surely_above,
+      {.help = "with `evidence`: becomes tracked from this probability on", .min = 0, .max = 1});
+    v("uncertain_above", uncertain_above,
+      {.help = "with `evidence`: lost below this probability", .min = 0, .max = 1});
+    v("motion", motion, {.help = "how fast models move at most"});
+    v("recovery", recovery, {.help = "how lost models are found again"});
     v("history", history,
       {.help = "past frames whose costs say what to expect", .min = 5, .max = 10000});
     v("outlier", outlier,
@@ -57,25 +78,39 @@ struct StatusSettings {
   }
 };
 
-/// Judges solutions by what can be seen without the truth: cost against the recent past, how much
-/// of the models is in view, and how far off their landmarks are expected to be. It cannot tell a
-/// wrong pose that explains the images as well as the right one.
+/// What a status is decided by.
+struct StatusEvidence {
+  double cost = 0;         ///< infinite: there is no answer
+  double probability = 0;  ///< that the answer is right, by what the pictures show; NaN: unknown
+  double visible = 0;      ///< share of the models' vertices that project into every image
+  double sigma = 0;        ///< mean over a model's landmarks, of the model where it is largest; NaN
+  OnForeground on_foreground = OnForeground::unknown;
+  bool in_view = true;  ///< false: the whole pictures do not show the models
+};
+
+/// Decides the status of a frame. Where the pictures do not say whether an answer is right, its
+/// cost is compared with those of past frames.
 class HYPOTRACK_API StatusMonitor {
  public:
   explicit StatusMonitor(const StatusSettings& settings) : settings_(settings) {}
 
-  /// `visible` is the share of the models' vertices that project into every image, `sigma` the mean
-  /// over a model's landmarks, of the model where it is largest, NaN where it is not
-  /// known.
-  Status judge(double cost, double visible, double sigma, OnForeground on_foreground);
+  Status judge(const StatusEvidence& evidence);
+
+  /// Probability that a tracked answer needs now: more where the scene was not tracked before.
+  double needed() const { return was_tracked_ ? settings_.tracked_above : settings_.surely_above; }
 
   /// Above it a cost is an outlier of the recent past; -infinity before there is one.
   double usual_cost() const;
 
  private:
+  Status decide(const StatusEvidence& evidence);
+  Status judge_by_cost(const StatusEvidence& evidence);
+  void remember(double cost);
+
   StatusSettings settings_;
   std::deque<double> costs_;  ///< of past frames, newest last
   int uncertain_in_a_row_ = 0;
+  bool was_tracked_ = false;
 };
 
 }  // namespace hypotrack

@@ -10,74 +10,18 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
+#include "session/displace.hpp"
+#include "track/tangent.hpp"
 
 namespace hypotrack {
 namespace {
 
+// Frames that are searched from several starts before anything was found.
+constexpr int kPatientFrames = 3;
+// An answer of this probability is worth searches around it.
+constexpr double kHint = 0.02;
+
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
-/// Residuals of search points that stay where the evaluator has them.
-class PointDifferences final : public ResidualDifferences {
- public:
-  PointDifferences(const SearchSpace& space, const Eigen::VectorXd& prior,
-                   ResidualDifferences& of_states)
-      : space_(space), prior_(prior), of_states_(of_states) {}
-
-  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                Eigen::Ref<Eigen::VectorXd> costs) override {
-    of_states_.evaluate(space_.states(points, prior_), costs);
-  }
-  void move_to(Eigen::Index i) override { of_states_.move_to(i); }
-  NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                                   const Eigen::Ref<const Eigen::VectorXd>& scale,
-                                   Eigen::Ref<Eigen::VectorXd> costs) override {
-    return of_states_.normal_equations(space_.states(points, prior_), scale, costs);
-  }
-
- private:
-  const SearchSpace& space_;
-  const Eigen::VectorXd& prior_;
-  ResidualDifferences& of_states_;
-};
-
-/// Costs of search points: points become states, states are evaluated.
-class StateCost final : public CostFunction, public ResidualCost {
- public:
-  StateCost(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
-      : space_(space), prior_(prior), evaluator_(evaluator) {}
-
-  int dimension() const override { return space_.dimension(); }
-  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                Eigen::Ref<Eigen::VectorXd> costs) override {
-    evaluator_.evaluate(space_.states(points, prior_), costs);
-  }
-  cuda::DeviceCost* device() override {
-    return evaluator_.device_cost(prior_, space_.rotation_vectors());
-  }
-  ResidualCost* residuals() override { return evaluator_.has_residuals() ? this : nullptr; }
-
-  // ResidualCost
-  Eigen::Index count() const override { return evaluator_.residual_count(); }
-  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
-    evaluator_.evaluate(space_.states(points, prior_), residuals, costs);
-  }
-  std::unique_ptr<ResidualDifferences> differences() override {
-    ResidualDifferences* of_states = evaluator_.differences();
-    if (!of_states) return ResidualCost::differences();
-    return std::make_unique<PointDifferences>(space_, prior_, *of_states);
-  }
-  bool can_linearize() const override { return evaluator_.can_linearize(); }
-  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
-                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
-    return evaluator_.linearize(space_.states(points, prior_), steps, blur);
-  }
-
- private:
-  const SearchSpace& space_;
-  const Eigen::VectorXd& prior_;
-  Evaluator& evaluator_;
-};
 
 /// A seed of its own for every frame (splitmix64 of both numbers), so that a frame's search does
 /// not depend on how many random numbers the frames before it used.
@@ -88,13 +32,16 @@ std::uint64_t frame_seed(std::uint64_t seed, int frame) {
   return z ^ (z >> 31);
 }
 
-/// Where no term looks at pictures, their colours are nobody's business.
-PhotometricSettings of_pictures(PhotometricSettings settings,
-                                const std::vector<ObjectiveTerm>& terms) {
-  settings.match = settings.match && std::ranges::any_of(terms, [](const ObjectiveTerm& term) {
-                     return term.weight != 0 && term.objective->needs_rendering();
-                   });
+/// Where no term looks at pictures, these say nothing of an answer.
+StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveTerm>& terms) {
+  settings.evidence = settings.evidence && look_at_pictures(terms);
   return settings;
+}
+
+/// How far a scene may be from where it was last seen: a root mean square, metres.
+double spread_after(double seconds) {
+  constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
+  return kAtOnce + kPerSecond * std::max(seconds, 0.0);
 }
 
 /// Takes what hindsight may spend off the budget of a search. Throws ConfigError if that would
@@ -125,35 +72,25 @@ void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
 }  // namespace
 
 Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
-    : parts_(std::move(parts)),
-      tiles_(scene, parts_.cameras, parts_.tile),
-      photometric_(scene, of_pictures(parts_.photometric, parts_.objective)),
-      space_(scene, parts_.search),
-      evaluator_(scene, parts_.objective, parts_.evaluate, residual_use(parts_)),
-      monitor_(parts_.status),
+    : scene_(scene),
+      settings_(of_pictures(parts.status, parts.objective)),
+      budget_(parts.budget),
+      first_(std::move(start)),
+      search_(scene, parts),
+      judge_(scene, parts.cameras),
+      recovery_(scene, parts.cameras, parts.status.recovery),
+      monitor_(parts.status),
       landmarks_(landmark_layout(scene.landmark_names())),
-      predictor_(scene, parts_.search.prediction),
-      smoother_(scene, parts_.smoothing),
-      state_(std::move(start)),
+      predictor_(scene, parts.search.prediction),
+      smoother_(scene, parts.smoothing),
+      smoothing_(parts.smoothing.enabled),
       seed_(seed) {
-  if (const std::string why = parts_.optimizer->needs_device();
-      !why.empty() && !evaluator_.on_device())
-    throw DeviceError(why);
-  scene.normalize(state_);
-  output_ = state_;
-  if (parts_.budget.evaluations == 0)
-    parts_.budget.evaluations = parts_.optimizer->default_evaluations();
-  if (parts_.hindsight.enabled) reserve_for(parts_.hindsight, parts_.budget);
-  if (parts_.status.uncertainty.enabled)
-    reserve_for(uncertainty_.emplace(scene, parts_.status.uncertainty), parts_.budget);
-}
-
-ResidualUse residual_use(const TrackerParts& parts) {
-  const bool search = parts.optimizer->needs_residuals();
-  const bool hindsight = parts.hindsight.enabled;
-  return {search || hindsight || parts.status.uncertainty.enabled,
-          std::max(search ? parts.optimizer->linearization() : Linearization::unused,
-                   hindsight ? Linearization::welcome : Linearization::unused)};
+  scene.normalize(first_);
+  state_ = kept_.state = output_ = first_;
+  if (budget_.evaluations == 0) budget_.evaluations = search_.default_evaluations();
+  if (parts.hindsight.enabled) reserve_for(parts.hindsight, budget_);
+  if (settings_.uncertainty.enabled)
+    reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), budget_);
 }
 
 Tracker::~Tracker() = default;
@@ -167,20 +104,7 @@ Solution Tracker::track(const Frame& frame) {
     solution.sigma.setConstant(static_cast<Eigen::Index>(landmarks_.names.size()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    const Found found = search(frame);
-    const double visible = tiles_.visible_share(found.state);
-    solution.cost = found.cost;
-    solution.evaluations = found.evaluations;
-    if (uncertainty_) {
-      solution.sigma = uncertainty_->of(evaluator_, found.state);
-      solution.evaluations += uncertainty_->evaluations();
-    }
-    solution.status = monitor_.judge(found.cost, visible, largest_sigma(solution.sigma),
-                                     tiles_.on_foreground(frame, found.state));
-    // Where nothing was feasible, or the answer has left every image, the last state is the better
-    // place to search the next frame from.
-    if (std::isfinite(found.cost) && visible > 0) go_on_from(found.state, frame);
-    if (solution.status == Status::lost) predictor_.forget_motion();
+    find(frame, solution);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
@@ -188,38 +112,238 @@ Solution Tracker::track(const Frame& frame) {
   return solution;
 }
 
-Observation Tracker::seen(const Frame& frame) const {
-  TilePlan plan = plan_;
-  for (CutPlan& cut : plan.cuts) cut.brightness = cv::Mat();
-  return tiles_.cut(frame, plan);
+void Tracker::find(const Frame& frame, Solution& solution) {
+  Candidate best = found_any_ ? follow(frame) : begin(frame);
+  if (recovers() && !is_right(best) && known(best)) recover(frame, best);
+  solution.cost = best.found.cost;
+  solution.evaluations = best.found.evaluations;
+  solution.probability = best.verdict.probability;
+  conclude(frame, best, solution);
+}
+
+void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solution) {
+  const bool answered = std::isfinite(best.found.cost);
+  const double visible = answered ? search_.tiles().visible_share(best.found.state) : 0;
+  if (uncertainty_ && answered) {
+    solution.sigma = uncertainty_->of(search_.evaluator(), best.found.state);
+    solution.evaluations += uncertainty_->evaluations();
+  }
+  solution.status = monitor_.judge(
+      {.cost = best.found.cost,
+       .probability = best.verdict.probability,
+       .visible = visible,
+       .sigma = largest_sigma(solution.sigma),
+       .on_foreground = answered ? search_.tiles().on_foreground(frame, best.found.state)
+                                 : OnForeground::unknown,
+       .in_view = best.in_view});
+  const bool tracked = solution.status == Status::tracked;
+  const bool good = tracked || solution.status == Status::uncertain;
+  // Without a recovery tracking goes on from any answer that can be seen, as in the paper; so it
+  // does where nothing better was ever found.
+  const bool settles = !recovers() || (!judge_.experienced() && begun_ >= kPatientFrames);
+  if (good || (settles && answered && visible > 0)) {
+    go_on_from(best.found.state, frame);
+  } else {
+    keep_last(frame);
+  }
+  if (tracked) learn(frame, best);
+  if (!good) predictor_.forget_motion();
+  if (recovers() && !good) widen(solution.sigma, frame.time - kept_.time);
+  last_status_ = solution.status;
+}
+
+Tracker::Candidate Tracker::judged(const Frame& frame, Found found) {
+  Candidate out{std::move(found), {}, true};
+  if (settings_.evidence && std::isfinite(out.found.cost))
+    out.verdict = judge_.judge(frame, out.found.state, search_.second_view_colors());
+  return out;
+}
+
+bool Tracker::known(const Candidate& candidate) const {
+  return !std::isnan(candidate.verdict.probability) || !std::isfinite(candidate.found.cost);
+}
+
+bool Tracker::is_right(const Candidate& candidate) const {
+  return candidate.verdict.probability >= monitor_.needed();
+}
+
+Tracker::Candidate Tracker::follow(const Frame& frame) {
+  const bool lost = last_status_ == Status::lost || last_status_ == Status::absent;
+  if (recovers() && judge_.experienced() && lost) return {};
+  const Eigen::MatrixXd starts = possible_starts(frame.time);
+  Budget budget = budget_;
+  budget.usual_cost = monitor_.usual_cost();
+  search_.look(frame, starts.col(0), !found_any_);
+  const Eigen::VectorXd prior = search_.cheapest(starts);
+  const std::int64_t compared = starts.cols() > 1 ? starts.cols() : 0;
+  budget.evaluations -= compared;
+  std::optional<Reach> reach;
+  if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
+  Found found = search_.from(prior, budget, reach, frame_seed(seed_, frame.index));
+  found.evaluations += compared;
+  return judged(frame, std::move(found));
+}
+
+Tracker::Candidate Tracker::begin(const Frame& frame) {
+  const std::uint64_t seed = frame_seed(seed_, frame.index);
+  const int count = recovers() && begun_ < kPatientFrames ? settings_.recovery.first_starts : 1;
+  ++begun_;
+  std::vector<Candidate> candidates;
+  std::int64_t evaluations = 0;
+  for (int k = 0; k < count; ++k) {
+    // Off by as much as a start by hand is, in another direction each.
+    const Displacement off{0.025, 20 * kDegree, 0};
+    const Eigen::VectorXd start =
+        k == 0 ? first_ : displaced(scene_, first_, off, seed_of_part(seed_, 100 + k));
+    if (k > 0 && search_.tiles().visible_share(start) == 0) continue;
+    search_.forget_colors();
+    candidates.push_back(judged(
+        frame, search_.from_guess(frame, start, budget_, k == 0 ? seed : seed_of_part(seed, k))));
+    evaluations += candidates.back().found.evaluations;
+    if (!known(candidates.back())) break;
+  }
+  Candidate best = candidates.size() == 1 ? candidates[0] : best_of(frame, candidates);
+  best.found.evaluations = evaluations;
+  return best;
+}
+
+Tracker::Candidate Tracker::best_of(const Frame& frame, const std::vector<Candidate>& candidates) {
+  constexpr double kAlike = 0.2;  // of probability: costs decide
+  const auto most = std::ranges::max_element(candidates, {}, [](const Candidate& c) {
+    return std::isnan(c.verdict.probability) ? -1.0 : c.verdict.probability;
+  });
+  if (search_.tiles().visible_share(most->found.state) == 0) return *most;
+  // Costs compare in one tile only, with colours learned there.
+  const auto look_at = [&](const Eigen::VectorXd& state) {
+    search_.forget_colors();
+    search_.look(frame, state, true);
+    search_.look(frame, state, false);
+  };
+  look_at(most->found.state);
+  Eigen::MatrixXd states(scene_.dimension(), static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    states.col(static_cast<Eigen::Index>(i)) = candidates[i].found.state;
+  Eigen::VectorXd costs(states.cols());
+  search_.evaluator().evaluate(states, costs);
+  auto best = static_cast<std::size_t>(most - candidates.begin());
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (candidates[i].verdict.probability >= most->verdict.probability - kAlike &&
+        costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
+      best = i;
+  if (&candidates[best] != &*most) look_at(candidates[best].found.state);
+  Found found = candidates[best].found;
+  found.cost = costs[static_cast<Eigen::Index>(best)];
+  return judged(frame, std::move(found));
+}
+
+Found Tracker::settled(const Eigen::VectorXd& start, std::uint64_t seed) {
+  constexpr int kMost = 4;
+  constexpr double kGain = 0.02;  // of the cost that is worth another search
+  Found found{start, std::numeric_limits<double>::infinity(), 0};
+  for (int k = 0; k < kMost; ++k) {
+    Found next = search_.from(found.state, budget_, std::nullopt,
+                              seed_of_part(seed, static_cast<std::uint32_t>(k)));
+    next.evaluations += found.evaluations;
+    const bool settles = !(found.cost - next.cost > kGain * std::abs(next.cost));
+    found = std::move(next);
+    if (settles && k > 0) break;
+  }
+  return found;
+}
+
+void Tracker::recover(const Frame& frame, Candidate& best) {
+  if (!judge_.experienced()) return;
+  const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
+  LastKnown last{kept_.state, std::max(frame.time - kept_.time, 1e-3)};
+  std::vector<bool> lost(scene_.items().size(), true);
+  for (std::size_t m = 0; m < best.verdict.models.size(); ++m) {
+    const double p = best.verdict.models[m];
+    lost[m] = !(p >= monitor_.needed()) && !std::isnan(p);
+    const Scene::Item& item = scene_.items()[m];
+    const Eigen::Index size = item.model->dimension();
+    if (!lost[m])
+      last.state.segment(item.offset, size) = best.found.state.segment(item.offset, size);
+  }
+  if (best.verdict.probability >= kHint) last.hint = best.found.state;
+  if (std::ranges::none_of(lost, [](bool is) { return is; })) lost.assign(lost.size(), true);
+  const Candidates candidates =
+      recovery_.find(search_, frame, judge_, last, lost, settings_.motion, seed);
+  std::int64_t evaluations = best.found.evaluations + candidates.evaluations;
+  best.in_view = candidates.in_view;
+  std::uint32_t k = 0;
+  for (const Eigen::VectorXd& state : candidates.states) {
+    if (search_.tiles().visible_share(state) == 0) continue;
+    search_.look(frame, state, false);
+    Candidate one = judged(frame, settled(state, seed_of_part(seed, ++k)));
+    evaluations += one.found.evaluations;
+    if (getenv("HT_DEBUG") && frame.truth) {
+      const Eigen::Matrix3Xd t = scene_.landmarks(frame.truth->state);
+      fmt::print(stderr, "  f{} cand {} before {:.1f} after {:.1f} p {:.3f} cost {:.1f}\n",
+                 frame.index, k, 1000 * (scene_.landmarks(state) - t).colwise().norm().mean(),
+                 1000 * (scene_.landmarks(one.found.state) - t).colwise().norm().mean(),
+                 one.verdict.probability, one.found.cost);
+    }
+    const Reach reach = reach_within(settings_.motion, last.seconds);
+    if (!is_within(scene_, reach, kept_.state, one.found.state)) continue;
+    if (!(best.verdict.probability >= one.verdict.probability)) {
+      one.in_view = true;
+      best = std::move(one);
+    }
+    if (best.verdict.probability >= settings_.surely_above) break;
+  }
+  best.found.evaluations = evaluations;
+  // What follows looks at the frame as the answer shows it.
+  if (std::isfinite(best.found.cost) && search_.tiles().visible_share(best.found.state) > 0)
+    search_.look(frame, best.found.state, false);
+}
+
+void Tracker::learn(const Frame& frame, const Candidate& best) {
+  if (settings_.evidence && !std::isnan(best.verdict.probability)) {
+    judge_.judge(frame, best.found.state, search_.second_view_colors());
+    judge_.learn();
+  }
+  search_.learn(frame, best.found.state);
+  recovery_.remember(best.found.state);
+  kept_ = {best.found.state, frame.time, predictor_.velocity()};
 }
 
 Eigen::MatrixXd Tracker::possible_starts(double time) {
   const Eigen::MatrixXd states = predictor_.at(time);
   // Tiles can be cut around what is seen only.
-  if (states.cols() == 0 || tiles_.visible_share(states.col(0)) == 0) return state_;
-  return states.cols() < parts_.budget.evaluations ? states : states.leftCols(1);
-}
-
-Eigen::VectorXd Tracker::cheapest(const Eigen::MatrixXd& states) {
-  if (states.cols() == 1) return states;
-  Eigen::VectorXd costs(states.cols());
-  evaluator_.evaluate(states, costs);
-  Eigen::Index best = 0;
-  costs.minCoeff(&best);
-  return states.col(best);
+  if (states.cols() == 0 || search_.tiles().visible_share(states.col(0)) == 0) return state_;
+  return states.cols() < budget_.evaluations ? states : states.leftCols(1);
 }
 
 void Tracker::go_on_from(const Eigen::VectorXd& found, const Frame& frame) {
   state_ = found;
+  time_ = frame.time;
   found_any_ = true;
   predictor_.add(state_, frame.time);
-  photometric_.learn(tiles_, frame, plan_, state_);
+}
+
+void Tracker::keep_last(const Frame& frame) {
+  if (!recovers()) return;
+  const Eigen::VectorXd led = extrapolated(frame.time);
+  state_ = search_.tiles().visible_share(led) > 0 ? led : kept_.state;
+  time_ = kept_.time;
+}
+
+Eigen::VectorXd Tracker::extrapolated(double time) const {
+  constexpr double kSlowing = 0.1;  // seconds in which motion that nobody sees dies away
+  if (!kept_.velocity) return kept_.state;
+  const double seconds = kSlowing * (1 - std::exp(-std::max(time - kept_.time, 0.0) / kSlowing));
+  return moved(scene_, kept_.state, *kept_.velocity * seconds);
+}
+
+void Tracker::widen(Eigen::VectorXd& sigma, double seconds) const {
+  const double spread = spread_after(seconds);
+  for (double& s : sigma)
+    if (!(s > spread)) s = spread;
 }
 
 Eigen::VectorXd Tracker::smoothed(const Solution& solution) {
-  if (!parts_.smoothing.enabled) return state_;
-  if (solution.status == Status::lost) smoother_.begin_anew();
+  if (!smoothing_) return state_;
+  if (solution.status == Status::lost || solution.status == Status::absent) smoother_.begin_anew();
   if (solution.status != Status::missing) output_ = smoother_.filter(state_, solution.time);
   return output_;
 }
@@ -230,20 +354,20 @@ double Tracker::largest_sigma(const Eigen::VectorXd& sigma) const {
 }
 
 void Tracker::check(const Frame& frame) {
-  evaluator_.prepare(tiles_, frame, tiles_.plan(frame, state_));
+  search_.take_in(search_.tiles(), frame, search_.tiles().plan(frame, state_));
 }
 
 std::string Tracker::problem_of_start(const Frame& frame) const {
   constexpr const char* kQuestion =
       "is the start (init) where the models are, and do the cameras and their units (calibration) "
       "belong to the pictures?";
-  const double visible = tiles_.visible_share(state_);
-  if (visible < parts_.status.min_visible)
+  const double visible = search_.tiles().visible_share(state_);
+  if (visible < settings_.min_visible)
     return fmt::format(
         "{:.0f} % of what the models cover at the start is inside every image, and a frame with "
         "less than {:.0f} % counts as lost (tracker.min_visible); {}",
-        100 * visible, 100 * parts_.status.min_visible, kQuestion);
-  const OnForeground on_foreground = tiles_.on_foreground(frame, state_);
+        100 * visible, 100 * settings_.min_visible, kQuestion);
+  const OnForeground on_foreground = search_.tiles().on_foreground(frame, state_);
   if (on_foreground == OnForeground::nowhere)
     return fmt::format(
         "the models at the start cover no foreground pixel of any mask, and such a frame counts as "
@@ -255,61 +379,6 @@ std::string Tracker::problem_of_start(const Frame& frame) const {
         "counts as uncertain; {}",
         kQuestion);
   return {};
-}
-
-void Tracker::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
-  plan_ = tiles_.plan(frame, start);
-  if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, start);
-  photometric_.apply(plan_);
-  photometric_.apply_highlights(plan_, start);
-  plan_.header.start_is_guess = is_guess;
-  evaluator_.prepare(tiles_, frame, plan_);
-}
-
-Tracker::Found Tracker::search(const Frame& frame) {
-  const Eigen::MatrixXd starts = possible_starts(frame.time);
-  const std::uint64_t seed = frame_seed(seed_, frame.index);
-  Budget budget = parts_.budget;
-  budget.usual_cost = monitor_.usual_cost();
-  look(frame, starts.col(0), !found_any_);
-  const Eigen::VectorXd prior = cheapest(starts);
-  const std::int64_t compared = starts.cols() > 1 ? starts.cols() : 0;
-  budget.evaluations -= compared;
-  Found found = plan_.header.start_is_guess ? search_twice(frame, prior, budget, seed)
-                                            : search_from(prior, budget, seed);
-  found.evaluations += compared;
-  return found;
-}
-
-Tracker::Found Tracker::search_twice(const Frame& frame, const Eigen::VectorXd& prior,
-                                     const Budget& budget, std::uint64_t seed) {
-  const double kept = parts_.search.second_look;
-  Budget first = budget, second = budget;
-  first.evaluations -= static_cast<std::int64_t>(kept * static_cast<double>(budget.evaluations));
-  first.seconds *= 1 - kept;
-  Found found = search_from(prior, first, seed);
-  second.evaluations -= found.evaluations;
-  if (kept == 0 || second.evaluations < 1 || tiles_.visible_share(found.state) == 0) return found;
-  second.seconds *= kept;
-  photometric_.forget();
-  look(frame, found.state, false);
-  const std::int64_t before = found.evaluations;
-  found = search_from(found.state, second, seed_of_part(seed, 1));
-  found.evaluations += before;
-  return found;
-}
-
-Tracker::Found Tracker::search_from(const Eigen::VectorXd& prior, const Budget& budget,
-                                    std::uint64_t seed) {
-  StateCost cost(space_, prior, evaluator_);
-  const OptimizerResult result =
-      parts_.optimizer->minimize(cost, space_.region(prior), budget, seed);
-  if (!result.point.allFinite() || std::isnan(result.cost))
-    throw PluginError(
-        fmt::format("the optimizer's answer of cost {} has numbers that are none; this is a bug in "
-                    "the optimizer",
-                    result.cost));
-  return {space_.states(result.point, prior), result.cost, result.evaluations};
 }
 
 }  // namespace hypotrack

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,12 +14,16 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "judge/judge.hpp"
 #include "metrics/landmark_errors.hpp"
+#include "recover/recovery.hpp"
+#include "track/frame_search.hpp"
 #include "track/one_euro.hpp"
 #include "track/photometric.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
 #include "track/status.hpp"
+#include "track/tracker_parts.hpp"
 #include "track/uncertainty.hpp"
 
 namespace hypotrack {
@@ -35,25 +40,10 @@ struct Solution {
   /// How far off each landmark of the scene may be, in metres: the root of the expected square.
   /// Empty if the tracker was not told to say, NaN if the frame was missing.
   Eigen::VectorXd sigma;
+  /// Probability that every model is where it was found, by what the pictures show; NaN where they
+  /// do not tell.
+  double probability = std::numeric_limits<double>::quiet_NaN();
 };
-
-/// What a tracker is put together from.
-struct TrackerParts {
-  std::vector<Camera> cameras;
-  std::unique_ptr<Optimizer> optimizer;
-  std::vector<ObjectiveTerm> objective;
-  TileSettings tile;
-  EvaluateSettings evaluate;
-  PhotometricSettings photometric;
-  SearchSettings search;
-  StatusSettings status;
-  SmoothingSettings smoothing;
-  HindsightSettings hindsight;
-  Budget budget;  ///< 0 evaluations: the optimizer's default
-};
-
-/// What the search and the sigmas of a tracker, and hindsight, want of residuals.
-ResidualUse residual_use(const TrackerParts& parts);
 
 /// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
 /// from where its motion leads.
@@ -77,48 +67,73 @@ class HYPOTRACK_API Tracker {
   std::string problem_of_start(const Frame& frame) const;
 
   /// What the search of `frame`, the last one tracked, saw of it; with the highlights.
-  Observation seen(const Frame& frame) const;
+  Observation seen(const Frame& frame) const { return search_.seen(frame); }
 
   /// What evaluates hypotheses, for the run's protocol.
-  std::string backend() const { return evaluator_.backend(); }
+  std::string backend() const { return search_.evaluator().backend(); }
 
  private:
-  /// The answer of a search.
-  struct Found {
-    Eigen::VectorXd state;
-    double cost = 0;
-    std::int64_t evaluations = 0;
+  /// An answer and what the pictures say of it. Without an answer the cost is infinite.
+  struct Candidate {
+    Found found{{}, std::numeric_limits<double>::infinity(), 0};
+    Verdict verdict;
+    bool in_view = true;  ///< false: the whole pictures do not show the models
   };
+  /// The last state that was surely right.
+  struct Kept {
+    Eigen::VectorXd state;
+    double time = 0;
+    std::optional<Eigen::VectorXd> velocity = {};  ///< per second, as tangent.hpp has differences
+  };
+
+  void find(const Frame& frame, Solution& solution);
+  /// Searches the first frame from several starts.
+  Candidate begin(const Frame& frame);
+  /// Searches on from the last state; no answer while lost.
+  Candidate follow(const Frame& frame);
+  /// Replaces an answer by a better one, from anywhere that motion allows.
+  void recover(const Frame& frame, Candidate& best);
+  /// Searches the frame as it is taken in until that gains little.
+  Found settled(const Eigen::VectorXd& start, std::uint64_t seed);
+  void conclude(const Frame& frame, const Candidate& best, Solution& solution);
+  Candidate judged(const Frame& frame, Found found);
+  Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates);
+  bool known(const Candidate& candidate) const;
+  bool is_right(const Candidate& candidate) const;
+  bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
+
   /// States that the search of a frame may start from, the middle one, which is seen, first.
   Eigen::MatrixXd possible_starts(double time);
-  Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
+  void learn(const Frame& frame, const Candidate& best);
   void go_on_from(const Eigen::VectorXd& found, const Frame& frame);
+  void keep_last(const Frame& frame);
+  /// The last state that was surely right, moved on for a moment.
+  Eigen::VectorXd extrapolated(double time) const;
+  /// No sigma of a scene that is lost is below what it may have moved since.
+  void widen(Eigen::VectorXd& sigma, double seconds) const;
   Eigen::VectorXd smoothed(const Solution& solution);
   /// Mean over a model's landmarks, of the model where it is largest; NaN without sigmas.
   double largest_sigma(const Eigen::VectorXd& sigma) const;
-  /// Takes the frame in for searches that begin at `start` (Observation::start_is_guess), or near
-  /// it.
-  void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
-  Found search(const Frame& frame);
-  /// Searches the frame as it is taken in, and then again as it looks from the answer.
-  Found search_twice(const Frame& frame, const Eigen::VectorXd& prior, const Budget& budget,
-                     std::uint64_t seed);
-  /// Searches the frame as it is taken in.
-  Found search_from(const Eigen::VectorXd& prior, const Budget& budget, std::uint64_t seed);
 
-  TrackerParts parts_;
-  TileMaker tiles_;
-  PhotometricMatch photometric_;
-  SearchSpace space_;
-  Evaluator evaluator_;
-  TilePlan plan_;  ///< of the last frame
+  const Scene& scene_;
+  StatusSettings settings_;
+  Budget budget_;
+  Eigen::VectorXd first_;  ///< where the first search starts
+  FrameSearch search_;
+  Judge judge_;
+  Recovery recovery_;
   StatusMonitor monitor_;
   LandmarkLayout landmarks_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;
-  Eigen::VectorXd state_;   ///< the last solution as it was found
-  Eigen::VectorXd output_;  ///< and as it was given out
+  bool smoothing_;
+  Kept kept_;
+  Eigen::VectorXd state_;   ///< where the next search starts
+  double time_ = 0;         ///< of it
+  Eigen::VectorXd output_;  ///< the last state that was given out
+  Status last_status_ = Status::missing;
+  int begun_ = 0;           ///< frames searched before anything was found
   bool found_any_ = false;  ///< whether `state_` is a solution
   std::uint64_t seed_;
 };

@@ -40,7 +40,7 @@ bool shows(const cv::Mat1b& silhouette, const cv::Mat1b& valid) {
 
 void ColorLearner::learn(const Observation& observation, const TileCamera& camera,
                          const cv::Mat3b& color, const cv::Mat1b& valid) {
-  if (from_guess_ && !observation.start_is_guess) *this = ColorLearner(settings_);
+  if (from_guess_ || observation.start_is_guess) *this = ColorLearner(settings_);
   last_seen_ = observation.frame;
   const cv::Mat1b models = silhouette(*observation.scene, observation.start, camera);
   if (!shows(models, valid)) {

@@ -12,7 +12,8 @@ namespace hypotrack::skin {
 /// Learns one view's colours on the first settings.learn_frames frames that show the models: those
 /// inside the silhouette of the scene as it is posed in observation.start, against those outside,
 /// give or take settings.pose_error (ColorModel::add()). What it learns where the start is a guess
-/// (observation.start_is_guess) counts for less, and is forgotten where it is not.
+/// (observation.start_is_guess) counts for less. Each guess begins anew, and so does the first
+/// observation after one.
 class ColorLearner {
  public:
   explicit ColorLearner(const Settings& settings) : settings_(settings) {}
@@ -20,7 +21,7 @@ class ColorLearner {
   /// Whether it may have something to learn from this frame (observation.frame): the same frame
   /// again teaches nothing new.
   bool wants(const Observation& observation) const {
-    if (from_guess_ && !observation.start_is_guess) return true;
+    if (from_guess_ || observation.start_is_guess) return true;
     return learned_ < settings_.learn_frames && last_seen_ != observation.frame;
   }
   /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Of the observation's images

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "geometry/color_map.hpp"
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "judge/evidence.hpp"
+#include "judge/foreground_colors.hpp"
+#include "judge/surface_samples.hpp"
+
+namespace hypotrack {
+
+/// Judges from the pictures alone whether one model is where it was found.
+class HYPOTRACK_API ModelJudge {
+ public:
+  /// The scene must outlive the judge.
+  ModelJudge(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
+
+  /// Measures a frame with the scene posed in `state`. `colors` makes the second view's colours the
+  /// first's.
+  Evidence look(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+
+  /// Evidence and, after learn(), its differences to what is usual: what classifiers see.
+  Eigen::VectorXd features(const Evidence& evidence) const;
+
+  /// Logarithm of the odds that the model's landmarks are about where they were found (weights.hpp).
+  double log_odds(const Evidence& evidence) const;
+
+  /// Learns colours and usual evidence from the last look, at which the model was surely right.
+  void learn(const Evidence& evidence);
+  bool experienced() const { return usual_.has_value(); }
+  const ForegroundColors& colors() const { return colors_; }
+  /// What is usual where the model is surely right; 0 before learn().
+  double usual(Evidence::Index i) const { return usual_ ? (*usual_)[i] : 0; }
+
+ private:
+  SurfaceSampler sampler_;
+  SurfaceSamples samples_;
+  ForegroundColors colors_;
+  std::optional<std::array<double, Evidence::kCount>> usual_;
+};
+
+/// What a judge thinks of a solution.
+struct Verdict {
+  /// Probability that every model is right: the smallest of the models'. NaN: nothing is known.
+  double probability = std::numeric_limits<double>::quiet_NaN();
+  /// Of each model; NaN where others hide it.
+  std::vector<double> models;
+};
+
+/// Judges all models of a scene.
+class HYPOTRACK_API Judge {
+ public:
+  /// The scene must outlive the judge.
+  Judge(const Scene& scene, const std::vector<Camera>& cameras);
+
+  /// Judges a frame with the scene posed in a normalised state. Nothing is known without colours in
+  /// two views.
+  Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+
+  /// Learns from the last frame judged, in which all models were surely right.
+  void learn();
+
+  /// Whether every model was surely right once.
+  bool experienced() const;
+  ModelJudge& model(std::size_t i) { return models_[i]; }
+  const std::vector<Evidence>& evidence() const { return evidence_; }
+
+ private:
+  std::vector<ModelJudge> models_;
+  std::vector<Evidence> evidence_;
+};
+
+}  // namespace hypotrack

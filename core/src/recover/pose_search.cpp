@@ -1,0 +1,148 @@
+#include "recover/pose_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr Eigen::Index kPose = 7;   // numbers of a model's pose
+constexpr double kPadding = 0.5;    // of a hypothesis, around it
+constexpr double kScatter = 0.012;  // metres, of hypotheses about a place
+constexpr int kIterations = 6;
+
+std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
+  return {{item.name, item.model}};
+}
+
+/// A rotation from the uniform distribution (Shoemake, "Uniform random rotations", 1992).
+Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Eigen::Vector4d q(normal(random), normal(random), normal(random), normal(random));
+  return Eigen::Quaterniond(q.normalized());
+}
+
+Eigen::Quaterniond turned(const Eigen::Quaterniond& rotation, double sigma,
+                          std::mt19937_64& random) {
+  std::normal_distribution<double> normal(0, sigma);
+  return rotation * rotation_exp({normal(random), normal(random), normal(random)});
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras,
+                       const RecoverySettings& settings)
+    : scene_(scene),
+      item_(scene.items()[model]),
+      model_(model),
+      settings_(settings),
+      single_(only(item_)),
+      tiles_(single_, cameras, {settings.tile, kPadding}),
+      postures_(item_.model->data()),
+      behind_(cameras[0].camera_from_world.inverse() * Eigen::Vector3d(0, 0, -10)) {
+  const Eigen::Matrix3Xd vertices = item_.model->data().mesh.vertices.cast<double>();
+  const Eigen::Vector3d mean = vertices.rowwise().mean();
+  radius_ = std::sqrt((vertices.colwise() - mean).colwise().squaredNorm().mean());
+}
+
+Eigen::Vector3d PoseSearch::center(const Eigen::VectorXd& state) const {
+  const std::span<const double> own = scene_.part(item_, state);
+  return posed_landmarks(*item_.model, own).rowwise().mean();
+}
+
+Eigen::VectorXd PoseSearch::without(const Eigen::VectorXd& base,
+                                    const std::vector<bool>& hidden) const {
+  Eigen::VectorXd out = base;
+  for (std::size_t m = 0; m < hidden.size(); ++m)
+    if (hidden[m] || m == model_) out.segment<3>(scene_.items()[m].offset) = behind_;
+  return out;
+}
+
+Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, std::mt19937_64& random) const {
+  const Eigen::Index dimension = item_.model->dimension();
+  Eigen::MatrixXd out(dimension, settings_.hypotheses);
+  const Eigen::VectorXd& last = guess.pose;
+  const Eigen::Quaterniond last_rotation(last[3], last[4], last[5], last[6]);
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> scatter(0, kScatter);
+  const auto& postures = postures_.all();
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    const bool near = uniform(random) < guess.near_share;
+    const Eigen::Quaterniond q =
+        near ? turned(last_rotation, guess.rotation, random) : any_rotation(random);
+    Eigen::VectorXd one(dimension);
+    one.head<kPose>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
+    const bool keeps = uniform(random) < (near ? 0.6 : 0.2);
+    const auto k = static_cast<std::size_t>(uniform(random) * static_cast<double>(postures.size()));
+    one.tail(dimension - kPose) = keeps ? Eigen::VectorXd(last.tail(dimension - kPose))
+                                        : postures[std::min(k, postures.size() - 1)];
+    const Eigen::Vector3d at =
+        posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
+            .rowwise()
+            .mean();
+    one.head<3>() =
+        guess.center - at + Eigen::Vector3d(scatter(random), scatter(random), 2 * scatter(random));
+    out.col(i) = one;
+  }
+  return out;
+}
+
+void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+                         const Eigen::VectorXd& hypothesis) {
+  TilePlan plan = tiles_.plan(frame, hypothesis);
+  plan.header.scene = &scene_;
+  plan.header.start = base;
+  // Every model that moves is expected here, so that depths of the tile are those of the place.
+  for (const Scene::Item& item : scene_.items())
+    plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
+  plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
+  plan.header.in_hindsight = true;  // nobody knows the way here
+  search.take_in(tiles_, frame, std::move(plan));
+}
+
+std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
+                                      const Eigen::VectorXd& base, const std::vector<bool>& hidden,
+                                      const std::vector<PoseGuess>& guesses, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  Evaluator& evaluator = search.evaluator();
+  const Eigen::VectorXd nothing = without(base, hidden);
+  std::vector<bool> free(hidden.size(), false);
+  free[model_] = true;
+  std::vector<Refined> all;
+  std::int64_t evaluations = 0;
+  const std::size_t refined_each = std::max<std::size_t>(
+      1, static_cast<std::size_t>(settings_.refined) / std::max<std::size_t>(1, guesses.size()));
+  for (const PoseGuess& guess : guesses) {
+    const Eigen::MatrixXd own = hypotheses(guess, random);
+    if (tiles_.visible_share(own.col(0)) == 0) continue;
+    take_in(search, frame, base, own.col(0));
+    Eigen::MatrixXd states = nothing.replicate(1, own.cols() + 1);
+    states.block(item_.offset, 1, own.rows(), own.cols()) = own;
+    Eigen::VectorXd costs(states.cols());
+    evaluator.evaluate(states, costs);
+    evaluations += states.cols();
+    std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i) + 1;
+    std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
+    order.resize(std::min(order.size(), refined_each));
+    for (const Eigen::Index i : order) {
+      Refined one{states.col(i), costs[i], 0};
+      if (!std::isfinite(one.cost)) continue;
+      if (evaluator.has_residuals())
+        one = LeastSquares(scene_, evaluator, free).refine(std::move(one), kIterations);
+      evaluations += one.evaluations;
+      one.evaluations = 0;
+      one.cost -= costs[0];
+      all.push_back(std::move(one));
+    }
+  }
+  std::ranges::stable_sort(all, [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  if (!all.empty()) all.front().evaluations = evaluations;
+  return all;
+}
+
+}  // namespace hypotrack

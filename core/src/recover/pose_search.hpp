@@ -1,0 +1,67 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "geometry/tiles.hpp"
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "recover/least_squares.hpp"
+#include "recover/place_finder.hpp"
+#include "recover/postures.hpp"
+#include "recover/recovery_settings.hpp"
+#include "track/frame_search.hpp"
+
+namespace hypotrack {
+
+/// Where one model may be, and how many hypotheses lie around a pose of it.
+struct PoseGuess {
+  Eigen::Vector3d center;  ///< of its landmarks, in the world, metres
+  Eigen::VectorXd pose;    ///< the model's parameters
+  double near_share = 0;   ///< of the hypotheses that keep about its rotation and posture
+  double rotation = 0;     ///< standard deviation of those, radians
+};
+
+/// Searches all rotations and postures of one model of a scene at given places: scores hypotheses
+/// in a coarse tile and refines the best by least squares.
+class PoseSearch {
+ public:
+  /// The scene must outlive it.
+  PoseSearch(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras,
+             const RecoverySettings& settings);
+
+  /// Finds poses of the model in a frame, best first. Costs are against the same frame without the
+  /// model, so that those of different places compare. `base` is the scene's state; models with
+  /// `hidden` are not drawn, the others stay where they are.
+  std::vector<Refined> find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+                            const std::vector<bool>& hidden, const std::vector<PoseGuess>& guesses,
+                            std::uint64_t seed);
+
+  Postures& postures() { return postures_; }
+  /// Center of the model's landmarks in a state of the scene.
+  Eigen::Vector3d center(const Eigen::VectorXd& state) const;
+  /// Root mean square distance of its vertices from their mean, at rest, metres.
+  double radius() const { return radius_; }
+
+ private:
+  Eigen::VectorXd without(const Eigen::VectorXd& base, const std::vector<bool>& hidden) const;
+  Eigen::MatrixXd hypotheses(const PoseGuess& guess, std::mt19937_64& random) const;
+  void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+               const Eigen::VectorXd& hypothesis);
+
+  const Scene& scene_;
+  const Scene::Item& item_;
+  std::size_t model_;
+  RecoverySettings settings_;
+  Scene single_;
+  TileMaker tiles_;
+  Postures postures_;
+  Eigen::Vector3d behind_;  ///< the first camera: what is there is not drawn
+  double radius_ = 0;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/params.hpp"
+
+namespace hypotrack {
+
+/// When a recovery is computed.
+enum class RecoveryRun {
+  frame,       ///< within the frame that is lost
+  background,  ///< in a thread of its own, while frames go by
+};
+HYPOTRACK_API std::span<const std::string_view> enum_names(RecoveryRun);
+
+/// `tracker.recovery:` of a scene.
+struct RecoverySettings {
+  bool enabled = true;
+  RecoveryRun run = RecoveryRun::frame;
+  int first_starts = 8;
+  int places = 4;
+  int hypotheses = 768;
+  int refined = 24;
+  int searched = 3;
+  int tile = 64;
+  double nearest = 0.25;
+  double farthest = 1.2;
+  void visit(ParamVisitor& v) {
+    v("enabled", enabled,
+      {.help = "look for models that are lost; off: go on from any answer, as the paper does"});
+    v("run", run,
+      {.help = "frame: within the frame that is lost; background: in a thread of its own, while "
+               "frames are answered at once as lost (results then depend on timing)"});
+    v("first_starts", first_starts,
+      {.help = "starts around the given one that the first frame is searched from",
+       .min = 1,
+       .max = 100});
+    v("places", places, {.help = "places looked at per lost frame", .min = 1, .max = 100});
+    v("hypotheses", hypotheses,
+      {.help = "poses evaluated per place, at a coarse tile", .min = 8, .max = 1e6});
+    v("refined", refined,
+      {.help = "best of them refined by least squares, at the coarse tile", .min = 1, .max = 1e4});
+    v("searched", searched,
+      {.help = "best of those searched by the scene's optimizer", .min = 1, .max = 100});
+    v("tile", tile, {.help = "pixels along one side of the coarse tile", .min = 16, .max = 1024});
+    v("nearest_mm", nearest,
+      {.help = "depth from the first camera where models are looked for",
+       .min = 10,
+       .max = 1e5,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("farthest_mm", farthest,
+      {.help = "the same, far end", .min = 10, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
+  }
+};
+
+}  // namespace hypotrack
