@@ -97,6 +97,22 @@ TEST(Renderer, shows_the_nearer_model_and_labels_it) {
   EXPECT_EQ(spot(view.label, 2).box, cv::Rect(100, 100, 100, 100));
 }
 
+TEST(Renderer, leaves_hidden_models_out) {
+  const Camera camera = camera_at_origin();
+  const Scene scene = scene_of(
+      {rectangle(camera, 100, 60, 140, 90, 0.5), rectangle(camera, 120, 60, 160, 90, 0.6)});
+  Renderer renderer(scene);
+  const auto pixels = [&](const std::vector<bool>& hidden, int label) {
+    const RenderedView view = renderer.render(scene.rest_state(), camera, {.hidden = hidden});
+    return cv::countNonZero(view.label == label);
+  };
+  EXPECT_NEAR(pixels({}, 2), 20 * 30, 60);
+  EXPECT_NEAR(pixels({true, false}, 2), 40 * 30, 75) << "nothing is before it";
+  EXPECT_EQ(pixels({true, false}, 1), 0);
+  EXPECT_EQ(pixels({true, true}, 0), camera.width * camera.height);
+  EXPECT_NEAR(pixels({}, 1), 40 * 30, 75);
+}
+
 TEST(Renderer, moves_a_model_with_its_state) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({box({0.02F, 0.02F, 0.02F})});

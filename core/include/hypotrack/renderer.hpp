@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
@@ -19,7 +20,8 @@ struct RenderStyle {
   double shininess = 30.0;
   Eigen::Vector3d light_direction{0.3, -0.5, 1.0};  ///< in which the light travels, world frame
   bool textured = true;                             ///< false: a flat colour per model (overlays)
-  int samples = 4;  ///< antialiasing of the colour image, samples per pixel
+  int samples = 4;             ///< antialiasing of the colour image, samples per pixel
+  std::vector<bool> hidden{};  ///< for each model, whether it is left out; empty: all are drawn
 };
 
 /// A rendered view. Pixel (0, 0) is top left.

@@ -93,7 +93,7 @@ RenderedView Renderer::render(const Eigen::VectorXd& state, const Camera& camera
   rendered.depth = cv::Mat::zeros(size, CV_32FC1);
   rendered.label = cv::Mat::zeros(size, CV_8UC1);
 
-  impl_->drawer.pose(state);
+  impl_->drawer.pose(state, style.hidden);
   const LensView view = impl_->lens_of(camera).view(impl_->drawer.extent(camera.camera_from_world),
                                                     camera.camera_from_world);
   if (view.roi.empty()) return rendered;

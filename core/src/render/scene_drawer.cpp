@@ -112,6 +112,7 @@ struct SceneDrawer::Impl {
     double near_z = std::numeric_limits<double>::infinity(), far_z = 0;
     const Eigen::Isometry3f pose = camera.camera_from_world.cast<float>();
     for (const Eigen::Matrix3Xf& vertices : posed) {
+      if (vertices.cols() == 0) continue;
       const auto z = (pose.linear().row(2) * vertices).array() + pose.translation().z();
       near_z = std::min<double>(near_z, z.minCoeff());
       far_z = std::max<double>(far_z, z.maxCoeff());
@@ -143,6 +144,8 @@ struct SceneDrawer::Impl {
                    GL_UNSIGNED_INT, nullptr);
   }
 
+  bool is_hidden(std::size_t model) const { return posed[model].cols() == 0; }
+
   cv::Mat draw_color(const TileCamera& camera, const RenderStyle& style) const {
     glBindFramebuffer(GL_FRAMEBUFFER, color_target.multisampled);
     glClearColor(0, 0, 0, 0);
@@ -152,6 +155,7 @@ struct SceneDrawer::Impl {
     set_style(camera, style);
     glActiveTexture(GL_TEXTURE0);
     for (std::size_t i = 0; i < drawables.size(); ++i) {
+      if (is_hidden(i)) continue;
       const Drawable& drawable = drawables[i];
       glUniform1i(uniform(color_program, "textured"), style.textured && drawable.texture != 0);
       glBindTexture(GL_TEXTURE_2D, drawable.texture);
@@ -177,6 +181,7 @@ struct SceneDrawer::Impl {
     glUseProgram(geometry_program);
     set_camera(geometry_program, camera);
     for (std::size_t i = 0; i < drawables.size(); ++i) {
+      if (is_hidden(i)) continue;
       glUniform1ui(uniform(geometry_program, "model_label"), static_cast<GLuint>(i + 1));
       draw_mesh(drawables[i]);
     }
@@ -196,7 +201,8 @@ struct SceneDrawer::Impl {
   ColorTarget color_target;
   GeometryTarget geometry_target;
   Eigen::VectorXd state;                // that the buffers hold
-  std::vector<Eigen::Matrix3Xf> posed;  // vertices of every model in the world
+  std::vector<bool> hidden;             // models that they do not hold
+  std::vector<Eigen::Matrix3Xf> posed;  // vertices of every model in the world, none if hidden
 };
 
 SceneDrawer::SceneDrawer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -205,19 +211,23 @@ SceneDrawer::~SceneDrawer() = default;
 
 const std::string& SceneDrawer::device() const { return impl_->context.device(); }
 
-void SceneDrawer::pose(const Eigen::VectorXd& state) {
-  if (state.size() == impl_->state.size() && state == impl_->state) return;
+void SceneDrawer::pose(const Eigen::VectorXd& state, const std::vector<bool>& hidden) {
+  if (state.size() == impl_->state.size() && state == impl_->state && hidden == impl_->hidden)
+    return;
   std::vector<Eigen::Matrix3Xf> posed;
   for (const Scene::Item& item : impl_->scene.items()) {
-    posed.push_back(posed_vertices(*item.model, impl_->scene.part(item, state)));
+    const bool is_hidden = posed.size() < hidden.size() && hidden[posed.size()];
+    posed.push_back(is_hidden ? Eigen::Matrix3Xf()
+                              : posed_vertices(*item.model, impl_->scene.part(item, state)));
   }
   const gl::CurrentContext current(impl_->context);
   for (std::size_t i = 0; i < posed.size(); ++i) {
-    pose_drawable(impl_->drawables[i], posed[i]);
+    if (posed[i].cols() > 0) pose_drawable(impl_->drawables[i], posed[i]);
   }
   gl::check_errors("posing the scene");
   impl_->posed = std::move(posed);
   impl_->state = state;
+  impl_->hidden = hidden;
 }
 
 Eigen::AlignedBox2d SceneDrawer::extent(const Eigen::Isometry3d& camera_from_world) const {

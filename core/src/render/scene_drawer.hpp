@@ -4,6 +4,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "hypotrack/observation.hpp"
 #include "hypotrack/renderer.hpp"
@@ -29,8 +30,8 @@ class SceneDrawer {
   SceneDrawer(const SceneDrawer&) = delete;
   SceneDrawer& operator=(const SceneDrawer&) = delete;
 
-  /// Poses the scene for the draws that follow.
-  void pose(const Eigen::VectorXd& state);
+  /// Poses the scene for the draws that follow, which leave `hidden` models out (empty: none).
+  void pose(const Eigen::VectorXd& state, const std::vector<bool>& hidden = {});
 
   /// Where the posed scene lies in the image plane at z = 1 of a camera: the box of (x / z, y / z).
   /// Empty if nothing is in front of the camera, infinite if a part of the scene is at or behind
