@@ -81,6 +81,31 @@ TEST_F(Tables, ReadLandmarksBackBitForBit) {
   }
 }
 
+TEST_F(Tables, CarryTheAbsenceOfAModel) {
+  const Scene scene = two_boxes();
+  std::vector<LandmarkRow> rows;
+  for (int i = 0; i < 3; ++i) rows.push_back({i, 0, scene.landmarks(scene.rest_state())});
+  rows[1].landmarks.rightCols(3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  rows[1].absent = {false, false, false, true, true, true};
+  rows[2].landmarks.rightCols(3).setConstant(std::numeric_limits<double>::quiet_NaN());
+  write_landmarks(file_, scene.landmark_names(), rows);
+  TruthSettings settings;
+  settings.landmarks = file_;
+  const TruthTables truth(settings, scene);
+  EXPECT_TRUE(truth.at(0)->absent.empty());
+  EXPECT_EQ(truth.at(1)->absent, (std::vector<bool>{false, true}));
+  EXPECT_TRUE(truth.at(1)->landmarks.rightCols(3).array().isNaN().all());
+  EXPECT_TRUE(truth.at(2)->absent.empty()) << "unknown is not absent";
+}
+
+TEST_F(Tables, AreAbsentInAllThreeCoordinatesOrNone) {
+  const Scene scene = box_scene();
+  const std::string name = scene.landmark_names()[0];
+  write(name + "_x," + name + "_y," + name + "_z\nabsent,0,absent\n");
+  EXPECT_THAT([&] { read_landmarks(file_, scene.landmark_names()); },
+              ThrowsMessage<DataError>(HasSubstr("holds 'absent'; expected a number")));
+}
+
 TEST_F(Tables, DoNotMindOrderCommentsQuotesAndLineEnds) {
   const Scene scene = box_scene();
   write(

@@ -24,7 +24,7 @@ struct GroundTruth {
                                ///< NaN columns are unknown (size 0: use `state`)
   /// For each model of the scene, whether it is known not to be in any picture; its landmarks are
   /// then NaN. Empty: every model is in view.
-  std::vector<bool> absent;
+  std::vector<bool> absent{};
 };
 
 /// One moment of a recording.

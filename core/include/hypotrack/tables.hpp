@@ -13,7 +13,8 @@
 //
 //   states:     frame,time,<parameter>,...            named as in Scene::parameters(), metres,
 //   radians landmarks:  frame,time,<landmark>_x,<landmark>_y,<landmark>_z,...   named as in
-//               Scene::landmark_names(), world axes, metres
+//               Scene::landmark_names(), world axes, metres; `absent` where the model is known not
+//               to be in view
 //
 // Reading is liberal in what makes no difference: any order of columns; `frame` may be missing
 // (rows are then frames 0, 1, 2, ...) and so may `time`; names may leave out the model
@@ -33,6 +34,7 @@ struct LandmarkRow {
   int frame = 0;
   double time = 0;             ///< seconds; 0 without a time column
   Eigen::Matrix3Xd landmarks;  ///< 3xL, world, metres; NaN: unknown
+  std::vector<bool> absent{};  ///< L: NaN because the model is absent; empty: none is
 };
 
 /// Reads states. Columns that are no parameter are passed over, so that a `track.csv` is a table of
@@ -51,9 +53,10 @@ struct LandmarkTableOptions {
   std::string owner = "the scene";
 };
 
-/// Reads landmarks. Empty cells and `nan` are unknown, and so are landmarks without columns. Throws
-/// DataError where read_states does, on names that are not among `landmark_names` (rename them), and
-/// on renamings of what the table does not have.
+/// Reads landmarks. Empty cells and `nan` are unknown, and so are landmarks without columns; of one
+/// that is absent a cell says `absent`. Throws
+/// DataError where read_states does, on names that are not among `landmark_names` (rename them),
+/// and on renamings of what the table does not have.
 HYPOTRACK_API std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
                                                       std::span<const std::string> landmark_names,
                                                       const LandmarkTableOptions& options = {});

@@ -77,15 +77,18 @@ void RecordingWriter::add(const Frame& frame) {
     }
   }
   if (!frame.truth) return;
-  if (frame.truth->state.size() > 0)
+  if (frame.truth->state.size() > 0) {
     states_.push_back({frame.index, frame.time, frame.truth->state});
+    if (frame.truth->absent.empty()) seen_.push_back(states_.back());
+  }
   if (auto landmarks = true_landmarks(*scene_, frame))
-    landmarks_.push_back({frame.index, frame.time, *std::move(landmarks)});
+    landmarks_.push_back({frame.index, frame.time, *std::move(landmarks),
+                          absent_landmarks(*scene_, frame.truth->absent)});
 }
 
 std::vector<ModelSpeeds> RecordingWriter::motion() const {
-  if (states_.empty()) return {};
-  return motion_speeds(*scene_, states_);
+  if (seen_.empty()) return {};
+  return motion_speeds(*scene_, seen_);
 }
 
 void RecordingWriter::write_truth() const {

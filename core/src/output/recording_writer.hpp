@@ -39,7 +39,8 @@ class HYPOTRACK_API RecordingWriter {
   /// Throws OutputError; also if no frame was added.
   void finish();
   bool empty() const { return first_ < 0; }
-  /// Of the true states so far (motion.json); empty where they are unknown.
+  /// Of the true states so far of frames with all models (motion.json); empty where they are
+  /// unknown.
   std::vector<ModelSpeeds> motion() const;
 
  private:
@@ -54,6 +55,7 @@ class HYPOTRACK_API RecordingWriter {
   std::filesystem::path directory_;
   std::filesystem::path part_;  ///< grows here; removed if never finished
   std::vector<StateRow> states_;
+  std::vector<StateRow> seen_;  ///< of these, where no model is absent
   std::vector<LandmarkRow> landmarks_;
   std::set<std::string> names_;  ///< of the kinds of images: left, left_mask, ...
   int first_ = -1;

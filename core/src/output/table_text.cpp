@@ -24,4 +24,18 @@ std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::Vec
   return line + "\n";
 }
 
+std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landmarks,
+                           const std::vector<bool>& absent) {
+  if (absent.empty()) return table_line(frame, time, landmarks.reshaped());
+  std::string line = fmt::format("{},{}", frame, time);
+  for (Eigen::Index i = 0; i < landmarks.cols(); ++i)
+    for (const double value : landmarks.col(i)) {
+      if (absent[static_cast<std::size_t>(i)])
+        fmt::format_to(std::back_inserter(line), ",{}", kAbsent);
+      else
+        fmt::format_to(std::back_inserter(line), ",{}", value);
+    }
+  return line + "\n";
+}
+
 }  // namespace hypotrack

@@ -151,6 +151,12 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
   return triples;
 }
 
+bool is_absent(const CsvTable::Row& row, const Triple& triple) {
+  return std::all_of(triple.columns.begin(), triple.columns.end(), [&](int column) {
+    return row.cells[static_cast<std::size_t>(column)] == kAbsent;
+  });
+}
+
 }  // namespace
 
 std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene& scene) {
@@ -199,6 +205,11 @@ std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
     row.landmarks.setConstant(3, static_cast<Eigen::Index>(landmark_names.size()),
                               std::numeric_limits<double>::quiet_NaN());
     for (const Triple& triple : triples) {
+      if (is_absent(table.rows()[i], triple)) {
+        row.absent.resize(landmark_names.size());
+        row.absent[static_cast<std::size_t>(triple.landmark)] = true;
+        continue;
+      }
       Eigen::Vector3d p;
       for (int k = 0; k < 3; ++k) {
         p[k] = table.number(table.rows()[i], triple.columns[static_cast<std::size_t>(k)], true);
@@ -226,7 +237,7 @@ void write_landmarks(const std::filesystem::path& file, std::span<const std::str
                      std::span<const LandmarkRow> rows) {
   std::string text = landmarks_header(landmark_names);
   for (const LandmarkRow& row : rows)
-    text += table_line(row.frame, row.time, row.landmarks.reshaped());
+    text += landmarks_line(row.frame, row.time, row.landmarks, row.absent);
   write_whole(file, text);
 }
 

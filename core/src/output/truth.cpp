@@ -7,6 +7,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
+#include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 
@@ -25,7 +26,9 @@ TruthTables::TruthTables(const TruthSettings& settings, const Scene& scene)
         .metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(settings.units)],
         .rename = settings.rename};
     for (LandmarkRow& row : read_landmarks(settings.landmarks, scene.landmark_names(), options)) {
-      frames_[row.frame - settings.offset].landmarks = std::move(row.landmarks);
+      GroundTruth& truth = frames_[row.frame - settings.offset];
+      truth.absent = absent_models(scene, row);
+      truth.landmarks = std::move(row.landmarks);
     }
   }
 }
@@ -43,7 +46,8 @@ void TruthTables::expect_some(int first, int step, std::optional<int> count) con
     return distance >= 0 && distance % step == 0 && (!count || distance / step < *count);
   };
   const auto knows = [](const GroundTruth& truth) {
-    return truth.state.size() > 0 || !truth.landmarks.array().isNaN().all();
+    return truth.state.size() > 0 || !truth.absent.empty() ||
+           !truth.landmarks.array().isNaN().all();
   };
   bool matched = false;
   for (const auto& [number, truth] : frames_) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "output/table_text.hpp"
+#include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 
@@ -21,7 +22,8 @@ void TruthOutput::open() {
 void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
                       const FrameError& error) {
   if (!errors_) open();
-  landmarks_->write(table_line(frame.index, frame.time, landmarks.reshaped()));
+  landmarks_->write(landmarks_line(frame.index, frame.time, landmarks,
+                                   absent_landmarks(*scene_, frame.truth->absent)));
   std::string line = fmt::format("{},{},{:.4f}", frame.index, frame.time, 1000 * error.mean);
   for (const double model : error.models)
     fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * model);
