@@ -34,6 +34,23 @@ TEST_F(SynthTest, TrackingTheRecordingIsTrackingTheSource) {
   EXPECT_EQ(read_text(path("from_disk/errors.csv")), read_text(path("direct/errors.csv")));
 }
 
+TEST_F(SynthTest, ARecordingKnowsWhatIsAbsent) {
+  ASSERT_EQ(record(replaced(box_scene(), "type: synthetic",
+                            "type: synthetic\n  faults: [{frames: [1, 2], kind: absent}]"))
+                .exit_code,
+            0);
+  EXPECT_THAT(lines_of(read_text(path("out/truth_landmarks.csv")))[2],
+              testing::EndsWith(",absent,absent,absent"));
+  for (const auto& [name, file] :
+       {std::pair("direct", "scene.yaml"), std::pair("from_disk", "out/scene.yaml")}) {
+    const Outcome run = run_program({"run", path(file).string(), "--out", path(name).string()});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(read_text(path(name) / "truth_landmarks.csv"),
+              read_text(path("out/truth_landmarks.csv")));
+  }
+  EXPECT_EQ(read_text(path("from_disk/metrics.json")), read_text(path("direct/metrics.json")));
+}
+
 TEST_F(SynthTest, ARecordingCanBeMoved) {
   ASSERT_EQ(record(box_scene(), {"--frames", "2"}).exit_code, 0);
   std::filesystem::rename(path("out"), path("moved"));

@@ -150,9 +150,10 @@ TEST(JointFile, explains_what_is_wrong) {
                                   &joints.scene);
     });
   };
-  EXPECT_THAT(make(""), AllOf(HasSubstr("scene.yaml"), HasSubstr("`keyframes` or `joint_file")));
+  EXPECT_THAT(make(""),
+              AllOf(HasSubstr("scene.yaml"), HasSubstr("one of `keyframes`, `joint_file")));
   EXPECT_THAT(make("joint_file: {file: a.csv}\nkeyframes: [{time: 0}]\n"),
-              HasSubstr("`keyframes` or `joint_file"));
+              HasSubstr("one of `keyframes`, `joint_file"));
 }
 
 }  // namespace

@@ -42,14 +42,13 @@ std::string angle_names(const Model& model) {
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-void check_bounds(const ConfigNode& gesture, const ConfigNode& entry, const Parameter& p,
+void check_bounds(const std::string& gesture, const ConfigNode& entry, const Parameter& p,
                   double angle) {
   constexpr double kSlack = 1e-6;
   if (angle >= p.lower - kSlack && angle <= p.upper + kSlack) return;
   throw ConfigError(fmt::format(
       "{}: gesture '{}' turns '{}' to {:.6g} deg, but the model allows {:.6g} to {:.6g}",
-      entry.where(), gesture.scalar(), p.name, angle / kDegree, p.lower / kDegree,
-      p.upper / kDegree));
+      entry.where(), gesture, p.name, angle / kDegree, p.lower / kDegree, p.upper / kDegree));
 }
 
 ConfigNode checked_map(ConfigNode node) {
@@ -66,21 +65,27 @@ Gestures::Gestures(ConfigNode own, const std::filesystem::path& file)
   if (!file.empty()) shared_ = checked_map(ConfigNode::load(file));
 }
 
-ConfigNode Gestures::find(const ConfigNode& name) const {
-  const ConfigNode own = own_.get(name.scalar());
-  if (own.defined()) return own;
-  const ConfigNode shared = shared_.get(name.scalar());
-  if (shared.defined() || name.scalar() == "rest") return shared;
-  std::vector<std::string> known = {"rest"};
-  for (const ConfigNode* some : {&own_, &shared_}) {
-    for (const std::string& gesture : some->keys()) known.push_back(gesture);
-  }
-  throw ConfigError(fmt::format("{}: no gesture is called '{}'; there are: {}", name.where(),
-                                name.scalar(), fmt::join(known, ", ")));
+std::vector<std::string> Gestures::names() const {
+  std::vector<std::string> names = own_.keys();
+  for (const std::string& name : shared_.keys())
+    if (!own_.get(name).defined()) names.push_back(name);
+  return names;
 }
 
-std::vector<double> Gestures::parameters(const ConfigNode& name, const Scene::Item& item) const {
-  const ConfigNode gesture = find(name);
+ConfigNode Gestures::find(const std::string& name, const ConfigNode& said) const {
+  const ConfigNode own = own_.get(name);
+  if (own.defined()) return own;
+  const ConfigNode shared = shared_.get(name);
+  if (shared.defined() || name == "rest") return shared;
+  std::vector<std::string> known = names();
+  known.insert(known.begin(), "rest");
+  throw ConfigError(fmt::format("{}: no gesture is called '{}'; there are: {}", said.where(), name,
+                                fmt::join(known, ", ")));
+}
+
+std::vector<double> Gestures::parameters(const std::string& name, const ConfigNode& said_at,
+                                         const Scene::Item& item) const {
+  const ConfigNode gesture = find(name, said_at);
   const std::vector<Parameter>& parameters = item.model->data().parameters;
   std::vector<double> values;
   for (const Parameter& p : parameters) values.push_back(p.rest);

@@ -17,11 +17,16 @@ class Gestures {
   /// first where both have a name. Throws ConfigError with file:line:column.
   Gestures(ConfigNode own, const std::filesystem::path& file);
 
-  /// The parameters (pose included, at rest) of a model in the gesture that `name` names.
-  std::vector<double> parameters(const ConfigNode& name, const Scene::Item& item) const;
+  /// The parameters (pose included, at rest) of a model in a gesture. `said` is the node that names
+  /// it, for messages.
+  std::vector<double> parameters(const std::string& name, const ConfigNode& said,
+                                 const Scene::Item& item) const;
+
+  /// All gestures that are written down, own ones first.
+  std::vector<std::string> names() const;
 
  private:
-  ConfigNode find(const ConfigNode& name) const;
+  ConfigNode find(const std::string& name, const ConfigNode& said) const;
   ConfigNode own_, shared_;
 };
 

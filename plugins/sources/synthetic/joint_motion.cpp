@@ -148,7 +148,7 @@ class ModelFit {
 Script read_joint_file(const JointFileParams& params, const Scene& scene, double frame_rate) {
   const std::vector<LandmarkRow> rows = smoothed(read_rows(params, scene), params.smooth);
   const int first_frame = rows.front().frame;
-  Script script{Motion(scene), (rows.back().frame - first_frame) / frame_rate};
+  Script script{Motion(scene), (rows.back().frame - first_frame) / frame_rate, {}, {}};
   Eigen::Index first = 0;
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     ModelFit fit(scene, m, first);

@@ -88,7 +88,7 @@ class KeyframeReader {
   }
 
   void apply_gesture(const ConfigNode& name, const Scene::Item& item, Keys& keys) const {
-    const std::vector<double> parameters = gestures_.parameters(name, item);
+    const std::vector<double> parameters = gestures_.parameters(name.scalar(), name, item);
     for (std::size_t i = kPoseLength; i < parameters.size(); ++i) {
       keys.numbers[item.offset + static_cast<int>(i)] = parameters[i];
     }

@@ -8,11 +8,13 @@
 #include <string_view>
 #include <vector>
 
+#include "faults.hpp"
 #include "forearm.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/renderer.hpp"
 #include "joint_motion.hpp"
+#include "random_motion.hpp"
 
 namespace hypotrack::synthetic {
 
@@ -136,6 +138,8 @@ struct SyntheticParams {
   std::filesystem::path gesture_file;
   ConfigNode keyframes;
   JointFileParams joint_file;
+  std::optional<RandomParams> random;
+  std::vector<FaultParams> faults;
   ConfigNode render_models;
   ForearmParams forearm;
   BackgroundParams background;
@@ -156,6 +160,9 @@ struct SyntheticParams {
       {.help =
            "list of {time or frame, gesture, pose, hold, release} that the motion passes through"});
     v("joint_file", joint_file, {.help = "instead of keyframes: a real motion to follow"});
+    v("random", random, {.help = "instead of keyframes: a motion that is drawn from a seed"});
+    v("faults", faults,
+      {.help = "list of {frames: [first, last], kind, model, view}: what is wrong with frames"});
     v("render_models", render_models,
       {.help = "map of models of the scene to {type, ...}: what the pictures show in their place"});
     v("forearm", forearm, {.help = "what the pictures show below a hand's wrist"});

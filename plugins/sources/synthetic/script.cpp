@@ -128,10 +128,17 @@ Motion make_motion(const Scene& scene, const std::vector<Keys>& all) {
 
 }  // namespace
 
+Eigen::VectorXd Script::state(double time) const {
+  const Motion* now = &motion;
+  for (const Jump& jump : jumps)
+    if (jump.from <= time) now = &jump.motion;
+  return now->state(time);
+}
+
 Script read_script(const ConfigNode& keyframes, const Gestures& gestures, const Scene& scene,
                    double frame_rate) {
   const std::vector<Keys> all = read_keyframes(keyframes, gestures, scene, frame_rate);
-  Script script{make_motion(scene, all), all.back().time};
+  Script script{make_motion(scene, all), all.back().time, {}, {}};
   check_positions(keyframes, scene, script.motion);
   return script;
 }

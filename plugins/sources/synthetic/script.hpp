@@ -1,5 +1,8 @@
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "gestures.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/scene.hpp"
@@ -8,8 +11,17 @@
 namespace hypotrack::synthetic {
 
 struct Script {
+  /// A motion that takes the place of the one before it.
+  struct Jump {
+    double from = 0;  ///< seconds
+    Motion motion;
+  };
   Motion motion;
-  double duration = 0;  ///< time of the last keyframe, seconds
+  double duration = 0;                          ///< time of the last frame, seconds
+  std::vector<Jump> jumps{};                    ///< ascending
+  std::vector<std::pair<int, int>> absences{};  ///< first and last frames without any model
+
+  Eigen::VectorXd state(double time) const;
 };
 
 /// Reads `keyframes:` and the gestures they name.

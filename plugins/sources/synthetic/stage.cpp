@@ -117,6 +117,8 @@ void Stage::match_landmarks(const Scene& tracked) {
   for (const std::string& name : tracked.landmark_names()) {
     landmarks_.push_back(place_of(scene_->landmark_names(), name));
   }
+  for (std::size_t m = 0; m < models_; ++m)
+    owners_.insert(owners_.end(), tracked.items()[m].model->data().landmarks.size(), m);
 }
 
 Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
@@ -134,13 +136,21 @@ Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
   return state;
 }
 
-Eigen::Matrix3Xd Stage::landmarks(const Eigen::VectorXd& state) const {
-  if (!others_) return {};
+std::vector<bool> Stage::hidden(const std::vector<bool>& absent) const {
+  std::vector<bool> hidden = absent;
+  if (!absent.empty())
+    for (const Forearm& forearm : forearms_) hidden.push_back(absent[forearm.hand]);
+  return hidden;
+}
+
+Eigen::Matrix3Xd Stage::landmarks(const Eigen::VectorXd& state,
+                                  const std::vector<bool>& absent) const {
+  if (!others_ && absent.empty()) return {};
   const Eigen::Matrix3Xd drawn = scene_->landmarks(state);
   Eigen::Matrix3Xd landmarks(3, static_cast<Eigen::Index>(landmarks_.size()));
   for (std::size_t i = 0; i < landmarks_.size(); ++i) {
     auto landmark = landmarks.col(static_cast<Eigen::Index>(i));
-    if (landmarks_[i] < 0) {
+    if (landmarks_[i] < 0 || (!absent.empty() && absent[owners_[i]])) {
       landmark.setConstant(std::numeric_limits<double>::quiet_NaN());
     } else {
       landmark = drawn.col(landmarks_[i]);

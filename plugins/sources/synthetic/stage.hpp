@@ -25,10 +25,15 @@ class Stage {
   /// State of scene() for a state of the tracked scene: parameters of one name have one value.
   Eigen::VectorXd state(const Eigen::VectorXd& tracked) const;
 
+  /// For each model of scene() whether it is not drawn where models of the tracked scene are absent
+  /// (empty: none): these and their forearms. Empty if all are drawn.
+  std::vector<bool> hidden(const std::vector<bool>& absent) const;
+
   /// Where the landmarks of the tracked scene lie on what is drawn, for a state of scene(): 3xL,
-  /// metres, NaN where the drawn model has no landmark of that name. 3x0 if all that is drawn is
-  /// tracked: the tracked state then says it.
-  Eigen::Matrix3Xd landmarks(const Eigen::VectorXd& state) const;
+  /// metres, NaN where a model is absent (empty: none) or the drawn one has no landmark of that
+  /// name. 3x0 if all that is drawn is tracked and nothing is absent: the tracked state then says
+  /// it.
+  Eigen::Matrix3Xd landmarks(const Eigen::VectorXd& state, const std::vector<bool>& absent) const;
 
   /// Foreground (8-bit, 255 where a tracked model or what stands for it is what one sees) from the
   /// renderer's labels. A forearm is background and covers what is behind it.
@@ -46,8 +51,9 @@ class Stage {
   std::size_t models_ = 0;
   bool others_ = false;  // some model is not the tracked one
   std::unique_ptr<const Scene> scene_;
-  std::vector<int> parameters_;  // of scene(), forearms excluded: index in the tracked state
-  std::vector<int> landmarks_;   // of the tracked scene: index in scene(), -1: there is none
+  std::vector<int> parameters_;      // of scene(), forearms excluded: index in the tracked state
+  std::vector<int> landmarks_;       // of the tracked scene: index in scene(), -1: there is none
+  std::vector<std::size_t> owners_;  // of these landmarks: their models
   std::vector<Forearm> forearms_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "background.hpp"
 #include "depth_sensor.hpp"
+#include "faults.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/renderer.hpp"
 #include "motion.hpp"
@@ -62,16 +63,21 @@ std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std:
   return cameras;
 }
 
-Script read_motion(const SyntheticParams& params, const Scene& scene, const std::string& where) {
-  if (params.keyframes.defined() == !params.joint_file.file.empty()) {
-    throw ConfigError(where +
-                      ": give the motion by either `keyframes` or `joint_file: {file: ...}`");
+Script read_motion(const SyntheticParams& params, const Scene& scene,
+                   const std::vector<Camera>& cameras, const ConfigNode& config) {
+  const bool in_file = !params.joint_file.file.empty();
+  if (params.keyframes.defined() + in_file + params.random.has_value() != 1) {
+    throw ConfigError(config.where() +
+                      ": give the motion by one of `keyframes`, `joint_file: "
+                      "{file: ...}` and `random`");
   }
-  if (!params.keyframes.defined()) {
-    return read_joint_file(params.joint_file, scene, params.frame_rate);
+  if (in_file) return read_joint_file(params.joint_file, scene, params.frame_rate);
+  const Gestures gestures(params.gestures, params.gesture_file);
+  if (params.random) {
+    return draw_motion(*params.random, config.get("random"), gestures, scene, cameras,
+                       params.frame_rate);
   }
-  return read_script(params.keyframes, Gestures(params.gestures, params.gesture_file), scene,
-                     params.frame_rate);
+  return read_script(params.keyframes, gestures, scene, params.frame_rate);
 }
 
 RenderStyle style_of(const LightParams& light) {
@@ -96,7 +102,8 @@ class Synthetic final : public Source {
         cameras_(params.calibration ? load_cameras(*params.calibration, context.config().where())
                                     : make_cameras(params.cameras, context.config().where())),
         frame_rate_(params.frame_rate),
-        script_(read_motion(params, scene_, context.config().where())),
+        script_(read_motion(params, scene_, cameras_, context.config())),
+        faults_(params.faults, context.config().get("faults"), scene_, cameras_),
         style_(style_of(params.light)),
         sensor_(params.sensor, cameras_.size(), context.config().where()),
         depth_sensor_(params.sensor),
@@ -104,6 +111,7 @@ class Synthetic final : public Source {
         backgrounds_(draw_backgrounds(params.background, cameras_)),
         stage_(scene_, params.render_models, params.forearm, context),
         renderer_(stage_.scene()) {
+    for (const auto& [first, last] : script_.absences) faults_.add_absence(first, last);
     frames_ = params.frames > 0 ? params.frames : frames_of_motion(context.config().where());
   }
 
@@ -117,9 +125,11 @@ class Synthetic final : public Source {
     frame.index = next_++;
     frame.time = frame.index / frame_rate_;
     frame.truth.emplace();
-    frame.truth->state = script_.motion.state(frame.time);
+    frame.truth->state = script_.state(frame.time);
+    frame.truth->absent = faults_.absent(frame.index);
     const Eigen::VectorXd state = stage_.state(frame.truth->state);
-    frame.truth->landmarks = stage_.landmarks(state);
+    frame.truth->landmarks = stage_.landmarks(state, frame.truth->absent);
+    style_.hidden = stage_.hidden(frame.truth->absent);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       RenderedView rendered = renderer_.render(state, cameras_[i], style_, backgrounds_[i].color);
       sensor_.apply(rendered.color, frame.index, i);
@@ -131,6 +141,7 @@ class Synthetic final : public Source {
       }
       frame.views.push_back(std::move(view));
     }
+    faults_.apply(frame.index, frame.views);
     return frame;
   }
 
@@ -149,7 +160,8 @@ class Synthetic final : public Source {
   const std::vector<Camera> cameras_;
   const double frame_rate_;
   const Script script_;
-  const RenderStyle style_;
+  Faults faults_;
+  RenderStyle style_;
   const Sensor sensor_;
   const DepthSensor depth_sensor_;
   const bool depth_;

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack::synthetic {
+
+enum class FaultKind {
+  absent,     ///< models are not in the pictures
+  exchanged,  ///< each camera's picture arrives as the other's
+  black,      ///< all pictures are black, without foreground and depth
+  frozen,     ///< the picture of the frame before comes again and again
+};
+inline std::span<const std::string_view> enum_names(FaultKind) {
+  static constexpr std::array<std::string_view, 4> kNames = {"absent", "exchanged", "black",
+                                                             "frozen"};
+  return kNames;
+}
+
+/// An item of `faults:`.
+struct FaultParams {
+  Eigen::Vector2d frames{0, 0};
+  FaultKind kind = FaultKind::absent;
+  std::string model;
+  std::optional<int> view;
+  void visit(ParamVisitor& v) {
+    v("frames", frames,
+      {.help = "first and last frame of it", .min = 0, .max = 1e7, .required = true});
+    v("kind", kind, {.help = "absent, exchanged, black or frozen", .required = true});
+    v("model", model, {.help = "of the kind absent: which one; all without it"});
+    v("view", view, {.help = "of the kind frozen: which one; all without it", .min = 0, .max = 1});
+  }
+};
+
+/// Spoils the pictures of chosen frames.
+class Faults {
+ public:
+  /// `node` is the list that `params` were read from. Throws ConfigError with file:line:column on
+  /// intervals that are none, on models and views that there are not or that a kind has no use for,
+  /// and where there are no two views of one size to exchange.
+  Faults(const std::vector<FaultParams>& params, const ConfigNode& node, const Scene& scene,
+         const std::vector<Camera>& cameras);
+
+  /// Makes all models absent from frame `first` to frame `last`.
+  void add_absence(int first, int last);
+
+  /// For each model of the scene whether it is absent from a frame; empty if none is.
+  std::vector<bool> absent(int frame) const;
+
+  /// Freezes, exchanges and blackens the views of a frame. Call it with all frames in their order.
+  void apply(int frame, std::vector<View>& views);
+
+ private:
+  struct Fault {
+    int first = 0, last = 0;
+    FaultKind kind = FaultKind::absent;
+    std::optional<std::size_t> model, view;  ///< all without
+  };
+  /// Whether a fault of a kind spoils a view (or, of the kind absent, a model) in a frame.
+  bool holds(FaultKind kind, int frame, std::size_t part = 0) const;
+
+  std::size_t models_;
+  std::vector<Fault> faults_;
+  std::vector<View> kept_;  ///< the last pictures that were not frozen
+};
+
+}  // namespace hypotrack::synthetic

@@ -1,0 +1,113 @@
+// What is wrong with the synthetic source's frames on request.
+
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "synthetic_fixture.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string kScene = std::string(kCameras) + kQuiet + kPlain + kMotion + "frames: 5\n";
+
+std::vector<Frame> frames_with(const std::string& faults, const std::string& more = "") {
+  return load(kScene + more + "faults: [" + faults + "]\n").frames();
+}
+
+TEST(Faults, absent_models_and_their_forearms_are_not_drawn) {
+  const std::string sleeve = "forearm: {kind: sleeve}\n";
+  const std::vector<Frame> all = frames_with("", sleeve);
+  const std::vector<Frame> none = frames_with("{frames: [1, 3], kind: absent}", sleeve);
+  const std::vector<Frame> box = frames_with("{frames: [2, 2], kind: absent, model: hand}", sleeve);
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_TRUE(same(none[0].views[v].color, all[0].views[v].color));
+    EXPECT_EQ(cv::countNonZero(none[2].views[v].mask), 0);
+    const cv::Mat plain(200, 320, CV_8UC3, cv::Scalar(30, 20, 10));
+    EXPECT_TRUE(same(none[2].views[v].color, plain));
+    EXPECT_TRUE(same(none[4].views[v].color, all[4].views[v].color));
+    EXPECT_GT(cv::countNonZero(box[2].views[v].mask), 100);
+    EXPECT_LT(cv::countNonZero(box[2].views[v].mask),
+              cv::countNonZero(all[2].views[v].mask) - 1000);
+  }
+}
+
+TEST(Faults, the_truth_says_what_is_absent) {
+  Loaded loaded(kScene + "faults: [{frames: [2, 3], kind: absent, model: hand}]\n");
+  const std::vector<Frame> frames = loaded.frames();
+  const std::vector<Frame> all = frames_with("");
+  EXPECT_THAT(frames[1].truth->absent, IsEmpty());
+  EXPECT_EQ(frames[1].truth->landmarks.size(), 0) << "the state says it";
+  EXPECT_THAT(frames[2].truth->absent, ElementsAre(true, false));
+  const Eigen::Matrix3Xd& landmarks = frames[2].truth->landmarks;
+  EXPECT_EQ(frames[2].truth->state, all[2].truth->state) << "the script goes on";
+  EXPECT_TRUE(landmarks.leftCols(21).array().isNaN().all());
+  EXPECT_TRUE(
+      landmarks.rightCols(3).isApprox(loaded.scene.landmarks(frames[2].truth->state).rightCols(3)));
+  EXPECT_THAT(frames[4].truth->absent, IsEmpty());
+}
+
+TEST(Faults, views_are_exchanged_blackened_and_frozen_and_the_truth_stays) {
+  const std::vector<Frame> all = frames_with("");
+  const std::vector<Frame> exchanged = frames_with("{frames: [1, 2], kind: exchanged}");
+  const std::vector<Frame> black = frames_with("{frames: [1, 1], kind: black}");
+  const std::vector<Frame> frozen = frames_with("{frames: [2, 3], kind: frozen, view: 1}");
+  EXPECT_TRUE(same(exchanged[2].views[0].color, all[2].views[1].color));
+  EXPECT_TRUE(same(exchanged[2].views[1].mask, all[2].views[0].mask));
+  EXPECT_TRUE(same(exchanged[3].views[0].color, all[3].views[0].color));
+  EXPECT_EQ(cv::countNonZero(black[1].views[0].color.reshape(1)), 0);
+  EXPECT_EQ(cv::countNonZero(black[1].views[1].mask), 0);
+  EXPECT_TRUE(same(black[2].views[1].color, all[2].views[1].color));
+  for (const std::size_t f : {2U, 3U}) {
+    EXPECT_TRUE(same(frozen[f].views[0].color, all[f].views[0].color));
+    EXPECT_TRUE(same(frozen[f].views[1].color, all[1].views[1].color));
+  }
+  EXPECT_TRUE(same(frozen[4].views[1].color, all[4].views[1].color));
+  for (const std::vector<Frame>* frames : {&exchanged, &black, &frozen}) {
+    EXPECT_THAT((*frames)[1].truth->absent, IsEmpty());
+    EXPECT_EQ((*frames)[2].truth->state, all[2].truth->state);
+  }
+}
+
+TEST(Faults, explain_what_is_wrong_with_them) {
+  const auto message = [](const std::string& fault, const std::string& more = "") {
+    return message_of(kMotion + more + "faults:\n- " + fault + "\n");
+  };
+  EXPECT_THAT(message("{kind: black}"), AllOf(HasSubstr("scene.yaml:"), HasSubstr("frames")));
+  EXPECT_THAT(message("{frames: [1, 2], kind: blank}"),
+              AllOf(HasSubstr("scene.yaml:15:"), HasSubstr("black")));
+  EXPECT_THAT(message("{frames: [3, 2], kind: black}"),
+              AllOf(HasSubstr("scene.yaml:15:"), HasSubstr("frames are 3 to 2")));
+  EXPECT_THAT(message("{frames: [1, 2.5], kind: black}"), HasSubstr("frames are 1 to 2.5"));
+  EXPECT_THAT(message("{frames: [1, 2], kind: absent, model: foot}"),
+              AllOf(HasSubstr("scene.yaml:15:"), HasSubstr("'foot' is no model of this scene")));
+  EXPECT_THAT(message("{frames: [1, 2], kind: black, model: hand}"),
+              HasSubstr("`model` belongs to the kind absent; leave it out of the kind black"));
+  EXPECT_THAT(message("{frames: [1, 2], kind: absent, view: 1}"),
+              HasSubstr("`view` belongs to the kind frozen"));
+  EXPECT_THAT(message("{frames: [0, 2], kind: frozen}"),
+              HasSubstr("no picture comes before frame 0"));
+  const std::string one = "type: synthetic\ncameras: {count: 1}\n" + std::string(kMotion);
+  const auto with_one = [&](const std::string& fault) {
+    PluginLoader plugins;
+    const Scene scene = hand_and_box();
+    try {
+      plugins.make<Source>(ConfigNode::parse(one + "faults: [" + fault + "]\n", "scene.yaml"),
+                           &scene);
+    } catch (const ConfigError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_THAT(with_one("{frames: [1, 2], kind: exchanged}"), HasSubstr("only two cameras"));
+  EXPECT_THAT(with_one("{frames: [1, 2], kind: frozen, view: 1}"), HasSubstr("one view only"));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
