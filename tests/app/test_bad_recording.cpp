@@ -64,9 +64,11 @@ TEST_F(BadRecordingTest, ACalibrationOfOtherCamerasIsNotTrackedBesideTheMasks) {
   const Outcome outcome = track();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err, note);
-  EXPECT_THAT(outcome.out, HasSubstr("5 frames (0 lost, 5 uncertain, 0 missing)"));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("5 frames (0 tracked, 5 uncertain, 0 lost, 0 absent, 0 missing)"));
   EXPECT_THAT(run_program({"validate", recorded("scene.yaml").string()}).err, note);
-  EXPECT_THAT(track({"--set", "tracker.patience=3"}).out, HasSubstr("(3 lost, 2 uncertain"));
+  EXPECT_THAT(track({"--set", "tracker.patience=3"}).out,
+              HasSubstr("(0 tracked, 2 uncertain, 3 lost"));
 }
 
 TEST_F(BadRecordingTest, ARunDoesNotReplaceTheAnswerOfItsRecording) {

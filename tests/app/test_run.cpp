@@ -17,7 +17,7 @@ using testing::StartsWith;
 
 class RunTest : public AppTest {
  protected:
-  /// The rows of a table of numbers, without its header.
+  /// The rows of a table, without its header; a status is 0.
   static std::vector<std::vector<double>> numbers_in(const std::filesystem::path& file) {
     std::vector<std::vector<double>> rows;
     for (const std::string& line : lines_of(read_text(file))) {
@@ -25,7 +25,7 @@ class RunTest : public AppTest {
       rows.emplace_back();
       std::istringstream cells(line);
       for (std::string cell; std::getline(cells, cell, ',');)
-        rows.back().push_back(std::stod(cell));
+        rows.back().push_back(cell == "tracked" ? 0 : std::stod(cell));
     }
     return rows;
   }
@@ -46,7 +46,7 @@ TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
   EXPECT_THAT(lines_of(read_text(path("out/joints.csv"))), SizeIs(6));
   const auto errors = lines_of(read_text(path("out/errors.csv")));
   ASSERT_THAT(errors, SizeIs(6));
-  EXPECT_EQ(errors[0], "frame,time,mean_joint_error_mm,box");
+  EXPECT_EQ(errors[0], "frame,time,status,mean_joint_error_mm,box");
 
   cv::VideoCapture video(path("out/overlay.mp4").string());
   ASSERT_TRUE(video.isOpened());
@@ -65,7 +65,8 @@ TEST_F(RunTest, SummaryHasThePromisedKeys) {
   EXPECT_EQ(summary.at("frames"), 5);
   for (const char* key : {"fps", "evaluations_per_second"})
     EXPECT_GT(summary.at(key).get<double>(), 0) << key;
-  for (const char* key : {"lost_frames", "uncertain_frames", "missing_frames"})
+  for (const char* key : {"lost_frames", "tracked_frames", "uncertain_frames", "said_lost_frames",
+                          "absent_frames", "missing_frames"})
     EXPECT_TRUE(summary.at(key).is_number_integer()) << key;
   const auto metrics = nlohmann::json::parse(read_text(path("out/metrics.json")));
   EXPECT_EQ(summary.at("mean_joint_error_mm"), metrics.at("mean_error_mm"));
@@ -97,8 +98,8 @@ TEST_F(RunTest, ErrorsAndMetricsAreThoseOfTheTables) {
     for (std::size_t k = 2; k < 11; k += 3)  // frame, time, then three anchors
       frame_sum += 1000 * std::hypot(joints[i][k] - truth[i][k], joints[i][k + 1] - truth[i][k + 1],
                                      joints[i][k + 2] - truth[i][k + 2]);
-    EXPECT_NEAR(errors[i][2], frame_sum / 3, 1e-4);
-    EXPECT_EQ(errors[i][3], errors[i][2]);  // the only model
+    EXPECT_NEAR(errors[i][3], frame_sum / 3, 1e-4);
+    EXPECT_EQ(errors[i][4], errors[i][3]);  // the only model
     sum += frame_sum / 3;
   }
   const auto metrics = nlohmann::json::parse(read_text(path("out/metrics.json")));
@@ -119,7 +120,7 @@ TEST_F(RunTest, TheWorstFrameIsDrawnUnlessItShouldNotBe) {
   ASSERT_EQ(run(box_scene()).exit_code, 0);
   const auto errors = numbers_in(path("out/errors.csv"));
   const auto worst = std::max_element(errors.begin(), errors.end(),
-                                      [](const auto& a, const auto& b) { return a[2] < b[2]; });
+                                      [](const auto& a, const auto& b) { return a[3] < b[3]; });
   const cv::Mat picture =
       cv::imread(path("out/worst_" + std::to_string(worst - errors.begin()) + ".jpg").string());
   ASSERT_FALSE(picture.empty());
@@ -130,7 +131,8 @@ TEST_F(RunTest, TheWorstFrameIsDrawnUnlessItShouldNotBe) {
 
 TEST_F(RunTest, SaysWhatItDid) {
   const Outcome outcome = run(box_scene());
-  EXPECT_THAT(outcome.out, HasSubstr("5 frames (0 lost, 0 uncertain, 0 missing) at "));
+  EXPECT_THAT(outcome.out,
+              HasSubstr("5 frames (5 tracked, 0 uncertain, 0 lost, 0 absent, 0 missing) at "));
   EXPECT_THAT(outcome.out, HasSubstr("joint error: mean "));
   EXPECT_THAT(outcome.out, HasSubstr("results in " + path("out").string()));
   EXPECT_THAT(outcome.err, HasSubstr("5/5 frames, "));

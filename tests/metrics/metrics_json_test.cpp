@@ -22,17 +22,24 @@ TEST(MetricsJson, NumbersComeFirstAndNestedTablesLast) {
   std::vector<std::string> keys;
   const auto json = json_of(8.5, false);
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys,
-              testing::ElementsAre(
-                  "frames", "evaluated_frames", "missing_frames", "mean_error_mm", "sd_error_mm",
-                  "median_error_mm", "p75_error_mm", "p90_error_mm", "p95_error_mm", "max_error_mm",
-                  "auc_20_50", "success_5mm", "success_10mm", "success_20mm", "success_30mm",
-                  "success_40mm", "success_50mm", "lost_frames", "lost_share", "time_to_loss_s",
-                  "frames_to_loss", "jitter_mm", "models", "landmarks", "success_curve"));
+  EXPECT_THAT(
+      keys, testing::ElementsAre(
+                "frames", "evaluated_frames", "missing_frames", "mean_error_mm", "sd_error_mm",
+                "median_error_mm", "p75_error_mm", "p90_error_mm", "p95_error_mm", "max_error_mm",
+                "auc_20_50", "success_5mm", "success_10mm", "success_20mm", "success_30mm",
+                "success_40mm", "success_50mm", "lost_frames", "lost_share", "time_to_loss_s",
+                "frames_to_loss", "jitter_mm", "tracked_frames", "uncertain_frames",
+                "said_lost_frames", "absent_frames", "tracked_share", "uncertain_share",
+                "absent_share", "false_tracked_share", "right_tracked_share",
+                "absent_tracked_share", "returns", "recovered_2_share", "recovered_10_share",
+                "frames_to_recovery", "lost_sigma_min_mm", "models", "landmarks", "success_curve"));
 }
 
 TEST(MetricsJson, WhatIsUnknownIsNull) {
   const auto json = json_of(8.5, false);
+  for (const char* key : {"tracked_frames", "tracked_share", "returns", "recovered_2_share"})
+    EXPECT_TRUE(json.at(key).is_null()) << key << " of another tracker";
+  EXPECT_EQ(json_of(8.5, true).at("said_lost_frames"), 1);
   EXPECT_TRUE(json.at("time_to_loss_s").is_null());
   EXPECT_TRUE(json.at("frames_to_loss").is_null());
   EXPECT_TRUE(json.at("jitter_mm").is_null());

@@ -83,6 +83,27 @@ TEST_F(EvaluationTest, ARunFolderIsJudgedByItsOwnTruthAndItsStatuses) {
   EXPECT_NEAR(m.time_to_loss_s, 0.2, 1e-12);
 }
 
+TEST_F(EvaluationTest, StatusesAreJudgedByAbsenceAndByError) {
+  write("run/joints.csv", kRun);
+  write("run/truth_landmarks.csv", replaced(kTruth, "1,0.1,0,0,0.5,0.1,0,0.5",
+                                            "1,0.1,absent,absent,absent,absent,absent,absent"));
+  write("run/track.csv", "frame,time,status\n0,0,lost\n1,0.1,tracked\n2,0.2,tracked\n");
+  write("run/uncertainty.csv", "frame,time,hand.wrist,hand.tip\n0,0,20,30\n2,0.2,1,1\n");
+  EvaluationInput input;
+  input.run = path("run");
+  const Metrics m = evaluate(input).metrics;
+  EXPECT_EQ(m.evaluated_frames, 2);
+  EXPECT_EQ(m.status.tracked_frames, 2);
+  EXPECT_DOUBLE_EQ(m.status.false_tracked_share, 0.5);
+  EXPECT_DOUBLE_EQ(m.status.right_tracked_share, 0.5);
+  EXPECT_EQ(m.status.returns, 1);
+  EXPECT_DOUBLE_EQ(m.status.recovered_2_share, 1);
+  EXPECT_NEAR(m.status.lost_sigma_min_mm, 25, 1e-9);
+  write("run/track.csv", "frame,time,status\n0,0,found\n");
+  EXPECT_THAT(refusal(input), HasSubstr("track.csv:2: the status is 'found'; expected tracked, "
+                                        "uncertain, lost, absent or missing"));
+}
+
 TEST_F(EvaluationTest, FramesThatOneSideLacksAreCountedAndLeftOut) {
   const std::string run =
       replaced(replaced(kRun, "1,0.1,0,0,0.5,0.11,0,0.5\n", ""), "2,0.2,", "3,0.3,");

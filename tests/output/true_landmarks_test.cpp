@@ -37,12 +37,13 @@ TEST(TrueLandmarks, AnAbsentModelHasNone) {
 TEST(TrueLandmarks, AModelIsAbsentIfItsLandmarksAreAndNoneIsKnown) {
   const Scene scene = two_boxes();
   LandmarkRow row{0, 0, scene.landmarks(scene.rest_state())};
-  EXPECT_TRUE(absent_models(scene, row).empty());
+  const auto absent = [&] { return absent_models(row, landmark_owners(scene), 2); };
+  EXPECT_TRUE(absent().empty());
   row.absent = absent_landmarks(scene, {true, false});
   EXPECT_EQ(row.absent, (std::vector<bool>{true, true, true, false, false, false}));
-  EXPECT_TRUE(absent_models(scene, row).empty()) << "they are known";
+  EXPECT_TRUE(absent().empty()) << "they are known";
   row.landmarks.leftCols(3).setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(absent_models(scene, row), (std::vector<bool>{true, false}));
+  EXPECT_EQ(absent(), (std::vector<bool>{true, false}));
 }
 
 }  // namespace

@@ -20,10 +20,6 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-FrameVerdict verdict_of(Status status) {
-  return status == Status::lost ? FrameVerdict::lost : FrameVerdict::solved;
-}
-
 /// A scene that is ready to track in one way.
 struct Opened {
   Session session;
@@ -83,9 +79,10 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
     }
     result.seconds.push_back(seconds);
     result.evaluations.push_back(static_cast<double>(solution.evaluations));
-    metrics.add(frame.index, frame.time, verdict_of(solution.status),
+    metrics.add(frame.index, frame.time, verdict_named(to_string(solution.status)).value(),
                 scene.landmarks(solution.state),
-                true_landmarks(scene, frame).value_or(Eigen::Matrix3Xd()));
+                true_landmarks(scene, frame).value_or(Eigen::Matrix3Xd()),
+                frame.truth ? frame.truth->absent : std::vector<bool>());
   }
   result.metrics = metrics.metrics();
 }

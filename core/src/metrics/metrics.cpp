@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace hypotrack {
@@ -13,14 +14,19 @@ constexpr double kMmPerMetre = 1000;
 }  // namespace
 
 FrameError MetricsCollector::add(int frame, double time, FrameVerdict verdict,
-                                 const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth) {
+                                 const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
+                                 const std::vector<bool>& absent, const Eigen::VectorXd& sigma) {
   const int frames_before = counts_.frames++;
   if (frames_before == 0) first_time_ = time;
   const bool missing = verdict == FrameVerdict::missing;
   counts_.missing_frames += missing;
   FrameError error = frame_error(layout_, estimate, missing ? Eigen::Matrix3Xd() : truth);
   const double mean_mm = kMmPerMetre * error.mean;
-  if (verdict == FrameVerdict::lost || mean_mm > kLostErrorMm) {
+  const bool in_view = !truth.array().isNaN().all();  // false for an empty one
+  add_status(verdict, error, in_view, absent, sigma);
+  const bool said_lost =
+      verdict == FrameVerdict::lost || (verdict == FrameVerdict::absent && in_view);
+  if (said_lost || mean_mm > kLostErrorMm) {
     if (counts_.lost_frames++ == 0) {
       counts_.frames_to_loss = frames_before;
       counts_.time_to_loss_s = time - first_time_;
@@ -38,6 +44,19 @@ FrameError MetricsCollector::add(int frame, double time, FrameVerdict verdict,
   landmark_counts_.array() += known.cast<double>();
   add_jitter(frame, kMmPerMetre * (estimate - truth));
   return error;
+}
+
+void MetricsCollector::add_status(FrameVerdict verdict, const FrameError& error, bool in_view,
+                                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma) {
+  const auto count = std::count(absent.begin(), absent.end(), true);
+  StatusCollector::Judged judged{.verdict = verdict,
+                                 .error_mm = kMmPerMetre * error.mean,
+                                 .in_view = in_view,
+                                 .some_absent = count > 0,
+                                 .all_absent = count > 0 && count == std::ssize(absent)};
+  if (sigma.size() > 0)
+    judged.sigma_mm = kMmPerMetre * mean(without_nan(model_means(layout_, sigma)));
+  status_.add(judged);
 }
 
 void MetricsCollector::add_jitter(int frame, const Eigen::Matrix3Xd& vectors) {
@@ -70,6 +89,7 @@ Metrics MetricsCollector::metrics() const {
   m.lost_share = with_solution == 0 ? kNan : static_cast<double>(m.lost_frames) / with_solution;
   if (!m.frames_to_loss) m.time_to_loss_s = kNan;
   m.jitter_mm = mean(jitter_mm_);
+  m.status = status_.metrics();
   for (std::size_t i = 0; i < layout_.models.size(); ++i)
     m.models.emplace_back(layout_.models[i],
                           i < model_errors_mm_.size() ? mean(model_errors_mm_[i]) : kNan);

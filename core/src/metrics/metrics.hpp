@@ -10,6 +10,7 @@
 #include "hypotrack/export.hpp"
 #include "metrics/landmark_errors.hpp"
 #include "metrics/statistics.hpp"
+#include "metrics/status_metrics.hpp"
 
 namespace hypotrack {
 
@@ -17,13 +18,6 @@ inline constexpr double kLostErrorMm = 40;
 inline constexpr double kAucLowMm = 20;
 inline constexpr double kAucHighMm = 50;
 inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
-
-/// What a tracker says of a frame, apart from where the landmarks are.
-enum class FrameVerdict {
-  solved,
-  lost,     ///< the tracker itself says that it lost the scene
-  missing,  ///< there is no solution; what is given for it counts for nothing
-};
 
 /// How good a sequence of solutions is; docs/metrics.md defines every number. NaN: unknown, because
 /// no frame has what it takes.
@@ -45,6 +39,7 @@ struct Metrics {
   std::optional<int> frames_to_loss;
   double time_to_loss_s = 0;
   double jitter_mm = 0;
+  StatusMetrics status;
   std::vector<std::pair<std::string, double>> models;       ///< name, mean error in mm
   std::vector<std::pair<std::string, double>> landmarks;    ///< name, mean error in mm
   std::array<double, kSuccessCurvePoints> success_curve{};  ///< share below 0, 1, ..., 100 mm
@@ -65,9 +60,12 @@ class HYPOTRACK_API MetricsCollector {
 
   /// Adds the next frame; frame numbers ascend. `estimate` and `truth` are 3xL in metres, NaN where
   /// a landmark is unknown; `truth` is empty where nothing is known. `time` is in seconds, NaN if
-  /// unknown. Returns the errors in metres, NaN for a missing frame.
+  /// unknown. `absent` says of each model whether the truth knows that it is in no picture (empty:
+  /// none), `sigma` how far off each landmark may be as the tracker says (L, metres; empty: it says
+  /// nothing). Returns the errors in metres, NaN for a missing frame.
   FrameError add(int frame, double time, FrameVerdict verdict, const Eigen::Matrix3Xd& estimate,
-                 const Eigen::Matrix3Xd& truth);
+                 const Eigen::Matrix3Xd& truth, const std::vector<bool>& absent = {},
+                 const Eigen::VectorXd& sigma = {});
 
   Metrics metrics() const;
 
@@ -77,10 +75,13 @@ class HYPOTRACK_API MetricsCollector {
     int frame = 0;
     Eigen::Matrix3Xd vectors;
   };
+  void add_status(FrameVerdict verdict, const FrameError& error, bool in_view,
+                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma);
   void add_jitter(int frame, const Eigen::Matrix3Xd& vectors);
 
   LandmarkLayout layout_;
   Metrics counts_;
+  StatusCollector status_;
   double first_time_ = 0;
   std::vector<double> errors_mm_;  ///< of the frames that have one
   std::vector<std::vector<double>> model_errors_mm_;

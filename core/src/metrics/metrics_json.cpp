@@ -16,6 +16,28 @@ Json table(const std::vector<std::pair<std::string, double>>& entries) {
   return json;
 }
 
+/// Counts are null where nothing is said of any frame.
+Json numbers(const StatusMetrics& s) {
+  const auto count = [&](int frames) { return s.judged_frames > 0 ? Json(frames) : Json(); };
+  Json json;
+  json["tracked_frames"] = count(s.tracked_frames);
+  json["uncertain_frames"] = count(s.uncertain_frames);
+  json["said_lost_frames"] = count(s.said_lost_frames);
+  json["absent_frames"] = count(s.absent_frames);
+  json["tracked_share"] = s.tracked_share;
+  json["uncertain_share"] = s.uncertain_share;
+  json["absent_share"] = s.absent_share;
+  json["false_tracked_share"] = s.false_tracked_share;
+  json["right_tracked_share"] = s.right_tracked_share;
+  json["absent_tracked_share"] = s.absent_tracked_share;
+  json["returns"] = count(s.returns);
+  json["recovered_2_share"] = s.recovered_2_share;
+  json["recovered_10_share"] = s.recovered_10_share;
+  json["frames_to_recovery"] = s.frames_to_recovery;
+  json["lost_sigma_min_mm"] = s.lost_sigma_min_mm;
+  return json;
+}
+
 Json numbers(const Metrics& m) {
   Json json;
   json["frames"] = m.frames;
@@ -36,6 +58,7 @@ Json numbers(const Metrics& m) {
   json["time_to_loss_s"] = m.time_to_loss_s;
   json["frames_to_loss"] = m.frames_to_loss ? Json(*m.frames_to_loss) : Json();
   json["jitter_mm"] = m.jitter_mm;
+  json.update(numbers(m.status));
   return json;
 }
 
@@ -43,7 +66,7 @@ Json numbers(const Metrics& m) {
 
 std::vector<std::string> metric_names() {
   std::vector<std::string> names;
-  const Json all = numbers({});
+  const Json all = numbers(Metrics());
   for (const auto& [name, value] : all.items()) names.push_back(name);
   return names;
 }

@@ -12,6 +12,8 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
 #include "output/csv.hpp"
+#include "output/sigma_table.hpp"
+#include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 namespace {
@@ -87,11 +89,9 @@ std::vector<std::string> full_names(std::vector<std::string> names,
 
 FrameVerdict verdict_of(const CsvTable& table, const CsvTable::Row& row, int column) {
   const std::string_view status = row.cells[static_cast<std::size_t>(column)];
-  if (status == "missing") return FrameVerdict::missing;
-  if (status == "lost") return FrameVerdict::lost;
-  if (status == "tracked" || status == "uncertain") return FrameVerdict::solved;
+  if (const auto verdict = verdict_named(status)) return *verdict;
   throw DataError(
-      fmt::format("{}: the status is '{}'; expected tracked, uncertain, lost or missing",
+      fmt::format("{}: the status is '{}'; expected tracked, uncertain, lost, absent or missing",
                   table.where(row), status));
 }
 
@@ -107,6 +107,15 @@ std::map<int, FrameVerdict> read_verdicts(const fs::path& run) {
   for (const CsvTable::Row& row : table.rows())
     verdicts[table.frame(row, frame)] = verdict_of(table, row, status);
   return verdicts;
+}
+
+/// What the tracker said of each landmark; empty where it did not.
+std::map<int, Eigen::VectorXd> read_sigmas(const fs::path& run,
+                                           const std::vector<std::string>& names) {
+  if (!fs::is_directory(run) || !fs::exists(run / "uncertainty.csv")) return {};
+  const SigmaTable table(run / "uncertainty.csv");
+  if (table.names() != names) return {};  // of other landmarks than are compared
+  return table.by_frame();
 }
 
 /// One side of the comparison, by frame.
@@ -162,7 +171,8 @@ void check_units(const Side& run, const Side& truth) {
 }
 
 Metrics compare(const std::vector<std::string>& names, const Side& run, const Side& truth,
-                const std::map<int, FrameVerdict>& verdicts) {
+                const std::map<int, FrameVerdict>& verdicts,
+                const std::map<int, Eigen::VectorXd>& sigmas) {
   const auto landmarks_count = static_cast<Eigen::Index>(names.size());
   const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Constant(3, landmarks_count, kNan);
   const int first = run.rows().begin()->first, last = run.rows().rbegin()->first;
@@ -170,11 +180,13 @@ Metrics compare(const std::vector<std::string>& names, const Side& run, const Si
   for (const auto& [frame, row] : run.rows()) frames.insert(frame);
   for (const auto& [frame, row] : truth.rows())
     if (frame >= first && frame <= last) frames.insert(frame);
-  MetricsCollector collector(landmark_layout(names));
+  const LandmarkLayout layout = landmark_layout(names);
+  MetricsCollector collector(layout);
   for (const int frame : frames) {
     const LandmarkRow* estimate = run.find(frame);
     const LandmarkRow* answer = truth.find(frame);
     const auto verdict = verdicts.find(frame);
+    const auto sigma = sigmas.find(frame);
     const bool missing = estimate == nullptr || estimate->landmarks.array().isNaN().all();
     const double time = run.time(frame);
     collector.add(frame, std::isnan(time) ? truth.time(frame) : time,
@@ -182,16 +194,23 @@ Metrics compare(const std::vector<std::string>& names, const Side& run, const Si
                   : verdict != verdicts.end() ? verdict->second
                                               : FrameVerdict::solved,
                   estimate == nullptr ? nothing : estimate->landmarks,
-                  answer == nullptr ? Eigen::Matrix3Xd() : answer->landmarks);
+                  answer == nullptr ? Eigen::Matrix3Xd() : answer->landmarks,
+                  answer == nullptr ? std::vector<bool>()
+                                    : absent_models(*answer, layout.model_of, layout.models.size()),
+                  sigma == sigmas.end() ? Eigen::VectorXd() : sigma->second);
   }
   return collector.metrics();
 }
 
 void check_overlap(const Side& run, const Side& truth, const Metrics& metrics) {
   if (metrics.evaluated_frames > 0) return;
-  const bool common = std::any_of(run.rows().begin(), run.rows().end(), [&](const auto& entry) {
-    return truth.find(entry.first) != nullptr;
-  });
+  bool common = false, absent = false;
+  for (const auto& [frame, row] : run.rows()) {
+    const LandmarkRow* answer = truth.find(frame);
+    common = common || answer != nullptr;
+    absent = absent || (answer != nullptr && !answer->absent.empty());
+  }
+  if (absent) return;
   if (!common)
     throw DataError(fmt::format(
         "{}: no frame in common with {}: {} against {}; frames are matched by their numbers",
@@ -214,7 +233,8 @@ Evaluation evaluate(const EvaluationInput& input) {
                   .rename = input.rename,
                   .owner = evaluation.truth_table.string()});
   check_units(run, truth);
-  evaluation.metrics = compare(names, run, truth, read_verdicts(input.run));
+  evaluation.metrics =
+      compare(names, run, truth, read_verdicts(input.run), read_sigmas(input.run, names));
   check_overlap(run, truth, evaluation.metrics);
   return evaluation;
 }

@@ -11,7 +11,7 @@ double HindsightOutput::add(const Tracker& tracker, const Frame& frame, const So
   Frame kept = frame;
   kept.views.clear();
   waiting_.push_back({std::move(kept), solution});
-  const bool seen = solution.status != Status::missing && solution.status != Status::lost;
+  const bool seen = solution.status == Status::tracked || solution.status == Status::uncertain;
   hindsight_->add(seen ? Sight(tracker.seen(frame)) : Sight(), {frame.time, solution.state});
   write(hindsight_->take());
   return std::numeric_limits<double>::quiet_NaN();

@@ -11,6 +11,7 @@
 #include "hypotrack/tables.hpp"
 #include "metrics/landmark_errors.hpp"
 #include "output/csv.hpp"
+#include "output/sigma_table.hpp"
 
 namespace hypotrack {
 namespace {
@@ -31,39 +32,6 @@ std::map<int, Eigen::Matrix3Xd> landmarks_by_frame(const fs::path& file,
     frames.emplace(row.frame, std::move(row.landmarks));
   return frames;
 }
-
-/// The sigmas of a table, in metres.
-class SigmaTable {
- public:
-  explicit SigmaTable(const fs::path& file) : table_(file), frame_(table_.find("frame")) {
-    for (const std::string_view name : table_.columns()) {
-      if (name == "frame" || name == "time") continue;
-      names_.emplace_back(name);
-      columns_.push_back(table_.find(name));
-    }
-    if (frame_ < 0 || names_.empty())
-      throw DataError(
-          fmt::format("{}: expected frame, time and a column for each landmark", file.string()));
-  }
-
-  const std::vector<std::string>& names() const { return names_; }
-  std::map<int, Eigen::VectorXd> by_frame() const {
-    std::map<int, Eigen::VectorXd> frames;
-    for (const CsvTable::Row& row : table_.rows()) {
-      Eigen::VectorXd& sigma = frames[table_.frame(row, frame_)];
-      sigma.resize(static_cast<Eigen::Index>(columns_.size()));
-      for (std::size_t i = 0; i < columns_.size(); ++i)
-        sigma[static_cast<Eigen::Index>(i)] = 1e-3 * table_.number(row, columns_[i], true);
-    }
-    return frames;
-  }
-
- private:
-  CsvTable table_;
-  int frame_;
-  std::vector<std::string> names_;
-  std::vector<int> columns_;
-};
 
 std::map<int, std::string> status_by_frame(const fs::path& file) {
   const CsvTable table(file);

@@ -22,11 +22,6 @@ std::string row_of(const Solution& solution) {
   return row + "\n";
 }
 
-FrameVerdict verdict_of(Status status) {
-  if (status == Status::missing) return FrameVerdict::missing;
-  return status == Status::lost ? FrameVerdict::lost : FrameVerdict::solved;
-}
-
 }  // namespace
 
 RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
@@ -81,10 +76,13 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
 
   const Eigen::Matrix3Xd landmarks = scene_->landmarks(solution.state);
   joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
-  const FrameError error = metrics_.add(solution.frame, solution.time, verdict_of(solution.status),
-                                        landmarks, truth.value_or(Eigen::Matrix3Xd()));
+  const std::string_view status = to_string(solution.status);
+  const FrameError error =
+      metrics_.add(solution.frame, solution.time, verdict_named(status).value(), landmarks,
+                   truth.value_or(Eigen::Matrix3Xd()),
+                   frame.truth ? frame.truth->absent : std::vector<bool>(), solution.sigma);
   if (truth) {
-    truth_.add(frame, *truth, error);
+    truth_.add(frame, *truth, error, status);
     if (!online_)
       remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
   }
@@ -92,7 +90,6 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
   if (overlay_ && !online_) overlay_->add(frame, solution);
 
   ++frames_;
-  uncertain_frames_ += solution.status == Status::uncertain;
   seconds_ += solution.seconds;
   evaluations_ += solution.evaluations;
   return error.mean;
@@ -112,7 +109,6 @@ void RunOutput::remember_if_bad(const Frame& frame, const Solution& solution, do
 Summary RunOutput::summarize(bool complete) const {
   Summary summary;
   summary.complete = complete;
-  summary.uncertain_frames = uncertain_frames_;
   summary.backend = options_.backend;
   summary.metrics = metrics_.metrics();
   summary.mean_sigma = uncertainty_.mean_sigma();

@@ -79,7 +79,6 @@ class HYPOTRACK_API RunOutput {
   UncertaintyOutput uncertainty_;
   WorstFrames worst_;
   int frames_ = 0;
-  int uncertain_frames_ = 0;
   double seconds_ = 0;
   std::int64_t evaluations_ = 0;
 };

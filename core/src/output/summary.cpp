@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace hypotrack {
@@ -12,8 +13,12 @@ std::string to_json(const Summary& s) {
   json["frames"] = s.metrics.frames;
   json["fps"] = s.fps;
   json["evaluations_per_second"] = s.evaluations_per_second;
+  const StatusMetrics& status = s.metrics.status;
   json["lost_frames"] = s.metrics.lost_frames;
-  json["uncertain_frames"] = s.uncertain_frames;
+  json["tracked_frames"] = status.tracked_frames;
+  json["uncertain_frames"] = status.uncertain_frames;
+  json["said_lost_frames"] = status.said_lost_frames;
+  json["absent_frames"] = status.absent_frames;
   json["missing_frames"] = s.metrics.missing_frames;
   json["backend"] = s.backend;
   if (s.metrics.evaluated_frames > 0) {
@@ -22,6 +27,17 @@ std::string to_json(const Summary& s) {
     for (const std::size_t mm : {5, 10, 20, 40})
       json[fmt::format("fraction_below_{}mm", mm)] = s.metrics.success_curve[mm];
   }
+  const auto add_known = [&](const char* key, double value) {
+    if (!std::isnan(value)) json[key] = value;
+  };
+  add_known("false_tracked_share", status.false_tracked_share);
+  add_known("right_tracked_share", status.right_tracked_share);
+  add_known("absent_tracked_share", status.absent_tracked_share);
+  if (status.returns > 0) json["returns"] = status.returns;
+  add_known("recovered_2_share", status.recovered_2_share);
+  add_known("recovered_10_share", status.recovered_10_share);
+  add_known("frames_to_recovery", status.frames_to_recovery);
+  add_known("lost_sigma_min_mm", status.lost_sigma_min_mm);
   if (s.mean_sigma) json["mean_sigma_mm"] = 1000 * *s.mean_sigma;
   if (s.reliability.count() > 0) {
     json["error_over_sigma"] = s.reliability.error_over_sigma();

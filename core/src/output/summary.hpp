@@ -12,8 +12,7 @@ namespace hypotrack {
 /// What a run amounts to; summary.json.
 struct Summary {
   bool complete = false;  ///< false if the run was interrupted or ended by an error
-  int uncertain_frames = 0;
-  double fps = 0;  ///< frames per second of tracking: images in, state out
+  double fps = 0;         ///< frames per second of tracking: images in, state out
   double evaluations_per_second = 0;
   std::string backend;
   Metrics metrics;

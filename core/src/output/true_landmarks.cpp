@@ -21,23 +21,27 @@ std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene, const Frame& 
 
 std::vector<bool> absent_landmarks(const Scene& scene, const std::vector<bool>& absent_models) {
   std::vector<bool> absent;
-  for (std::size_t m = 0; m < absent_models.size(); ++m)
-    absent.insert(absent.end(), scene.items()[m].model->data().landmarks.size(), absent_models[m]);
+  if (absent_models.empty()) return absent;
+  for (const std::size_t owner : landmark_owners(scene)) absent.push_back(absent_models[owner]);
   return absent;
 }
 
-std::vector<bool> absent_models(const Scene& scene, const LandmarkRow& row) {
+std::vector<std::size_t> landmark_owners(const Scene& scene) {
+  std::vector<std::size_t> owners;
+  for (std::size_t m = 0; m < scene.items().size(); ++m)
+    owners.insert(owners.end(), scene.items()[m].model->data().landmarks.size(), m);
+  return owners;
+}
+
+std::vector<bool> absent_models(const LandmarkRow& row, std::span<const std::size_t> owners,
+                                std::size_t models) {
   if (row.absent.empty()) return {};
-  std::vector<bool> absent;
-  std::size_t i = 0;
-  for (const Scene::Item& item : scene.items()) {
-    bool said = false, known = false;
-    for (const std::size_t end = i + item.model->data().landmarks.size(); i < end; ++i) {
-      said = said || row.absent[i];
-      known = known || row.landmarks.col(static_cast<Eigen::Index>(i)).allFinite();
-    }
-    absent.push_back(said && !known);
+  std::vector<bool> absent(models), known(models);
+  for (std::size_t i = 0; i < owners.size(); ++i) {
+    if (row.absent[i]) absent[owners[i]] = true;
+    if (row.landmarks.col(static_cast<Eigen::Index>(i)).allFinite()) known[owners[i]] = true;
   }
+  for (std::size_t m = 0; m < models; ++m) absent[m] = absent[m] && !known[m];
   if (std::find(absent.begin(), absent.end(), true) == absent.end()) absent.clear();
   return absent;
 }

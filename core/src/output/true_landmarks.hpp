@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hypotrack/export.hpp"
@@ -20,8 +22,12 @@ HYPOTRACK_API std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene,
 /// if that is.
 HYPOTRACK_API std::vector<bool> absent_landmarks(const Scene& scene,
                                                  const std::vector<bool>& absent_models);
-/// The reverse: a model is absent if landmarks of it are and none of them is known. Empty if no
-/// model is.
-HYPOTRACK_API std::vector<bool> absent_models(const Scene& scene, const LandmarkRow& row);
+/// For each landmark of the scene the index of its model.
+HYPOTRACK_API std::vector<std::size_t> landmark_owners(const Scene& scene);
+/// For each of `models` models whether it is absent: landmarks of it are and none of them is known.
+/// `owners` are the landmarks' models. Empty if no model is absent.
+HYPOTRACK_API std::vector<bool> absent_models(const LandmarkRow& row,
+                                              std::span<const std::size_t> owners,
+                                              std::size_t models);
 
 }  // namespace hypotrack

@@ -27,7 +27,7 @@ TruthTables::TruthTables(const TruthSettings& settings, const Scene& scene)
         .rename = settings.rename};
     for (LandmarkRow& row : read_landmarks(settings.landmarks, scene.landmark_names(), options)) {
       GroundTruth& truth = frames_[row.frame - settings.offset];
-      truth.absent = absent_models(scene, row);
+      truth.absent = absent_models(row, landmark_owners(scene), scene.items().size());
       truth.landmarks = std::move(row.landmarks);
     }
   }

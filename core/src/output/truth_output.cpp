@@ -14,17 +14,18 @@ void TruthOutput::open() {
   landmarks_.emplace(directory_->part("truth_landmarks.csv"));
   landmarks_->write(landmarks_header(scene_->landmark_names()));
   errors_.emplace(directory_->part("errors.csv"));
-  std::string header = "frame,time,mean_joint_error_mm";
+  std::string header = "frame,time,status,mean_joint_error_mm";
   for (const std::string& model : layout_->models) header += "," + model;
   errors_->write(header + "\n");
 }
 
 void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
-                      const FrameError& error) {
+                      const FrameError& error, std::string_view status) {
   if (!errors_) open();
   landmarks_->write(landmarks_line(frame.index, frame.time, landmarks,
                                    absent_landmarks(*scene_, frame.truth->absent)));
-  std::string line = fmt::format("{},{},{:.4f}", frame.index, frame.time, 1000 * error.mean);
+  std::string line =
+      fmt::format("{},{},{},{:.4f}", frame.index, frame.time, status, 1000 * error.mean);
   for (const double model : error.models)
     fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * model);
   errors_->write(line + "\n");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string_view>
 
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -19,9 +20,10 @@ class TruthOutput {
   TruthOutput(const Scene& scene, const LandmarkLayout& layout, RunDirectory& directory)
       : scene_(&scene), layout_(&layout), directory_(&directory) {}
 
-  /// `landmarks` are the frame's true ones, `error` is the solution's, in metres. Throws
-  /// OutputError.
-  void add(const Frame& frame, const Eigen::Matrix3Xd& landmarks, const FrameError& error);
+  /// `landmarks` are the frame's true ones; `error`, in metres, and `status` are the solution's.
+  /// Throws OutputError.
+  void add(const Frame& frame, const Eigen::Matrix3Xd& landmarks, const FrameError& error,
+           std::string_view status);
 
   /// Whether any frame had a truth.
   bool known() const { return errors_.has_value(); }

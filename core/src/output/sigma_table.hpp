@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "output/csv.hpp"
+
+namespace hypotrack {
+
+/// The sigmas of uncertainty.csv, in metres.
+class SigmaTable {
+ public:
+  /// Throws DataError.
+  explicit SigmaTable(const std::filesystem::path& file);
+
+  /// Names of the landmarks, in the order of the columns.
+  const std::vector<std::string>& names() const { return names_; }
+  /// A sigma for each landmark; NaN where the table has none.
+  std::map<int, Eigen::VectorXd> by_frame() const;
+
+ private:
+  CsvTable table_;
+  int frame_;
+  std::vector<std::string> names_;
+  std::vector<int> columns_;
+};
+
+}  // namespace hypotrack
