@@ -46,11 +46,29 @@ void print_row(const std::string& name, const std::string& value) {
   fmt::print("{:<28}{:>10}\n", name, value);
 }
 
+std::string percent(double share) { return shown(100 * share); }
+
+void print_statuses(const StatusMetrics& s) {
+  if (s.judged_frames == 0) return;
+  print_row("said to be tracked", std::to_string(s.tracked_frames));
+  print_row("  uncertain", std::to_string(s.uncertain_frames));
+  print_row("  lost", std::to_string(s.said_lost_frames));
+  print_row("  absent", std::to_string(s.absent_frames));
+  print_row("tracked but wrong (%)", percent(s.false_tracked_share));
+  print_row("right and tracked (%)", percent(s.right_tracked_share));
+  print_row("absent but tracked (%)", percent(s.absent_tracked_share));
+  print_row("returns", std::to_string(s.returns));
+  print_row("  recovered in 2 frames (%)", percent(s.recovered_2_share));
+  print_row("  in 10 frames (%)", percent(s.recovered_10_share));
+  print_row("  frames until then", shown(s.frames_to_recovery));
+}
+
 void print_metrics(const Metrics& m) {
   print_row("frames", std::to_string(m.frames));
   print_row("  with an error", std::to_string(m.evaluated_frames));
   print_row("  missing", std::to_string(m.missing_frames));
   print_row("  lost", std::to_string(m.lost_frames));
+  print_statuses(m.status);
   fmt::print("first loss: {}\n\n", loss_of(m));
   print_row("mean error (mm)", shown(m.mean_error_mm));
   print_row("standard deviation", shown(m.sd_error_mm));

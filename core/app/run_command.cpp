@@ -44,17 +44,32 @@ std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limi
                               frames.size(), frames.front().problem));
 }
 
+/// How true the statuses are and whether what was away was found again, where that is known.
+void print_status(const StatusMetrics& s) {
+  if (!std::isnan(s.false_tracked_share))
+    fmt::print("tracked: {:.2f} % of these frames are off by more than {:.0f} mm or show nothing\n",
+               100 * s.false_tracked_share, kFalseErrorMm);
+  if (!std::isnan(s.right_tracked_share))
+    fmt::print("within {:.0f} mm: {:.1f} % of these frames are tracked\n", kRightErrorMm,
+               100 * s.right_tracked_share);
+  if (s.returns > 0)
+    fmt::print("{} returns: {:.0f} % recovered within 2 frames, {:.0f} % within 10\n", s.returns,
+               100 * s.recovered_2_share, 100 * s.recovered_10_share);
+}
+
 void print_summary(const Summary& s, const std::filesystem::path& out) {
   const Metrics& m = s.metrics;
   fmt::print(
-      "{} frames ({} lost, {} uncertain, {} missing) at {:.1f} fps, {:.0f} evaluations/s, {}\n",
-      m.frames, m.lost_frames, s.uncertain_frames, m.missing_frames, s.fps,
-      s.evaluations_per_second, s.backend);
+      "{} frames ({} tracked, {} uncertain, {} lost, {} absent, {} missing) at {:.1f} fps, {:.0f} "
+      "evaluations/s, {}\n",
+      m.frames, m.status.tracked_frames, m.status.uncertain_frames, m.status.said_lost_frames,
+      m.status.absent_frames, m.missing_frames, s.fps, s.evaluations_per_second, s.backend);
   if (m.evaluated_frames > 0)
     fmt::print(
         "joint error: mean {:.2f} mm, median {:.2f} mm, 95 % below {:.2f} mm, {:.1f} % of the "
         "frames below 10 mm\n",
-        m.mean_error_mm, m.median_error_mm, m.p95_error_mm, 100 * m.success.front());
+        m.mean_error_mm, m.median_error_mm, m.p95_error_mm, 100 * m.success_curve[10]);
+  print_status(m.status);
   if (s.mean_sigma) fmt::print("sigma: mean {:.2f} mm", 1000 * *s.mean_sigma);
   if (s.reliability.count() > 0)
     fmt::print(", {:.0f} % of the landmarks within one, {:.0f} % within two, {:.0f} % within three",
