@@ -25,7 +25,21 @@ const std::vector<MetricInfo>& known_metrics() {
       {"success_50mm", "below 50 mm", "%", 100, 1, Better::higher},
       {"frames", "frames", "", 1, 0, Better::neither},
       {"missing_frames", "frames missing", "", 1, 1, Better::neither},
+      {"tracked_frames", "frames tracked", "", 1, 1, Better::neither},
       {"uncertain_frames", "frames uncertain", "", 1, 1, Better::neither},
+      {"said_lost_frames", "frames said lost", "", 1, 1, Better::neither},
+      {"absent_frames", "frames said absent", "", 1, 1, Better::neither},
+      {"tracked_share", "tracked", "%", 100, 1, Better::neither},
+      {"uncertain_share", "uncertain", "%", 100, 1, Better::neither},
+      {"absent_share", "absent", "%", 100, 1, Better::neither},
+      {"false_tracked_share", "tracked but wrong", "%", 100, 2, Better::lower},
+      {"right_tracked_share", "right and tracked", "%", 100, 1, Better::higher},
+      {"absent_tracked_share", "absent but tracked", "%", 100, 2, Better::lower},
+      {"returns", "returns", "", 1, 0, Better::neither},
+      {"recovered_2_share", "back in 2 frames", "%", 100, 1, Better::higher},
+      {"recovered_10_share", "back in 10 frames", "%", 100, 1, Better::higher},
+      {"frames_to_recovery", "frames until back", "", 1, 1, Better::lower},
+      {"lost_sigma_min_mm", "least sigma of lost frames", "mm", 1, 1, Better::higher},
       {"lost_frames", "lost frames", "", 1, 1, Better::lower},
       {"lost_share", "frames lost", "%", 100, 1, Better::lower},
       {"time_to_loss_s", "time to loss", "s", 1, 2, Better::neither},
@@ -53,9 +67,23 @@ MetricInfo metric_info(const std::string& key) {
 const std::vector<std::string>& table_metrics() {
   // Time to loss says nothing of the runs that were never lost, and speed is the machine's as much
   // as the method's: no best value is marked in either.
-  static const std::vector<std::string> columns{"mean_error_mm",  "median_error_mm", "p95_error_mm",
-                                                "auc_20_50",      "success_20mm",    "lost_share",
-                                                "time_to_loss_s", "jitter_mm",       "fps"};
+  static const std::vector<std::string> columns{"mean_error_mm",
+                                                "median_error_mm",
+                                                "p95_error_mm",
+                                                "auc_20_50",
+                                                "success_20mm",
+                                                "lost_share",
+                                                "time_to_loss_s",
+                                                "jitter_mm",
+                                                "tracked_share",
+                                                "uncertain_share",
+                                                "absent_share",
+                                                "false_tracked_share",
+                                                "right_tracked_share",
+                                                "absent_tracked_share",
+                                                "recovered_2_share",
+                                                "recovered_10_share",
+                                                "fps"};
   return columns;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "hypotrack/error.hpp"
+#include "metrics/status_metrics.hpp"
 #include "output/csv.hpp"
 #include "report/json_file.hpp"
 #include "report/packed.hpp"
@@ -34,10 +35,10 @@ std::string status_letters(const CsvTable& table, int column, const fs::path& fi
   std::string letters;
   for (const CsvTable::Row& row : table.rows()) {
     const std::string_view word = row.cells[static_cast<std::size_t>(column)];
-    if (word != "tracked" && word != "uncertain" && word != "lost" && word != "missing")
-      throw DataError(
-          fmt::format("{}: the status is '{}'; expected tracked, uncertain, lost or missing",
-                      table.where(row), word));
+    if (!verdict_named(word))
+      throw DataError(fmt::format(
+          "{}: the status is '{}'; expected tracked, uncertain, lost, absent or missing",
+          table.where(row), word));
     letters += word.front();
   }
   if (letters.empty())
@@ -55,7 +56,7 @@ void add_errors(const fs::path& file, const std::vector<int>& frames, Json& seri
     row_of[table.frame(table.rows()[i], frame_column)] = i;
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     const std::string name(table.columns()[c]);
-    if (name == "frame" || name == "time") continue;
+    if (name == "frame" || name == "time" || name == "status") continue;
     std::vector<double> values(frames.size(), std::numeric_limits<double>::quiet_NaN());
     for (std::size_t i = 0; i < frames.size(); ++i)
       if (const auto it = row_of.find(frames[i]); it != row_of.end())

@@ -4,6 +4,9 @@
 hypotrack.runFacts = function (page, run) {
   var order = ['mean_error_mm', 'median_error_mm', 'p95_error_mm', 'max_error_mm', 'auc_20_50',
                'success_10mm', 'success_20mm', 'lost_share', 'time_to_loss_s', 'jitter_mm',
+               'tracked_share', 'uncertain_share', 'absent_share', 'false_tracked_share',
+               'right_tracked_share', 'absent_tracked_share', 'returns', 'recovered_2_share',
+               'recovered_10_share', 'frames_to_recovery', 'lost_sigma_min_mm',
                'frames', 'fps', 'evaluations_per_second'];
   var facts = [];
   order.forEach(function (key) {

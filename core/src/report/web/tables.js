@@ -86,7 +86,8 @@ hypotrack.comparisonTable = function (table) {
 };
 
 hypotrack.runsTable = function (page, runs) {
-  var columns = ['mean_error_mm', 'p95_error_mm', 'auc_20_50', 'lost_share', 'fps']
+  var columns = ['mean_error_mm', 'p95_error_mm', 'auc_20_50', 'lost_share', 'tracked_share',
+                 'false_tracked_share', 'recovered_10_share', 'fps']
       .filter(function (key) { return page.metrics[key]; });
   var scenes = page.runs.some(function (run) { return run.scene; });
   var headings = ['run'].concat(scenes ? ['scene'] : [])
