@@ -149,6 +149,11 @@ TEST(RandomMotion, a_facing_hand_shows_palm_or_back_and_no_fingers_downwards) {
   EXPECT_GT(away, 4);
 }
 
+TEST(RandomMotion, takes_the_place_of_keyframes_that_are_null) {
+  Loaded loaded(random_motion(1, "frames: 3") + "keyframes: null\n");
+  EXPECT_EQ(loaded.source->frame_count(), 3);
+}
+
 TEST(RandomMotion, explains_what_is_wrong_with_it) {
   const auto message = [](const std::string& random) {
     return message_of(kGestures + "random:\n  {" + random + "}\n");

@@ -66,7 +66,8 @@ std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std:
 Script read_motion(const SyntheticParams& params, const Scene& scene,
                    const std::vector<Camera>& cameras, const ConfigNode& config) {
   const bool in_file = !params.joint_file.file.empty();
-  if (params.keyframes.defined() + in_file + params.random.has_value() != 1) {
+  const bool in_script = params.keyframes.defined() && !params.keyframes.is_null();
+  if (in_script + in_file + params.random.has_value() != 1) {
     throw ConfigError(config.where() +
                       ": give the motion by one of `keyframes`, `joint_file: "
                       "{file: ...}` and `random`");
