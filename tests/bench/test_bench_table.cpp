@@ -37,6 +37,7 @@ Measurement frames_of(double seconds, int n) {
     m.evaluations.push_back(100);
   }
   m.metrics.mean_error_mm = 12.345;
+  m.metrics.status.tracked_share = 0.975;
   return m;
 }
 
@@ -84,11 +85,11 @@ TEST(BenchTableTest, TellsNumbersRatiosDevicesAndReasons) {
                                  {1, 0, 2, unavailable("there is no such thing")}};
   EXPECT_EQ(table_text(plan, rows, 1),
             "scene         backend  frames median ms       5 %      95 %      fps   evals/s  error "
-            "mm     x cpu     x gpu\n"
+            "mm tracked %     x cpu     x gpu\n"
             "A box, small  cpu           3    20.000    11.000    29.000     50.0     5.0 k     "
-            "12.35      1.00     0.200\n"
+            "12.35      97.5      1.00     0.200\n"
             "A box, small  gpu           3     4.000     2.200     5.800      250    25.0 k     "
-            "12.35      5.00      1.00\n"
+            "12.35      97.5      5.00      1.00\n"
             "A box, small  other         - unavailable [1]\n"
             "\n"
             "cpu: a device\n"
@@ -99,7 +100,7 @@ TEST(BenchTableTest, TellsNumbersRatiosDevicesAndReasons) {
 TEST(BenchTableTest, WithoutAnyNumberThereAreTheReasons) {
   EXPECT_EQ(table_text(plan_of_two_ways(), {{1, 0, 1, unavailable("none")}}, 1),
             "scene         backend  frames median ms       5 %      95 %      fps   evals/s  error "
-            "mm\n"
+            "mm tracked %\n"
             "A box, small  gpu           - unavailable [1]\n"
             "\n"
             "[1] none\n");
@@ -116,9 +117,9 @@ TEST(BenchTableTest, MemoryOfTheGpuIsToldWhereThereIsOne) {
   EXPECT_THAT(table_text(plan_of_two_ways(), rows, 1), Not(HasSubstr("GPU MiB")));
   rows[1].measurement.device_mib = 54.3;
   EXPECT_THAT(table_text(plan_of_two_ways(), rows, 1),
-              testing::AllOf(HasSubstr("error mm   GPU MiB     x cpu"),
-                             HasSubstr("12.35        54      5.00"),
-                             HasSubstr("12.35         -      1.00")));
+              testing::AllOf(HasSubstr("error mm tracked %   GPU MiB     x cpu"),
+                             HasSubstr("12.35      97.5        54      5.00"),
+                             HasSubstr("12.35      97.5         -      1.00")));
 }
 
 TEST(BenchTableTest, FilesHoldEveryRow) {
@@ -128,12 +129,12 @@ TEST(BenchTableTest, FilesHoldEveryRow) {
   write_rows(folder.path() / "rows.csv", plan_of_two_ways(), rows);
   EXPECT_EQ(read(folder.path() / "rows.csv"),
             "scene,backend,round,status,device,frames,warm_up,median_ms,p5_ms,p95_ms,fps,"
-            "evaluations,evaluations_per_second,mean_error_mm,lost_frames,device_mib,"
+            "evaluations,evaluations_per_second,mean_error_mm,lost_frames,tracked_share,device_mib,"
             "speed_over_cpu,"
             "speed_over_gpu,message\n"
             "\"A box, small\",cpu,1,measured,a device,3,0,20.0,11.0,29.0,50.0,100.0,5000.0,12.345,"
-            "0,,1.0,,\n"
-            "\"A box, small\",gpu,1,unavailable,,0,0,,,,,,,,,,,,\"no GPU, none\"\n");
+            "0,0.975,,1.0,,\n"
+            "\"A box, small\",gpu,1,unavailable,,0,0,,,,,,,,,,,,,\"no GPU, none\"\n");
   write_rows(folder.path() / "rows.json", plan_of_two_ways(), rows);
   const auto json = nlohmann::json::parse(read(folder.path() / "rows.json"));
   EXPECT_EQ(json.at("title"), "Some");

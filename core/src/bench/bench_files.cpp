@@ -39,6 +39,7 @@ Json json_of(const Plan& plan, const Row& row, const std::vector<Row>& rows) {
   json["evaluations_per_second"] = n ? number(n->evaluations_per_second) : Json();
   json["mean_error_mm"] = n ? number(m.metrics.mean_error_mm) : Json();
   json["lost_frames"] = n ? Json(m.metrics.lost_frames) : Json();
+  json["tracked_share"] = n ? number(m.metrics.status.tracked_share) : Json();
   json["device_mib"] = n && m.device_mib ? number(*m.device_mib) : Json();
   for (std::size_t way = 0; way < plan.ways.size(); ++way) {
     const auto speed = speed_over(row, way, rows);

@@ -41,6 +41,10 @@ std::string short_number(double value) {
 
 std::string error_text(double mm) { return std::isnan(mm) ? "-" : fmt::format("{:.2f}", mm); }
 
+std::string share_text(double share) {
+  return std::isnan(share) ? "-" : fmt::format("{:.1f}", 100 * share);
+}
+
 /// One round of the table, written row by row.
 class Table {
  public:
@@ -75,9 +79,9 @@ Table::Table(const Plan& plan, const std::vector<Row>& rows, int round)
 }
 
 std::string Table::head() const {
-  std::string text = fmt::format("{:<{}}  {:<{}} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9}",
+  std::string text = fmt::format("{:<{}}  {:<{}} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}",
                                  "scene", case_width_, "backend", way_width_, "frames", "median ms",
-                                 "5 %", "95 %", "fps", "evals/s", "error mm");
+                                 "5 %", "95 %", "fps", "evals/s", "error mm", "tracked %");
   if (tells_memory_) text += fmt::format(" {:>9}", "GPU MiB");
   for (const std::size_t way : references_)
     text += fmt::format(" {:>9}", "x " + plan_.ways[way].name);
@@ -86,10 +90,10 @@ std::string Table::head() const {
 
 std::string Table::numbers(const Row& row, const Numbers& n) const {
   const Measurement& m = row.measurement;
-  std::string text =
-      fmt::format("{:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>8} {:>9} {:>9}", m.seconds.size(),
-                  1000 * n.median, 1000 * n.p5, 1000 * n.p95, short_number(n.fps),
-                  with_prefix(n.evaluations_per_second), error_text(m.metrics.mean_error_mm));
+  std::string text = fmt::format(
+      "{:>7} {:>9.3f} {:>9.3f} {:>9.3f} {:>8} {:>9} {:>9} {:>9}", m.seconds.size(), 1000 * n.median,
+      1000 * n.p5, 1000 * n.p95, short_number(n.fps), with_prefix(n.evaluations_per_second),
+      error_text(m.metrics.mean_error_mm), share_text(m.metrics.status.tracked_share));
   if (tells_memory_)
     text += fmt::format(" {:>9}", m.device_mib ? fmt::format("{:.0f}", *m.device_mib) : "-");
   for (const std::size_t way : references_) {
