@@ -64,6 +64,7 @@ Judge::Judge(const Scene& scene, const std::vector<Camera>& cameras) {
 }
 
 Verdict Judge::judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors) {
+  state_ = state;
   Verdict verdict;
   verdict.models.assign(models_.size(), std::numeric_limits<double>::quiet_NaN());
   evidence_.assign(models_.size(), {});

@@ -29,7 +29,8 @@ class HYPOTRACK_API ModelJudge {
   /// Evidence and, after learn(), its differences to what is usual: what classifiers see.
   Eigen::VectorXd features(const Evidence& evidence) const;
 
-  /// Logarithm of the odds that the model's landmarks are about where they were found (weights.hpp).
+  /// Logarithm of the odds that the model's landmarks are about where they were found
+  /// (weights.hpp).
   double log_odds(const Evidence& evidence) const;
 
   /// Learns colours and usual evidence from the last look, at which the model was surely right.
@@ -67,14 +68,23 @@ class HYPOTRACK_API Judge {
   /// Learns from the last frame judged, in which all models were surely right.
   void learn();
 
+  /// Whether a state was judged last.
+  bool judged(const Eigen::VectorXd& state) const {
+    return state_.size() == state.size() && state_ == state;
+  }
   /// Whether every model was surely right once.
   bool experienced() const;
-  ModelJudge& model(std::size_t i) { return models_[i]; }
+  /// The judge of one model. A look of its own makes learn() wrong until the next judge().
+  ModelJudge& model(std::size_t i) {
+    state_.resize(0);
+    return models_[i];
+  }
   const std::vector<Evidence>& evidence() const { return evidence_; }
 
  private:
   std::vector<ModelJudge> models_;
   std::vector<Evidence> evidence_;
+  Eigen::VectorXd state_;
 };
 
 }  // namespace hypotrack

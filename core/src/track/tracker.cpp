@@ -21,6 +21,7 @@ constexpr int kPatientFrames = 3;
 // An answer of this probability is worth searches around it.
 constexpr double kHint = 0.02;
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// A seed of its own for every frame (splitmix64 of both numbers), so that a frame's search does
@@ -93,7 +94,9 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), budget_);
 }
 
-Tracker::~Tracker() = default;
+Tracker::~Tracker() {
+  if (job_.valid()) job_.wait();
+}
 
 Solution Tracker::track(const Frame& frame) {
   Solution solution;
@@ -113,8 +116,19 @@ Solution Tracker::track(const Frame& frame) {
 }
 
 void Tracker::find(const Frame& frame, Solution& solution) {
+  if (job_.valid()) return wait_for_job(frame, solution);
   Candidate best = found_any_ ? follow(frame) : begin(frame);
-  if (recovers() && !is_right(best) && known(best)) recover(frame, best);
+  if (recovers() && judge_.experienced() && !is_right(best) && known(best)) {
+    if (settings_.recovery.run == RecoveryRun::background)
+      start_job(frame, best);
+    else
+      recover(frame, best);
+  }
+  if (job_.valid()) return stay_lost(frame, solution);
+  answer(frame, best, solution);
+}
+
+void Tracker::answer(const Frame& frame, const Candidate& best, Solution& solution) {
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
   solution.probability = best.verdict.probability;
@@ -150,6 +164,40 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
   if (!good) predictor_.forget_motion();
   if (recovers() && !good) widen(solution.sigma, frame.time - kept_.time);
   last_status_ = solution.status;
+}
+
+void Tracker::start_job(const Frame& frame, const Candidate& best) {
+  // The source may use its images again.
+  Frame copy = frame;
+  for (View& view : copy.views) {
+    view.color = view.color.clone();
+    view.mask = view.mask.clone();
+    view.depth = view.depth.clone();
+  }
+  job_ = std::async(std::launch::async, [this, copy = std::move(copy), from = best]() mutable {
+    recover(copy, from);
+    return from;
+  });
+}
+
+void Tracker::wait_for_job(const Frame& frame, Solution& solution) {
+  if (job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+    return stay_lost(frame, solution);
+  Candidate best = job_.get();
+  if (!best.in_view || !(best.verdict.probability >= kHint))
+    return answer(frame, best.in_view ? Candidate{} : best, solution);
+  // That was an earlier frame: this one is searched from its answer.
+  const std::int64_t evaluations = best.found.evaluations;
+  search_.look(frame, best.found.state, false);
+  best = judged(frame, settled(best.found.state, frame_seed(seed_, frame.index)));
+  best.found.evaluations += evaluations;
+  answer(frame, best, solution);
+}
+
+void Tracker::stay_lost(const Frame& frame, Solution& solution) {
+  solution.status = last_status_ = monitor_.judge({.cost = kInfinite});
+  state_ = extrapolated(frame.time);
+  widen(solution.sigma, frame.time - kept_.time);
 }
 
 Tracker::Candidate Tracker::judged(const Frame& frame, Found found) {
@@ -252,7 +300,6 @@ Found Tracker::settled(const Eigen::VectorXd& start, std::uint64_t seed) {
 }
 
 void Tracker::recover(const Frame& frame, Candidate& best) {
-  if (!judge_.experienced()) return;
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
   LastKnown last{kept_.state, std::max(frame.time - kept_.time, 1e-3)};
   std::vector<bool> lost(scene_.items().size(), true);
@@ -276,13 +323,6 @@ void Tracker::recover(const Frame& frame, Candidate& best) {
     search_.look(frame, state, false);
     Candidate one = judged(frame, settled(state, seed_of_part(seed, ++k)));
     evaluations += one.found.evaluations;
-    if (getenv("HT_DEBUG") && frame.truth) {
-      const Eigen::Matrix3Xd t = scene_.landmarks(frame.truth->state);
-      fmt::print(stderr, "  f{} cand {} before {:.1f} after {:.1f} p {:.3f} cost {:.1f}\n",
-                 frame.index, k, 1000 * (scene_.landmarks(state) - t).colwise().norm().mean(),
-                 1000 * (scene_.landmarks(one.found.state) - t).colwise().norm().mean(),
-                 one.verdict.probability, one.found.cost);
-    }
     const Reach reach = reach_within(settings_.motion, last.seconds);
     if (!is_within(scene_, reach, kept_.state, one.found.state)) continue;
     if (!(best.verdict.probability >= one.verdict.probability)) {
@@ -298,13 +338,20 @@ void Tracker::recover(const Frame& frame, Candidate& best) {
 }
 
 void Tracker::learn(const Frame& frame, const Candidate& best) {
-  if (settings_.evidence && !std::isnan(best.verdict.probability)) {
-    judge_.judge(frame, best.found.state, search_.second_view_colors());
+  if (settings_.evidence && !std::isnan(best.verdict.probability) && is_time_to_learn()) {
+    if (!judge_.judged(best.found.state))
+      judge_.judge(frame, best.found.state, search_.second_view_colors());
     judge_.learn();
   }
+  ++learned_;
   search_.learn(frame, best.found.state);
   recovery_.remember(best.found.state);
   kept_ = {best.found.state, frame.time, predictor_.velocity()};
+}
+
+bool Tracker::is_time_to_learn() const {
+  constexpr int kAtFirst = 10, kEvery = 4;  // frames
+  return learned_ < kAtFirst || learned_ % kEvery == 0;
 }
 
 Eigen::MatrixXd Tracker::possible_starts(double time) {

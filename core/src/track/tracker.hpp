@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <future>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -95,6 +96,11 @@ class HYPOTRACK_API Tracker {
   void recover(const Frame& frame, Candidate& best);
   /// Searches the frame as it is taken in until that gains little.
   Found settled(const Eigen::VectorXd& start, std::uint64_t seed);
+  void answer(const Frame& frame, const Candidate& best, Solution& solution);
+  // Recovery in the background. While a job runs, nothing else uses the search and the judge.
+  void start_job(const Frame& frame, const Candidate& best);
+  void wait_for_job(const Frame& frame, Solution& solution);
+  void stay_lost(const Frame& frame, Solution& solution);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
   Candidate judged(const Frame& frame, Found found);
   Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates);
@@ -105,6 +111,7 @@ class HYPOTRACK_API Tracker {
   /// States that the search of a frame may start from, the middle one, which is seen, first.
   Eigen::MatrixXd possible_starts(double time);
   void learn(const Frame& frame, const Candidate& best);
+  bool is_time_to_learn() const;
   void go_on_from(const Eigen::VectorXd& found, const Frame& frame);
   void keep_last(const Frame& frame);
   /// The last state that was surely right, moved on for a moment.
@@ -135,7 +142,9 @@ class HYPOTRACK_API Tracker {
   Status last_status_ = Status::missing;
   int begun_ = 0;           ///< frames searched before anything was found
   bool found_any_ = false;  ///< whether `state_` is a solution
+  int learned_ = 0;         ///< frames
   std::uint64_t seed_;
+  std::future<Candidate> job_;
 };
 
 }  // namespace hypotrack
