@@ -70,11 +70,8 @@ const std::vector<std::string>& table_metrics() {
   static const std::vector<std::string> columns{"mean_error_mm",
                                                 "median_error_mm",
                                                 "p95_error_mm",
-                                                "auc_20_50",
                                                 "success_20mm",
                                                 "lost_share",
-                                                "time_to_loss_s",
-                                                "jitter_mm",
                                                 "tracked_share",
                                                 "uncertain_share",
                                                 "absent_share",
@@ -83,6 +80,9 @@ const std::vector<std::string>& table_metrics() {
                                                 "absent_tracked_share",
                                                 "recovered_2_share",
                                                 "recovered_10_share",
+                                                "auc_20_50",
+                                                "time_to_loss_s",
+                                                "jitter_mm",
                                                 "fps"};
   return columns;
 }
