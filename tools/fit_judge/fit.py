@@ -3,17 +3,20 @@
 
     fit.py TABLE.csv... > core/src/judge/weights.hpp
 
-A logistic regression says whether a model's landmarks are within 10 mm of the truth, against more than
-20 mm or nothing there; what lies between is left out. A third of the tables is held out, and what the
-weights say of those is printed to standard error.
+A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
+more than 20 mm or nothing there; what lies between is left out. A third of the tables is held out, and
+what the weights say of those is printed to standard error. Needs python3-sklearn.
 """
 import csv
 import sys
 
 import numpy as np
+from sklearn.neural_network import MLPClassifier
 
 RIGHT_MM, WRONG_MM = 10, 20
+HIDDEN = 12
 PENALTY = 3.0  # of the squared weights, for features of variance 1
+COPIES = 3  # answers of trackers are what is judged; displaced poses fill in what they lack
 APPEARANCE = {"inside", "ring", "worst_inside", "worst_ring"}  # unknown before anything was learned
 
 
@@ -31,23 +34,21 @@ def read(files):
     return names[1:], np.array(rows), np.array([t for t, _ in table]), np.array([k for _, k in table])
 
 
-def fit(x, y, weight):
-    """Newton's method on standardised features; returns bias and factors for raw ones."""
+def fit(x, y, copies):
+    """Trains the network; returns what weights.hpp has."""
     mean, scale = x.mean(0), x.std(0)
     scale[scale < 1e-9] = np.inf
-    z = np.hstack([np.ones((len(x), 1)), (x - mean) / scale])
-    w = np.zeros(z.shape[1])
-    ridge = np.full(len(w), PENALTY)
-    ridge[0] = 1e-6
-    for _ in range(50):
-        p = 1 / (1 + np.exp(-z @ w))
-        h = (z * (weight * p * (1 - p))[:, None]).T @ z + np.diag(ridge)
-        step = np.linalg.solve(h, z.T @ (weight * (p - y)) + ridge * w)
-        w -= step
-        if np.abs(step).max() < 1e-8:
-            break
-    factors = w[1:] / scale
-    return w[0] - factors @ mean, factors
+    rows = np.repeat(np.arange(len(x)), copies)
+    network = MLPClassifier((HIDDEN,), alpha=PENALTY, max_iter=600, random_state=1)
+    network.fit(((x - mean) / scale)[rows], y[rows])
+    (hidden, out), (hidden_bias, out_bias) = network.coefs_, network.intercepts_
+    hidden = (hidden / scale[:, None]).T  # for raw features
+    return hidden, hidden_bias - hidden @ mean, out[:, 0], out_bias[0]
+
+
+def apply(weights, x):
+    hidden, hidden_bias, out, out_bias = weights
+    return 1 / (1 + np.exp(-(np.maximum(x @ hidden.T + hidden_bias, 0) @ out + out_bias)))
 
 
 def main():
@@ -65,13 +66,11 @@ def main():
         ("kExperienced", experienced, [True] * len(feature_names)),
     ):
         x = np.where(allowed, features, 0)
-        # Answers of trackers are what is judged; displaced poses fill in what they lack.
-        weight = np.where(kind == "tracker", 3.0, 1.0)
+        copies = np.where(kind == "tracker", COPIES, 1)
         usable = chosen & known & (right | wrong)
         held_out = table % 3 == 0
         train = usable & ~held_out
-        bias, factors = fit(x[train], right[train].astype(float), weight[train])
-        p = 1 / (1 + np.exp(-(bias + x @ factors)))
+        p = apply(fit(x[train], right[train], copies[train]), x)
         for threshold in (0.3, 0.5, 0.7, 0.8, 0.9):
             tests = [("<=3", error <= 3), ("<=10", error <= 10), ("10-20", (error > 10) & (error <= 20)),
                      ("20-30", (error > 20) & (error <= 30)), ("30-50", (error > 30) & (error <= 50)),
@@ -83,19 +82,26 @@ def main():
                     if m.any():
                         cells.append(f"{only[:4]} {name} {(p[m] >= threshold).mean():.3f}/{m.sum()}")
             print(label, threshold, "; ".join(cells), file=sys.stderr)
-        shown[label] = fit(x[usable], right[usable].astype(float), weight[usable])
+        shown[label] = fit(x[usable], right[usable], copies[usable])
     print("// Made by tools/fit_judge/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
     print('#include "judge/evidence.hpp"\n')
-    print("/// Weights of logistic regressions over ModelJudge::features(): the probability that a model's\n"
-          f"/// landmarks are within {RIGHT_MM} mm of where they are in truth, and not more than {WRONG_MM} mm off.\n"
+    print("/// Weights of networks over ModelJudge::features(): how likely a model's landmarks are within\n"
+          f"/// {RIGHT_MM} mm of where they are in truth, and not more than {WRONG_MM} mm off.\n"
           "namespace hypotrack::judge_weights {\n")
-    print("struct Logistic {\n  double bias;\n  std::array<double, 2 * Evidence::kCount> factors;\n};\n")
+    print(f"inline constexpr int kHidden = {HIDDEN};\n")
+    print("/// One hidden layer of rectified linear units; the output is the logarithm of the odds.\n"
+          "struct Network {\n"
+          "  std::array<std::array<double, 2 * Evidence::kCount>, kHidden> hidden;\n"
+          "  std::array<double, kHidden> hidden_bias;\n"
+          "  std::array<double, kHidden> out;\n"
+          "  double out_bias;\n};\n")
+    numbers = lambda values: ", ".join(f"{v:.5g}" for v in values)
     for label, comment in (("kFresh", "Before anything was learned."), ("kExperienced", "After that.")):
-        bias, factors = shown[label]
-        print(f"/// {comment}\ninline constexpr Logistic {label}{{\n    {bias:.5g},\n    {{{{")
-        for name, value in zip(feature_names, factors):
-            print(f"        {value:.5g},  // {name}")
-        print("    }}};\n")
+        hidden, hidden_bias, out, out_bias = shown[label]
+        print(f"/// {comment}\ninline constexpr Network {label}{{{{{{")
+        for row in hidden:
+            print(f"{{{{{numbers(row)}}}}},")
+        print(f"}}}}, {{{{{numbers(hidden_bias)}}}}}, {{{{{numbers(out)}}}}}, {out_bias:.5g}}};\n")
     print("}  // namespace hypotrack::judge_weights")
 
 

@@ -38,11 +38,13 @@ Eigen::VectorXd ModelJudge::features(const Evidence& evidence) const {
 double ModelJudge::log_odds(const Evidence& evidence) const {
   if (!evidence.known) return -std::numeric_limits<double>::infinity();
   const Eigen::VectorXd x = features(evidence);
-  const judge_weights::Logistic& weights =
+  const judge_weights::Network& network =
       usual_ ? judge_weights::kExperienced : judge_weights::kFresh;
-  double sum = weights.bias;
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    sum += weights.factors[static_cast<std::size_t>(i)] * x[i];
+  double sum = network.out_bias;
+  for (std::size_t unit = 0; unit < judge_weights::kHidden; ++unit) {
+    const Eigen::Map<const Eigen::VectorXd> weights(network.hidden[unit].data(), x.size());
+    sum += network.out[unit] * std::max(0.0, weights.dot(x) + network.hidden_bias[unit]);
+  }
   return sum;
 }
 

@@ -44,7 +44,10 @@ void StatusMonitor::remember(double cost) {
 
 Status StatusMonitor::judge(const StatusEvidence& evidence) {
   const Status status = decide(evidence);
-  was_tracked_ = status == Status::tracked;
+  constexpr int kAtOnce = 1000;  // a tracked scene stays tracked
+  const bool would_do = evidence.probability >= settings_.tracked_above;
+  steady_ = status == Status::tracked ? kAtOnce : would_do ? steady_ + 1 : 0;
+  if (status == Status::tracked) ever_tracked_ = true;
   return status;
 }
 

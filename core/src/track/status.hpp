@@ -26,7 +26,7 @@ HYPOTRACK_API std::string_view to_string(Status status);
 struct StatusSettings {
   bool evidence = true;
   double tracked_above = 0.5;
-  double surely_above = 0.85;
+  double surely_above = 0.8;
   double uncertain_above = 0.15;
   MotionLimits motion;
   RecoverySettings recovery;
@@ -42,11 +42,11 @@ struct StatusSettings {
       {.help = "judge solutions by what both pictures show where the models are; off: by their "
                "costs alone"});
     v("tracked_above", tracked_above,
-      {.help = "with `evidence`: stays tracked from this probability of being right on",
+      {.help = "with `evidence`: tracked from this probability of being right on",
        .min = 0,
        .max = 1});
     v("surely_above", surely_above,
-      {.help = "with `evidence`: becomes tracked from this probability on", .min = 0, .max = 1});
+      {.help = "with `evidence`: the same just after a loss", .min = 0, .max = 1});
     v("uncertain_above", uncertain_above,
       {.help = "with `evidence`: lost below this probability", .min = 0, .max = 1});
     v("motion", motion, {.help = "how fast models move at most"});
@@ -96,8 +96,11 @@ class HYPOTRACK_API StatusMonitor {
 
   Status judge(const StatusEvidence& evidence);
 
-  /// Probability that a tracked answer needs now: more where the scene was not tracked before.
-  double needed() const { return was_tracked_ ? settings_.tracked_above : settings_.surely_above; }
+  /// Probability that a tracked answer needs now: more just after a loss.
+  double needed() const {
+    constexpr int kSteady = 4;  // frames with answers that would do at other times
+    return ever_tracked_ && steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
+  }
 
   /// Above it a cost is an outlier of the recent past; -infinity before there is one.
   double usual_cost() const;
@@ -110,7 +113,8 @@ class HYPOTRACK_API StatusMonitor {
   StatusSettings settings_;
   std::deque<double> costs_;  ///< of past frames, newest last
   int uncertain_in_a_row_ = 0;
-  bool was_tracked_ = false;
+  bool ever_tracked_ = false;
+  int steady_ = 0;  ///< frames in a row with an answer of `tracked_above`, or tracked
 };
 
 }  // namespace hypotrack

@@ -18,6 +18,10 @@ namespace {
 
 // Frames that are searched from several starts before anything was found.
 constexpr int kPatientFrames = 3;
+// Frames after a loss in which other poses are looked for although one looks right.
+constexpr int kConfirmations = 3;
+// Of probability: answers less apart are told by their costs.
+constexpr double kAlike = 0.2;
 // An answer of this probability is worth searches around it.
 constexpr double kHint = 0.02;
 
@@ -118,7 +122,8 @@ Solution Tracker::track(const Frame& frame) {
 void Tracker::find(const Frame& frame, Solution& solution) {
   if (job_.valid()) return wait_for_job(frame, solution);
   Candidate best = found_any_ ? follow(frame) : begin(frame);
-  if (recovers() && judge_.experienced() && !is_right(best) && known(best)) {
+  if (recovers() && judge_.experienced() && known(best) &&
+      (!is_right(best) || confirmations_ > 0 || is_time_to_doubt(best))) {
     if (settings_.recovery.run == RecoveryRun::background)
       start_job(frame, best);
     else
@@ -161,6 +166,7 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
     keep_last(frame);
   }
   if (tracked) learn(frame, best);
+  confirmations_ = !tracked ? kConfirmations : std::max(0, confirmations_ - 1);
   if (!good) predictor_.forget_motion();
   if (recovers() && !good) widen(solution.sigma, frame.time - kept_.time);
   last_status_ = solution.status;
@@ -211,6 +217,12 @@ bool Tracker::known(const Candidate& candidate) const {
   return !std::isnan(candidate.verdict.probability) || !std::isfinite(candidate.found.cost);
 }
 
+bool Tracker::is_time_to_doubt(const Candidate& best) {
+  constexpr int kEvery = 4;  // doubtful frames
+  if (best.verdict.probability >= settings_.surely_above) return false;
+  return ++doubts_ % kEvery == 1;
+}
+
 bool Tracker::is_right(const Candidate& candidate) const {
   return candidate.verdict.probability >= monitor_.needed();
 }
@@ -256,32 +268,36 @@ Tracker::Candidate Tracker::begin(const Frame& frame) {
 }
 
 Tracker::Candidate Tracker::best_of(const Frame& frame, const std::vector<Candidate>& candidates) {
-  constexpr double kAlike = 0.2;  // of probability: costs decide
   const auto most = std::ranges::max_element(candidates, {}, [](const Candidate& c) {
     return std::isnan(c.verdict.probability) ? -1.0 : c.verdict.probability;
   });
   if (search_.tiles().visible_share(most->found.state) == 0) return *most;
-  // Costs compare in one tile only, with colours learned there.
-  const auto look_at = [&](const Eigen::VectorXd& state) {
-    search_.forget_colors();
-    search_.look(frame, state, true);
-    search_.look(frame, state, false);
-  };
-  look_at(most->found.state);
+  look_at(frame, most->found.state);
+  // Costs compare in one tile only.
   Eigen::MatrixXd states(scene_.dimension(), static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i)
     states.col(static_cast<Eigen::Index>(i)) = candidates[i].found.state;
   Eigen::VectorXd costs(states.cols());
   search_.evaluator().evaluate(states, costs);
   auto best = static_cast<std::size_t>(most - candidates.begin());
+  const double enough = std::min(most->verdict.probability - kAlike, settings_.tracked_above);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (candidates[i].verdict.probability >= most->verdict.probability - kAlike &&
+    if (candidates[i].verdict.probability >= std::max(enough, 0.5 * most->verdict.probability) &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
       best = i;
-  if (&candidates[best] != &*most) look_at(candidates[best].found.state);
-  Found found = candidates[best].found;
-  found.cost = costs[static_cast<Eigen::Index>(best)];
-  return judged(frame, std::move(found));
+  Candidate out = candidates[best];
+  if (&candidates[best] != &*most) look_at(frame, out.found.state);
+  out.found.cost = costs[static_cast<Eigen::Index>(best)];
+  return out;
+}
+
+void Tracker::look_at(const Frame& frame, const Eigen::VectorXd& state) {
+  if (!judge_.experienced()) {
+    // Whatever was learned from another start is wrong here.
+    search_.forget_colors();
+    search_.look(frame, state, true);
+  }
+  search_.look(frame, state, false);
 }
 
 Found Tracker::settled(const Eigen::VectorXd& start, std::uint64_t seed) {
@@ -317,24 +333,23 @@ void Tracker::recover(const Frame& frame, Candidate& best) {
       recovery_.find(search_, frame, judge_, last, lost, settings_.motion, seed);
   std::int64_t evaluations = best.found.evaluations + candidates.evaluations;
   best.in_view = candidates.in_view;
+  const Reach reach = reach_within(settings_.motion, last.seconds);
+  std::vector<Candidate> all;
+  if (std::isfinite(best.found.cost)) all.push_back(best);
   std::uint32_t k = 0;
   for (const Eigen::VectorXd& state : candidates.states) {
     if (search_.tiles().visible_share(state) == 0) continue;
     search_.look(frame, state, false);
     Candidate one = judged(frame, settled(state, seed_of_part(seed, ++k)));
     evaluations += one.found.evaluations;
-    const Reach reach = reach_within(settings_.motion, last.seconds);
-    if (!is_within(scene_, reach, kept_.state, one.found.state)) continue;
-    if (!(best.verdict.probability >= one.verdict.probability)) {
-      one.in_view = true;
-      best = std::move(one);
-    }
-    if (best.verdict.probability >= settings_.surely_above) break;
+    if (is_within(scene_, reach, kept_.state, one.found.state)) all.push_back(std::move(one));
+  }
+  if (!all.empty()) {
+    const bool in_view = best.in_view;
+    best = best_of(frame, all);
+    best.in_view = in_view || is_right(best);
   }
   best.found.evaluations = evaluations;
-  // What follows looks at the frame as the answer shows it.
-  if (std::isfinite(best.found.cost) && search_.tiles().visible_share(best.found.state) > 0)
-    search_.look(frame, best.found.state, false);
 }
 
 void Tracker::learn(const Frame& frame, const Candidate& best) {

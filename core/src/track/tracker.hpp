@@ -103,9 +103,13 @@ class HYPOTRACK_API Tracker {
   void stay_lost(const Frame& frame, Solution& solution);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
   Candidate judged(const Frame& frame, Found found);
+  /// The best by probability and, among those alike, by cost. The frame is then taken in around it.
   Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates);
+  void look_at(const Frame& frame, const Eigen::VectorXd& state);
   bool known(const Candidate& candidate) const;
   bool is_right(const Candidate& candidate) const;
+  /// Whether to look for other poses although an answer will do, because it hardly does.
+  bool is_time_to_doubt(const Candidate& best);
   bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
 
   /// States that the search of a frame may start from, the middle one, which is seen, first.
@@ -142,6 +146,8 @@ class HYPOTRACK_API Tracker {
   Status last_status_ = Status::missing;
   int begun_ = 0;           ///< frames searched before anything was found
   bool found_any_ = false;  ///< whether `state_` is a solution
+  int confirmations_ = 0;   ///< frames left in which an answer is confirmed
+  int doubts_ = 0;          ///< frames whose answers hardly did
   int learned_ = 0;         ///< frames
   std::uint64_t seed_;
   std::future<Candidate> job_;
