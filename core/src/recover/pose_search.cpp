@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "hypotrack/kinematics.hpp"
@@ -39,7 +40,6 @@ PoseSearch::PoseSearch(const Scene& scene, std::size_t model, const std::vector<
     : scene_(scene),
       item_(scene.items()[model]),
       model_(model),
-      settings_(settings),
       single_(only(item_)),
       tiles_(single_, cameras, {settings.tile, kPadding}),
       postures_(item_.model->data()),
@@ -62,9 +62,10 @@ Eigen::VectorXd PoseSearch::without(const Eigen::VectorXd& base,
   return out;
 }
 
-Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, std::mt19937_64& random) const {
+Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
+                                       std::mt19937_64& random) const {
   const Eigen::Index dimension = item_.model->dimension();
-  Eigen::MatrixXd out(dimension, settings_.hypotheses);
+  Eigen::MatrixXd out(dimension, count);
   const Eigen::VectorXd& last = guess.pose;
   const Eigen::Quaterniond last_rotation(last[3], last[4], last[5], last[6]);
   std::uniform_real_distribution<double> uniform;
@@ -106,39 +107,33 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
 
 std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
                                       const Eigen::VectorXd& base, const std::vector<bool>& hidden,
-                                      const std::vector<PoseGuess>& guesses, std::uint64_t seed) {
+                                      const PoseGuess& guess, const PoseEffort& effort,
+                                      std::uint64_t seed) {
   std::mt19937_64 random(seed);
+  const Eigen::MatrixXd own = hypotheses(guess, effort.hypotheses, random);
+  if (tiles_.visible_share(own.col(0)) == 0) return {};
+  take_in(search, frame, base, own.col(0));
   Evaluator& evaluator = search.evaluator();
-  const Eigen::VectorXd nothing = without(base, hidden);
+  Eigen::MatrixXd states = without(base, hidden).replicate(1, own.cols());
+  states.middleRows(item_.offset, own.rows()) = own;
+  Eigen::VectorXd costs(states.cols());
+  evaluator.evaluate(states, costs);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(effort.refined)));
+
   std::vector<bool> free(hidden.size(), false);
   free[model_] = true;
+  std::int64_t evaluations = states.cols();
   std::vector<Refined> all;
-  std::int64_t evaluations = 0;
-  const std::size_t refined_each = std::max<std::size_t>(
-      1, static_cast<std::size_t>(settings_.refined) / std::max<std::size_t>(1, guesses.size()));
-  for (const PoseGuess& guess : guesses) {
-    const Eigen::MatrixXd own = hypotheses(guess, random);
-    if (tiles_.visible_share(own.col(0)) == 0) continue;
-    take_in(search, frame, base, own.col(0));
-    Eigen::MatrixXd states = nothing.replicate(1, own.cols() + 1);
-    states.block(item_.offset, 1, own.rows(), own.cols()) = own;
-    Eigen::VectorXd costs(states.cols());
-    evaluator.evaluate(states, costs);
-    evaluations += states.cols();
-    std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<Eigen::Index>(i) + 1;
-    std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
-    order.resize(std::min(order.size(), refined_each));
-    for (const Eigen::Index i : order) {
-      Refined one{states.col(i), costs[i], 0};
-      if (!std::isfinite(one.cost)) continue;
-      if (evaluator.has_residuals())
-        one = LeastSquares(scene_, evaluator, free).refine(std::move(one), kIterations);
-      evaluations += one.evaluations;
-      one.evaluations = 0;
-      one.cost -= costs[0];
-      all.push_back(std::move(one));
-    }
+  for (const Eigen::Index i : order) {
+    Refined one{states.col(i), costs[i], 0};
+    if (!std::isfinite(one.cost)) continue;
+    if (evaluator.has_residuals())
+      one = LeastSquares(scene_, evaluator, free).refine(std::move(one), kIterations);
+    evaluations += std::exchange(one.evaluations, 0);
+    all.push_back(std::move(one));
   }
   std::ranges::stable_sort(all, [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
   if (!all.empty()) all.front().evaluations = evaluations;

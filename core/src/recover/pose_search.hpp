@@ -26,6 +26,12 @@ struct PoseGuess {
   double rotation = 0;     ///< standard deviation of those, radians
 };
 
+/// How much a search spends on one place.
+struct PoseEffort {
+  int hypotheses = 0;  ///< scored
+  int refined = 0;     ///< best of them refined by least squares
+};
+
 /// Searches all rotations and postures of one model of a scene at given places: scores hypotheses
 /// in a coarse tile and refines the best by least squares.
 class PoseSearch {
@@ -34,12 +40,12 @@ class PoseSearch {
   PoseSearch(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras,
              const RecoverySettings& settings);
 
-  /// Finds poses of the model in a frame, best first. Costs are against the same frame without the
-  /// model, so that those of different places compare. `base` is the scene's state; models with
-  /// `hidden` are not drawn, the others stay where they are.
+  /// Finds poses of the model in a frame around a place, best first; costs compare among them only.
+  /// `base` is the scene's state; models with `hidden` are not drawn, the others stay where they
+  /// are. The first pose bears the evaluations of all.
   std::vector<Refined> find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
-                            const std::vector<bool>& hidden, const std::vector<PoseGuess>& guesses,
-                            std::uint64_t seed);
+                            const std::vector<bool>& hidden, const PoseGuess& guess,
+                            const PoseEffort& effort, std::uint64_t seed);
 
   Postures& postures() { return postures_; }
   /// Center of the model's landmarks in a state of the scene.
@@ -49,14 +55,13 @@ class PoseSearch {
 
  private:
   Eigen::VectorXd without(const Eigen::VectorXd& base, const std::vector<bool>& hidden) const;
-  Eigen::MatrixXd hypotheses(const PoseGuess& guess, std::mt19937_64& random) const;
+  Eigen::MatrixXd hypotheses(const PoseGuess& guess, int count, std::mt19937_64& random) const;
   void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
                const Eigen::VectorXd& hypothesis);
 
   const Scene& scene_;
   const Scene::Item& item_;
   std::size_t model_;
-  RecoverySettings settings_;
   Scene single_;
   TileMaker tiles_;
   Postures postures_;

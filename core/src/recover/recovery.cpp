@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "hypotrack/search.hpp"
 
@@ -15,25 +17,24 @@ constexpr double kSeen = 0.35;       // of the colours that a tracked model show
 constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the pose that a place is remembered with.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
-constexpr double kHintTurn = 0.5;   // radians
+constexpr double kHintTurn = 0.5;     // radians
+constexpr int kGlance = 4;            // poses refined at a place before it is chosen
+constexpr std::size_t kThorough = 2;  // places chosen
+// Metres between candidates: more where models may have changed places.
+constexpr double kDistinctPoses = 0.012, kDistinctModels = 0.03;
 constexpr std::size_t kOfEach = 4;  // candidates of one model, to be combined with others'
 
-/// Candidates of one model.
-struct OfModel {
-  std::size_t model;
-  std::vector<Refined> found;
-};
-
-/// States that differ by more than a search moves them, at most `count`.
-std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, std::size_t count) {
-  constexpr double kNear = 0.012;  // metres, mean over landmarks
+/// The first of some states that are `near` metres or more apart, mean over landmarks; at most
+/// `count`.
+std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, double near,
+                              std::size_t count) {
   std::vector<Refined> out;
   std::vector<Eigen::Matrix3Xd> landmarks;
   for (Refined& one : all) {
     if (out.size() >= count) break;
     const Eigen::Matrix3Xd here = scene.landmarks(one.state);
     const bool known = std::ranges::any_of(landmarks, [&](const Eigen::Matrix3Xd& other) {
-      return (here - other).colwise().norm().mean() < kNear;
+      return (here - other).colwise().norm().mean() < near;
     });
     if (known) continue;
     landmarks.push_back(here);
@@ -78,12 +79,56 @@ std::vector<PoseGuess> Recovery::guesses(std::size_t model, const Places& places
   std::vector<PoseGuess> out;
   if (last.hint.size() > 0)
     out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
+  if (last.near_hint_only) return out;
   if (last.seconds < kRemembered) out.push_back({was, own(last.state), kNearLast, turn});
   const double reach = reach_within(limits, last.seconds).position + search.radius();
   for (const Place& place : places.best)
     if ((place.center - was).norm() <= reach)
       out.push_back({place.center, own(last.state), kNearPlace, turn});
   return out;
+}
+
+std::vector<Refined> Recovery::poses(FrameSearch& search, const Frame& frame, Judge& judge,
+                                     std::size_t model, const Eigen::VectorXd& base,
+                                     const std::vector<bool>& hidden,
+                                     std::vector<PoseGuess> guesses, std::uint64_t seed) {
+  const Scene::Item& item = scene_.items()[model];
+  const ColorMap colors = search.second_view_colors();
+  std::uint32_t part = 0;
+  // Costs of different places do not compare: what the pictures show does.
+  const auto around = [&](const PoseGuess& guess, const PoseEffort& effort) {
+    std::vector<Refined> found = searches_[model]->find(search, frame, base, hidden, guess, effort,
+                                                        seed_of_part(seed, part++));
+    ModelJudge& of_model = judge.model(model);
+    for (Refined& one : found) {
+      one.cost = -of_model.log_odds(of_model.look(frame, one.state, colors));
+      Eigen::VectorXd state = base;
+      state.segment(item.offset, item.model->dimension()) =
+          one.state.segment(item.offset, item.model->dimension());
+      one.state = std::move(state);
+    }
+    return found;
+  };
+  std::vector<Refined> all;
+  std::vector<std::pair<double, std::size_t>> ranks;
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    const PoseEffort glance{settings_.hypotheses / 2, kGlance};
+    double best = std::numeric_limits<double>::infinity();
+    for (Refined& one : around(guesses[i], glance)) {
+      best = std::min(best, one.cost);
+      all.push_back(std::move(one));
+    }
+    ranks.emplace_back(best, i);
+  }
+  std::ranges::sort(ranks);
+  ranks.resize(std::min(ranks.size(), kThorough));
+  for (const auto& [rank, i] : ranks) {
+    if (!std::isfinite(rank)) continue;
+    const PoseEffort thorough{settings_.hypotheses, settings_.refined};
+    for (Refined& one : around(guesses[i], thorough)) all.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(all, [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  return all;
 }
 
 Candidates Recovery::find(FrameSearch& search, const Frame& frame, Judge& judge,
@@ -104,32 +149,26 @@ Candidates Recovery::find(FrameSearch& search, const Frame& frame, Judge& judge,
   out.in_view = any_seen;
   if (!any_seen) return out;
 
+  const auto several = std::count(lost.begin(), lost.end(), true) > 1;
   std::vector<Refined> whole{{last.state, 0, 0}};
   std::vector<bool> hidden = lost;
   for (std::size_t m = 0; m < lost.size(); ++m) {
     if (!lost[m]) continue;
+    const std::vector<PoseGuess> all = guesses(m, places[m], last, limits);
     std::vector<Refined> more;
-    const std::size_t wide = std::count(lost.begin(), lost.end(), true) > 1 ? kOfEach : 1;
-    for (std::size_t k = 0; k < std::min(whole.size(), wide); ++k) {
-      const auto found = searches_[m]->find(
-          search, frame, whole[k].state, hidden, guesses(m, places[m], last, limits),
-          seed_of_part(seed, static_cast<std::uint32_t>(8 * m + k)));
-      for (const Refined& one : found) {
-        out.evaluations += one.evaluations;
-        Refined joined{whole[k].state, whole[k].cost + one.cost, 0};
-        const Scene::Item& item = scene_.items()[m];
-        const Eigen::Index size = item.model->dimension();
-        joined.state.segment(item.offset, size) = one.state.segment(item.offset, size);
-        // Costs of different places do not compare: what the pictures show does.
-        ModelJudge& model = judge.model(m);
-        joined.cost = whole[k].cost - model.log_odds(model.look(frame, one.state, colors));
-        more.push_back(std::move(joined));
+    for (std::size_t k = 0; k < std::min(whole.size(), several ? kOfEach : 1); ++k) {
+      const std::uint64_t part = seed_of_part(seed, static_cast<std::uint32_t>(8 * m + k));
+      for (Refined& one : poses(search, frame, judge, m, whole[k].state, hidden, all, part)) {
+        out.evaluations += std::exchange(one.evaluations, 0);
+        one.cost += whole[k].cost;
+        more.push_back(std::move(one));
       }
     }
     std::ranges::stable_sort(more,
                              [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
     const auto count = static_cast<std::size_t>(settings_.searched);
-    more = distinct(scene_, std::move(more), std::max(count, kOfEach));
+    more = distinct(scene_, std::move(more), several ? kDistinctModels : kDistinctPoses,
+                    std::max(count, kOfEach));
     if (!more.empty()) whole = std::move(more);
     hidden[m] = false;
   }

@@ -24,6 +24,7 @@ struct LastKnown {
   double seconds = 0;  ///< since then
   /// Where it may be now; empty if nobody knows.
   Eigen::VectorXd hint = {};
+  bool near_hint_only = false;  ///< looks nowhere else
 };
 
 /// What a recovery found: states of the whole scene worth a search, best first.
@@ -50,6 +51,12 @@ class HYPOTRACK_API Recovery {
   void remember(const Eigen::VectorXd& state);
 
  private:
+  /// Finds poses of one model, best first: costs are how unlikely the pictures make them. Glances
+  /// at every place and searches the best ones thoroughly.
+  std::vector<Refined> poses(FrameSearch& search, const Frame& frame, Judge& judge,
+                             std::size_t model, const Eigen::VectorXd& base,
+                             const std::vector<bool>& hidden, std::vector<PoseGuess> guesses,
+                             std::uint64_t seed);
   std::vector<PoseGuess> guesses(std::size_t model, const Places& places, const LastKnown& last,
                                  const MotionLimits& limits) const;
 

@@ -19,7 +19,7 @@ namespace {
 // Frames that are searched from several starts before anything was found.
 constexpr int kPatientFrames = 3;
 // Frames after a loss in which other poses are looked for although one looks right.
-constexpr int kConfirmations = 3;
+constexpr int kConfirmations = 4;
 // Of probability: answers less apart are told by their costs.
 constexpr double kAlike = 0.2;
 // An answer of this probability is worth searches around it.
@@ -102,6 +102,10 @@ Tracker::~Tracker() {
   if (job_.valid()) job_.wait();
 }
 
+std::string Tracker::backend() const { return search_.evaluator().backend(); }
+
+Observation Tracker::seen(const Frame& frame) const { return search_.seen(frame); }
+
 Solution Tracker::track(const Frame& frame) {
   Solution solution;
   solution.frame = frame.index;
@@ -122,14 +126,15 @@ Solution Tracker::track(const Frame& frame) {
 void Tracker::find(const Frame& frame, Solution& solution) {
   if (job_.valid()) return wait_for_job(frame, solution);
   Candidate best = found_any_ ? follow(frame) : begin(frame);
-  if (recovers() && judge_.experienced() && known(best) &&
-      (!is_right(best) || confirmations_ > 0 || is_time_to_doubt(best))) {
-    if (settings_.recovery.run == RecoveryRun::background)
+  if (recovers() && judge_.experienced() && known(best)) {
+    const bool in_background = settings_.recovery.run == RecoveryRun::background;
+    if (in_background && !is_right(best)) {
       start_job(frame, best);
-    else
+      return stay_lost(frame, solution);
+    }
+    if (!in_background && (!is_right(best) || confirmations_ > 0 || is_time_to_doubt(best)))
       recover(frame, best);
   }
-  if (job_.valid()) return stay_lost(frame, solution);
   answer(frame, best, solution);
 }
 
@@ -197,6 +202,7 @@ void Tracker::wait_for_job(const Frame& frame, Solution& solution) {
   search_.look(frame, best.found.state, false);
   best = judged(frame, settled(best.found.state, frame_seed(seed_, frame.index)));
   best.found.evaluations += evaluations;
+  if (!is_right(best)) recover(frame, best, true);
   answer(frame, best, solution);
 }
 
@@ -315,7 +321,7 @@ Found Tracker::settled(const Eigen::VectorXd& start, std::uint64_t seed) {
   return found;
 }
 
-void Tracker::recover(const Frame& frame, Candidate& best) {
+void Tracker::recover(const Frame& frame, Candidate& best, bool near_only) {
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
   LastKnown last{kept_.state, std::max(frame.time - kept_.time, 1e-3)};
   std::vector<bool> lost(scene_.items().size(), true);
@@ -327,7 +333,8 @@ void Tracker::recover(const Frame& frame, Candidate& best) {
     if (!lost[m])
       last.state.segment(item.offset, size) = best.found.state.segment(item.offset, size);
   }
-  if (best.verdict.probability >= kHint) last.hint = best.found.state;
+  if (near_only || best.verdict.probability >= kHint) last.hint = best.found.state;
+  last.near_hint_only = near_only;
   if (std::ranges::none_of(lost, [](bool is) { return is; })) lost.assign(lost.size(), true);
   const Candidates candidates =
       recovery_.find(search_, frame, judge_, last, lost, settings_.motion, seed);

@@ -68,10 +68,10 @@ class HYPOTRACK_API Tracker {
   std::string problem_of_start(const Frame& frame) const;
 
   /// What the search of `frame`, the last one tracked, saw of it; with the highlights.
-  Observation seen(const Frame& frame) const { return search_.seen(frame); }
+  Observation seen(const Frame& frame) const;
 
   /// What evaluates hypotheses, for the run's protocol.
-  std::string backend() const { return search_.evaluator().backend(); }
+  std::string backend() const;
 
  private:
   /// An answer and what the pictures say of it. Without an answer the cost is infinite.
@@ -92,8 +92,9 @@ class HYPOTRACK_API Tracker {
   Candidate begin(const Frame& frame);
   /// Searches on from the last state; no answer while lost.
   Candidate follow(const Frame& frame);
-  /// Replaces an answer by a better one, from anywhere that motion allows.
-  void recover(const Frame& frame, Candidate& best);
+  /// Replaces an answer by a better one, from anywhere that motion allows or, with `near_only`,
+  /// from around the answer.
+  void recover(const Frame& frame, Candidate& best, bool near_only = false);
   /// Searches the frame as it is taken in until that gains little.
   Found settled(const Eigen::VectorXd& start, std::uint64_t seed);
   void answer(const Frame& frame, const Candidate& best, Solution& solution);

@@ -1,0 +1,174 @@
+// The real-time tracker on short rendered sequences in which a hand is away for a while.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "metrics/landmark_errors.hpp"
+#include "session/session.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+struct Tracked {
+  Status status;
+  double error_mm;  ///< NaN where the hand is away
+  bool absent;
+  double jump_mm;  ///< of the wrist since the frame before
+  double sigma_mm;
+};
+
+/// Tracks frames of configs/real_time.yaml with overrides.
+std::vector<Tracked> track(int frames, std::vector<std::string> overrides) {
+  PluginLoader plugins;
+  overrides.insert(overrides.end(), {"evaluate.backend=cpu",
+                                     "source.cameras={width: 640, height: 360, focal_px: 350,"
+                                     " baseline_mm: 120}"});
+  Session session =
+      open_session(test::source_dir() / "configs" / "real_time.yaml", overrides, plugins);
+  const Scene& scene = *session.scene;
+  const LandmarkLayout layout = landmark_layout(scene.landmark_names());
+  std::optional<Tracker> tracker;
+  std::vector<Tracked> out;
+  Eigen::Vector3d last = Eigen::Vector3d::Zero();
+  for (int i = 0; i < frames; ++i) {
+    const Frame frame = session.source->next().value();
+    if (!tracker)
+      tracker.emplace(scene, std::move(session.parts), initial_state(session, frame), session.seed);
+    const Solution s = tracker->track(frame);
+    const bool absent = !frame.truth->absent.empty() && frame.truth->absent[0];
+    const double error = absent ? std::nan("")
+                                : 1000 * frame_error(layout, scene.landmarks(s.state),
+                                                     scene.landmarks(frame.truth->state))
+                                             .mean;
+    const Eigen::Vector3d wrist = s.state.head<3>();
+    out.push_back({s.status, error, absent, i == 0 ? 0 : 1000 * (wrist - last).norm(),
+                   s.sigma.size() > 0 ? 1000 * s.sigma.mean() : std::nan("")});
+    last = wrist;
+  }
+  return out;
+}
+
+std::string statuses(const std::vector<Tracked>& frames) {
+  std::string out;
+  for (const Tracked& f : frames)
+    out += fmt::format("{}{} ", to_string(f.status).substr(0, 1),
+                       f.absent ? "-" : fmt::format("{:.0f}", f.error_mm));
+  return out;
+}
+
+/// What every sequence promises: nothing wrong is called tracked, and the end is right.
+void expect_found_again(const std::vector<Tracked>& frames, int returns_at) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const Tracked& f = frames[i];
+    if (f.status == Status::tracked) {
+      EXPECT_FALSE(f.absent) << "frame " << i << " of " << statuses(frames);
+      EXPECT_FALSE(f.error_mm > 20) << "frame " << i << " of " << statuses(frames);
+    }
+  }
+  const auto back = frames.begin() + returns_at;
+  EXPECT_TRUE(std::any_of(back, std::min(back + 10, frames.end()), [](const Tracked& f) {
+    return f.status == Status::tracked && f.error_mm < 20;
+  })) << statuses(frames);
+  EXPECT_EQ(frames.back().status, Status::tracked) << statuses(frames);
+  EXPECT_LT(frames.back().error_mm, 10) << statuses(frames);
+}
+
+std::string absent(int first, int last) {
+  return fmt::format("source.faults=[{{frames: [{}, {}], kind: absent}}]", first, last);
+}
+
+TEST(Lost, ComesBackAfterOneFrameWithoutTheHand) {
+  const auto frames = track(24, {absent(10, 10)});
+  expect_found_again(frames, 11);
+}
+
+TEST(Lost, ComesBackAfterThreeFramesWithoutTheHandAndSaysHowFarItMayBe) {
+  const auto frames =
+      track(26, {absent(10, 12), "tracker.uncertainty.enabled=true", "budget.evaluations=120"});
+  expect_found_again(frames, 13);
+  for (const Tracked& f : frames) {
+    if (f.status == Status::lost || f.status == Status::absent) {
+      EXPECT_GT(f.sigma_mm, 20);
+    }
+    EXPECT_LT(f.jump_mm, 150) << statuses(frames);
+  }
+}
+
+TEST(Lost, SaysThatTheHandIsAwayForHalfASecondAndFindsItInTheSamePlace) {
+  const auto frames = track(
+      40,
+      {absent(10, 25),
+       "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
+       " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: spread, pose: {hand: {position_mm:"
+       " [50, 85, 490], rotation_deg: [175, 0, 6]}}}, {frame: 26, gesture: spread, pose: {hand:"
+       " {position_mm: [50, 85, 490], rotation_deg: [175, 0, 6]}}}, {frame: 50, gesture: open}]"});
+  expect_found_again(frames, 26);
+}
+
+TEST(Lost, FindsAHandThatComesBackElsewhere) {
+  const auto frames = track(
+      40,
+      {absent(10, 25),
+       "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [0, 80, 520],"
+       " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: open, pose: {hand: {position_mm: [-10,"
+       " 85, 520], rotation_deg: [175, 0, 6]}}}, {frame: 26, gesture: spread, pose: {hand:"
+       " {position_mm: [130, 80, 480], rotation_deg: [175, 0, 6]}}}, {frame: 50, gesture: open}]"});
+  expect_found_again(frames, 26);
+}
+
+TEST(Lost, StaysWhereItWasWhileLeftAndRightAreExchanged) {
+  const auto frames = track(26, {"source.faults=[{frames: [10, 14], kind: exchanged}]"});
+  expect_found_again(frames, 15);
+  for (std::size_t i = 10; i < 15; ++i) {
+    EXPECT_NE(frames[i].status, Status::tracked) << statuses(frames);
+    EXPECT_LT(frames[i].jump_mm, 150) << statuses(frames);
+  }
+}
+
+TEST(Lost, FindsAFistWhereAPalmWas) {
+  const auto frames = track(
+      38,
+      {absent(10, 21),
+       "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
+       " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: open, pose: {hand: {position_mm: [50,"
+       " 85, 490], rotation_deg: [175, 0, 6]}}}, {frame: 22, gesture: fist, pose: {hand:"
+       " {position_mm: [55, 75, 490], rotation_deg: [175, 5, 0]}}}, {frame: 50, gesture: fist}]"});
+  expect_found_again(frames, 22);
+}
+
+TEST(Lost, EqualSeedsComeBackAlike) {
+  const auto once = track(16, {absent(6, 8)}), again = track(16, {absent(6, 8)});
+  EXPECT_EQ(statuses(once), statuses(again));
+}
+
+TEST(Lost, SearchesInTheBackgroundWithoutStoppingTheVideo) {
+  const auto frames = track(
+      150, {absent(10, 12), "tracker.recovery.run=background", "source.frames=150",
+            "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
+            " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: spread, pose: {hand: {position_mm:"
+            " [50, 85, 490], rotation_deg: [175, 0, 6]}}}]"});
+  EXPECT_TRUE(std::any_of(frames.begin() + 13, frames.end(), [](const Tracked& f) {
+    return f.status == Status::tracked && f.error_mm < 20;
+  })) << statuses(frames);
+  for (const Tracked& f : frames)
+    if (f.status == Status::tracked) {
+      EXPECT_FALSE(f.absent || f.error_mm > 20) << statuses(frames);
+    }
+}
+
+TEST(Lost, GoesOnFromAnyAnswerAsThePaperDoesWhereItIsToldTo) {
+  const auto frames =
+      track(14, {absent(10, 10), "tracker.recovery.enabled=false", "tracker.evidence=false"});
+  EXPECT_TRUE(
+      std::ranges::none_of(frames, [](const Tracked& f) { return f.status == Status::absent; }));
+}
+
+}  // namespace
+}  // namespace hypotrack

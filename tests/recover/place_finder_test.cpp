@@ -1,0 +1,95 @@
+#include "recover/place_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace hypotrack {
+namespace {
+
+constexpr double kRadius = 0.045;
+const cv::Scalar kSkin(110, 140, 200), kGreen(80, 160, 60);
+
+std::vector<Camera> pair() {
+  Camera camera{640, 480, 500, 500, 319.5, 239.5, DistortionModel::none, {}, {}};
+  camera.camera_from_world = Eigen::Isometry3d::Identity();
+  std::vector<Camera> cameras(2, camera);
+  cameras[1].camera_from_world.translation().x() = -0.12;
+  return cameras;
+}
+
+/// Discs of skin before green, striped so that views can be compared.
+Frame discs(const std::vector<Eigen::Vector3d>& centers) {
+  Frame frame;
+  for (const Camera& camera : pair()) {
+    cv::Mat picture(camera.height, camera.width, CV_8UC3, kGreen);
+    for (const Eigen::Vector3d& center : centers) {
+      const Eigen::Vector2d p = project(camera, center);
+      const double r = camera.fx * kRadius / center.z();
+      const cv::Point at(static_cast<int>(std::lround(p.x())),
+                         static_cast<int>(std::lround(p.y())));
+      cv::circle(picture, at, static_cast<int>(r), kSkin, cv::FILLED);
+      cv::circle(picture, at, static_cast<int>(r / 2), 0.7 * kSkin, 3);
+      cv::line(picture, at, at + cv::Point(static_cast<int>(r), 0), 0.7 * kSkin, 3);
+    }
+    frame.views.push_back({.color = picture});
+  }
+  return frame;
+}
+
+ForegroundColors skin() {
+  SurfaceSamples samples;
+  for (SampledView& view : samples.views) {
+    view.color = cv::Mat3f(kSampleGrid, kSampleGrid);
+    view.color.setTo(kGreen);
+    view.inside = cv::Mat1b(kSampleGrid, kSampleGrid, uchar{0});
+    cv::circle(view.inside, {32, 32}, 16, 255, cv::FILLED);
+    view.color.setTo(kSkin, view.inside);
+    cv::circle(view.color, {32, 32}, 8, 0.7 * kSkin, 3);
+    cv::bitwise_not(view.inside, view.ring);
+  }
+  ForegroundColors colors;
+  colors.learn(samples);
+  return colors;
+}
+
+TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
+  const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
+  for (const Eigen::Vector3d& center :
+       {Eigen::Vector3d(0.05, -0.04, 0.5), Eigen::Vector3d(-0.02, 0.06, 0.7)}) {
+    const Places places = finder.find(discs({center}), skin(), {}, 3, 0.07);
+    ASSERT_FALSE(places.best.empty());
+    EXPECT_LT((places.best[0].center - center).norm(), 0.03);
+    EXPECT_GT(places.seen, 0.7);
+  }
+}
+
+TEST(PlaceFinder, FindsSeveralPlacesApart) {
+  const std::vector<Eigen::Vector3d> centers{{0.14, -0.04, 0.6}, {-0.08, 0.06, 0.6}};
+  const Places places =
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4, 0.07);
+  for (const Eigen::Vector3d& center : centers)
+    EXPECT_TRUE(std::ranges::any_of(
+        places.best, [&](const Place& place) { return (place.center - center).norm() < 0.04; }));
+  for (std::size_t i = 0; i < places.best.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_GE((places.best[i].center - places.best[k].center).norm(), 0.07);
+}
+
+TEST(PlaceFinder, SeesNothingInPicturesWithoutTheColors) {
+  const Places places =
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4, 0.07);
+  EXPECT_TRUE(places.best.empty());
+  EXPECT_LT(places.seen, 0.1);
+}
+
+TEST(PlaceFinder, FindsNothingBeforeColorsAreKnown) {
+  const Places places =
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({{0, 0, 0.5}}), {}, {}, 4, 0.07);
+  EXPECT_TRUE(places.best.empty());
+}
+
+}  // namespace
+}  // namespace hypotrack
