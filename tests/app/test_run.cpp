@@ -201,8 +201,10 @@ std::vector<int> evaluations_in(const std::filesystem::path& table) {
 TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
   const std::string file = scene(box_scene());
   const auto track = [&](const std::string& out, const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{
-        "run", file, "--out", path(out).string(), "--set", "search.rotation_as=tangent"};
+    std::vector<std::string> arguments{"run",   file,
+                                       "--out", path(out).string(),
+                                       "--set", "search.rotation_as=tangent",
+                                       "--set", "tracker.recovery.enabled=false"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -245,9 +247,10 @@ TEST_F(RunTest, HindsightIsRefusedWhereItCannotWork) {
 }
 
 TEST_F(RunTest, SetChangesKeysOfTheScene) {
-  const Outcome outcome = run(
-      box_scene(), {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}",
-                    "--set", "budget.evaluations=20", "--frames", "1"});
+  const Outcome outcome =
+      run(box_scene(),
+          {"--set", "optimizer.particles=5", "--set", "optimizer={type: random_search}", "--set",
+           "budget.evaluations=20", "--set", "tracker.recovery.first_starts=1", "--frames", "1"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(read_text(path("out/run.yaml")), HasSubstr("type: random_search"));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv")))[1], HasSubstr(",20,"));  // evaluations

@@ -18,6 +18,7 @@ constexpr double kRemembered = 1.0;  // seconds for which the last place is wort
 // Shares of hypotheses near the pose that a place is remembered with.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;     // radians
+constexpr double kCovered = 0.5;      // share of a model that others may hide
 constexpr int kGlance = 4;            // poses refined at a place before it is chosen
 constexpr std::size_t kThorough = 2;  // places chosen
 // Metres between candidates: more where models may have changed places.
@@ -100,14 +101,19 @@ std::vector<Refined> Recovery::poses(FrameSearch& search, const Frame& frame, Ju
     std::vector<Refined> found = searches_[model]->find(search, frame, base, hidden, guess, effort,
                                                         seed_of_part(seed, part++));
     ModelJudge& of_model = judge.model(model);
+    std::vector<Refined> seen;
     for (Refined& one : found) {
-      one.cost = -of_model.log_odds(of_model.look(frame, one.state, colors));
+      const Evidence evidence = of_model.look(frame, one.state, colors);
+      // Behind another model it may be anything.
+      if (evidence.covered > kCovered) continue;
+      one.cost = -of_model.log_odds(evidence);
       Eigen::VectorXd state = base;
       state.segment(item.offset, item.model->dimension()) =
           one.state.segment(item.offset, item.model->dimension());
       one.state = std::move(state);
+      seen.push_back(std::move(one));
     }
-    return found;
+    return seen;
   };
   std::vector<Refined> all;
   std::vector<std::pair<double, std::size_t>> ranks;

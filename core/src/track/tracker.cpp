@@ -175,6 +175,7 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
   if (!good) predictor_.forget_motion();
   if (recovers() && !good) widen(solution.sigma, frame.time - kept_.time);
   last_status_ = solution.status;
+  if (answered && !std::isnan(best.verdict.probability)) believed_ = best.verdict.models;
 }
 
 void Tracker::start_job(const Frame& frame, const Candidate& best) {
@@ -216,6 +217,12 @@ Tracker::Candidate Tracker::judged(const Frame& frame, Found found) {
   Candidate out{std::move(found), {}, true};
   if (settings_.evidence && std::isfinite(out.found.cost))
     out.verdict = judge_.judge(frame, out.found.state, search_.second_view_colors());
+  // A model that others hide is as likely right as it was before.
+  for (std::size_t m = 0; m < std::min(believed_.size(), out.verdict.models.size()); ++m) {
+    if (!std::isnan(out.verdict.models[m]) || std::isnan(out.verdict.probability)) continue;
+    out.verdict.models[m] = believed_[m];
+    out.verdict.probability = std::fmin(out.verdict.probability, believed_[m]);
+  }
   return out;
 }
 

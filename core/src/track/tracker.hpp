@@ -145,11 +145,12 @@ class HYPOTRACK_API Tracker {
   double time_ = 0;         ///< of it
   Eigen::VectorXd output_;  ///< the last state that was given out
   Status last_status_ = Status::missing;
-  int begun_ = 0;           ///< frames searched before anything was found
-  bool found_any_ = false;  ///< whether `state_` is a solution
-  int confirmations_ = 0;   ///< frames left in which an answer is confirmed
-  int doubts_ = 0;          ///< frames whose answers hardly did
-  int learned_ = 0;         ///< frames
+  std::vector<double> believed_;  ///< probability of each model in the last answer
+  int begun_ = 0;                 ///< frames searched before anything was found
+  bool found_any_ = false;        ///< whether `state_` is a solution
+  int confirmations_ = 0;         ///< frames left in which an answer is confirmed
+  int doubts_ = 0;                ///< frames whose answers hardly did
+  int learned_ = 0;               ///< frames
   std::uint64_t seed_;
   std::future<Candidate> job_;
 };
