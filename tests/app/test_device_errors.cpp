@@ -21,7 +21,8 @@ class LostDeviceTest : public AppTest {
   }
 
   Outcome run_lost(const std::string& text) const {
-    return run(text, {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+    return run(text, {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string(),
+                      "--set", "tracker.recovery.enabled=false"});
   }
 };
 

@@ -150,7 +150,8 @@ class FailingPluginTest : public InterruptTest {
  protected:
   Outcome fail(const std::string& optimizer) const {
     return run(replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer),
-               {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+               {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string(), "--set",
+                "tracker.recovery.enabled=false"});
   }
 };
 
