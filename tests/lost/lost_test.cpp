@@ -150,7 +150,7 @@ TEST(Lost, EqualSeedsComeBackAlike) {
 
 TEST(Lost, SearchesInTheBackgroundWithoutStoppingTheVideo) {
   const auto frames = track(
-      150, {absent(10, 12), "tracker.recovery.run=background", "source.frames=150",
+      250, {absent(10, 12), "tracker.recovery.run=background", "source.frames=250",
             "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
             " rotation_deg: [180, 0, 0]}}}, {frame: 9, gesture: spread, pose: {hand: {position_mm:"
             " [50, 85, 490], rotation_deg: [175, 0, 6]}}}]"});
