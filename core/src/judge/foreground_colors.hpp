@@ -8,9 +8,9 @@
 
 namespace hypotrack {
 
-/// How likely a colour belongs to a model, by where it was surely right: P = f / (f + b), f and b
-/// the frequencies of the colour on the model and beside it (Jones and Rehg, "Statistical color
-/// models with application to skin detection", IJCV 2002, with equal priors).
+/// Learns how likely a colour belongs to a model, from frames where the model was surely right.
+/// P = f / (f + b), with f and b the frequencies of the colour on the model and beside it (Jones and
+/// Rehg, "Statistical color models with application to skin detection", IJCV 2002, equal priors).
 class HYPOTRACK_API ForegroundColors {
  public:
   /// Learns from samples of a model that is surely where it was drawn. Older frames fade.
