@@ -9,8 +9,9 @@
 namespace hypotrack {
 
 /// Learns how likely a colour belongs to a model, from frames where the model was surely right.
-/// P = f / (f + b), with f and b the frequencies of the colour on the model and beside it (Jones and
-/// Rehg, "Statistical color models with application to skin detection", IJCV 2002, equal priors).
+/// P = f / (f + b), with f and b the frequencies of the colour on the model and beside it (Jones
+/// and Rehg, "Statistical color models with application to skin detection", IJCV 2002, equal
+/// priors).
 class HYPOTRACK_API ForegroundColors {
  public:
   /// Learns from samples of a model that is surely where it was drawn. Older frames fade.

@@ -79,7 +79,6 @@ class HYPOTRACK_API Judge {
     state_.resize(0);
     return models_[i];
   }
-  const std::vector<Evidence>& evidence() const { return evidence_; }
 
  private:
   std::vector<ModelJudge> models_;
