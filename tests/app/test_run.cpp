@@ -204,7 +204,7 @@ TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
     std::vector<std::string> arguments{"run",   file,
                                        "--out", path(out).string(),
                                        "--set", "search.rotation_as=tangent",
-                                       "--set", "tracker.recovery.enabled=false"};
+                                       "--set", "tracker.evidence=false"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -71,25 +71,25 @@ TEST_F(JudgeTest, AModelThatNoCameraSeesIsSurelyWrong) {
 TEST_F(JudgeTest, KnowsNothingWithoutColorsInTwoViews) {
   Judge judge(box_.scene, box_.cameras);
   Frame frame = box_.frame();
-  EXPECT_FALSE(std::isnan(judge.judge(frame, box_.state(), {}).probability));
+  EXPECT_FALSE(std::isnan(judge.judge(frame, box_.state(), {}, {true})[0]));
   frame.views[1].color.release();
-  EXPECT_TRUE(std::isnan(judge.judge(frame, box_.state(), {}).probability));
+  EXPECT_TRUE(std::isnan(judge.judge(frame, box_.state(), {}, {true})[0]));
 }
 
 TEST_F(JudgeTest, FindsTheRightPlaceLikelierThanOthers) {
   Judge judge(box_.scene, box_.cameras);
   const Frame frame = box_.frame();
-  judge.judge(frame, box_.state(), {});
-  judge.learn();
-  const double right = judge.judge(frame, box_.state(), {}).probability;
+  judge.judge(frame, box_.state(), {}, {true});
+  judge.learn({true});
+  const double right = judge.judge(frame, box_.state(), {}, {true})[0];
   for (const double x : {-0.1, -0.05, 0.05, 0.1})
-    EXPECT_LT(judge.judge(frame, box_.state(x), {}).probability, right) << x;
+    EXPECT_LT(judge.judge(frame, box_.state(x), {}, {true})[0], right) << x;
 }
 
 TEST_F(JudgeTest, RemembersWhichStateItJudgedLast) {
   Judge judge(box_.scene, box_.cameras);
   EXPECT_FALSE(judge.judged(box_.state()));
-  judge.judge(box_.frame(), box_.state(), {});
+  judge.judge(box_.frame(), box_.state(), {}, {true});
   EXPECT_TRUE(judge.judged(box_.state()));
   EXPECT_FALSE(judge.judged(box_.state(0.01)));
 }

@@ -170,5 +170,42 @@ TEST(Lost, GoesOnFromAnyAnswerAsThePaperDoesWhereItIsToldTo) {
       std::ranges::none_of(frames, [](const Tracked& f) { return f.status == Status::absent; }));
 }
 
+TEST(Lost, FollowsOneHandWhileTheOtherIsAway) {
+  PluginLoader plugins;
+  const std::string real_time = (test::source_dir() / "configs" / "real_time.yaml").string();
+  const std::vector<std::string> overrides{
+      "evaluate.backend=cpu",
+      "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
+      "objective=@" + real_time,
+      "optimizer=@" + real_time,
+      "budget.evaluations=60",
+      "tile.size=128",
+      "source.faults=[{frames: [6, 13], kind: absent, model: left}]"};
+  Session session =
+      open_session(test::source_dir() / "configs" / "two_hands.yaml", overrides, plugins);
+  const Scene& scene = *session.scene;
+  const LandmarkLayout layout = landmark_layout(scene.landmark_names());
+  std::optional<Tracker> tracker;
+  bool left_is_back = false;
+  for (int i = 0; i < 24; ++i) {
+    const Frame frame = session.source->next().value();
+    if (!tracker)
+      tracker.emplace(scene, std::move(session.parts), initial_state(session, frame), session.seed);
+    const Solution s = tracker->track(frame);
+    ASSERT_EQ(s.models.size(), 2U);
+    const FrameError error =
+        frame_error(layout, scene.landmarks(s.state), scene.landmarks(frame.truth->state));
+    EXPECT_EQ(s.models[0], Status::tracked) << "frame " << i;
+    EXPECT_LT(error.models[0], 0.015) << "frame " << i;
+    const bool away = i >= 6 && i <= 13;
+    if (away) {
+      EXPECT_NE(s.models[1], Status::tracked) << "frame " << i;
+      EXPECT_NE(s.status, Status::tracked) << "frame " << i;
+    }
+    left_is_back = i > 13 && s.models[1] == Status::tracked && error.models[1] < 0.02;
+  }
+  EXPECT_TRUE(left_is_back);
+}
+
 }  // namespace
 }  // namespace hypotrack

@@ -20,7 +20,7 @@ class Sequence {
   Sequence& add(double error_mm, FrameVerdict verdict = FrameVerdict::solved) {
     Eigen::Matrix3Xd estimate = Eigen::Matrix3Xd::Zero(3, 1);
     estimate(0, 0) = error_mm / 1000;
-    collector_.add(frame_, 5 + frame_ / 10.0, verdict, estimate, Eigen::Matrix3Xd::Zero(3, 1));
+    collector_.add(frame_, 5 + frame_ / 10.0, {verdict}, estimate, Eigen::Matrix3Xd::Zero(3, 1));
     ++frame_;
     return *this;
   }
@@ -128,7 +128,7 @@ TEST(Metrics, TrueMotionIsNoJitter) {
   MetricsCollector collector(landmark_layout(std::vector<std::string>{"ball.center"}));
   for (int i = 0; i < 5; ++i) {
     const Eigen::Matrix3Xd truth = Eigen::Matrix3Xd::Constant(3, 1, 0.1 * i * i);
-    collector.add(i, i, FrameVerdict::solved, truth.array() + 0.002, truth);
+    collector.add(i, i, {}, truth.array() + 0.002, truth);
   }
   EXPECT_NEAR(collector.metrics().jitter_mm, 0, 1e-9);
 }
@@ -139,12 +139,12 @@ TEST(Metrics, MeansOfModelsAndLandmarksAreOverTheFramesThatKnowThem) {
   Eigen::Matrix3Xd truth = Eigen::Matrix3Xd::Zero(3, 3);
   Eigen::Matrix3Xd estimate = truth;
   estimate.row(2) << 0.002, 0.004, 0.010;
-  collector.add(0, 0, FrameVerdict::solved, estimate, truth);
+  collector.add(0, 0, {}, estimate, truth);
   truth.col(1).setConstant(kNan);
   truth.col(2).setConstant(kNan);
   estimate.row(2) << 0.006, 0.004, 0.010;
-  collector.add(1, 0, FrameVerdict::solved, estimate, truth);
-  collector.add(2, 0, FrameVerdict::solved, estimate, {});
+  collector.add(1, 0, {}, estimate, truth);
+  collector.add(2, 0, {}, estimate, {});
   const Metrics m = collector.metrics();
   EXPECT_EQ(m.frames, 3);
   EXPECT_EQ(m.evaluated_frames, 2);

@@ -17,12 +17,11 @@ using enum FrameVerdict;
 class Frames {
  public:
   Frames& seen(FrameVerdict verdict, double error_mm) {
-    collector_.add({.verdict = verdict, .error_mm = error_mm, .in_view = true});
+    collector_.add(verdict, {{.verdict = verdict, .error_mm = error_mm, .in_view = true}});
     return *this;
   }
   Frames& away(FrameVerdict verdict, int count = 1) {
-    for (int i = 0; i < count; ++i)
-      collector_.add({.verdict = verdict, .some_absent = true, .all_absent = true});
+    for (int i = 0; i < count; ++i) collector_.add(verdict, {{.verdict = verdict, .absent = true}});
     return *this;
   }
   StatusMetrics metrics() const { return collector_.metrics(); }
@@ -112,7 +111,7 @@ TEST(StatusMetrics, WithoutAWordThereIsNothingToJudge) {
 /// Two models with a landmark each, found 1 and 3 mm off.
 class Pair {
  public:
-  Pair& add(FrameVerdict verdict, std::vector<bool> gone = {}, Eigen::Vector2d sigma = {0, 0}) {
+  Pair& add(FrameVerdicts verdict, std::vector<bool> gone = {}, Eigen::Vector2d sigma = {0, 0}) {
     Eigen::Matrix3Xd truth = Eigen::Matrix3Xd::Zero(3, 2), estimate = truth;
     estimate.row(0) << 0.001, 0.003;
     for (std::size_t m = 0; m < gone.size(); ++m)
@@ -130,31 +129,44 @@ class Pair {
 
 TEST(StatusMetrics, OfTwoModelsOneMayBeAbsent) {
   const Metrics m =
-      Pair().add(tracked).add(tracked, {true, false}).add(uncertain).add(tracked).metrics();
+      Pair().add({tracked}).add({tracked}, {true, false}).add({uncertain}).add({tracked}).metrics();
   EXPECT_EQ(m.evaluated_frames, 4);
   EXPECT_NEAR(m.mean_error_mm, (2 + 3 + 2 + 2) / 4.0, 1e-9) << "over what is there";
-  EXPECT_DOUBLE_EQ(m.status.false_tracked_share, 1.0 / 3);
-  EXPECT_DOUBLE_EQ(m.status.right_tracked_share, 2.0 / 3);
+  EXPECT_DOUBLE_EQ(m.status.false_tracked_share, 1.0 / 6);
+  EXPECT_DOUBLE_EQ(m.status.right_tracked_share, 5.0 / 7);
   EXPECT_EQ(m.status.returns, 1);
   EXPECT_DOUBLE_EQ(m.status.frames_to_recovery, 2);
 }
 
+TEST(StatusMetrics, ModelsAreJudgedOneByOne) {
+  const Metrics m = Pair()
+                        .add({tracked, {tracked, tracked}})
+                        .add({lost, {absent, tracked}}, {true, false})
+                        .add({lost, {lost, tracked}})
+                        .metrics();
+  EXPECT_DOUBLE_EQ(m.status.false_tracked_share, 0);
+  EXPECT_DOUBLE_EQ(m.status.right_tracked_share, 4.0 / 5);
+  EXPECT_EQ(m.status.tracked_frames, 1) << "frames in which all are";
+  EXPECT_EQ(m.lost_frames, 1) << "that of a model in view";
+}
+
 TEST(StatusMetrics, AbsentIsALossOnlyOfWhatIsInView) {
-  const Metrics m = Pair().add(absent, {true, true}).add(absent).add(tracked).metrics();
+  const Metrics m = Pair().add({absent}, {true, true}).add({absent}).add({tracked}).metrics();
   EXPECT_EQ(m.lost_frames, 1);
   EXPECT_EQ(m.frames_to_loss, 1);
   EXPECT_EQ(m.evaluated_frames, 2);
 }
 
 TEST(StatusMetrics, TheLeastMeanSigmaOfLostFrames) {
-  EXPECT_THAT(Pair().add(tracked, {}, {0.001, 0.001}).metrics().status.lost_sigma_min_mm, IsNan());
+  EXPECT_THAT(Pair().add({tracked}, {}, {0.001, 0.001}).metrics().status.lost_sigma_min_mm,
+              IsNan());
   const Metrics m = Pair()
-                        .add(tracked, {}, {0.001, 0.001})
-                        .add(lost, {}, {0.02, 0.06})
-                        .add(lost, {}, {std::nan(""), 0.03})
-                        .add(lost, {}, {std::nan(""), std::nan("")})
+                        .add({tracked}, {}, {0.001, 0.001})
+                        .add({lost}, {}, {0.06, 0.02})
+                        .add({lost}, {}, {std::nan(""), 0.03})
+                        .add({lost}, {}, {std::nan(""), std::nan("")})
                         .metrics();
-  EXPECT_NEAR(m.status.lost_sigma_min_mm, 30, 1e-9);
+  EXPECT_NEAR(m.status.lost_sigma_min_mm, 20, 1e-9) << "over the landmarks of a model";
 }
 
 }  // namespace

@@ -78,6 +78,23 @@ TEST(PlaceFinder, FindsSeveralPlacesApart) {
       EXPECT_GE((places.best[i].center - places.best[k].center).norm(), 0.07);
 }
 
+TEST(PlaceFinder, LeavesOutPixelsThatShowOtherModels) {
+  const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
+  const Eigen::Vector3d here(-0.1, 0.02, 0.55), there(0.12, 0, 0.5);
+  const auto cameras = pair();
+  std::array<cv::Mat1b, 2> taken;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int by = finder.reduction(i);
+    taken[i] = cv::Mat1b(480 / by, 640 / by, uchar{0});
+    const Eigen::Vector2d p = project(cameras[i], here) / by;
+    cv::circle(taken[i], {static_cast<int>(p.x()), static_cast<int>(p.y())}, 60 / by, 255,
+               cv::FILLED);
+  }
+  const Places places = finder.find(discs({here, there}), skin(), {}, 1, 0.07, taken);
+  ASSERT_EQ(places.best.size(), 1U);
+  EXPECT_LT((places.best[0].center - there).norm(), 0.03);
+}
+
 TEST(PlaceFinder, SeesNothingInPicturesWithoutTheColors) {
   const Places places =
       PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4, 0.07);

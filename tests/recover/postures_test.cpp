@@ -34,6 +34,22 @@ TEST(Postures, OfARigidModelAreOneWithoutAngles) {
   EXPECT_EQ(postures.all()[0].size(), 0);
 }
 
+TEST(Postures, EveryLimbMayBeStraightHalfOrBent) {
+  const ModelData hand = test::make_test_hand();
+  const Postures postures(hand);
+  ASSERT_EQ(postures.limbs().size(), 5U);
+  for (const Postures::Limb& limb : postures.limbs()) {
+    ASSERT_EQ(limb.variants.size(), 3U);
+    for (std::size_t i = 0; i < limb.parameters.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      EXPECT_LT(limb.variants[0][k], limb.variants[1][k]);
+      EXPECT_LT(limb.variants[1][k], limb.variants[2][k]);
+      EXPECT_LE(limb.variants[2][k],
+                hand.parameters[static_cast<std::size_t>(limb.parameters[i])].upper);
+    }
+  }
+}
+
 TEST(Postures, RememberOnlyWhatIsNew) {
   const ModelData hand = test::make_test_hand();
   Postures postures(hand);

@@ -146,5 +146,24 @@ TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
   EXPECT_LT(rotation_of(state, 0).angularDistance(expected), 1e-12);
 }
 
+TEST(SearchSpace, ModelsThatDoNotMoveKeepWhatThePriorHas) {
+  const Scene scene = hand_and_box();
+  SearchSettings settings;
+  for (const auto as : {RotationSearch::quaternion, RotationSearch::tangent}) {
+    settings.rotation_as = as;
+    const SearchSpace space(scene, settings, {false, true});
+    const Eigen::VectorXd prior = scene.rest_state();
+    const SearchRegion region = space.region(prior);
+    ASSERT_EQ(space.dimension(), as == RotationSearch::tangent ? 6 : 7);
+    ASSERT_EQ(region.groups.size(), 1U);
+    EXPECT_EQ(std::ssize(region.groups[0].dimensions), space.dimension());
+    Eigen::VectorXd point = region.start;
+    point[1] += 0.02;
+    const Eigen::VectorXd state = space.states(point, prior);
+    EXPECT_EQ(state.head(27), prior.head(27));
+    EXPECT_NEAR(state[28], prior[28] + 0.02, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace hypotrack

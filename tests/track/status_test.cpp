@@ -154,5 +154,12 @@ TEST(Status, IsAbsentWhereThePicturesShowNoSuchThing) {
             Status::absent);
 }
 
+TEST(Status, AGivenStartNeedsLessToBeTracked) {
+  StatusMonitor monitor({});
+  EXPECT_EQ(judge_by_pictures(monitor, 0.2), Status::uncertain);
+  EXPECT_EQ(judge_by_pictures(monitor, 0.4), Status::tracked);
+  EXPECT_EQ(judge_by_pictures(monitor, 0.4), Status::uncertain) << "from then on it needs more";
+}
+
 }  // namespace
 }  // namespace hypotrack

@@ -1,5 +1,6 @@
 // Writes evidence of right and wrong poses of a rendered scene, for fit.py: what the scene's
-// tracker finds, the true pose, and poses off by 1 to 200 mm.
+// tracker finds, the true pose, poses off by 1 to 200 mm, and what recoveries find that do not know
+// where the models are. The judge has learned from true poses.
 //
 //   collect_evidence SCENE.yaml OUT.csv FRAMES SEED [KEY=VALUE...]
 #include <fmt/format.h>
@@ -12,7 +13,9 @@
 
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/search.hpp"
 #include "judge/judge.hpp"
+#include "recover/recovery.hpp"
 #include "session/displace.hpp"
 #include "session/session.hpp"
 #include "track/photometric.hpp"
@@ -36,11 +39,6 @@ double error_mm(const Scene::Item& item, const Eigen::VectorXd& a, const Eigen::
   return count > 0 ? 1000 * sum / count : std::nan("");
 }
 
-struct Row {
-  const char* kind;
-  int frame;
-};
-
 class Collector {
  public:
   Collector(const Scene& scene, const std::vector<Camera>& cameras, std::FILE* out)
@@ -55,13 +53,16 @@ class Collector {
     fmt::print(out_, "\n");
   }
 
+  /// Adds a row per model of `shown`.
   void add(const char* kind, const Frame& frame, const Eigen::VectorXd& state,
-           const Eigen::Matrix3Xd& truth, bool absent, const ColorMap& colors) {
+           const Eigen::Matrix3Xd& truth, bool absent, const ColorMap& colors,
+           const std::vector<bool>& shown) {
     Eigen::Index first = 0;
     for (std::size_t m = 0; m < judges_.size(); ++m) {
       const Scene::Item& item = scene_.items()[m];
       const double error = absent ? 999 : error_mm(item, state, truth, first);
       first += static_cast<Eigen::Index>(item.model->data().landmarks.size());
+      if (!shown[m]) continue;
       for (ModelJudge* judge : {&judges_[m], &fresh_[m]}) {
         const Evidence e = judge->look(frame, state, colors);
         fmt::print(out_, "{},{},{},{:.2f},{:d},{:.3f},{},{:d},{:d}", kind, frame.index, m, error,
@@ -81,6 +82,74 @@ class Collector {
   std::vector<ModelJudge> judges_, fresh_;
 };
 
+/// A state that a recovery offered, and what the scene's search made of it.
+struct Recovered {
+  Eigen::VectorXd candidate, searched;
+};
+
+/// Recovers the models of a scene, by the scene's own search, from states that are far off.
+class Recoveries {
+ public:
+  Recoveries(const std::string& file, const std::vector<std::string>& overrides,
+             PluginLoader& plugins)
+      : session_(open_session(file, overrides, plugins)),
+        scene_(*session_.scene),
+        budget_(session_.parts.budget),
+        limits_(session_.parts.status.motion),
+        judge_(scene_, session_.source->cameras()),
+        recovery_(scene_, session_.source->cameras(), session_.parts.status.recovery) {
+    session_.parts.cameras = session_.source->cameras();
+    search_.emplace(scene_, session_.parts);
+    if (budget_.evaluations == 0) budget_.evaluations = search_->default_evaluations();
+  }
+
+  /// States found in a frame for one model. `kept` has where it was `seconds` ago, and where the
+  /// others are.
+  std::vector<Recovered> find(const Frame& frame, const Eigen::VectorXd& kept, double seconds,
+                              std::size_t model, const std::vector<bool>& shown,
+                              std::uint64_t seed) {
+    if (!judge_.experienced(model)) return {};
+    std::vector<Recovered> out;
+    search_->show(shown);
+    const Recovery::Quest quest =
+        recovery_.begin(*search_, frame, judge_, {kept, seconds}, model, shown, limits_);
+    std::vector<bool> moving(shown.size(), false);
+    moving[model] = true;
+    for (const PoseGuess& guess : quest.guesses) {
+      const Candidates found = recovery_.find(quest, guess, limits_, seed++);
+      search_->show(shown, moving);
+      for (const Eigen::VectorXd& state : found.states) {
+        if (search_->tiles().visible_share(state) == 0) continue;
+        search_->look(frame, state, false);
+        out.push_back({state, search_->settled(state, budget_, seed).state});
+      }
+    }
+    return out;
+  }
+
+  void learn(const Frame& frame, const Eigen::VectorXd& truth) {
+    const std::vector<bool> all(scene_.items().size(), true);
+    search_->show(all);
+    if (first_) search_->from_guess(frame, truth, budget_, 1);
+    first_ = false;
+    search_->look(frame, truth, false);
+    search_->learn(frame, truth);
+    judge_.judge(frame, truth, search_->second_view_colors(), all);
+    judge_.learn(all);
+    recovery_.remember(truth, all);
+  }
+
+ private:
+  Session session_;
+  const Scene& scene_;
+  Budget budget_;
+  MotionLimits limits_;
+  Judge judge_;
+  Recovery recovery_;
+  std::optional<FrameSearch> search_;
+  bool first_ = true;
+};
+
 int collect(const std::string& file, const std::string& csv, int frames, int seed,
             const std::vector<std::string>& overrides) {
   PluginLoader plugins(std::vector<std::filesystem::path>{});
@@ -88,32 +157,44 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
   const Scene& scene = *session.scene;
   const std::vector<Camera> cameras = session.source->cameras();
   std::FILE* out = std::fopen(csv.c_str(), "w");
+  if (out == nullptr) throw std::runtime_error(csv + " cannot be written");
   Collector collector(scene, cameras, out);
+  Recoveries recoveries(file, overrides, plugins);
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   TileMaker tiles(scene, cameras, session.parts.tile);
   PhotometricMatch photometric(scene, session.parts.photometric);
   std::optional<Tracker> tracker;
-  Eigen::VectorXd last_good;
+  std::vector<Eigen::VectorXd> past;  // true states
   for (int k = 0; k < frames; ++k) {
     const std::optional<Frame> frame = session.source->next();
     if (!frame) break;
     if (!frame->truth) continue;
     const Eigen::VectorXd truth = frame->truth->state;
     const bool absent = truth[2] < 0;
-    if (!absent) last_good = truth;
+    if (!absent) past.push_back(truth);
+    if (past.empty()) continue;
     if (!tracker)
       tracker.emplace(scene, std::move(session.parts), initial_state(session, *frame),
                       session.seed);
     const Eigen::Matrix3Xd landmarks =
         frame->truth->landmarks.size() > 0 ? frame->truth->landmarks : scene.landmarks(truth);
-    TilePlan plan = tiles.plan(*frame, last_good);
-    if (!photometric.knows()) photometric.begin(tiles, *frame, plan, last_good);
+    tiles.leave_out(std::vector<bool>(scene.items().size(), false));
+    TilePlan plan = tiles.plan(*frame, past.back());
+    if (!photometric.knows()) photometric.begin(tiles, *frame, plan, past.back());
     photometric.apply(plan);
     const ColorMap colors = plan.cuts.size() > 1 ? plan.cuts[1].colors : ColorMap{};
     const Solution s = tracker->track(*frame);
-    if (tiles.visible_share(s.state) > 0)
-      collector.add("tracker", *frame, s.state, landmarks, absent, colors);
-    if (!absent) collector.add("truth", *frame, truth, landmarks, absent, colors);
+    const std::vector<bool> all(scene.items().size(), true);
+    const auto add = [&](const char* kind, const Eigen::VectorXd& state,
+                         const std::vector<bool>& shown) {
+      std::vector<bool> hidden = shown;
+      hidden.flip();
+      tiles.leave_out(hidden);
+      if (tiles.visible_share(state) > 0)
+        collector.add(kind, *frame, state, landmarks, absent, colors, shown);
+    };
+    add("tracker", s.state, all);
+    if (!absent) add("truth", truth, all);
     static constexpr double kLadder[] = {2, 4, 7, 10, 15, 20, 25, 30, 40, 60, 100, 200};
     for (int i = 0; i < 5; ++i) {
       const double mm = kLadder[random() % std::size(kLadder)];
@@ -121,12 +202,32 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
       const Displacement by{mm * 1e-3 * (kind < 0.7),
                             mm * 0.6 * kDegree * (kind > 0.3 && kind < 0.9),
                             mm * 0.8 * kDegree * (kind > 0.5)};
-      const Eigen::VectorXd off = displaced(scene, last_good, by, random());
-      if (tiles.visible_share(off) > 0)
-        collector.add("displaced", *frame, off, landmarks, absent, colors);
+      add("displaced", displaced(scene, past.back(), by, random()), all);
+    }
+    // One model, from where it was at some other time; the others are where they are, or lost, too.
+    const std::size_t model = random() % all.size();
+    const Scene::Item& item = scene.items()[model];
+    Eigen::VectorXd kept = past.back();
+    kept.segment(item.offset, item.model->dimension()) =
+        past[random() % past.size()].segment(item.offset, item.model->dimension());
+    std::vector<bool> shown(all.size(), random() % 3 != 0);
+    shown[model] = true;
+    std::vector<bool> only(all.size(), false);
+    only[model] = true;
+    const double seconds = std::uniform_real_distribution<>(0.05, 2)(random);
+    const auto add_shown = [&](const char* kind, Eigen::VectorXd state) {
+      for (std::size_t m = 0; m < shown.size(); ++m)
+        if (!shown[m]) state.segment<3>(scene.items()[m].offset) += Eigen::Vector3d(0, 0, -20);
+      add(kind, state, only);
+    };
+    for (const Recovered& one : recoveries.find(*frame, kept, seconds, model, shown, random())) {
+      add_shown("candidate", one.candidate);
+      add_shown("recovered", one.searched);
     }
     if (absent) continue;
     collector.learn(*frame, truth, colors);
+    recoveries.learn(*frame, truth);
+    tiles.leave_out(std::vector<bool>(scene.items().size(), false));
     photometric.learn(tiles, *frame, tiles.plan(*frame, truth), truth);
   }
   std::fclose(out);

@@ -16,7 +16,8 @@ from sklearn.neural_network import MLPClassifier
 RIGHT_MM, WRONG_MM = 10, 20
 HIDDEN = 12
 PENALTY = 3.0  # of the squared weights, for features of variance 1
-COPIES = 3  # answers of trackers are what is judged; displaced poses fill in what they lack
+COPIES = 3  # of what searches end at, which is what is judged; other poses fill in what they lack
+SEARCHED = ["tracker", "recovered"]
 APPEARANCE = {"inside", "ring", "worst_inside", "worst_ring"}  # unknown before anything was learned
 
 
@@ -66,7 +67,7 @@ def main():
         ("kExperienced", experienced, [True] * len(feature_names)),
     ):
         x = np.where(allowed, features, 0)
-        copies = np.where(kind == "tracker", COPIES, 1)
+        copies = np.where(np.isin(kind, SEARCHED), COPIES, 1)
         usable = chosen & known & (right | wrong)
         held_out = table % 3 == 0
         train = usable & ~held_out
@@ -76,7 +77,7 @@ def main():
                      ("20-30", (error > 20) & (error <= 30)), ("30-50", (error > 30) & (error <= 50)),
                      (">50", error > 50)]
             cells = []
-            for only in ("tracker", "displaced"):
+            for only in ("tracker", "recovered", "displaced"):
                 for name, range_ in tests + [("absent", absent)]:
                     m = chosen & held_out & range_ & (kind == only) & (absent if name == "absent" else ~absent)
                     if m.any():

@@ -8,6 +8,7 @@
 #include "bench/frames.hpp"
 #include "cuda/device.hpp"
 #include "output/true_landmarks.hpp"
+#include "output/verdicts.hpp"
 #include "session/session.hpp"
 #include "track/tracker.hpp"
 
@@ -79,7 +80,7 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
     }
     result.seconds.push_back(seconds);
     result.evaluations.push_back(static_cast<double>(solution.evaluations));
-    metrics.add(frame.index, frame.time, verdict_named(to_string(solution.status)).value(),
+    metrics.add(frame.index, frame.time, verdicts_of(scene, solution),
                 scene.landmarks(solution.state),
                 true_landmarks(scene, frame).value_or(Eigen::Matrix3Xd()),
                 frame.truth ? frame.truth->absent : std::vector<bool>());

@@ -21,7 +21,11 @@ void extend(Bounds& bounds, const PlaneBounds& part) {
 }  // namespace
 
 PosedScene::PosedScene(const Scene& scene, const IdealRig& rig)
-    : scene_(scene), plan_(scene), poser_(plan_), first_from_world_(rig.ideal_from_world.at(0)) {
+    : scene_(scene),
+      plan_(scene),
+      poser_(plan_),
+      first_from_world_(rig.ideal_from_world.at(0)),
+      left_out_(plan_.parts.size(), false) {
   for (const Eigen::Isometry3d& ideal_from_world : rig.ideal_from_world) {
     const Eigen::Isometry3d ideal_from_first = ideal_from_world * first_from_world_.inverse();
     Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>>(
@@ -41,10 +45,17 @@ void PosedScene::pose(const Eigen::VectorXd& state) {
   posed_ = true;
 }
 
+void PosedScene::leave_out(const std::vector<bool>& models) {
+  if (models == left_out_) return;
+  left_out_ = models;
+  posed_ = false;
+}
+
 void PosedScene::find_bounds() {
   behind_ = {};
   bounds_.assign(ideal_from_first_.size(), {});
   for (const ScenePlan::Part& part : plan_.parts) {
+    if (leaves_out(part)) continue;
     const std::size_t first = part.first_vertex;
     const std::size_t blocks = (std::size_t{part.vertex_count} + kBlock - 1) / kBlock;
     for (std::size_t i = 0; i < bounds_.size(); ++i) {

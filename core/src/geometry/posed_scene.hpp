@@ -35,6 +35,13 @@ class HYPOTRACK_API PosedScene {
   /// Costs a comparison if the state is the last one. Throws as ScenePoser::pose() does.
   void pose(const Eigen::VectorXd& state);
 
+  /// Leaves models out of bounds and checks from now on. One flag per model of the scene, not all
+  /// set.
+  void leave_out(const std::vector<bool>& models);
+  bool leaves_out(const ScenePlan::Part& part) const {
+    return left_out_[static_cast<std::size_t>(&part - plan_.parts.data())];
+  }
+
   const ScenePlan& plan() const { return plan_; }
   /// In the frame of the first ideal camera.
   const ScenePoser& vertices() const { return poser_; }
@@ -62,9 +69,10 @@ class HYPOTRACK_API PosedScene {
   ScenePoser poser_;
   Eigen::Isometry3d first_from_world_;
   std::vector<Matrix34> ideal_from_first_;
-  bool posed_ = false;      ///< in the state that was given last
-  Eigen::VectorXd given_;   ///< the state as it was given
-  Eigen::VectorXd normal_;  ///< normalised
+  std::vector<bool> left_out_;  ///< one per part
+  bool posed_ = false;          ///< in the state that was given last
+  Eigen::VectorXd given_;       ///< the state as it was given
+  Eigen::VectorXd normal_;      ///< normalised
   std::vector<Bounds> bounds_;
   Behind behind_;
 };

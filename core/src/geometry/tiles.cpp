@@ -125,6 +125,8 @@ const PosedScene& TileMaker::posed(const Eigen::VectorXd& state) const {
   return impl_->posed;
 }
 
+void TileMaker::leave_out(const std::vector<bool>& models) { impl_->posed.leave_out(models); }
+
 double TileMaker::visible_share(const Eigen::VectorXd& state) const {
   return impl_->visible.of(posed(state));
 }

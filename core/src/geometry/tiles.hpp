@@ -52,6 +52,9 @@ class HYPOTRACK_API TileMaker {
   /// One per camera.
   std::span<const Resampler> resamplers() const;
 
+  /// Leaves models out of tiles and shares from now on: one flag per model, not all set.
+  void leave_out(const std::vector<bool>& models);
+
   /// How much of the scene posed in `state` the cameras see, whatever hides it: the share of the
   /// models' vertices that every image shows; 0 if any lies behind a camera, so that no tile can be
   /// cut. Not from several threads at once. This and plan() cost next to nothing for the state that

@@ -79,6 +79,7 @@ double VisibleShare::of(const PosedScene& scene) const {
   Eigen::Index visible = 0;
   Eigen::Index all = 0;
   for (const ScenePlan::Part& part : scene.plan().parts) {
+    if (scene.leaves_out(part)) continue;
     for (std::size_t i = 0; i < part.vertex_count; i += kBlock) {
       Eigen::Array<bool, kBlock, 1> mask = Eigen::Array<bool, kBlock, 1>::Constant(true);
       for (const SeenBy& view : views_) {

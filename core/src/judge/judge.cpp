@@ -65,29 +65,26 @@ Judge::Judge(const Scene& scene, const std::vector<Camera>& cameras) {
   for (std::size_t m = 0; m < scene.items().size(); ++m) models_.emplace_back(scene, m, cameras);
 }
 
-Verdict Judge::judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors) {
+Verdict Judge::judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
+                     const std::vector<bool>& models) {
   state_ = state;
-  Verdict verdict;
-  verdict.models.assign(models_.size(), std::numeric_limits<double>::quiet_NaN());
+  Verdict verdict(models.size(), std::numeric_limits<double>::quiet_NaN());
   evidence_.assign(models_.size(), {});
   if (!has_colors(frame)) return verdict;
   for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (!models[m]) continue;
     evidence_[m] = models_[m].look(frame, state, colors);
-    if (models_.size() > 1 && evidence_[m].covered > kHidden) continue;
-    const double p = 1 / (1 + std::exp(-models_[m].log_odds(evidence_[m])));
-    verdict.models[m] = p;
-    if (!(verdict.probability <= p)) verdict.probability = p;
+    if (evidence_[m].covered > kHidden) continue;
+    verdict[m] = 1 / (1 + std::exp(-models_[m].log_odds(evidence_[m])));
   }
   return verdict;
 }
 
-bool Judge::experienced() const {
-  return !models_.empty() && std::ranges::all_of(models_, &ModelJudge::experienced);
-}
+bool Judge::experienced() const { return std::ranges::any_of(models_, &ModelJudge::experienced); }
 
-void Judge::learn() {
+void Judge::learn(const std::vector<bool>& right) {
   for (std::size_t m = 0; m < models_.size(); ++m)
-    if (evidence_[m].covered <= kHidden) models_[m].learn(evidence_[m]);
+    if (right[m] && evidence_[m].covered <= kHidden) models_[m].learn(evidence_[m]);
 }
 
 }  // namespace hypotrack

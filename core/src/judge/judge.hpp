@@ -47,13 +47,8 @@ class HYPOTRACK_API ModelJudge {
   std::optional<std::array<double, Evidence::kCount>> usual_;
 };
 
-/// What a judge thinks of a solution.
-struct Verdict {
-  /// Probability that every model is right: the smallest of the models'. NaN: nothing is known.
-  double probability = std::numeric_limits<double>::quiet_NaN();
-  /// Of each model; NaN where others hide it.
-  std::vector<double> models;
-};
+/// Probability that each model is right; NaN: nothing is known, as of one that others hide.
+using Verdict = std::vector<double>;
 
 /// Judges all models of a scene.
 class HYPOTRACK_API Judge {
@@ -61,18 +56,22 @@ class HYPOTRACK_API Judge {
   /// The scene must outlive the judge.
   Judge(const Scene& scene, const std::vector<Camera>& cameras);
 
-  /// Judges a frame with the scene posed in a normalised state. Nothing is known without colours in
-  /// two views.
-  Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+  /// Judges some models (one flag each) in a frame with the scene posed in a normalised state.
+  /// Nothing is known of the others, and of any without colours in two views.
+  Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
+                const std::vector<bool>& models);
 
-  /// Learns from the last frame judged, in which all models were surely right.
-  void learn();
+  /// Learns from the last frame judged. The models of which `right` is set were surely right.
+  void learn(const std::vector<bool>& right);
 
   /// Whether a state was judged last.
   bool judged(const Eigen::VectorXd& state) const {
     return state_.size() == state.size() && state_ == state;
   }
-  /// Whether every model was surely right once.
+  /// Whether a model, or any, was surely right once.
+  bool experienced(std::size_t model) const {
+    return model < models_.size() && models_[model].experienced();
+  }
   bool experienced() const;
   /// The judge of one model. A look of its own makes learn() wrong until the next judge().
   ModelJudge& model(std::size_t i) {

@@ -13,19 +13,21 @@ constexpr double kMmPerMetre = 1000;
 
 }  // namespace
 
-FrameError MetricsCollector::add(int frame, double time, FrameVerdict verdict,
+FrameError MetricsCollector::add(int frame, double time, const FrameVerdicts& verdicts,
                                  const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
                                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma) {
   const int frames_before = counts_.frames++;
   if (frames_before == 0) first_time_ = time;
-  const bool missing = verdict == FrameVerdict::missing;
+  const bool missing = verdicts.frame == FrameVerdict::missing;
   counts_.missing_frames += missing;
   FrameError error = frame_error(layout_, estimate, missing ? Eigen::Matrix3Xd() : truth);
   const double mean_mm = kMmPerMetre * error.mean;
-  const bool in_view = !truth.array().isNaN().all();  // false for an empty one
-  add_status(verdict, error, in_view, absent, sigma);
-  const bool said_lost =
-      verdict == FrameVerdict::lost || (verdict == FrameVerdict::absent && in_view);
+  const std::vector<StatusCollector::Judged> models = judged(verdicts, error, truth, absent, sigma);
+  status_.add(verdicts.frame, models);
+  const bool said_lost = std::ranges::any_of(models, [](const StatusCollector::Judged& m) {
+    return (m.verdict == FrameVerdict::lost && !m.absent) ||
+           (m.verdict == FrameVerdict::absent && m.in_view);
+  });
   if (said_lost || mean_mm > kLostErrorMm) {
     if (counts_.lost_frames++ == 0) {
       counts_.frames_to_loss = frames_before;
@@ -46,17 +48,24 @@ FrameError MetricsCollector::add(int frame, double time, FrameVerdict verdict,
   return error;
 }
 
-void MetricsCollector::add_status(FrameVerdict verdict, const FrameError& error, bool in_view,
-                                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma) {
-  const auto count = std::count(absent.begin(), absent.end(), true);
-  StatusCollector::Judged judged{.verdict = verdict,
-                                 .error_mm = kMmPerMetre * error.mean,
-                                 .in_view = in_view,
-                                 .some_absent = count > 0,
-                                 .all_absent = count > 0 && count == std::ssize(absent)};
-  if (sigma.size() > 0)
-    judged.sigma_mm = kMmPerMetre * mean(without_nan(model_means(layout_, sigma)));
-  status_.add(judged);
+std::vector<StatusCollector::Judged> MetricsCollector::judged(const FrameVerdicts& verdicts,
+                                                              const FrameError& error,
+                                                              const Eigen::Matrix3Xd& truth,
+                                                              const std::vector<bool>& absent,
+                                                              const Eigen::VectorXd& sigma) const {
+  std::vector<StatusCollector::Judged> out(layout_.models.size());
+  const std::vector<double> sigmas =
+      sigma.size() > 0 ? model_means(layout_, sigma) : std::vector<double>(out.size(), kNan);
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] = {.verdict = verdicts.models.empty() ? verdicts.frame : verdicts.models[m],
+              .error_mm = error.models.empty() ? kNan : kMmPerMetre * error.models[m],
+              .absent = !absent.empty() && absent[m],
+              .sigma_mm = kMmPerMetre * sigmas[m]};
+  for (Eigen::Index i = 0; i < truth.cols(); ++i) {
+    auto& model = out[layout_.model_of[static_cast<std::size_t>(i)]];
+    model.in_view = model.in_view || !truth.col(i).array().isNaN().all();
+  }
+  return out;
 }
 
 void MetricsCollector::add_jitter(int frame, const Eigen::Matrix3Xd& vectors) {

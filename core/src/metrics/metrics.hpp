@@ -63,9 +63,9 @@ class HYPOTRACK_API MetricsCollector {
   /// unknown. `absent` says of each model whether the truth knows that it is in no picture (empty:
   /// none), `sigma` how far off each landmark may be as the tracker says (L, metres; empty: it says
   /// nothing). Returns the errors in metres, NaN for a missing frame.
-  FrameError add(int frame, double time, FrameVerdict verdict, const Eigen::Matrix3Xd& estimate,
-                 const Eigen::Matrix3Xd& truth, const std::vector<bool>& absent = {},
-                 const Eigen::VectorXd& sigma = {});
+  FrameError add(int frame, double time, const FrameVerdicts& verdicts,
+                 const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
+                 const std::vector<bool>& absent = {}, const Eigen::VectorXd& sigma = {});
 
   Metrics metrics() const;
 
@@ -75,8 +75,12 @@ class HYPOTRACK_API MetricsCollector {
     int frame = 0;
     Eigen::Matrix3Xd vectors;
   };
-  void add_status(FrameVerdict verdict, const FrameError& error, bool in_view,
-                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma);
+  /// What is known of each model.
+  std::vector<StatusCollector::Judged> judged(const FrameVerdicts& verdicts,
+                                              const FrameError& error,
+                                              const Eigen::Matrix3Xd& truth,
+                                              const std::vector<bool>& absent,
+                                              const Eigen::VectorXd& sigma) const;
   void add_jitter(int frame, const Eigen::Matrix3Xd& vectors);
 
   LandmarkLayout layout_;

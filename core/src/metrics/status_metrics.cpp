@@ -24,19 +24,24 @@ double StatusCollector::Share::value() const {
   return of > 0 ? static_cast<double>(part) / of : std::numeric_limits<double>::quiet_NaN();
 }
 
-void StatusCollector::add(const Judged& frame) {
-  if (frame.verdict == FrameVerdict::solved) return;
-  add_verdict(frame.verdict);
-  const bool is_tracked = frame.verdict == FrameVerdict::tracked;
-  if (is_tracked && (frame.some_absent || !std::isnan(frame.error_mm)))
-    false_tracked_.add(frame.some_absent || frame.error_mm > kFalseErrorMm);
-  if (!frame.some_absent && frame.error_mm <= kRightErrorMm) right_tracked_.add(is_tracked);
+void StatusCollector::add(FrameVerdict verdict, const std::vector<Judged>& models) {
+  if (verdict == FrameVerdict::solved) return;
+  add_verdict(verdict);
+  models_.resize(models.size());
+  for (std::size_t m = 0; m < models.size(); ++m) add_model(models[m], models_[m]);
+}
+
+void StatusCollector::add_model(const Judged& model, Presence& presence) {
+  const bool is_tracked = model.verdict == FrameVerdict::tracked;
+  if (is_tracked && (model.absent || !std::isnan(model.error_mm)))
+    false_tracked_.add(model.absent || model.error_mm > kFalseErrorMm);
+  if (!model.absent && model.error_mm <= kRightErrorMm) right_tracked_.add(is_tracked);
   constexpr int kGrace = 2;  // frames of an absence in which nobody needs to know of it
-  absent_in_a_row_ = frame.all_absent ? absent_in_a_row_ + 1 : 0;
-  if (absent_in_a_row_ > kGrace) absent_tracked_.add(is_tracked);
-  add_return(frame, is_tracked && frame.error_mm <= kFalseErrorMm);
-  if (frame.verdict == FrameVerdict::lost)
-    least_lost_sigma_ = std::fmin(least_lost_sigma_, frame.sigma_mm);  // which passes NaN over
+  presence.absent_in_a_row = model.absent ? presence.absent_in_a_row + 1 : 0;
+  if (presence.absent_in_a_row > kGrace) absent_tracked_.add(is_tracked);
+  add_return(model, presence);
+  if (model.verdict == FrameVerdict::lost)
+    least_lost_sigma_ = std::fmin(least_lost_sigma_, model.sigma_mm);  // which passes NaN over
 }
 
 void StatusCollector::add_verdict(FrameVerdict verdict) {
@@ -47,20 +52,22 @@ void StatusCollector::add_verdict(FrameVerdict verdict) {
   counts_.absent_frames += verdict == FrameVerdict::absent;
 }
 
-void StatusCollector::add_return(const Judged& frame, bool is_right) {
-  if (frame.some_absent) {
-    away_ = true;
-    is_back_ = false;
+void StatusCollector::add_return(const Judged& model, Presence& presence) {
+  if (model.absent) {
+    if (presence.is_back) returns_.push_back(presence.last);
+    presence.away = true;
+    presence.is_back = false;
     return;
   }
-  if (away_ && frame.in_view) {
-    returns_.emplace_back();
-    away_ = false;
-    is_back_ = true;
+  if (presence.away && model.in_view) {
+    presence.away = false;
+    presence.is_back = true;
+    presence.last = {};
   }
-  if (!is_back_) return;
-  Return& last = returns_.back();
+  if (!presence.is_back) return;
+  Return& last = presence.last;
   ++last.frames;
+  const bool is_right = model.verdict == FrameVerdict::tracked && model.error_mm <= kFalseErrorMm;
   if (is_right && last.recovered == 0) last.recovered = last.frames;
 }
 
@@ -73,9 +80,12 @@ StatusMetrics StatusCollector::metrics() const {
   m.false_tracked_share = false_tracked_.value();
   m.right_tracked_share = right_tracked_.value();
   m.absent_tracked_share = absent_tracked_.value();
-  m.returns = static_cast<int>(returns_.size());
+  std::vector<Return> returns = returns_;
+  for (const Presence& model : models_)
+    if (model.is_back) returns.push_back(model.last);
+  m.returns = static_cast<int>(returns.size());
   Share within_2, within_10, frames;
-  for (const Return& r : returns_) {
+  for (const Return& r : returns) {
     within_2.add(r.recovered > 0 && r.recovered <= 2);
     within_10.add(r.recovered > 0 && r.recovered <= 10);
     frames.part += r.recovered;

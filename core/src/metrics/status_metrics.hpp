@@ -46,21 +46,26 @@ struct StatusMetrics {
   double lost_sigma_min_mm = 0;
 };
 
+/// What a tracker says of a frame.
+struct FrameVerdicts {
+  FrameVerdict frame = FrameVerdict::solved;
+  std::vector<FrameVerdict> models = {};  ///< of each model; empty: the frame's of all
+};
+
 /// Collects StatusMetrics frame by frame.
 class HYPOTRACK_API StatusCollector {
  public:
-  /// What is known of a frame.
+  /// What is known of one model in a frame.
   struct Judged {
     FrameVerdict verdict = FrameVerdict::solved;
     double error_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
-    bool in_view = false;      ///< the truth knows where some landmark is
-    bool some_absent = false;  ///< the truth says of a model that it is absent
-    bool all_absent = false;   ///< the truth says it of all models
+    bool in_view = false;  ///< the truth knows where some landmark is
+    bool absent = false;   ///< the truth says that the model is in no picture
     double sigma_mm = std::numeric_limits<double>::quiet_NaN();  ///< mean; NaN: unknown
   };
 
-  /// Adds the next frame.
-  void add(const Judged& frame);
+  /// Adds the next frame: the verdict of all, and as many models as in every frame.
+  void add(FrameVerdict verdict, const std::vector<Judged>& models);
 
   StatusMetrics metrics() const;
 
@@ -76,15 +81,21 @@ class HYPOTRACK_API StatusCollector {
     int frames = 0;     ///< so far
     int recovered = 0;  ///< in which of them, from 1; 0: in none yet
   };
+  /// What is known of a model from one frame to the next.
+  struct Presence {
+    int absent_in_a_row = 0;
+    bool away = false;     ///< it was absent from the last frame
+    bool is_back = false;  ///< it came back, and stayed
+    Return last = {};
+  };
   void add_verdict(FrameVerdict verdict);
-  void add_return(const Judged& frame, bool is_right);
+  void add_model(const Judged& model, Presence& presence);
+  void add_return(const Judged& model, Presence& presence);
 
   StatusMetrics counts_;
   Share false_tracked_, right_tracked_, absent_tracked_;
-  int absent_in_a_row_ = 0;
-  bool away_ = false;     ///< a model was absent from the last frame
-  bool is_back_ = false;  ///< since the last return none was
-  std::vector<Return> returns_;
+  std::vector<Presence> models_;
+  std::vector<Return> returns_;  ///< that are over
   double least_lost_sigma_ = std::numeric_limits<double>::quiet_NaN();
 };
 

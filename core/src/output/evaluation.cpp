@@ -96,16 +96,24 @@ FrameVerdict verdict_of(const CsvTable& table, const CsvTable::Row& row, int col
 }
 
 /// What the tracker said of each frame; empty for a table from elsewhere.
-std::map<int, FrameVerdict> read_verdicts(const fs::path& run) {
-  std::map<int, FrameVerdict> verdicts;
+std::map<int, FrameVerdicts> read_verdicts(const fs::path& run,
+                                           const std::vector<std::string>& models) {
+  std::map<int, FrameVerdicts> verdicts;
   if (!fs::is_directory(run) || !fs::exists(run / "track.csv")) return verdicts;
   const CsvTable table(run / "track.csv");
   const int frame = table.find("frame"), status = table.find("status");
   if (frame < 0 || status < 0)
     throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
                                 (run / "track.csv").string(), frame < 0 ? "frame" : "status"));
-  for (const CsvTable::Row& row : table.rows())
-    verdicts[table.frame(row, frame)] = verdict_of(table, row, status);
+  std::vector<int> columns;
+  for (const std::string& model : models) columns.push_back(table.find(model + ".status"));
+  const bool by_model = std::ranges::find(columns, -1) == columns.end();
+  for (const CsvTable::Row& row : table.rows()) {
+    FrameVerdicts& verdict = verdicts[table.frame(row, frame)];
+    verdict.frame = verdict_of(table, row, status);
+    if (!by_model) continue;
+    for (const int column : columns) verdict.models.push_back(verdict_of(table, row, column));
+  }
   return verdicts;
 }
 
@@ -171,7 +179,7 @@ void check_units(const Side& run, const Side& truth) {
 }
 
 Metrics compare(const std::vector<std::string>& names, const Side& run, const Side& truth,
-                const std::map<int, FrameVerdict>& verdicts,
+                const std::map<int, FrameVerdicts>& verdicts,
                 const std::map<int, Eigen::VectorXd>& sigmas) {
   const auto landmarks_count = static_cast<Eigen::Index>(names.size());
   const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Constant(3, landmarks_count, kNan);
@@ -190,9 +198,9 @@ Metrics compare(const std::vector<std::string>& names, const Side& run, const Si
     const bool missing = estimate == nullptr || estimate->landmarks.array().isNaN().all();
     const double time = run.time(frame);
     collector.add(frame, std::isnan(time) ? truth.time(frame) : time,
-                  missing                     ? FrameVerdict::missing
+                  missing                     ? FrameVerdicts{FrameVerdict::missing}
                   : verdict != verdicts.end() ? verdict->second
-                                              : FrameVerdict::solved,
+                                              : FrameVerdicts{},
                   estimate == nullptr ? nothing : estimate->landmarks,
                   answer == nullptr ? Eigen::Matrix3Xd() : answer->landmarks,
                   answer == nullptr ? std::vector<bool>()
@@ -234,7 +242,8 @@ Evaluation evaluate(const EvaluationInput& input) {
                   .owner = evaluation.truth_table.string()});
   check_units(run, truth);
   evaluation.metrics =
-      compare(names, run, truth, read_verdicts(input.run), read_sigmas(input.run, names));
+      compare(names, run, truth, read_verdicts(input.run, landmark_layout(names).models),
+              read_sigmas(input.run, names));
   check_overlap(run, truth, evaluation.metrics);
   return evaluation;
 }

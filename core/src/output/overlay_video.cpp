@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -19,6 +20,24 @@ void write_caption(cv::Mat& image, const std::string& text) {
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {0, 0, 0}, 4, cv::LINE_AA);
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.8 * scale, {255, 255, 255}, 1,
               cv::LINE_AA);
+}
+
+/// The status; of several models by name, where they differ.
+std::string status_text(const Scene& scene, const Solution& solution) {
+  const std::vector<Status>& models = solution.models;
+  if (std::ranges::all_of(models, [&](Status s) { return s == models.front(); }))
+    return std::string(to_string(solution.status));
+  std::string text;
+  for (std::size_t m = 0; m < models.size(); ++m)
+    text += fmt::format("{}{} {}", m == 0 ? "" : ", ", scene.items()[m].name, to_string(models[m]));
+  return text;
+}
+
+/// Models that are not to be drawn, because nobody knows where they are.
+std::vector<bool> unknown_models(const Solution& solution) {
+  std::vector<bool> out;
+  for (const Status s : solution.models) out.push_back(s == Status::lost || s == Status::absent);
+  return out;
 }
 
 /// A ring about every landmark, as large as it may be off.
@@ -51,13 +70,13 @@ OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene
 
 void OverlayVideo::add(const Frame& frame, const Solution& solution) {
   cv::Mat image;
-  std::string caption = fmt::format("frame {}  {}", solution.frame, to_string(solution.status));
+  std::string caption = fmt::format("frame {}  {}", solution.frame, status_text(*scene_, solution));
   if (frame.views.empty()) {
     image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(40, 40, 40));
     caption += ": " + frame.problem;
   } else {
-    image =
-        draw_overlay(*renderer_, *scene_, picture_of(frame.views.front()), camera_, solution.state);
+    image = draw_overlay(*renderer_, *scene_, picture_of(frame.views.front()), camera_,
+                         solution.state, {.hidden = unknown_models(solution)});
     caption += fmt::format("  cost {:.4g}", solution.cost);
     draw_sigmas(image, camera_, scene_->landmarks(solution.state), solution.sigma);
   }

@@ -8,6 +8,7 @@
 #include "output/overlay_video.hpp"
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
+#include "output/verdicts.hpp"
 #include "render/picture.hpp"
 
 namespace hypotrack {
@@ -18,6 +19,8 @@ std::string row_of(const Solution& solution) {
   std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                 to_string(solution.status), solution.cost, solution.evaluations,
                                 1000 * solution.seconds);
+  if (solution.models.size() > 1)
+    for (const Status status : solution.models) row += fmt::format(",{}", to_string(status));
   for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
   return row + "\n";
 }
@@ -43,6 +46,8 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     overlay_ = std::make_unique<OverlayVideo>(directory_.part("overlay.mp4"), scene, renderer(),
                                               camera, options_.frame_rate);
   std::string track = "frame,time,status,cost,evaluations,milliseconds";
+  if (scene.items().size() > 1)
+    for (const Scene::Item& item : scene.items()) track += "," + item.name + ".status";
   for (const Parameter& p : scene.parameters()) track += "," + p.name;
   track_.write(track + "\n");
   const std::string landmarks = landmarks_header(scene.landmark_names());
@@ -78,7 +83,7 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
   joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
   const std::string_view status = to_string(solution.status);
   const FrameError error =
-      metrics_.add(solution.frame, solution.time, verdict_named(status).value(), landmarks,
+      metrics_.add(solution.frame, solution.time, verdicts_of(*scene_, solution), landmarks,
                    truth.value_or(Eigen::Matrix3Xd()),
                    frame.truth ? frame.truth->absent : std::vector<bool>(), solution.sigma);
   if (truth) {

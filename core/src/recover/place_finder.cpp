@@ -34,8 +34,8 @@ struct Reduced {
   }
 };
 
-Reduced reduce(const cv::Mat& picture, int by, const ForegroundColors& colors,
-               const ColorMap& map) {
+Reduced reduce(const cv::Mat& picture, int by, const ForegroundColors& colors, const ColorMap& map,
+               const cv::Mat1b& taken) {
   Reduced out;
   cv::resize(picture, out.color, {std::max(1, picture.cols / by), std::max(1, picture.rows / by)},
              0, 0, cv::INTER_AREA);
@@ -50,8 +50,14 @@ Reduced reduce(const cv::Mat& picture, int by, const ForegroundColors& colors,
       out.probability(y, x) = colors.probability(mapped);
       out.gray(y, x) = (mapped[0] + mapped[1] + mapped[2]) / 3;
     }
+  if (!taken.empty()) out.probability.setTo(0, taken);
   cv::integral(out.probability, out.sums, CV_64F);
   return out;
+}
+
+/// Mean probability of what is beside a window, up to twice its size.
+double ring_mean(const Reduced& view, float x, float y, float r, double inside) {
+  return (4 * view.mean(x, y, 2 * r) - inside) / 3;
 }
 
 /// Where the foreground's center lies within a window, against the window's.
@@ -74,7 +80,7 @@ Eigen::Vector2d offset_of_center(const Reduced& view, double x, double y, double
 Eigen::Vector3d centered(const std::array<Reduced, 2>& views, const std::vector<Camera>& cameras,
                          const int (&reductions)[2], Eigen::Vector3d center, double radius) {
   constexpr int kRounds = 4;
-  constexpr double kWider = 2;        // than the model's radius
+  constexpr double kWider = 1.2;      // than the model's radius
   constexpr double kStepSize = 1e-3;  // metres, of differences
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix<double, 4, 3> jacobian;
@@ -162,13 +168,14 @@ PlaceFinder::PlaceFinder(const std::vector<Camera>& cameras, double radius, doub
 }
 
 Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
-                         std::size_t count, double apart) const {
+                         std::size_t count, double apart,
+                         const std::array<cv::Mat1b, 2>& taken) const {
   Places out;
   if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty() ||
       !colors.known())
     return out;
-  const std::array views{reduce(frame.views[0].color, reductions_[0], colors, {}),
-                         reduce(frame.views[1].color, reductions_[1], colors, map)};
+  const std::array views{reduce(frame.views[0].color, reductions_[0], colors, {}, taken[0]),
+                         reduce(frame.views[1].color, reductions_[1], colors, map, taken[1])};
   std::vector<Place> found;
   double seen[2] = {0, 0};
   for (const Point& point : points_) {
@@ -183,7 +190,11 @@ Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, con
     const Window &a = point.windows[0], &b = point.windows[1];
     const double alike =
         std::max(0.0, correlation(views[0], a.x, a.y, a.r, views[1], b.x, b.y, b.r));
-    found.push_back({point.center.cast<double>(), both * (0.3 + 0.7 * alike)});
+    const double beside = std::max(ring_mean(views[0], a.x, a.y, a.r, share[0]),
+                                   ring_mean(views[1], b.x, b.y, b.r, share[1]));
+    // Small windows are full of the colours sooner; a forearm has them on both sides, too.
+    const double extent = double{a.r} * (both - kLeast - beside);
+    if (extent > 0) found.push_back({point.center.cast<double>(), extent * (0.3 + 0.7 * alike)});
   }
   out.seen = std::min(seen[0], seen[1]);
   std::ranges::stable_sort(found, [](const Place& a, const Place& b) { return a.score > b.score; });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace hypotrack {
 /// A place where a model may be.
 struct Place {
   Eigen::Vector3d center;  ///< in the world, metres
-  double score = 0;        ///< 0 .. 1
+  double score = 0;        ///< larger is likelier; compares within one frame
 };
 
 /// What whole pictures show of a model's colours.
@@ -35,9 +36,13 @@ class HYPOTRACK_API PlaceFinder {
   PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest, double farthest);
 
   /// Finds up to `count` places, at least `apart` metres from each other. `map` makes the second
-  /// view's colours the first's.
+  /// view's colours the first's. `taken` are pixels of the reduced pictures that show other models;
+  /// empty: none.
   Places find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
-              std::size_t count, double apart) const;
+              std::size_t count, double apart, const std::array<cv::Mat1b, 2>& taken = {}) const;
+
+  /// Pixels of a view (0 or 1) along one pixel of its reduced picture.
+  int reduction(std::size_t view) const { return reductions_[view]; }
 
  private:
   /// A point of the sweep in one view: pixel and radius in the reduced picture.
@@ -52,7 +57,7 @@ class HYPOTRACK_API PlaceFinder {
   std::vector<Camera> cameras_;
   double radius_;
   std::vector<Point> points_;
-  int reductions_[2] = {1, 1};  ///< image pixels per pixel of the reduced picture
+  int reductions_[2] = {1, 1};
 };
 
 }  // namespace hypotrack

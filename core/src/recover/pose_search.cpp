@@ -11,9 +11,8 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPose = 7;   // numbers of a model's pose
-constexpr double kPadding = 0.5;    // of a hypothesis, around it
-constexpr double kScatter = 0.012;  // metres, of hypotheses about a place
+constexpr Eigen::Index kPose = 7;  // numbers of a model's pose
+constexpr double kPadding = 0.5;   // of a hypothesis, around it
 constexpr int kIterations = 6;
 
 std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
@@ -69,7 +68,7 @@ Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
   const Eigen::VectorXd& last = guess.pose;
   const Eigen::Quaterniond last_rotation(last[3], last[4], last[5], last[6]);
   std::uniform_real_distribution<double> uniform;
-  std::normal_distribution<double> scatter(0, kScatter);
+  std::normal_distribution<double> scatter(0, guess.scatter);
   const auto& postures = postures_.all();
   for (Eigen::Index i = 0; i < out.cols(); ++i) {
     const bool near = uniform(random) < guess.near_share;
@@ -125,19 +124,44 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
 
   std::vector<bool> free(hidden.size(), false);
   free[model_] = true;
-  std::int64_t evaluations = states.cols();
   std::vector<Refined> all;
-  for (const Eigen::Index i : order) {
-    Refined one{states.col(i), costs[i], 0};
-    if (!std::isfinite(one.cost)) continue;
-    if (evaluator.has_residuals())
-      one = LeastSquares(scene_, evaluator, free).refine(std::move(one), kIterations);
-    evaluations += std::exchange(one.evaluations, 0);
-    all.push_back(std::move(one));
+  for (const Eigen::Index i : order)
+    if (std::isfinite(costs[i])) all.push_back({states.col(i), costs[i], 0});
+  const auto by_cost = [](const Refined& a, const Refined& b) { return a.cost < b.cost; };
+  if (evaluator.has_residuals()) {
+    LeastSquares least_squares(scene_, evaluator, free);
+    for (Refined& one : all) one = least_squares.refine(std::move(one), kIterations);
+    std::ranges::stable_sort(all, by_cost);
+    for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(effort.improved));
+         ++i)
+      improve_limbs(least_squares, evaluator, all[i]);
   }
-  std::ranges::stable_sort(all, [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  std::ranges::stable_sort(all, by_cost);
+  std::int64_t evaluations = states.cols();
+  for (Refined& one : all) evaluations += std::exchange(one.evaluations, 0);
   if (!all.empty()) all.front().evaluations = evaluations;
   return all;
+}
+
+void PoseSearch::improve_limbs(LeastSquares& least_squares, Evaluator& evaluator,
+                               Refined& pose) const {
+  constexpr int kLimbIterations = 3;
+  for (const Postures::Limb& limb : postures_.limbs()) {
+    Eigen::MatrixXd states = pose.state.replicate(1, std::ssize(limb.variants));
+    for (std::size_t i = 0; i < limb.variants.size(); ++i)
+      for (std::size_t k = 0; k < limb.parameters.size(); ++k)
+        states(item_.offset + limb.parameters[k], static_cast<Eigen::Index>(i)) =
+            limb.variants[i][static_cast<Eigen::Index>(k)];
+    Eigen::VectorXd costs(states.cols());
+    evaluator.evaluate(states, costs);
+    Eigen::Index best = 0;
+    Refined other{{}, costs.minCoeff(&best), 0};
+    other.state = states.col(best);
+    other = least_squares.refine(std::move(other), kLimbIterations);
+    const std::int64_t evaluations = pose.evaluations + states.cols() + other.evaluations;
+    if (other.cost < pose.cost) pose = std::move(other);
+    pose.evaluations = evaluations;
+  }
 }
 
 }  // namespace hypotrack

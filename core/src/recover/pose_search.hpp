@@ -24,12 +24,15 @@ struct PoseGuess {
   Eigen::VectorXd pose;    ///< the model's parameters
   double near_share = 0;   ///< of the hypotheses that keep about its rotation and posture
   double rotation = 0;     ///< standard deviation of those, radians
+  double scatter =
+      0.012;  ///< standard deviation of the hypotheses' centers, metres; twice in depth
 };
 
 /// How much a search spends on one place.
 struct PoseEffort {
   int hypotheses = 0;  ///< scored
   int refined = 0;     ///< best of them refined by least squares
+  int improved = 0;    ///< best of those refined limb by limb
 };
 
 /// Searches all rotations and postures of one model of a scene at given places: scores hypotheses
@@ -47,6 +50,10 @@ class PoseSearch {
                             const std::vector<bool>& hidden, const PoseGuess& guess,
                             const PoseEffort& effort, std::uint64_t seed);
 
+  /// The state with models that are hidden, and the one that is searched for, where nothing draws
+  /// them.
+  Eigen::VectorXd without(const Eigen::VectorXd& base, const std::vector<bool>& hidden) const;
+
   Postures& postures() { return postures_; }
   /// Center of the model's landmarks in a state of the scene.
   Eigen::Vector3d center(const Eigen::VectorXd& state) const;
@@ -54,7 +61,8 @@ class PoseSearch {
   double radius() const { return radius_; }
 
  private:
-  Eigen::VectorXd without(const Eigen::VectorXd& base, const std::vector<bool>& hidden) const;
+  /// Tries each limb straight, half and bent, and keeps what refining makes better.
+  void improve_limbs(LeastSquares& least_squares, Evaluator& evaluator, Refined& pose) const;
   Eigen::MatrixXd hypotheses(const PoseGuess& guess, int count, std::mt19937_64& random) const;
   void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
                const Eigen::VectorXd& hypothesis);

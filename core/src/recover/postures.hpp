@@ -20,8 +20,16 @@ class HYPOTRACK_API Postures {
   /// At least one; a rigid model has one of length 0.
   const std::vector<Eigen::VectorXd>& all() const { return all_; }
 
+  /// The parameters that bend one limb (a finger), and what they may be: straight, half or bent.
+  struct Limb {
+    std::vector<int> parameters;
+    std::vector<Eigen::VectorXd> variants;
+  };
+  const std::vector<Limb>& limbs() const { return limbs_; }
+
  private:
   std::vector<Eigen::VectorXd> all_;
+  std::vector<Limb> limbs_;
   std::size_t fixed_ = 0;     ///< of them that do not change
   std::size_t replaced_ = 0;  ///< next of the others to be replaced
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hypotrack/search.hpp"
+#include "recover/silhouette.hpp"
 
 namespace hypotrack {
 namespace {
@@ -17,13 +18,12 @@ constexpr double kSeen = 0.35;       // of the colours that a tracked model show
 constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the pose that a place is remembered with.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
-constexpr double kHintTurn = 0.5;     // radians
-constexpr double kCovered = 0.5;      // share of a model that others may hide
-constexpr int kGlance = 4;            // poses refined at a place before it is chosen
-constexpr std::size_t kThorough = 2;  // places chosen
-// Metres between candidates: more where models may have changed places.
-constexpr double kDistinctPoses = 0.012, kDistinctModels = 0.03;
-constexpr std::size_t kOfEach = 4;  // candidates of one model, to be combined with others'
+constexpr double kHintTurn = 0.5;       // radians
+constexpr double kHopeless = 4;         // -log odds: no search makes such a candidate right
+constexpr double kPlaceScatter = 0.02;  // metres
+constexpr double kCovered = 0.5;        // share of a model that others may hide
+constexpr double kDistinct = 0.012;  // metres between candidates, mean over the model's landmarks
+constexpr double kHides = 0.35;      // share of another model that a candidate may newly hide
 
 /// The first of some states that are `near` metres or more apart, mean over landmarks; at most
 /// `count`.
@@ -53,136 +53,122 @@ std::span<const std::string_view> enum_names(RecoveryRun) {
 
 Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
                    const RecoverySettings& settings)
-    : scene_(scene), settings_(settings) {
+    : scene_(scene), cameras_(cameras), settings_(settings) {
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
     finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
                           settings.farthest);
+    searched_.emplace_back(cameras, searches_[m]->radius());
   }
 }
 
-void Recovery::remember(const Eigen::VectorXd& state) {
+void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked) {
   for (std::size_t m = 0; m < searches_.size(); ++m) {
+    if (!tracked[m]) continue;
+    searched_[m].forget();
     const Scene::Item& item = scene_.items()[m];
     searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
   }
 }
 
-std::vector<PoseGuess> Recovery::guesses(std::size_t model, const Places& places,
-                                         const LastKnown& last, const MotionLimits& limits) const {
-  const Scene::Item& item = scene_.items()[model];
+Places Recovery::places(const Quest& quest) const {
+  const PlaceFinder& finder = finders_[quest.model];
+  std::vector<bool> others = quest.hidden;
+  others.flip();
+  std::array<cv::Mat1b, 2> taken;
+  if (std::ranges::find(others, true) != others.end())
+    for (std::size_t i = 0; i < 2; ++i)
+      taken[i] = silhouettes(scene_, others, quest.last.state, cameras_[i], finder.reduction(i));
+  return finder.find(quest.frame, quest.judge.model(quest.model).colors(),
+                     quest.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
+                     kApart, taken);
+}
+
+std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& places,
+                                         const MotionLimits& limits) {
+  const Scene::Item& item = scene_.items()[quest.model];
+  const LastKnown& last = quest.last;
   const auto own = [&](const Eigen::VectorXd& state) -> Eigen::VectorXd {
     return state.segment(item.offset, item.model->dimension());
   };
-  const PoseSearch& search = *searches_[model];
+  const PoseSearch& search = *searches_[quest.model];
   const double turn = std::min(0.25 + last.seconds, 1.2);
   const Eigen::Vector3d was = search.center(last.state);
   std::vector<PoseGuess> out;
   if (last.hint.size() > 0)
     out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
   if (last.near_hint_only) return out;
-  if (last.seconds < kRemembered) out.push_back({was, own(last.state), kNearLast, turn});
+  SearchedPlaces& searched = searched_[quest.model];
+  if (last.seconds < kRemembered && searched.is_worth(quest.frame, was))
+    out.push_back({was, own(last.state), kNearLast, turn});
   const double reach = reach_within(limits, last.seconds).position + search.radius();
   for (const Place& place : places.best)
-    if ((place.center - was).norm() <= reach)
-      out.push_back({place.center, own(last.state), kNearPlace, turn});
+    if ((place.center - was).norm() <= reach && searched.is_worth(quest.frame, place.center))
+      out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter});
+  searched.end_frame();
   return out;
 }
 
-std::vector<Refined> Recovery::poses(FrameSearch& search, const Frame& frame, Judge& judge,
-                                     std::size_t model, const Eigen::VectorXd& base,
-                                     const std::vector<bool>& hidden,
-                                     std::vector<PoseGuess> guesses, std::uint64_t seed) {
-  const Scene::Item& item = scene_.items()[model];
-  const ColorMap colors = search.second_view_colors();
-  std::uint32_t part = 0;
-  // Costs of different places do not compare: what the pictures show does.
-  const auto around = [&](const PoseGuess& guess, const PoseEffort& effort) {
-    std::vector<Refined> found = searches_[model]->find(search, frame, base, hidden, guess, effort,
-                                                        seed_of_part(seed, part++));
-    ModelJudge& of_model = judge.model(model);
-    std::vector<Refined> seen;
-    for (Refined& one : found) {
-      const Evidence evidence = of_model.look(frame, one.state, colors);
-      // Behind another model it may be anything.
-      if (evidence.covered > kCovered) continue;
-      one.cost = -of_model.log_odds(evidence);
-      Eigen::VectorXd state = base;
-      state.segment(item.offset, item.model->dimension()) =
-          one.state.segment(item.offset, item.model->dimension());
-      one.state = std::move(state);
-      seen.push_back(std::move(one));
-    }
-    return seen;
-  };
-  std::vector<Refined> all;
-  std::vector<std::pair<double, std::size_t>> ranks;
-  for (std::size_t i = 0; i < guesses.size(); ++i) {
-    const PoseEffort glance{settings_.hypotheses / 2, kGlance};
-    double best = std::numeric_limits<double>::infinity();
-    for (Refined& one : around(guesses[i], glance)) {
-      best = std::min(best, one.cost);
-      all.push_back(std::move(one));
-    }
-    ranks.emplace_back(best, i);
-  }
-  std::ranges::sort(ranks);
-  ranks.resize(std::min(ranks.size(), kThorough));
-  for (const auto& [rank, i] : ranks) {
-    if (!std::isfinite(rank)) continue;
-    const PoseEffort thorough{settings_.hypotheses, settings_.refined};
-    for (Refined& one : around(guesses[i], thorough)) all.push_back(std::move(one));
-  }
-  std::ranges::stable_sort(all, [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
-  return all;
+bool Recovery::hides_others(const Quest& quest, const Eigen::VectorXd& state,
+                            const ColorMap& colors) {
+  for (std::size_t m = 0; m < quest.hidden.size(); ++m)
+    if (!quest.hidden[m] &&
+        quest.judge.model(m).look(quest.frame, state, colors).covered > quest.covered[m] + kHides)
+      return true;
+  return false;
 }
 
-Candidates Recovery::find(FrameSearch& search, const Frame& frame, Judge& judge,
-                          const LastKnown& last, const std::vector<bool>& lost,
-                          const MotionLimits& limits, std::uint64_t seed) {
-  Candidates out;
-  const ColorMap colors = search.second_view_colors();
-  std::vector<Places> places(lost.size());
-  bool any_seen = false;
-  for (std::size_t m = 0; m < lost.size(); ++m) {
-    if (!lost[m]) continue;
-    ModelJudge& model = judge.model(m);
-    places[m] = finders_[m].find(frame, model.colors(), colors,
-                                 static_cast<std::size_t>(settings_.places), kApart);
-    any_seen = any_seen || !model.experienced() ||
-               places[m].seen >= kSeen * model.usual(Evidence::kInside);
-  }
-  out.in_view = any_seen;
-  if (!any_seen) return out;
+Recovery::Quest Recovery::begin(FrameSearch& search, const Frame& frame, Judge& judge,
+                                LastKnown last, std::size_t model, const std::vector<bool>& shown,
+                                const MotionLimits& limits) {
+  Quest quest{search, frame, judge, model, std::move(last), shown};
+  quest.hidden[model] = false;
+  quest.hidden.flip();
+  const Places seen = places(quest);
+  const ModelJudge& of_model = judge.model(model);
+  quest.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
+  if (!quest.in_view) return quest;
+  quest.guesses = guesses(quest, seen, limits);
+  const Eigen::VectorXd others = searches_[model]->without(quest.last.state, quest.hidden);
+  for (std::size_t m = 0; m < shown.size(); ++m)
+    quest.covered.push_back(
+        quest.hidden[m] ? 0
+                        : judge.model(m).look(frame, others, search.second_view_colors()).covered);
+  return quest;
+}
 
-  const auto several = std::count(lost.begin(), lost.end(), true) > 1;
-  std::vector<Refined> whole{{last.state, 0, 0}};
-  std::vector<bool> hidden = lost;
-  for (std::size_t m = 0; m < lost.size(); ++m) {
-    if (!lost[m]) continue;
-    const std::vector<PoseGuess> all = guesses(m, places[m], last, limits);
-    std::vector<Refined> more;
-    for (std::size_t k = 0; k < std::min(whole.size(), several ? kOfEach : 1); ++k) {
-      const std::uint64_t part = seed_of_part(seed, static_cast<std::uint32_t>(8 * m + k));
-      for (Refined& one : poses(search, frame, judge, m, whole[k].state, hidden, all, part)) {
-        out.evaluations += std::exchange(one.evaluations, 0);
-        one.cost += whole[k].cost;
-        more.push_back(std::move(one));
-      }
-    }
-    std::ranges::stable_sort(more,
-                             [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
-    const auto count = static_cast<std::size_t>(settings_.searched);
-    more = distinct(scene_, std::move(more), several ? kDistinctModels : kDistinctPoses,
-                    std::max(count, kOfEach));
-    if (!more.empty()) whole = std::move(more);
-    hidden[m] = false;
+Candidates Recovery::find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+                          std::uint64_t seed) {
+  const Scene::Item& item = scene_.items()[quest.model];
+  const Eigen::VectorXd& base = quest.last.state;
+  const ColorMap colors = quest.search.second_view_colors();
+  const PoseEffort effort{settings_.hypotheses, settings_.refined, (settings_.refined + 3) / 4};
+  ModelJudge& judge = quest.judge.model(quest.model);
+  const Reach reach = reach_within(limits, quest.last.seconds);
+  Candidates out;
+  std::vector<Refined> seen;
+  for (Refined& one : searches_[quest.model]->find(quest.search, quest.frame, base, quest.hidden,
+                                                   guess, effort, seed)) {
+    out.evaluations += std::exchange(one.evaluations, 0);
+    const Evidence evidence = judge.look(quest.frame, one.state, colors);
+    // Behind another model it may be anything.
+    if (evidence.covered > kCovered || hides_others(quest, one.state, colors)) continue;
+    // What the pictures show tells more than costs in a coarse tile.
+    one.cost = -judge.log_odds(evidence);
+    if (one.cost > kHopeless) continue;
+    Eigen::VectorXd state = base;
+    state.segment(item.offset, item.model->dimension()) =
+        one.state.segment(item.offset, item.model->dimension());
+    if (!is_within(scene_, reach, base, state)) continue;
+    one.state = std::move(state);
+    seen.push_back(std::move(one));
   }
-  const Reach reach = reach_within(limits, last.seconds);
-  for (const Refined& one : whole) {
-    if (out.states.size() >= static_cast<std::size_t>(settings_.searched)) break;
-    if (is_within(scene_, reach, last.state, one.state)) out.states.push_back(one.state);
-  }
+  std::ranges::stable_sort(seen,
+                           [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  const double near = kDistinct / static_cast<double>(scene_.items().size());
+  for (Refined& one :
+       distinct(scene_, std::move(seen), near, static_cast<std::size_t>(settings_.searched)))
+    out.states.push_back(std::move(one.state));
   return out;
 }
 

@@ -13,57 +13,75 @@
 #include "recover/place_finder.hpp"
 #include "recover/pose_search.hpp"
 #include "recover/recovery_settings.hpp"
+#include "recover/searched_places.hpp"
 #include "track/frame_search.hpp"
 #include "track/motion_limits.hpp"
 
 namespace hypotrack {
 
-/// Where the scene was when it was last surely tracked.
+/// Where a lost model was when it was last surely tracked.
 struct LastKnown {
-  Eigen::VectorXd state;
-  double seconds = 0;  ///< since then
+  Eigen::VectorXd state;  ///< of the scene; the other models are where they are now
+  double seconds = 0;     ///< since then
   /// Where it may be now; empty if nobody knows.
   Eigen::VectorXd hint = {};
   bool near_hint_only = false;  ///< looks nowhere else
 };
 
-/// What a recovery found: states of the whole scene worth a search, best first.
+/// States that a recovery found at one place.
 struct Candidates {
-  std::vector<Eigen::VectorXd> states;
+  std::vector<Eigen::VectorXd> states;  ///< of the whole scene, best first; none that is hopeless
   std::int64_t evaluations = 0;
-  bool in_view = true;  ///< false: no picture shows colours of the lost models
 };
 
-/// Looks for lost models in whole pictures: around where they were, and wherever both views show
-/// their colours.
+/// Looks for a lost model in whole pictures: around where it was, and wherever both views show its
+/// colours.
 class HYPOTRACK_API Recovery {
  public:
+  /// A frame in which one model is looked for.
+  struct Quest {
+    FrameSearch& search;
+    const Frame& frame;
+    Judge& judge;
+    std::size_t model;
+    LastKnown last;
+    std::vector<bool> hidden = {};        ///< models that are nowhere; the lost one, too
+    std::vector<double> covered = {};     ///< share of each model that others hide
+    bool in_view = true;                  ///< false: no picture shows colours of the lost model
+    std::vector<PoseGuess> guesses = {};  ///< where it may be, likeliest first
+  };
+
   /// The scene must outlive it.
   Recovery(const Scene& scene, const std::vector<Camera>& cameras,
            const RecoverySettings& settings);
 
-  /// Finds up to settings.searched states. `lost` says which models to look for; the others stay
-  /// where `last` has them.
-  Candidates find(FrameSearch& search, const Frame& frame, Judge& judge, const LastKnown& last,
-                  const std::vector<bool>& lost, const MotionLimits& limits, std::uint64_t seed);
+  /// Finds places where a model may be, without those that were searched in vain and look the same.
+  /// Other models with `shown` are where `last` has them, the rest nowhere. What is given must
+  /// outlive the quest.
+  Quest begin(FrameSearch& search, const Frame& frame, Judge& judge, LastKnown last,
+              std::size_t model, const std::vector<bool>& shown, const MotionLimits& limits);
 
-  /// Remembers the postures of a scene that is surely tracked.
-  void remember(const Eigen::VectorXd& state);
+  /// Finds up to settings.searched poses of the model at one of the places.
+  Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+                  std::uint64_t seed);
+
+  /// Remembers the postures of the models with `tracked`, which are surely right.
+  void remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked);
 
  private:
-  /// Finds poses of one model, best first: costs are how unlikely the pictures make them. Glances
-  /// at every place and searches the best ones thoroughly.
-  std::vector<Refined> poses(FrameSearch& search, const Frame& frame, Judge& judge,
-                             std::size_t model, const Eigen::VectorXd& base,
-                             const std::vector<bool>& hidden, std::vector<PoseGuess> guesses,
-                             std::uint64_t seed);
-  std::vector<PoseGuess> guesses(std::size_t model, const Places& places, const LastKnown& last,
-                                 const MotionLimits& limits) const;
+  std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
+                                 const MotionLimits& limits);
+  Places places(const Quest& quest) const;
+  /// Whether a state hides models that are not hidden without the lost one.
+  static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
+                           const ColorMap& colors);
 
   const Scene& scene_;
+  std::vector<Camera> cameras_;
   RecoverySettings settings_;
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
+  std::vector<SearchedPlaces> searched_;  ///< by model
 };
 
 }  // namespace hypotrack

@@ -21,9 +21,9 @@ struct RecoverySettings {
   RecoveryRun run = RecoveryRun::frame;
   int first_starts = 8;
   int places = 4;
-  int hypotheses = 768;
-  int refined = 24;
-  int searched = 3;
+  int hypotheses = 1500;
+  int refined = 40;
+  int searched = 2;
   int tile = 64;
   double nearest = 0.25;
   double farthest = 1.2;
@@ -43,7 +43,10 @@ struct RecoverySettings {
     v("refined", refined,
       {.help = "best of them refined by least squares, at the coarse tile", .min = 1, .max = 1e4});
     v("searched", searched,
-      {.help = "best of those searched by the scene's optimizer", .min = 1, .max = 100});
+      {.help = "best of those searched by the scene's optimizer, at each place until one is surely "
+               "right",
+       .min = 1,
+       .max = 100});
     v("tile", tile, {.help = "pixels along one side of the coarse tile", .min = 16, .max = 1024});
     v("nearest_mm", nearest,
       {.help = "depth from the first camera where models are looked for",

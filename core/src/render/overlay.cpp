@@ -61,7 +61,9 @@ cv::Scalar bgr(const Eigen::Vector3f& rgb, float lighten) {
 cv::Mat draw_overlay(Renderer& renderer, const Scene& scene, const cv::Mat& image,
                      const Camera& camera, const Eigen::VectorXd& state,
                      const OverlayStyle& style) {
-  const RenderedView view = renderer.render(state, camera, shaded_for(camera), image);
+  RenderStyle shaded = shaded_for(camera);
+  shaded.hidden = style.hidden;
+  const RenderedView view = renderer.render(state, camera, shaded, image);
   cv::Mat result;
   cv::addWeighted(view.color, style.opacity, image, 1 - style.opacity, 0, result);
   const cv::Rect roi = cv::boundingRect(view.label);

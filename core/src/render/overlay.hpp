@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
@@ -14,6 +15,7 @@ namespace hypotrack {
 struct OverlayStyle {
   double opacity = 0.5;  ///< of the models; 0: outlines only
   bool contours = true;  ///< outline every model, also where it lies before another or itself
+  std::vector<bool> hidden = {};  ///< for each model, whether it is left out; empty: none
 };
 
 /// Draws the scene in `state` on a copy of `image` (8-bit BGR of the camera's size): every model in

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -22,7 +24,11 @@ PhotometricSettings of_pictures(PhotometricSettings settings,
 }  // namespace
 
 FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
-    : settings_(parts.search),
+    : scene_(scene),
+      settings_(parts.search),
+      nowhere_(parts.cameras.at(0).camera_from_world.inverse() * Eigen::Vector3d(0, 0, -10)),
+      shown_(scene.items().size(), true),
+      moving_(shown_),
       tiles_(scene, parts.cameras, parts.tile),
       photometric_(scene, of_pictures(parts.photometric, parts.objective)),
       space_(scene, parts.search),
@@ -32,11 +38,32 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
     throw DeviceError(why);
 }
 
+void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
+  const std::vector<bool>& moves = moving.empty() ? models : moving;
+  if (models == shown_ && moves == moving_) return;
+  shown_ = models;
+  moving_ = moves;
+  std::vector<bool> hidden = models;
+  hidden.flip();
+  tiles_.leave_out(hidden);
+  space_ = SearchSpace(scene_, settings_, moves);
+}
+
+Eigen::VectorXd FrameSearch::drawn(Eigen::VectorXd state) const {
+  for (std::size_t m = 0; m < shown_.size(); ++m)
+    if (!shown_[m]) state.segment<3>(scene_.items()[m].offset) = nowhere_;
+  return state;
+}
+
 void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
   plan_ = tiles_.plan(frame, start);
-  if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, start);
+  const Eigen::VectorXd posed = drawn(start);
+  if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, posed);
   photometric_.apply(plan_);
-  photometric_.apply_highlights(plan_, start);
+  photometric_.apply_highlights(plan_, posed);
+  // Depths of the tile are those of what is shown.
+  for (std::size_t m = 0; m < shown_.size(); ++m)
+    if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
   plan_.header.start_is_guess = is_guess;
   evaluator_.prepare(tiles_, frame, plan_);
 }
@@ -46,26 +73,58 @@ void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan p
   evaluator_.prepare(tiles, frame, std::move(plan));
 }
 
+Eigen::Vector3d FrameSearch::some_position(const Eigen::VectorXd& state) const {
+  const auto first = std::ranges::find(shown_, true) - shown_.begin();
+  return state.segment<3>(scene_.items()[static_cast<std::size_t>(first)].offset);
+}
+
+Eigen::VectorXd FrameSearch::costs(Eigen::MatrixXd states) {
+  for (auto state : states.colwise()) state = drawn(state);
+  Eigen::VectorXd out(states.cols());
+  evaluator_.evaluate(states, out);
+  return out;
+}
+
 Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
   if (states.cols() == 1) return states;
-  Eigen::VectorXd costs(states.cols());
-  evaluator_.evaluate(states, costs);
   Eigen::Index best = 0;
-  costs.minCoeff(&best);
+  costs(states).minCoeff(&best);
   return states.col(best);
 }
 
 Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
-  StateCost cost(space_, prior, evaluator_);
+  const Eigen::VectorXd posed = drawn(prior);
+  StateCost cost(space_, posed, evaluator_);
   const OptimizerResult result =
-      optimizer_->minimize(cost, space_.region(prior, reach), budget, seed);
+      optimizer_->minimize(cost, space_.region(posed, reach), budget, seed);
   if (!result.point.allFinite() || std::isnan(result.cost))
     throw PluginError(
         fmt::format("the optimizer's answer of cost {} has numbers that are none; this is a bug in "
                     "the optimizer",
                     result.cost));
-  return {space_.states(result.point, prior), result.cost, result.evaluations};
+  Found found{space_.states(result.point, posed), result.cost, result.evaluations};
+  for (std::size_t m = 0; m < shown_.size(); ++m)
+    if (!shown_[m]) {
+      const Eigen::Index offset = scene_.items()[m].offset;
+      found.state.segment<3>(offset) = prior.segment<3>(offset);
+    }
+  return found;
+}
+
+Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, std::uint64_t seed) {
+  constexpr int kMost = 4;
+  constexpr double kGain = 0.02;  // of the cost that is worth another search
+  Found found{start, std::numeric_limits<double>::infinity(), 0};
+  for (int k = 0; k < kMost; ++k) {
+    Found next =
+        from(found.state, budget, std::nullopt, seed_of_part(seed, static_cast<std::uint32_t>(k)));
+    next.evaluations += found.evaluations;
+    const bool settles = !(found.cost - next.cost > kGain * std::abs(next.cost));
+    found = std::move(next);
+    if (settles && k > 0) break;
+  }
+  return found;
 }
 
 Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
@@ -88,7 +147,7 @@ Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
 }
 
 void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
-  photometric_.learn(tiles_, frame, plan_, state);
+  photometric_.learn(tiles_, frame, plan_, drawn(state));
 }
 
 Observation FrameSearch::seen(const Frame& frame) const {

@@ -13,25 +13,27 @@
 namespace hypotrack {
 namespace {
 
-/// Groups of the scene's parameters as groups of dimensions. Where a rotation vector stands for a
-/// quaternion, it belongs where w, x and y did.
-std::vector<SearchGroup> search_groups(const Scene& scene, bool rotation_vectors) {
+/// Groups of the moving models' parameters as groups of dimensions. Where a rotation vector stands
+/// for a quaternion, it belongs where w, x and y did.
+std::vector<SearchGroup> search_groups(const Scene& scene, const std::vector<bool>& moving,
+                                       bool rotation_vectors) {
   std::vector<SearchGroup> groups;
-  int skipped = 0;  // quaternions' z components before the model
-  for (const Scene::Item& item : scene.items()) {
+  int first = 0;  // dimension of the model
+  for (std::size_t m = 0; m < moving.size(); ++m) {
+    if (!moving[m]) continue;
+    const Model& model = *scene.items()[m].model;
     constexpr int kRotationZ = 6;
     auto kind = SearchGroup::Kind::pose;
-    for (const std::vector<int>& parameters : parameter_groups(item.model->data())) {
+    for (const std::vector<int>& parameters : parameter_groups(model.data())) {
       SearchGroup group{kind, {}};
       for (const int p : parameters) {
         if (rotation_vectors && p == kRotationZ) continue;
-        const int own = rotation_vectors && p > kRotationZ ? 1 : 0;
-        group.dimensions.push_back(item.offset + p - skipped - own);
+        group.dimensions.push_back(first + p - (rotation_vectors && p > kRotationZ ? 1 : 0));
       }
       groups.push_back(std::move(group));
       kind = SearchGroup::Kind::limb;
     }
-    if (rotation_vectors) ++skipped;
+    first += model.dimension() - (rotation_vectors ? 1 : 0);
   }
   return groups;
 }
@@ -43,11 +45,18 @@ std::span<const std::string_view> enum_names(RotationSearch) {
   return names;
 }
 
-SearchSpace::SearchSpace(const Scene& scene, const SearchSettings& settings)
-    : scene_(&scene), settings_(settings), dimension_(scene.dimension()) {
-  if (settings_.rotation_as == RotationSearch::tangent)
-    dimension_ -= static_cast<int>(scene.items().size());
-  groups_ = search_groups(scene, rotation_vectors());
+SearchSpace::SearchSpace(const Scene& scene, const SearchSettings& settings,
+                         const std::vector<bool>& moving)
+    : scene_(&scene), settings_(settings) {
+  const std::vector<bool> moves =
+      moving.empty() ? std::vector<bool>(scene.items().size(), true) : moving;
+  for (std::size_t m = 0; m < moves.size(); ++m) {
+    if (!moves[m]) continue;
+    const Scene::Item& item = scene.items()[m];
+    for (int i = 0; i < item.model->dimension(); ++i) moving_.push_back(item.offset + i);
+    dimension_ += item.model->dimension() - (rotation_vectors() ? 1 : 0);
+  }
+  groups_ = search_groups(scene, moves, rotation_vectors());
 }
 
 SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
@@ -66,12 +75,13 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
     region.upper[out] = upper;
     region.spread[out++] = spread;
   };
-  for (int i = 0; i < scene_->dimension(); ++i) {
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const int i = moving_[k];
     const Parameter& p = parameters[static_cast<std::size_t>(i)];
-    if (p.kind == ParameterKind::quaternion && settings_.rotation_as == RotationSearch::tangent) {
+    if (p.kind == ParameterKind::quaternion && rotation_vectors()) {
       const double most = reach ? std::min(reach->rotation, std::numbers::pi) : std::numbers::pi;
-      for (int k = 0; k < 3; ++k) add(0, -most, most, settings_.rotation);
-      i += 3;
+      for (int axis = 0; axis < 3; ++axis) add(0, -most, most, settings_.rotation);
+      k += 3;
       continue;
     }
     const double spread = p.kind == ParameterKind::position     ? settings_.position
@@ -96,24 +106,22 @@ Eigen::MatrixXd SearchSpace::states(const Eigen::Ref<const Eigen::MatrixXd>& poi
         fmt::format("the optimizer gave a point of {} numbers, the search has {}; this is a bug in "
                     "the optimizer",
                     points.rows(), dimension_));
-  Eigen::MatrixXd states(scene_->dimension(), points.cols());
-  if (settings_.rotation_as == RotationSearch::quaternion) {
-    states = points;
-  } else {
-    int in = 0;
-    for (int i = 0; i < scene_->dimension(); ++i) {
-      if (scene_->parameters()[static_cast<std::size_t>(i)].kind != ParameterKind::quaternion) {
-        states.row(i) = points.row(in++);
-        continue;
-      }
-      const Eigen::Quaterniond q0(prior[i], prior[i + 1], prior[i + 2], prior[i + 3]);
-      for (Eigen::Index n = 0; n < points.cols(); ++n) {
-        const Eigen::Quaterniond q = q0 * rotation_exp(points.block<3, 1>(in, n));
-        states.block<4, 1>(i, n) << q.w(), q.x(), q.y(), q.z();
-      }
-      in += 3;
-      i += 3;
+  Eigen::MatrixXd states = prior.replicate(1, points.cols());
+  int in = 0;
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const int i = moving_[k];
+    if (!rotation_vectors() ||
+        scene_->parameters()[static_cast<std::size_t>(i)].kind != ParameterKind::quaternion) {
+      states.row(i) = points.row(in++);
+      continue;
     }
+    const Eigen::Quaterniond q0(prior[i], prior[i + 1], prior[i + 2], prior[i + 3]);
+    for (Eigen::Index n = 0; n < points.cols(); ++n) {
+      const Eigen::Quaterniond q = q0 * rotation_exp(points.block<3, 1>(in, n));
+      states.block<4, 1>(i, n) << q.w(), q.x(), q.y(), q.z();
+    }
+    in += 3;
+    k += 3;
   }
   for (Eigen::Index n = 0; n < states.cols(); ++n) scene_->normalize(states.col(n));
   return states;

@@ -66,8 +66,10 @@ struct SearchSettings {
 /// rotations are parametrised.
 class HYPOTRACK_API SearchSpace {
  public:
-  /// The scene must outlive the search space.
-  SearchSpace(const Scene& scene, const SearchSettings& settings);
+  /// The scene must outlive the search space. `moving`: one flag per model; the others keep what
+  /// the prior has. Empty: all move.
+  SearchSpace(const Scene& scene, const SearchSettings& settings,
+              const std::vector<bool>& moving = {});
 
   /// Length of a search point.
   int dimension() const { return dimension_; }
@@ -87,6 +89,7 @@ class HYPOTRACK_API SearchSpace {
  private:
   const Scene* scene_;
   SearchSettings settings_;
+  std::vector<int> moving_;  ///< parameters of the scene that move
   int dimension_ = 0;
   std::vector<SearchGroup> groups_;
 };

@@ -25,8 +25,9 @@ HYPOTRACK_API std::string_view to_string(Status status);
 /// `tracker:` of a scene.
 struct StatusSettings {
   bool evidence = true;
-  double tracked_above = 0.5;
-  double surely_above = 0.8;
+  double tracked_above = 0.6;
+  double surely_above = 0.85;
+  double first_above = 0.35;
   double uncertain_above = 0.15;
   MotionLimits motion;
   RecoverySettings recovery;
@@ -47,6 +48,10 @@ struct StatusSettings {
        .max = 1});
     v("surely_above", surely_above,
       {.help = "with `evidence`: the same just after a loss", .min = 0, .max = 1});
+    v("first_above", first_above,
+      {.help = "with `evidence`: the same before a model was ever tracked, where a start was given",
+       .min = 0,
+       .max = 1});
     v("uncertain_above", uncertain_above,
       {.help = "with `evidence`: lost below this probability", .min = 0, .max = 1});
     v("motion", motion, {.help = "how fast models move at most"});
@@ -96,10 +101,11 @@ class HYPOTRACK_API StatusMonitor {
 
   Status judge(const StatusEvidence& evidence);
 
-  /// Probability that a tracked answer needs now: more just after a loss.
+  /// Probability that a tracked answer needs now: more just after a loss, less at first.
   double needed() const {
-    constexpr int kSteady = 4;  // frames with answers that would do at other times
-    return ever_tracked_ && steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
+    constexpr int kSteady = 6;  // frames with answers that would do at other times
+    if (!ever_tracked_) return settings_.first_above;
+    return steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
   }
 
   /// Above it a cost is an outlier of the recent past; -infinity before there is one.

@@ -9,16 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
 #include "hindsight/hindsight_settings.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
-#include "judge/judge.hpp"
-#include "metrics/landmark_errors.hpp"
-#include "recover/recovery.hpp"
-#include "track/frame_search.hpp"
+#include "track/candidate_finder.hpp"
 #include "track/one_euro.hpp"
 #include "track/photometric.hpp"
 #include "track/prediction.hpp"
@@ -33,16 +28,17 @@ namespace hypotrack {
 struct Solution {
   int frame = 0;
   double time = 0;
-  Status status = Status::missing;
-  double cost = 0;  ///< NaN if the frame was missing
+  Status status = Status::missing;  ///< the worst of the models'
+  std::vector<Status> models;       ///< by model
+  double cost = 0;                  ///< NaN if the frame was missing
   std::int64_t evaluations = 0;
   double seconds = 0;     ///< from the frame to the answer: tiles, features and search
   Eigen::VectorXd state;  ///< normalised; smoothed if the tracker was told to
   /// How far off each landmark of the scene may be, in metres: the root of the expected square.
   /// Empty if the tracker was not told to say, NaN if the frame was missing.
   Eigen::VectorXd sigma;
-  /// Probability that every model is where it was found, by what the pictures show; NaN where they
-  /// do not tell.
+  /// Probability that every model shown is where it was found, by what the pictures show; NaN where
+  /// they do not tell.
   double probability = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -74,83 +70,69 @@ class HYPOTRACK_API Tracker {
   std::string backend() const;
 
  private:
-  /// An answer and what the pictures say of it. Without an answer the cost is infinite.
-  struct Candidate {
-    Found found{{}, std::numeric_limits<double>::infinity(), 0};
-    Verdict verdict;
-    bool in_view = true;  ///< false: the whole pictures do not show the models
-  };
-  /// The last state that was surely right.
-  struct Kept {
-    Eigen::VectorXd state;
-    double time = 0;
-    std::optional<Eigen::VectorXd> velocity = {};  ///< per second, as tangent.hpp has differences
+  /// What is known of one model.
+  struct ModelTrack {
+    ModelTrack(const StatusSettings& settings, Eigen::Index first, Eigen::Index count)
+        : monitor(settings), first_landmark(first), landmarks(count) {}
+
+    StatusMonitor monitor;
+    Eigen::Index first_landmark, landmarks;  ///< among the scene's
+    Status status = Status::missing;
+    double kept_time = 0;   ///< when it was surely right last
+    int confirmations = 0;  ///< frames left in which an answer is confirmed
+    /// Its motion then, per second, as tangent.hpp has differences; empty: unknown.
+    Eigen::VectorXd velocity = {};
+
+    /// Whether searches go on from its last state.
+    bool is_followed() const { return status != Status::lost && status != Status::absent; }
+    /// What a vector of the scene's landmarks has of the model's.
+    auto part_of(Eigen::VectorXd& of_scene) const {
+      return of_scene.segment(first_landmark, landmarks);
+    }
   };
 
   void find(const Frame& frame, Solution& solution);
-  /// Searches the first frame from several starts.
-  Candidate begin(const Frame& frame);
-  /// Searches on from the last state; no answer while lost.
+  /// Searches on from the last state; no answer while all is lost.
   Candidate follow(const Frame& frame);
-  /// Replaces an answer by a better one, from anywhere that motion allows or, with `near_only`,
-  /// from around the answer.
-  void recover(const Frame& frame, Candidate& best, bool near_only = false);
-  /// Searches the frame as it is taken in until that gains little.
-  Found settled(const Eigen::VectorXd& start, std::uint64_t seed);
-  void answer(const Frame& frame, const Candidate& best, Solution& solution);
-  // Recovery in the background. While a job runs, nothing else uses the search and the judge.
-  void start_job(const Frame& frame, const Candidate& best);
+  /// Looks for what an answer lacks, or has in a doubtful place: here or, where nothing else can be
+  /// followed, in the background. False: the background looks, and the frame has no answer.
+  bool complete(const Frame& frame, Candidate& best);
+  LossReport report(const Frame& frame, const Candidate& best);
+  void conclude(const Frame& frame, const Candidate& best, Solution& solution);
+  void judge_models(const Frame& frame, const Candidate& best, Solution& solution);
+  // Recovery in the background. While a job runs, nothing else uses the finder.
+  void start_job(const Frame& frame, const LossReport& loss, const Candidate& best);
   void wait_for_job(const Frame& frame, Solution& solution);
   void stay_lost(const Frame& frame, Solution& solution);
-  void conclude(const Frame& frame, const Candidate& best, Solution& solution);
-  Candidate judged(const Frame& frame, Found found);
-  /// The best by probability and, among those alike, by cost. The frame is then taken in around it.
-  Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates);
-  void look_at(const Frame& frame, const Eigen::VectorXd& state);
-  bool known(const Candidate& candidate) const;
-  bool is_right(const Candidate& candidate) const;
-  /// Whether to look for other poses although an answer will do, because it hardly does.
-  bool is_time_to_doubt(const Candidate& best);
-  bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
 
+  bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
+  ModelFlags followed() const;
   /// States that the search of a frame may start from, the middle one, which is seen, first.
   Eigen::MatrixXd possible_starts(double time);
-  void learn(const Frame& frame, const Candidate& best);
-  bool is_time_to_learn() const;
-  void go_on_from(const Eigen::VectorXd& found, const Frame& frame);
-  void keep_last(const Frame& frame);
-  /// The last state that was surely right, moved on for a moment.
-  Eigen::VectorXd extrapolated(double time) const;
-  /// No sigma of a scene that is lost is below what it may have moved since.
-  void widen(Eigen::VectorXd& sigma, double seconds) const;
+  void go_on_from(const Frame& frame, const Candidate& best, const ModelFlags& good);
+  void keep(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
+  /// Where a model was when it was surely right last, moved on for a moment, in `state`.
+  void extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const;
+  /// No sigma of a lost model is below what it may have moved since.
+  void widen(const Frame& frame, Solution& solution) const;
   Eigen::VectorXd smoothed(const Solution& solution);
-  /// Mean over a model's landmarks, of the model where it is largest; NaN without sigmas.
-  double largest_sigma(const Eigen::VectorXd& sigma) const;
 
   const Scene& scene_;
   StatusSettings settings_;
-  Budget budget_;
   Eigen::VectorXd first_;  ///< where the first search starts
-  FrameSearch search_;
-  Judge judge_;
-  Recovery recovery_;
-  StatusMonitor monitor_;
-  LandmarkLayout landmarks_;
+  CandidateFinder finder_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;
   bool smoothing_;
-  Kept kept_;
+  std::vector<ModelTrack> models_;
+  Eigen::VectorXd kept_;    ///< where each model was surely right last
   Eigen::VectorXd state_;   ///< where the next search starts
   double time_ = 0;         ///< of it
   Eigen::VectorXd output_;  ///< the last state that was given out
-  Status last_status_ = Status::missing;
-  std::vector<double> believed_;  ///< probability of each model in the last answer
-  int begun_ = 0;                 ///< frames searched before anything was found
-  bool found_any_ = false;        ///< whether `state_` is a solution
-  int confirmations_ = 0;         ///< frames left in which an answer is confirmed
-  int doubts_ = 0;                ///< frames whose answers hardly did
-  int learned_ = 0;               ///< frames
+  int begun_ = 0;           ///< frames searched before anything was found
+  bool found_any_ = false;  ///< whether `state_` is a solution
+  int doubts_ = 0;          ///< frames whose answers hardly did
   std::uint64_t seed_;
   std::future<Candidate> job_;
 };

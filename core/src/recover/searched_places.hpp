@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+
+namespace hypotrack {
+
+/// Remembers which places were searched in vain, so that they are not searched again while both
+/// views show the same there.
+class HYPOTRACK_API SearchedPlaces {
+ public:
+  /// Patches of about `radius` metres around a place are compared.
+  SearchedPlaces(const std::vector<Camera>& cameras, double radius);
+
+  /// Counts a search at a place. False if it was searched several times already and looks the same;
+  /// every tenth time it may be searched all the same.
+  bool is_worth(const Frame& frame, const Eigen::Vector3d& center);
+
+  /// Forgets the places that is_worth() was not asked about since the last call.
+  void end_frame();
+  void forget() { places_.clear(); }
+
+ private:
+  struct Place {
+    Eigen::Vector3d center;
+    std::array<cv::Mat3b, 2> patches;
+    int searches = 0;
+    bool seen = true;  ///< in this frame
+  };
+  cv::Mat3b patch(const Frame& frame, const Eigen::Vector3d& center, std::size_t view) const;
+
+  std::vector<Camera> cameras_;
+  double radius_;
+  std::vector<Place> places_;
+};
+
+}  // namespace hypotrack

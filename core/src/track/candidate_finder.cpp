@@ -1,0 +1,252 @@
+#include "track/candidate_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hypotrack/search.hpp"
+#include "session/displace.hpp"
+
+namespace hypotrack {
+namespace {
+
+// Of probability: answers less apart are told by their costs.
+constexpr double kAlike = 0.2;
+// From this probability on nobody looks at further places.
+constexpr double kSure = 0.95;
+// An answer of this probability is worth searches around it.
+constexpr double kHint = 0.02;
+
+bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
+
+}  // namespace
+
+double Candidate::probability() const {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t m = 0; m < verdict.size(); ++m)
+    if (shown[m]) least = std::fmin(least, verdict[m]);  // which passes NaN over
+  return least;
+}
+
+CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
+                                 const StatusSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      budget_(parts.budget),
+      search_(scene, parts),
+      judge_(scene, parts.cameras),
+      recovery_(scene, parts.cameras, parts.status.recovery),
+      believed_(scene.items().size(), std::numeric_limits<double>::quiet_NaN()) {
+  if (budget_.evaluations == 0) budget_.evaluations = search_.default_evaluations();
+}
+
+Candidate CandidateFinder::judged(const Frame& frame, Found found) {
+  const std::size_t models = scene_.items().size();
+  Candidate out{std::move(found), Verdict(models, std::numeric_limits<double>::quiet_NaN()),
+                search_.shown(), ModelFlags(models, true)};
+  if (settings_.evidence && out.answers())
+    out.verdict = judge_.judge(frame, search_.drawn(out.found.state), search_.second_view_colors(),
+                               out.shown);
+  // A model that others hide is as likely right as it was before.
+  if (std::isnan(out.probability())) return out;
+  for (std::size_t m = 0; m < models; ++m)
+    if (out.shown[m] && std::isnan(out.verdict[m])) out.verdict[m] = believed_[m];
+  return out;
+}
+
+Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& start, int count,
+                                 std::uint64_t seed) {
+  std::vector<Candidate> candidates;
+  std::int64_t evaluations = 0;
+  for (int k = 0; k < count; ++k) {
+    const auto part = static_cast<std::uint32_t>(k);
+    // Off by as much as a start by hand is, in another direction each.
+    const Displacement off{0.025, 20 * kDegree, 0};
+    const Eigen::VectorXd from =
+        k == 0 ? start : displaced(scene_, start, off, seed_of_part(seed, 100 + part));
+    if (k > 0 && search_.tiles().visible_share(from) == 0) continue;
+    search_.forget_colors();
+    candidates.push_back(judged(
+        frame, search_.from_guess(frame, from, budget_, k == 0 ? seed : seed_of_part(seed, part))));
+    evaluations += candidates.back().found.evaluations;
+    if (std::isnan(candidates.back().probability())) break;
+  }
+  Candidate best = candidates.size() == 1 ? candidates[0] : best_of(frame, candidates);
+  best.found.evaluations = evaluations;
+  return best;
+}
+
+Candidate CandidateFinder::follow(const Frame& frame, const Eigen::MatrixXd& starts,
+                                  const ModelFlags& models, const Budget& budget,
+                                  const std::optional<Reach>& reach, std::uint64_t seed) {
+  search_.show(models);
+  search_.look(frame, starts.col(0), false);
+  const Eigen::VectorXd prior = search_.cheapest(starts);
+  Budget left = budget;
+  const std::int64_t compared = starts.cols() > 1 ? starts.cols() : 0;
+  left.evaluations -= compared;
+  Found found = search_.from(prior, left, reach, seed);
+  found.evaluations += compared;
+  return judged(frame, std::move(found));
+}
+
+Candidate CandidateFinder::go_on(const Frame& frame, const Candidate& from, std::uint64_t seed) {
+  search_.show(from.shown);
+  search_.look(frame, from.found.state, false);
+  Candidate out = judged(frame, search_.settled(from.found.state, budget_, seed));
+  out.found.evaluations += from.found.evaluations;
+  return out;
+}
+
+Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candidate>& candidates) {
+  const auto most = std::ranges::max_element(candidates, {}, [](const Candidate& c) {
+    const double p = c.probability();
+    return std::isnan(p) ? -1.0 : p;
+  });
+  if (search_.tiles().visible_share(most->found.state) == 0) return *most;
+  look_at(frame, most->found.state);
+  // Costs compare in one tile only.
+  Eigen::MatrixXd states(scene_.dimension(), static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    states.col(static_cast<Eigen::Index>(i)) = candidates[i].found.state;
+  const Eigen::VectorXd costs = search_.costs(states);
+  auto best = static_cast<std::size_t>(most - candidates.begin());
+  const double highest = most->probability();
+  const double enough =
+      std::max(std::min(highest - kAlike, settings_.tracked_above), 0.5 * highest);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (candidates[i].probability() >= enough &&
+        costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
+      best = i;
+  Candidate out = candidates[best];
+  if (&candidates[best] != &*most) look_at(frame, out.found.state);
+  out.found.cost = costs[static_cast<Eigen::Index>(best)];
+  return out;
+}
+
+void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) {
+  if (!judge_.experienced()) {
+    // Whatever was learned from another start is wrong here.
+    search_.forget_colors();
+    search_.look(frame, state, true);
+  }
+  search_.look(frame, state, false);
+}
+
+std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const LossReport& report,
+                                                     const Candidate& base, Candidate& best,
+                                                     std::size_t model, std::uint64_t seed) {
+  const Scene::Item& item = scene_.items()[model];
+  const auto put = [&](Eigen::VectorXd& to, const Eigen::VectorXd& from) {
+    to.segment(item.offset, item.model->dimension()) =
+        from.segment(item.offset, item.model->dimension());
+  };
+  LastKnown last{base.answers() ? base.found.state : report.kept, report.seconds[model]};
+  put(last.state, report.kept);
+  const bool has_answer = best.answers() && best.shown[model];
+  if (has_answer && best.verdict[model] >= kHint) {
+    last.hint = last.state;
+    put(last.hint, best.found.state);
+  }
+  last.near_hint_only = report.near_only;
+  const Recovery::Quest quest =
+      recovery_.begin(search_, frame, judge_, std::move(last), model, base.shown, settings_.motion);
+  best.in_view[model] = quest.in_view;
+  ModelFlags shown = base.shown, moving(shown.size(), false);
+  shown[model] = moving[model] = true;
+  std::vector<Candidate> all;
+  if (has_answer && shown == best.shown) all.push_back(best);
+  std::uint32_t part = 0;
+  bool sure = false;
+  for (const PoseGuess& guess : quest.guesses) {
+    if (sure) break;
+    const Candidates found =
+        recovery_.find(quest, guess, settings_.motion, seed_of_part(seed, part++));
+    best.found.evaluations += found.evaluations;
+    search_.show(shown, moving);
+    for (const Eigen::VectorXd& state : found.states) {
+      if (search_.tiles().visible_share(state) == 0) continue;
+      search_.look(frame, state, false);
+      Candidate one = judged(frame, search_.settled(state, budget_, seed_of_part(seed, part++)));
+      best.found.evaluations += std::exchange(one.found.evaluations, 0);
+      Eigen::VectorXd moved = report.kept;
+      put(moved, one.found.state);
+      if (!is_within(scene_, reach_within(settings_.motion, quest.last.seconds), report.kept,
+                     moved))
+        continue;
+      sure = sure || one.probability() >= kSure;
+      all.push_back(std::move(one));
+    }
+  }
+  search_.show(shown);
+  if (all.empty()) return std::nullopt;
+  return best_of(frame, all);
+}
+
+bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
+                               const LossReport& report, std::size_t model) const {
+  if (!(with.verdict[model] >= settings_.uncertain_above)) return false;
+  for (std::size_t m = 0; m < base.shown.size(); ++m) {
+    if (!base.shown[m] || m == model || std::isnan(base.verdict[m])) continue;
+    if (!(with.verdict[m] >= std::min(report.needed[m], base.verdict[m]))) return false;
+  }
+  return true;
+}
+
+void CandidateFinder::recover(const Frame& frame, const LossReport& report, Candidate& best,
+                              std::uint64_t seed) {
+  Candidate base = best;
+  for (std::size_t m = 0; m < report.sought.size(); ++m)
+    if (report.sought[m]) base.shown[m] = false;
+  if (!any(base.shown)) base.found.cost = std::numeric_limits<double>::infinity();
+  ModelFlags left = report.sought;
+  std::uint32_t part = 0;
+  while (any(left)) {
+    std::optional<Candidate> chosen;
+    std::size_t joins = 0;
+    for (std::size_t m = 0; m < left.size(); ++m) {
+      if (!left[m]) continue;
+      std::optional<Candidate> one =
+          with_model(frame, report, base, best, m, seed_of_part(seed, ++part));
+      if (!one || (chosen && !(one->verdict[m] > chosen->verdict[joins]))) continue;
+      chosen = std::move(one);
+      joins = m;
+    }
+    // Where there is nothing else, a poor answer says how poor it is.
+    if (!chosen || (any(base.shown) && !may_join(*chosen, base, report, joins))) break;
+    base = std::move(*chosen);
+    left[joins] = false;
+    if (!(base.verdict[joins] >= settings_.uncertain_above)) break;
+  }
+  base.in_view = best.in_view;
+  for (std::size_t m = 0; m < base.shown.size(); ++m)
+    if (base.shown[m] && base.verdict[m] >= report.needed[m]) base.in_view[m] = true;
+  base.found.evaluations = best.found.evaluations;
+  best = std::move(base);
+  if (!best.answers()) return;
+  search_.show(best.shown);
+  look_at(frame, best.found.state);
+}
+
+void CandidateFinder::accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
+  if (best.answers() && !std::isnan(best.probability()))
+    for (std::size_t m = 0; m < best.shown.size(); ++m)
+      if (best.shown[m]) believed_[m] = best.verdict[m];
+  if (any(tracked)) learn(frame, best, tracked);
+}
+
+void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
+  constexpr int kAtFirst = 10, kEvery = 4;  // frames
+  const bool is_time = learned_ < kAtFirst || learned_ % kEvery == 0;
+  if (settings_.evidence && !std::isnan(best.probability()) && is_time) {
+    const Eigen::VectorXd drawn = search_.drawn(best.found.state);
+    if (!judge_.judged(drawn)) judge_.judge(frame, drawn, search_.second_view_colors(), best.shown);
+    judge_.learn(tracked);
+  }
+  ++learned_;
+  search_.show(tracked);
+  search_.learn(frame, best.found.state);
+  recovery_.remember(best.found.state, tracked);
+}
+
+}  // namespace hypotrack

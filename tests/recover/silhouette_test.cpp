@@ -1,0 +1,46 @@
+#include "recover/silhouette.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <opencv2/imgproc.hpp>
+
+#include "test_models.hpp"
+
+namespace hypotrack {
+namespace {
+
+class SilhouetteTest : public testing::Test {
+ protected:
+  SilhouetteTest() {
+    state_.segment<3>(0) << -0.1, 0, 0.5;
+    state_.segment<3>(7) << 0.1, 0, 0.5;
+  }
+  /// Center of what is drawn of some models.
+  cv::Point2d center(const std::vector<bool>& models) {
+    const cv::Mat1b drawn = silhouettes(scene_, models, state_, camera_, 4);
+    EXPECT_EQ(drawn.size(), cv::Size(160, 120));
+    const cv::Moments m = cv::moments(drawn, true);
+    return m.m00 > 0 ? cv::Point2d(m.m10 / m.m00, m.m01 / m.m00) : cv::Point2d(-1, -1);
+  }
+
+  Scene scene_{{{"a", std::make_shared<Model>(test::make_test_box())},
+                {"b", std::make_shared<Model>(test::make_test_box())}}};
+  Eigen::VectorXd state_ = scene_.rest_state();
+  Camera camera_{
+      640, 480, 500, 500, 319.5, 239.5, DistortionModel::none, {}, Eigen::Isometry3d::Identity()};
+};
+
+TEST_F(SilhouetteTest, LiesWhereTheCameraSeesTheModel) {
+  EXPECT_NEAR(center({true, false}).x, (319.5 - 100) / 4, 12);
+  EXPECT_NEAR(center({false, true}).x, (319.5 + 100) / 4, 12);
+}
+
+TEST_F(SilhouetteTest, NothingIsDrawnOfModelsThatAreNotAskedForOrBehind) {
+  EXPECT_EQ(center({false, false}).x, -1);
+  state_[2] = -0.5;
+  EXPECT_EQ(center({true, false}).x, -1);
+}
+
+}  // namespace
+}  // namespace hypotrack
