@@ -47,9 +47,22 @@ def fit(x, y, copies):
     return hidden, hidden_bias - hidden @ mean, out[:, 0], out_bias[0]
 
 
-def apply(weights, x):
+def log_odds(weights, x):
     hidden, hidden_bias, out, out_bias = weights
-    return 1 / (1 + np.exp(-(np.maximum(x @ hidden.T + hidden_bias, 0) @ out + out_bias)))
+    return np.maximum(x @ hidden.T + hidden_bias, 0) @ out + out_bias
+
+
+def probability(odds):
+    return 1 / (1 + np.exp(-odds))
+
+
+def fit_slope(odds, x, y, copies):
+    """Fits a logistic regression with one slope and given log odds at x = 0 by Newton's method."""
+    slope = 0
+    for _ in range(50):
+        p = probability(odds + slope * x)
+        slope += (copies * (y - p) * x).sum() / (copies * p * (1 - p) * x * x).sum()
+    return slope
 
 
 def main():
@@ -61,7 +74,9 @@ def main():
     features, feature_names = rows[:, first:], names[first:]
     count = len(feature_names) // 2
     right, wrong = (error <= RIGHT_MM) & ~absent, (error > WRONG_MM) | absent
-    shown = {}
+    usual, likeness = rows[:, column["usual_likeness"]], rows[:, column["likeness"]]
+    likeness = np.where(experienced & ~np.isnan(likeness), usual * (likeness - usual), 0)
+    shown, slope = {}, 0
     for label, chosen, allowed in (
         ("kFresh", ~experienced, [n not in APPEARANCE and not n.startswith("d_") for n in feature_names]),
         ("kExperienced", experienced, [True] * len(feature_names)),
@@ -71,7 +86,11 @@ def main():
         usable = chosen & known & (right | wrong)
         held_out = table % 3 == 0
         train = usable & ~held_out
-        p = apply(fit(x[train], right[train], copies[train]), x)
+        odds = log_odds(fit(x[train], right[train], copies[train]), x)
+        if likeness[train].any():
+            slope = fit_slope(odds[train], likeness[train], right[train], copies[train])
+            odds += slope * likeness
+        p = probability(odds)
         for threshold in (0.3, 0.5, 0.7, 0.8, 0.9):
             tests = [("<=3", error <= 3), ("<=10", error <= 10), ("10-20", (error > 10) & (error <= 20)),
                      ("20-30", (error > 20) & (error <= 30)), ("30-50", (error > 30) & (error <= 50)),
@@ -84,6 +103,7 @@ def main():
                         cells.append(f"{only[:4]} {name} {(p[m] >= threshold).mean():.3f}/{m.sum()}")
             print(label, threshold, "; ".join(cells), file=sys.stderr)
         shown[label] = fit(x[usable], right[usable], copies[usable])
+    slope = fit_slope(log_odds(shown["kExperienced"], x[usable]), likeness[usable], right[usable], copies[usable])
     print("// Made by tools/fit_judge/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
     print('#include "judge/evidence.hpp"\n')
     print("/// Weights of networks over ModelJudge::features(): how likely a model's landmarks are within\n"
@@ -103,6 +123,8 @@ def main():
         for row in hidden:
             print(f"{{{{{numbers(row)}}}}},")
         print(f"}}}}, {{{{{numbers(hidden_bias)}}}}}, {{{{{numbers(out)}}}}}, {out_bias:.5g}}};\n")
+    print("/// Of the usual likeness times its difference to the likeness.\n"
+          f"inline constexpr double kLikeness = {slope:.2g};\n")
     print("}  // namespace hypotrack::judge_weights")
 
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <string_view>
 
 #include "hypotrack/export.hpp"
@@ -35,6 +36,7 @@ struct Evidence {
     kCount
   };
   std::array<double, kCount> values{};
+  double likeness = std::numeric_limits<double>::quiet_NaN();  ///< Appearance::likeness()
   double covered = 0;  ///< share of its drawn points that other models hide
   int points = 0;      ///< of the grid that show it in the first view
   bool known = false;  ///< false: nothing could be measured

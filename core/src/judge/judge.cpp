@@ -23,7 +23,9 @@ ModelJudge::ModelJudge(const Scene& scene, std::size_t model, const std::vector<
 Evidence ModelJudge::look(const Frame& frame, const Eigen::VectorXd& state,
                           const ColorMap& colors) {
   samples_ = sampler_.sample(frame, state, colors);
-  return measure(samples_, colors_);
+  Evidence evidence = measure(samples_, colors_);
+  evidence.likeness = appearance_.likeness(samples_);
+  return evidence;
 }
 
 Eigen::VectorXd ModelJudge::features(const Evidence& evidence) const {
@@ -45,6 +47,8 @@ double ModelJudge::log_odds(const Evidence& evidence) const {
     const Eigen::Map<const Eigen::VectorXd> weights(network.hidden[unit].data(), x.size());
     sum += network.out[unit] * std::max(0.0, weights.dot(x) + network.hidden_bias[unit]);
   }
+  if (usual_ && !std::isnan(evidence.likeness))
+    sum += judge_weights::kLikeness * usual_likeness_ * (evidence.likeness - usual_likeness_);
   return sum;
 }
 
@@ -52,12 +56,15 @@ void ModelJudge::learn(const Evidence& evidence) {
   if (!evidence.known) return;
   const bool knew_colors = colors_.known();
   colors_.learn(samples_);
+  appearance_.learn(samples_);
   if (!usual_ || !knew_colors) {
     usual_ = measure(samples_, colors_).values;
     return;
   }
   for (std::size_t i = 0; i < usual_->size(); ++i)
     (*usual_)[i] += kUsualRate * (evidence.values[i] - (*usual_)[i]);
+  if (!std::isnan(evidence.likeness))
+    usual_likeness_ += kUsualRate * (evidence.likeness - usual_likeness_);
 }
 
 Judge::Judge(const Scene& scene, const std::vector<Camera>& cameras) {

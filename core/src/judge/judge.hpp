@@ -10,6 +10,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
+#include "judge/appearance.hpp"
 #include "judge/evidence.hpp"
 #include "judge/foreground_colors.hpp"
 #include "judge/surface_samples.hpp"
@@ -39,11 +40,14 @@ class HYPOTRACK_API ModelJudge {
   const ForegroundColors& colors() const { return colors_; }
   /// What is usual where the model is surely right; 0 before learn().
   double usual(Evidence::Index i) const { return usual_ ? (*usual_)[i] : 0; }
+  double usual_likeness() const { return usual_likeness_; }
 
  private:
   SurfaceSampler sampler_;
   SurfaceSamples samples_;
   ForegroundColors colors_;
+  Appearance appearance_;
+  double usual_likeness_ = 0;
   std::optional<std::array<double, Evidence::kCount>> usual_;
 };
 

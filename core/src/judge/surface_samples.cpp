@@ -7,14 +7,17 @@
 
 #include "evaluate/hypothesis_drawer.hpp"
 #include "geometry/tiles.hpp"
+#include "hypotrack/kinematics.hpp"
 #include "hypotrack/stereo_pixels.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
+#include "judge/surface_points.hpp"
 
 namespace hypotrack {
 namespace {
 
 constexpr double kPadding = 0.25;       // of the model's extent, so that the ring fits
 constexpr int kRing = 5;                // grid points beside the silhouette
+constexpr Eigen::Index kPoints = 600;   // of the surface
 constexpr float kSameSurface = 0.006f;  // metres, between neighbouring points of the grid
 
 std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
@@ -94,7 +97,8 @@ struct SurfaceSampler::Impl {
         single(only(item)),
         tiles(single, cameras, {kSampleGrid, kPadding}),
         single_plan(single),
-        single_drawer(single_plan) {
+        single_drawer(single_plan),
+        surface(spread_points(item.model->data().mesh, kPoints)) {
     if (scene.items().size() == 1) return;
     whole_plan = std::make_unique<ScenePlan>(scene);
     whole_drawer = std::make_unique<HypothesisDrawer>(*whole_plan);
@@ -104,6 +108,8 @@ struct SurfaceSampler::Impl {
   void draw(const Observation& header, const Eigen::VectorXd& state, const Eigen::VectorXd& own);
   SampledView look(const Lookup& lookup, std::size_t view) const;
   void pair(const Lookup& other, const Observation& header, SurfaceSamples& out) const;
+  std::vector<SurfaceSamples::Point> points(const SampledView& view, const TileCamera& grid,
+                                            const Eigen::VectorXd& part) const;
 
   const Scene& scene;
   const Scene::Item& item;
@@ -111,6 +117,7 @@ struct SurfaceSampler::Impl {
   TileMaker tiles;
   ScenePlan single_plan;
   HypothesisDrawer single_drawer;
+  SurfacePoints surface;
   std::unique_ptr<ScenePlan> whole_plan;
   std::unique_ptr<HypothesisDrawer> whole_drawer;
   FrameProjection projection;
@@ -183,6 +190,27 @@ void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
     }
 }
 
+std::vector<SurfaceSamples::Point> SurfaceSampler::Impl::points(const SampledView& view,
+                                                                const TileCamera& grid,
+                                                                const Eigen::VectorXd& part) const {
+  const Eigen::Matrix3Xf vertices =
+      posed_vertices(*item.model, {part.data(), static_cast<std::size_t>(part.size())});
+  const Eigen::Matrix3Xd world = positions(surface, vertices).cast<double>();
+  std::vector<SurfaceSamples::Point> out(static_cast<std::size_t>(world.cols()));
+  for (Eigen::Index i = 0; i < world.cols(); ++i) {
+    const Eigen::Vector3d p = grid.camera_from_world * world.col(i);
+    const cv::Point2d at(grid.fx * p.x() / p.z() + grid.cx, grid.fy * p.y() / p.z() + grid.cy);
+    if (!(at.x >= 0 && at.y >= 0 && at.x < kSampleGrid - 1 && at.y < kSampleGrid - 1)) continue;
+    const int x = cvRound(at.x), y = cvRound(at.y);
+    const float w = own[0](y, x);
+    SurfaceSamples::Point& point = out[static_cast<std::size_t>(i)];
+    point.at = at;
+    point.seen = view.inside(y, x) != 0 &&
+                 scalar::same_depth(static_cast<float>(1 / p.z()), w, kSameSurface);
+  }
+  return out;
+}
+
 SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd& state,
                                       const ColorMap& colors) {
   Impl& self = *impl_;
@@ -203,6 +231,10 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
   out.views[0] = self.look(first, 0);
   out.views[1] = self.look(second, 1);
   self.pair(second, plan.header, out);
+  const TileCamera& grid = plan.header.views[0].camera;
+  out.points = self.points(out.views[0], grid, own);
+  const double depth = (grid.camera_from_world * Eigen::Vector3d(own.head<3>())).z();
+  out.points_per_metre = grid.fx / depth;
   const int drawn = cv::countNonZero(self.own[0]);
   const int seen = cv::countNonZero(out.views[0].inside);
   out.covered = drawn > 0 ? 1 - static_cast<double>(seen) / drawn : 1;

@@ -22,13 +22,21 @@ struct SampledView {
 
 /// What a stereo pair shows of one model and of what is around it.
 struct SurfaceSamples {
+  /// A point of the surface, always the same one.
+  struct Point {
+    cv::Point2f at;     ///< in the first view's grid
+    bool seen = false;  ///< false: hidden, turned away or out of the picture
+  };
+
   std::array<SampledView, 2> views;
   /// The second view's colour of the surface point at each point of the first view's grid. Beside
   /// the silhouette the surface goes on at the depth of its nearest point.
   cv::Mat3f other;
-  cv::Mat1b paired;    ///< 255 where `other` is known; inside, where both views see the point
-  double visible = 0;  ///< share of the model's vertices inside both pictures
-  double covered = 0;  ///< share of its drawn points that other models hide
+  cv::Mat1b paired;  ///< 255 where `other` is known; inside, where both views see the point
+  std::vector<Point> points;
+  double points_per_metre = 0;  ///< of the grid, at the model's depth
+  double visible = 0;           ///< share of the model's vertices inside both pictures
+  double covered = 0;           ///< share of its drawn points that other models hide
 
   bool empty() const { return other.empty(); }
 };

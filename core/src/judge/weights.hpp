@@ -183,4 +183,7 @@ inline constexpr Network kExperienced{
       6.0782e-08, 2.3915e-15}},
     -0.24306};
 
+/// Of the usual likeness times its difference to the likeness.
+inline constexpr double kLikeness = 8.9;
+
 }  // namespace hypotrack::judge_weights

@@ -25,8 +25,8 @@ HYPOTRACK_API std::string_view to_string(Status status);
 /// `tracker:` of a scene.
 struct StatusSettings {
   bool evidence = true;
-  double tracked_above = 0.6;
-  double surely_above = 0.85;
+  double tracked_above = 0.45;
+  double surely_above = 0.65;
   double first_above = 0.35;
   double uncertain_above = 0.15;
   MotionLimits motion;
@@ -103,7 +103,7 @@ class HYPOTRACK_API StatusMonitor {
 
   /// Probability that a tracked answer needs now: more just after a loss, less at first.
   double needed() const {
-    constexpr int kSteady = 6;  // frames with answers that would do at other times
+    constexpr int kSteady = 4;  // frames with answers that would do at other times
     if (!ever_tracked_) return settings_.first_above;
     return steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
   }
