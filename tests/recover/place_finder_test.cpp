@@ -59,7 +59,7 @@ TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
   const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
   for (const Eigen::Vector3d& center :
        {Eigen::Vector3d(0.05, -0.04, 0.5), Eigen::Vector3d(-0.02, 0.06, 0.7)}) {
-    const Places places = finder.find(discs({center}), skin(), {}, 3, 0.07);
+    const Places places = finder.find(discs({center}), skin(), {}, 3);
     ASSERT_FALSE(places.best.empty());
     EXPECT_LT((places.best[0].center - center).norm(), 0.03);
     EXPECT_GT(places.seen, 0.7);
@@ -69,7 +69,7 @@ TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
 TEST(PlaceFinder, FindsSeveralPlacesApart) {
   const std::vector<Eigen::Vector3d> centers{{0.14, -0.04, 0.6}, {-0.08, 0.06, 0.6}};
   const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4, 0.07);
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4);
   for (const Eigen::Vector3d& center : centers)
     EXPECT_TRUE(std::ranges::any_of(
         places.best, [&](const Place& place) { return (place.center - center).norm() < 0.04; }));
@@ -78,33 +78,42 @@ TEST(PlaceFinder, FindsSeveralPlacesApart) {
       EXPECT_GE((places.best[i].center - places.best[k].center).norm(), 0.07);
 }
 
-TEST(PlaceFinder, LeavesOutPixelsThatShowOtherModels) {
+TEST(PlaceFinder, CoversLongThingsPlaceByPlace) {
+  std::vector<Eigen::Vector3d> arm;
+  for (int i = 0; i < 6; ++i) arm.emplace_back(-0.15 + 0.06 * i, 0.01 * i, 0.6);
+  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(arm), skin(), {}, 6);
+  for (const Eigen::Vector3d& end : {arm.front(), arm.back()})
+    EXPECT_TRUE(std::ranges::any_of(
+        places.best, [&](const Place& place) { return (place.center - end).norm() < 0.06; }));
+}
+
+TEST(PlaceFinder, LeavesOutPixelsOfWeightZero) {
   const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
   const Eigen::Vector3d here(-0.1, 0.02, 0.55), there(0.12, 0, 0.5);
   const auto cameras = pair();
-  std::array<cv::Mat1b, 2> taken;
+  std::array<cv::Mat1f, 2> weights;
   for (std::size_t i = 0; i < 2; ++i) {
     const int by = finder.reduction(i);
-    taken[i] = cv::Mat1b(480 / by, 640 / by, uchar{0});
+    weights[i] = cv::Mat1f(480 / by, 640 / by, 1.0f);
     const Eigen::Vector2d p = project(cameras[i], here) / by;
-    cv::circle(taken[i], {static_cast<int>(p.x()), static_cast<int>(p.y())}, 60 / by, 255,
+    cv::circle(weights[i], {static_cast<int>(p.x()), static_cast<int>(p.y())}, 60 / by, 0,
                cv::FILLED);
   }
-  const Places places = finder.find(discs({here, there}), skin(), {}, 1, 0.07, taken);
+  const Places places = finder.find(discs({here, there}), skin(), {}, 1, weights);
   ASSERT_EQ(places.best.size(), 1U);
   EXPECT_LT((places.best[0].center - there).norm(), 0.03);
 }
 
 TEST(PlaceFinder, SeesNothingInPicturesWithoutTheColors) {
   const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4, 0.07);
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4);
   EXPECT_TRUE(places.best.empty());
   EXPECT_LT(places.seen, 0.1);
 }
 
 TEST(PlaceFinder, FindsNothingBeforeColorsAreKnown) {
   const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({{0, 0, 0.5}}), {}, {}, 4, 0.07);
+      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({{0, 0, 0.5}}), {}, {}, 4);
   EXPECT_TRUE(places.best.empty());
 }
 

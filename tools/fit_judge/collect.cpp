@@ -5,6 +5,7 @@
 //   collect_evidence SCENE.yaml OUT.csv FRAMES SEED [KEY=VALUE...]
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -47,7 +48,9 @@ class Collector {
       judges_.emplace_back(scene, m, cameras);
       fresh_.emplace_back(scene, m, cameras);
     }
-    fmt::print(out_, "kind,frame,model,error,absent,covered,points,known,experienced");
+    fmt::print(out_,
+               "kind,frame,model,error,absent,covered,points,likeness,usual_likeness,"
+               "known,experienced");
     for (const char* prefix : {"", "d_"})
       for (const auto name : evidence_names()) fmt::print(out_, ",{}{}", prefix, name);
     fmt::print(out_, "\n");
@@ -55,18 +58,19 @@ class Collector {
 
   /// Adds a row per model of `shown`.
   void add(const char* kind, const Frame& frame, const Eigen::VectorXd& state,
-           const Eigen::Matrix3Xd& truth, bool absent, const ColorMap& colors,
+           const Eigen::Matrix3Xd& truth, const std::vector<bool>& absent, const ColorMap& colors,
            const std::vector<bool>& shown) {
     Eigen::Index first = 0;
     for (std::size_t m = 0; m < judges_.size(); ++m) {
       const Scene::Item& item = scene_.items()[m];
-      const double error = absent ? 999 : error_mm(item, state, truth, first);
+      const double error = absent[m] ? 999 : error_mm(item, state, truth, first);
       first += static_cast<Eigen::Index>(item.model->data().landmarks.size());
       if (!shown[m]) continue;
       for (ModelJudge* judge : {&judges_[m], &fresh_[m]}) {
         const Evidence e = judge->look(frame, state, colors);
-        fmt::print(out_, "{},{},{},{:.2f},{:d},{:.3f},{},{:d},{:d}", kind, frame.index, m, error,
-                   absent, e.covered, e.points, e.known, judge->experienced());
+        fmt::print(out_, "{},{},{},{:.2f},{:d},{:.3f},{},{:.3f},{:.3f},{:d},{:d}", kind,
+                   frame.index, m, error, bool{absent[m]}, e.covered, e.points, e.likeness,
+                   judge->usual_likeness(), e.known, judge->experienced());
         for (const double f : judge->features(e)) fmt::print(out_, ",{:.4g}", f);
         fmt::print(out_, "\n");
       }
@@ -136,7 +140,7 @@ class Recoveries {
     search_->learn(frame, truth);
     judge_.judge(frame, truth, search_->second_view_colors(), all);
     judge_.learn(all);
-    recovery_.remember(truth, all);
+    recovery_.remember(frame, truth, all);
   }
 
  private:
@@ -170,8 +174,11 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
     if (!frame) break;
     if (!frame->truth) continue;
     const Eigen::VectorXd truth = frame->truth->state;
-    const bool absent = truth[2] < 0;
-    if (!absent) past.push_back(truth);
+    const std::vector<bool> all(scene.items().size(), true);
+    std::vector<bool> absent = frame->truth->absent;
+    absent.resize(all.size(), false);
+    const bool complete = std::ranges::find(absent, true) == absent.end();
+    if (complete) past.push_back(truth);
     if (past.empty()) continue;
     if (!tracker)
       tracker.emplace(scene, std::move(session.parts), initial_state(session, *frame),
@@ -184,7 +191,6 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
     photometric.apply(plan);
     const ColorMap colors = plan.cuts.size() > 1 ? plan.cuts[1].colors : ColorMap{};
     const Solution s = tracker->track(*frame);
-    const std::vector<bool> all(scene.items().size(), true);
     const auto add = [&](const char* kind, const Eigen::VectorXd& state,
                          const std::vector<bool>& shown) {
       std::vector<bool> hidden = shown;
@@ -194,7 +200,7 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
         collector.add(kind, *frame, state, landmarks, absent, colors, shown);
     };
     add("tracker", s.state, all);
-    if (!absent) add("truth", truth, all);
+    if (complete) add("truth", truth, all);
     static constexpr double kLadder[] = {2, 4, 7, 10, 15, 20, 25, 30, 40, 60, 100, 200};
     for (int i = 0; i < 5; ++i) {
       const double mm = kLadder[random() % std::size(kLadder)];
@@ -224,7 +230,7 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
       add_shown("candidate", one.candidate);
       add_shown("recovered", one.searched);
     }
-    if (absent) continue;
+    if (!complete) continue;
     collector.learn(*frame, truth, colors);
     recoveries.learn(*frame, truth);
     tiles.leave_out(std::vector<bool>(scene.items().size(), false));

@@ -17,7 +17,11 @@ namespace hypotrack {
 struct Place {
   Eigen::Vector3d center;  ///< in the world, metres
   double score = 0;        ///< larger is likelier; compares within one frame
+  /// Points at its depth, spread over what has the model's colours around it.
+  std::vector<Eigen::Vector3d> points = {};
 };
+
+struct ReducedView;
 
 /// What whole pictures show of a model's colours.
 struct Places {
@@ -35,14 +39,16 @@ class HYPOTRACK_API PlaceFinder {
   /// Looks for models of about `radius` metres between two depths before the first camera.
   PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest, double farthest);
 
-  /// Finds up to `count` places, at least `apart` metres from each other. `map` makes the second
-  /// view's colours the first's. `taken` are pixels of the reduced pictures that show other models;
-  /// empty: none.
+  /// Finds up to `count` places. Each shows the model's colours where the places before it do not.
+  /// `map` makes the second view's colours the first's. `weights` (0 .. 1) of the reduced pictures'
+  /// pixels are their chance to show the model, whatever their colours; empty: all 1.
   Places find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
-              std::size_t count, double apart, const std::array<cv::Mat1b, 2>& taken = {}) const;
+              std::size_t count, const std::array<cv::Mat1f, 2>& weights = {}) const;
 
   /// Pixels of a view (0 or 1) along one pixel of its reduced picture.
   int reduction(std::size_t view) const { return reductions_[view]; }
+  /// The reduced picture of a view (0 or 1).
+  cv::Mat3b reduced(const cv::Mat& picture, std::size_t view) const;
 
  private:
   /// A point of the sweep in one view: pixel and radius in the reduced picture.
@@ -53,9 +59,27 @@ class HYPOTRACK_API PlaceFinder {
     Eigen::Vector3f center;
     Window windows[2];
   };
+  /// A point that may be a place.
+  struct Candidate {
+    const Point* point;
+    double share;  ///< of the model's colours in its windows, where that is smaller
+    double score;
+  };
+  using Views = std::array<ReducedView, 2>;
+
+  /// Scores the points, best first. `seen` is Places::seen.
+  std::vector<Candidate> sweep(const Views& views, double& seen) const;
+  /// The point on the first camera's ray at which both views agree best.
+  Eigen::Vector3d at_best_depth(const Views& views, const Eigen::Vector3d& center) const;
+  /// Place::points of a place.
+  std::vector<Eigen::Vector3d> points_around(const ReducedView& first,
+                                             const Eigen::Vector3d& center) const;
+  /// Takes out of a view what a model at a place would show.
+  void explain(ReducedView& view, std::size_t i, const Eigen::Vector3d& center) const;
 
   std::vector<Camera> cameras_;
   double radius_;
+  double inverse_step_;  ///< of 1/z between the planes of the sweep
   std::vector<Point> points_;
   int reductions_[2] = {1, 1};
 };

@@ -24,8 +24,10 @@ struct PoseGuess {
   Eigen::VectorXd pose;    ///< the model's parameters
   double near_share = 0;   ///< of the hypotheses that keep about its rotation and posture
   double rotation = 0;     ///< standard deviation of those, radians
-  double scatter =
-      0.012;  ///< standard deviation of the hypotheses' centers, metres; twice in depth
+  /// Standard deviation of the hypotheses' centers, metres; twice in depth.
+  double scatter = 0.012;
+  /// Points that half of the hypotheses lie about, instead of the center; empty: none do.
+  std::vector<Eigen::Vector3d> points = {};
 };
 
 /// How much a search spends on one place.

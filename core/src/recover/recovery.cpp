@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "hypotrack/search.hpp"
@@ -13,7 +14,6 @@ namespace hypotrack {
 namespace {
 
 constexpr double kWindow = 0.75;     // of a model's radius: what a place is looked for by
-constexpr double kApart = 0.07;      // metres between places
 constexpr double kSeen = 0.35;       // of the colours that a tracked model shows: it is in view
 constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the pose that a place is remembered with.
@@ -62,26 +62,47 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
   }
 }
 
-void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked) {
+void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
+                        const std::vector<bool>& tracked) {
   for (std::size_t m = 0; m < searches_.size(); ++m) {
     if (!tracked[m]) continue;
     searched_[m].forget();
     const Scene::Item& item = scene_.items()[m];
     searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
   }
+  // A model that is lost may be anywhere.
+  if (std::ranges::find(tracked, false) == tracked.end()) learn_backgrounds(frame, state);
+}
+
+void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state) {
+  if (frame.views.size() < 2) return;
+  constexpr int kMargin = 3;  // reduced pixels around silhouettes
+  const cv::Mat square =
+      cv::getStructuringElement(cv::MORPH_RECT, {2 * kMargin + 1, 2 * kMargin + 1});
+  for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
+    if (frame.views[i].color.empty()) continue;
+    cv::Mat1b models = silhouettes(scene_, std::vector<bool>(searches_.size(), true), state,
+                                   cameras_[i], finders_[0].reduction(i));
+    cv::dilate(models, models, square);
+    backgrounds_[i].learn(finders_[0].reduced(frame.views[i].color, i), models);
+  }
 }
 
 Places Recovery::places(const Quest& quest) const {
   const PlaceFinder& finder = finders_[quest.model];
+  const std::vector<View>& views = quest.frame.views;
   std::vector<bool> others = quest.hidden;
   others.flip();
-  std::array<cv::Mat1b, 2> taken;
-  if (std::ranges::find(others, true) != others.end())
-    for (std::size_t i = 0; i < 2; ++i)
-      taken[i] = silhouettes(scene_, others, quest.last.state, cameras_[i], finder.reduction(i));
+  std::array<cv::Mat1f, 2> weights;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, views.size()); ++i) {
+    if (views[i].color.empty()) continue;
+    weights[i] = backgrounds_[i].changed(finder.reduced(views[i].color, i));
+    weights[i].setTo(
+        0, silhouettes(scene_, others, quest.last.state, cameras_[i], finder.reduction(i)));
+  }
   return finder.find(quest.frame, quest.judge.model(quest.model).colors(),
                      quest.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
-                     kApart, taken);
+                     weights);
 }
 
 std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& places,
@@ -104,7 +125,7 @@ std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& place
   const double reach = reach_within(limits, last.seconds).position + search.radius();
   for (const Place& place : places.best)
     if ((place.center - was).norm() <= reach && searched.is_worth(quest.frame, place.center))
-      out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter});
+      out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter, place.points});
   searched.end_frame();
   return out;
 }

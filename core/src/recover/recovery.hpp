@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "judge/judge.hpp"
+#include "recover/background_model.hpp"
 #include "recover/place_finder.hpp"
 #include "recover/pose_search.hpp"
 #include "recover/recovery_settings.hpp"
@@ -65,13 +67,15 @@ class HYPOTRACK_API Recovery {
   Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
                   std::uint64_t seed);
 
-  /// Remembers the postures of the models with `tracked`, which are surely right.
-  void remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked);
+  /// Remembers the postures of the models with `tracked`, which are surely right, and what is
+  /// behind them.
+  void remember(const Frame& frame, const Eigen::VectorXd& state, const std::vector<bool>& tracked);
 
  private:
   std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
                                  const MotionLimits& limits);
   Places places(const Quest& quest) const;
+  void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
   /// Whether a state hides models that are not hidden without the lost one.
   static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
                            const ColorMap& colors);
@@ -81,7 +85,8 @@ class HYPOTRACK_API Recovery {
   RecoverySettings settings_;
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
-  std::vector<SearchedPlaces> searched_;  ///< by model
+  std::vector<SearchedPlaces> searched_;        ///< by model
+  std::array<BackgroundModel, 2> backgrounds_;  ///< of the reduced pictures
 };
 
 }  // namespace hypotrack

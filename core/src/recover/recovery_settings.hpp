@@ -20,9 +20,9 @@ struct RecoverySettings {
   bool enabled = true;
   RecoveryRun run = RecoveryRun::frame;
   int first_starts = 8;
-  int places = 4;
-  int hypotheses = 1500;
-  int refined = 40;
+  int places = 6;
+  int hypotheses = 2000;
+  int refined = 80;
   int searched = 2;
   int tile = 64;
   double nearest = 0.25;

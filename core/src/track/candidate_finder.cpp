@@ -246,7 +246,7 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   ++learned_;
   search_.show(tracked);
   search_.learn(frame, best.found.state);
-  recovery_.remember(best.found.state, tracked);
+  recovery_.remember(frame, best.found.state, tracked);
 }
 
 }  // namespace hypotrack
