@@ -40,7 +40,7 @@ TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
                           testing::MatchesRegex("worst_[0-4]\\.jpg")));
   const auto track = lines_of(read_text(path("out/track.csv")));
   ASSERT_THAT(track, SizeIs(6));
-  EXPECT_THAT(track[0], StartsWith("frame,time,status,cost,evaluations,milliseconds,"
+  EXPECT_THAT(track[0], StartsWith("frame,time,status,cost,evaluations,milliseconds,probability,"
                                    "box.position_x,box.position_y,box.position_z,"));
   EXPECT_THAT(track[1], StartsWith("0,0,"));
   EXPECT_THAT(lines_of(read_text(path("out/joints.csv"))), SizeIs(6));

@@ -19,8 +19,10 @@ std::string row_of(const Solution& solution) {
   std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                 to_string(solution.status), solution.cost, solution.evaluations,
                                 1000 * solution.seconds);
-  if (solution.models.size() > 1)
-    for (const Status status : solution.models) row += fmt::format(",{}", to_string(status));
+  for (std::size_t m = 0; m < solution.models.size(); ++m) {
+    if (solution.models.size() > 1) row += fmt::format(",{}", to_string(solution.models[m]));
+    row += fmt::format(",{:.3f}", solution.probabilities[m]);
+  }
   for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
   return row + "\n";
 }
@@ -46,8 +48,11 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     overlay_ = std::make_unique<OverlayVideo>(directory_.part("overlay.mp4"), scene, renderer(),
                                               camera, options_.frame_rate);
   std::string track = "frame,time,status,cost,evaluations,milliseconds";
-  if (scene.items().size() > 1)
-    for (const Scene::Item& item : scene.items()) track += "," + item.name + ".status";
+  if (scene.items().size() == 1)
+    track += ",probability";
+  else
+    for (const Scene::Item& item : scene.items())
+      fmt::format_to(std::back_inserter(track), ",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) track += "," + p.name;
   track_.write(track + "\n");
   const std::string landmarks = landmarks_header(scene.landmark_names());

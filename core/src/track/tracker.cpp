@@ -119,6 +119,7 @@ Solution Tracker::track(const Frame& frame) {
   solution.time = frame.time;
   solution.cost = kUnknown;
   solution.models.assign(models_.size(), Status::missing);
+  solution.probabilities.assign(models_.size(), kUnknown);
   if (uncertainty_) solution.sigma.setConstant(std::ssize(scene_.landmark_names()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
@@ -275,7 +276,7 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
 void Tracker::judge_models(const Frame& frame, const Candidate& best, Solution& solution) {
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
-  solution.probability = best.probability();
+  solution.probabilities = best.verdict;
   FrameSearch& search = finder_.search();
   StatusEvidence evidence{.cost = best.found.cost, .sigma = kUnknown};
   if (best.answers()) {

@@ -37,9 +37,9 @@ struct Solution {
   /// How far off each landmark of the scene may be, in metres: the root of the expected square.
   /// Empty if the tracker was not told to say, NaN if the frame was missing.
   Eigen::VectorXd sigma;
-  /// Probability that every model shown is where it was found, by what the pictures show; NaN where
-  /// they do not tell.
-  double probability = std::numeric_limits<double>::quiet_NaN();
+  /// Probability by model that it is where it was found, by what the pictures show; NaN: they do
+  /// not tell.
+  std::vector<double> probabilities = {};
 };
 
 /// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
