@@ -31,7 +31,8 @@ class TablesTest : public StudyTest {
     const auto folder = run_folder(run);
     std::filesystem::create_directories(folder);
     std::ofstream(folder / "metrics.json") << metrics;
-    std::ofstream(folder / "summary.json") << R"({"complete": true, "frames": 5, "fps": 20.5,
+    std::ofstream(folder / "summary.json")
+        << R"({"complete": true, "frames": 5, "fps": 20.5, "search_fps": 8.5,
       "evaluations_per_second": 1000, "lost_frames": 1, "backend": "cpu"})";
     std::ofstream(folder / "timing.json") << R"({"seconds": 1.5, "threads": 2})";
   }
@@ -91,8 +92,8 @@ TEST_F(TablesTest, TimingIsApartBecauseItIsNotTheSameTwice) {
   add_failure(1, "broken");
   write_tables();
   EXPECT_EQ(table("timing.csv"),
-            "scene,optimizer.particles,seed,fps,evaluations_per_second,seconds,threads\n"
-            "box,16,1,20.5,1000,1.5,2\n");
+            "scene,optimizer.particles,seed,fps,search_fps,evaluations_per_second,seconds,threads\n"
+            "box,16,1,20.5,8.5,1000,1.5,2\n");
 }
 
 TEST_F(TablesTest, WithoutGroundTruthTheSummaryIsCompared) {

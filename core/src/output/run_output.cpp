@@ -101,6 +101,10 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
 
   ++frames_;
   seconds_ += solution.seconds;
+  if (solution.status != Status::tracked && solution.status != Status::missing) {
+    search_seconds_ += solution.seconds;
+    ++searched_frames_;
+  }
   evaluations_ += solution.evaluations;
   return error.mean;
 }
@@ -126,6 +130,7 @@ Summary RunOutput::summarize(bool complete) const {
   if (seconds_ > 0) {
     summary.fps = (frames_ - summary.metrics.missing_frames) / seconds_;
     summary.evaluations_per_second = static_cast<double>(evaluations_) / seconds_;
+    if (search_seconds_ > 0) summary.search_fps = searched_frames_ / search_seconds_;
   }
   return summary;
 }

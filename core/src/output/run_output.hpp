@@ -80,6 +80,8 @@ class HYPOTRACK_API RunOutput {
   WorstFrames worst_;
   int frames_ = 0;
   double seconds_ = 0;
+  double search_seconds_ = 0;  ///< of frames that are not tracked
+  int searched_frames_ = 0;
   std::int64_t evaluations_ = 0;
 };
 

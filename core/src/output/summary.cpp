@@ -12,6 +12,7 @@ std::string to_json(const Summary& s) {
   json["complete"] = s.complete;
   json["frames"] = s.metrics.frames;
   json["fps"] = s.fps;
+  if (s.search_fps) json["search_fps"] = *s.search_fps;
   json["evaluations_per_second"] = s.evaluations_per_second;
   const StatusMetrics& status = s.metrics.status;
   json["lost_frames"] = s.metrics.lost_frames;

@@ -13,6 +13,9 @@ namespace hypotrack {
 struct Summary {
   bool complete = false;  ///< false if the run was interrupted or ended by an error
   double fps = 0;         ///< frames per second of tracking: images in, state out
+  /// The same of the frames that are not tracked: lost models are searched for in them. Nothing if
+  /// there are none.
+  std::optional<double> search_fps;
   double evaluations_per_second = 0;
   std::string backend;
   Metrics metrics;

@@ -46,6 +46,7 @@ const std::vector<MetricInfo>& known_metrics() {
       {"frames_to_loss", "frames to loss", "", 1, 0, Better::neither},
       {"jitter_mm", "jitter", "mm", 1, 2, Better::lower},
       {"fps", "speed", "frames/s", 1, 1, Better::neither},
+      {"search_fps", "speed while not tracked", "frames/s", 1, 1, Better::neither},
       {"evaluations_per_second", "evaluations per second", "", 1, 0, Better::neither}};
   return known;
 }

@@ -13,7 +13,7 @@
 namespace hypotrack::study {
 namespace {
 
-constexpr std::array<std::string_view, 2> kTimed = {"fps", "evaluations_per_second"};
+constexpr std::array<std::string_view, 3> kTimed = {"fps", "search_fps", "evaluations_per_second"};
 
 bool is_timed(const std::string& name) {
   return std::find(kTimed.begin(), kTimed.end(), name) != kTimed.end();
