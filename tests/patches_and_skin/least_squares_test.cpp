@@ -18,14 +18,16 @@ struct Found {
   double error_before, error_after;  ///< mean joint error, m
 };
 
-double cost_of(const Session& session, const Frame& frame, const Eigen::VectorXd& state) {
+/// Costs of some states (DxN) in a frame whose tiles are cut around the first.
+Eigen::VectorXd costs_of(const Session& session, const Frame& frame,
+                         const Eigen::MatrixXd& states) {
   const TileMaker tiles(*session.scene, session.parts.cameras, session.parts.tile);
   Evaluator evaluator(*session.scene, session.parts.objective, session.parts.evaluate);
-  const Observation observation = tiles.make(frame, state);
+  const Observation observation = tiles.make(frame, states.col(0));
   evaluator.prepare(observation);
-  Eigen::VectorXd cost(1);
-  evaluator.evaluate(state, cost);
-  return cost[0];
+  Eigen::VectorXd costs(states.cols());
+  evaluator.evaluate(states, costs);
+  return costs;
 }
 
 double error_of(const Scene& scene, const Frame& frame, const Eigen::VectorXd& state) {
@@ -38,21 +40,26 @@ double error_of(const Scene& scene, const Frame& frame, const Eigen::VectorXd& s
 /// 6 mm and 3 degrees away.
 Found search(PluginLoader& plugins, const std::string& objective, const std::string& optimizer,
              int seed, int evaluations = 512) {
-  Session session = open_session(
-      test::source_dir() / "configs" / "demo.yaml",
-      std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
-                               fmt::format("budget.evaluations={}", evaluations),
-                               "search={rotation_as: tangent}", "source.sensor.gain=[1, 1.16]",
-                               "evaluate.backend=cpu", "tracker.evidence=false", "init.away_mm=6",
-                               "init.away_deg=3", fmt::format("seed={}", seed)},
-      plugins);
+  const auto open = [&] {
+    return open_session(
+        test::source_dir() / "configs" / "demo.yaml",
+        std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
+                                 fmt::format("budget.evaluations={}", evaluations),
+                                 "search={rotation_as: tangent}", "source.sensor.gain=[1, 1.16]",
+                                 "evaluate.backend=cpu", "tracker.evidence=false", "init.away_mm=6",
+                                 "init.away_deg=3", fmt::format("seed={}", seed)},
+        plugins);
+  };
+  Session session = open();
   const Scene& scene = *session.scene;
   const Frame frame = session.source->next().value();
   const Eigen::VectorXd start = initial_state(session, frame);
-  const double cost_before = cost_of(session, frame, start);
   Tracker tracker(scene, std::move(session.parts), start, session.seed);
   const Solution solution = tracker.track(frame);
-  return {cost_before, solution.cost, error_of(scene, frame, start),
+  Eigen::MatrixXd states(start.size(), 2);
+  states << start, solution.state;
+  const Eigen::VectorXd costs = costs_of(open(), frame, states);
+  return {costs[0], costs[1], error_of(scene, frame, start),
           error_of(scene, frame, solution.state)};
 }
 
