@@ -139,6 +139,18 @@ TEST(Status, AnAnswerThatStaysLikelyIsTrackedAgain) {
   EXPECT_GT(uncertain, 2);
 }
 
+TEST(Status, AConfirmedAnswerNeedsLess) {
+  StatusMonitor monitor({});
+  judge_by_pictures(monitor, 0.95);
+  judge_by_pictures(monitor, 0.01);
+  StatusEvidence evidence{.cost = -100, .probability = 0.3, .visible = 1, .sigma = kUnknown};
+  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
+  evidence.confirmed = true;
+  EXPECT_EQ(monitor.judge(evidence), Status::tracked);
+  evidence.probability = 0.2;
+  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
+}
+
 TEST(Status, OnlyTrackedFramesSayWhatCostsAreUsual) {
   StatusMonitor monitor({});
   for (int i = 0; i < 20; ++i) judge_by_pictures(monitor, 0.95, -100 + i % 3);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "session/displace.hpp"
 
@@ -14,6 +15,9 @@ namespace {
 constexpr double kAlike = 0.2;
 // From this probability on nobody looks at further places.
 constexpr double kSure = 0.95;
+// Seconds since a model was surely right for which poses that agree end the search: after that they
+// may agree in what is wrong.
+constexpr double kRecent = 0.15;
 // An answer of this probability is worth searches around it.
 constexpr double kHint = 0.02;
 
@@ -43,7 +47,7 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
 Candidate CandidateFinder::judged(const Frame& frame, Found found) {
   const std::size_t models = scene_.items().size();
   Candidate out{std::move(found), Verdict(models, std::numeric_limits<double>::quiet_NaN()),
-                search_.shown(), ModelFlags(models, true)};
+                search_.shown(), ModelFlags(models, true), ModelFlags(models, false)};
   if (settings_.evidence && out.answers())
     out.verdict = judge_.judge(frame, search_.drawn(out.found.state), search_.second_view_colors(),
                                out.shown);
@@ -158,8 +162,9 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   if (has_answer && shown == best.shown) all.push_back(best);
   std::uint32_t part = 0;
   bool sure = false;
+  const bool is_recent = report.seconds[model] < kRecent;
   for (const PoseGuess& guess : quest.guesses) {
-    if (sure) break;
+    if (sure || (is_recent && has_confirmed(all, model))) break;
     const Candidates found =
         recovery_.find(quest, guess, settings_.motion, seed_of_part(seed, part++));
     best.found.evaluations += found.evaluations;
@@ -180,7 +185,30 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   }
   search_.show(shown);
   if (all.empty()) return std::nullopt;
-  return best_of(frame, all);
+  Candidate chosen = best_of(frame, all);
+  // It is one of them itself.
+  chosen.confirmed[model] = std::ranges::count_if(all, [&](const Candidate& one) {
+                              return is_same(one, chosen, model);
+                            }) > 1;
+  return chosen;
+}
+
+bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size_t model) const {
+  for (auto a = all.begin(); a != all.end(); ++a)
+    for (auto b = all.begin(); b != a; ++b)
+      if (std::min(a->verdict[model], b->verdict[model]) >= settings_.confirmed_above &&
+          is_same(*a, *b, model))
+        return true;
+  return false;
+}
+
+bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_t model) const {
+  constexpr double kSame = 0.006;  // metres, mean over landmarks
+  const Scene::Item& item = scene_.items()[model];
+  const auto landmarks = [&](const Candidate& one) {
+    return posed_landmarks(*item.model, scene_.part(item, one.found.state));
+  };
+  return (landmarks(a) - landmarks(b)).colwise().norm().mean() < kSame;
 }
 
 bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,

@@ -27,6 +27,7 @@ struct Candidate {
   Verdict verdict = {};     ///< by model
   ModelFlags shown = {};    ///< models that it has; what the state has of the others does not count
   ModelFlags in_view = {};  ///< false: the whole pictures do not show the model
+  ModelFlags confirmed = {};  ///< searches from other starts ended in the same pose, too
 
   bool answers() const { return std::isfinite(found.cost); }
   /// The smallest probability of the models shown; NaN where nothing is known.
@@ -85,6 +86,10 @@ class HYPOTRACK_API CandidateFinder {
   std::optional<Candidate> with_model(const Frame& frame, const LossReport& report,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       std::uint64_t seed);
+  /// Whether two answers have a model in the same pose.
+  bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
+  /// Whether two likely answers have.
+  bool has_confirmed(const std::vector<Candidate>& all, std::size_t model) const;
   /// Whether a model may join: the pictures show it, and still show the others.
   bool may_join(const Candidate& with, const Candidate& base, const LossReport& report,
                 std::size_t model) const;

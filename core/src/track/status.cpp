@@ -61,7 +61,9 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
     return Status::lost;
   }
   if (std::isnan(evidence.probability)) return judge_by_cost(evidence);
-  const bool doubtful = evidence.probability < needed() ||
+  const double enough =
+      evidence.confirmed ? std::min(needed(), settings_.confirmed_above) : needed();
+  const bool doubtful = evidence.probability < enough ||
                         evidence.visible < 2 * settings_.min_visible ||
                         evidence.on_foreground == OnForeground::in_parts ||
                         evidence.sigma > settings_.uncertain_sigma;

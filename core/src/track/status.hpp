@@ -28,6 +28,7 @@ struct StatusSettings {
   double tracked_above = 0.45;
   double surely_above = 0.65;
   double first_above = 0.35;
+  double confirmed_above = 0.25;
   double uncertain_above = 0.15;
   MotionLimits motion;
   RecoverySettings recovery;
@@ -50,6 +51,10 @@ struct StatusSettings {
       {.help = "with `evidence`: the same just after a loss", .min = 0, .max = 1});
     v("first_above", first_above,
       {.help = "with `evidence`: the same before a model was ever tracked, where a start was given",
+       .min = 0,
+       .max = 1});
+    v("confirmed_above", confirmed_above,
+      {.help = "with `evidence`: the same where searches from other starts end in the same pose",
        .min = 0,
        .max = 1});
     v("uncertain_above", uncertain_above,
@@ -90,7 +95,8 @@ struct StatusEvidence {
   double visible = 0;      ///< share of the models' vertices that project into every image
   double sigma = 0;        ///< mean over a model's landmarks, of the model where it is largest; NaN
   OnForeground on_foreground = OnForeground::unknown;
-  bool in_view = true;  ///< false: the whole pictures do not show the models
+  bool in_view = true;     ///< false: the whole pictures do not show the models
+  bool confirmed = false;  ///< searches from other starts ended in the same pose, too
 };
 
 /// Decides the status of a frame. Where the pictures do not say whether an answer is right, its

@@ -149,7 +149,8 @@ Candidate Tracker::follow(const Frame& frame) {
   if (!any(models)) {
     return {.verdict = Verdict(models.size(), kUnknown),
             .shown = models,
-            .in_view = ModelFlags(models.size(), true)};
+            .in_view = ModelFlags(models.size(), true),
+            .confirmed = ModelFlags(models.size(), false)};
   }
   finder_.search().show(models);
   Budget budget = finder_.budget();
@@ -296,6 +297,7 @@ void Tracker::judge_models(const Frame& frame, const Candidate& best, Solution& 
     if (solution.sigma.size() > 0 && models_[m].landmarks > 0)
       own.sigma = models_[m].part_of(solution.sigma).mean();
     own.in_view = best.in_view[m];
+    own.confirmed = best.confirmed[m];
     solution.models[m] = models_[m].status = models_[m].monitor.judge(own);
   }
   solution.status = worst(solution.models);
