@@ -24,19 +24,17 @@ cv::Vec3f color_at(const cv::Mat3f& grid, const cv::Point2f& p) {
          fy * ((1 - fx) * grid(y + 1, x) + fx * grid(y + 1, x + 1));
 }
 
-/// Correlation of two sets of colours around their means, with noise of kNoise.
-double correlation(const std::vector<cv::Vec3f>& a, const std::vector<cv::Vec3f>& b) {
-  cv::Vec3f mean_a(0, 0, 0), mean_b(0, 0, 0);
-  const auto n = static_cast<float>(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) mean_a += a[i] / n, mean_b += b[i] / n;
-  double both = 0, of_a = kNoise * kNoise * 3 * double{n}, of_b = of_a;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const cv::Vec3f p = a[i] - mean_a, q = b[i] - mean_b;
-    both += double{p.dot(q)};
-    of_a += double{p.dot(p)};
-    of_b += double{q.dot(q)};
+/// Takes the mean off some colours; returns the sum of their squares then, and of noise of kNoise.
+double center(std::vector<cv::Vec3f>& colors) {
+  cv::Vec3f mean(0, 0, 0);
+  for (const cv::Vec3f& color : colors) mean += color;
+  mean *= 1 / static_cast<float>(colors.size());
+  float squares = 0;
+  for (cv::Vec3f& color : colors) {
+    color -= mean;
+    squares += color.dot(color);
   }
-  return both / std::sqrt(of_a * of_b);
+  return double{squares} + kNoise * kNoise * 3 * static_cast<double>(colors.size());
 }
 
 }  // namespace
@@ -69,6 +67,7 @@ double Appearance::likeness(const SurfaceSamples& samples) const {
   const auto known = static_cast<int>(at.size());
   if (known < std::max(kLeast, static_cast<int>(kEnough * seen))) return kUnknown;
   const double step = std::min(kShift * samples.points_per_metre, kFarthest) / kSteps;
+  const double of_before = center(before);
   std::vector<cv::Vec3f> now(at.size());
   double best = -1;
   for (int dy = -kSteps; dy <= kSteps; ++dy)
@@ -76,7 +75,10 @@ double Appearance::likeness(const SurfaceSamples& samples) const {
       const cv::Point2f shift(static_cast<float>(dx * step), static_cast<float>(dy * step));
       for (std::size_t i = 0; i < at.size(); ++i)
         now[i] = color_at(samples.views[0].color, at[i] + shift);
-      best = std::max(best, correlation(now, before));
+      const double of_now = center(now);
+      float both = 0;
+      for (std::size_t i = 0; i < at.size(); ++i) both += now[i].dot(before[i]);
+      best = std::max(best, double{both} / std::sqrt(of_now * of_before));
     }
   return best;
 }
