@@ -186,6 +186,7 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   search_.show(shown);
   if (all.empty()) return std::nullopt;
   Candidate chosen = best_of(frame, all);
+  chosen.confirmed = base.confirmed;
   // It is one of them itself.
   chosen.confirmed[model] = std::ranges::count_if(all, [&](const Candidate& one) {
                               return is_same(one, chosen, model);
