@@ -17,9 +17,9 @@ class VisibleShare {
   /// The cameras, at least one, and their rig.
   VisibleShare(std::span<const Camera> cameras, const IdealRig& rig);
 
-  /// Returns the share of the models' vertices that every image shows; models that the scene leaves
-  /// out do not count. 0 if any lies at or behind a camera, so that no tile can be cut. The scene is
-  /// posed for the same rig.
+  /// Returns the share of the models' vertices that every image shows. Models that the scene leaves
+  /// out do not count. 0 if any vertex lies at or behind a camera: no tile can be cut then. The
+  /// scene is posed for the same rig.
   double of(const PosedScene& scene) const;
 
  private:

@@ -13,8 +13,8 @@
 namespace hypotrack {
 
 enum class Status {
-  tracked,    ///< cost and sigma are what they should be
-  uncertain,  ///< the cost is an outlier, sigma is large, or part of the scene is out of view
+  tracked,    ///< likely right: by what the pictures show or, where they do not tell, by its cost
+  uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view
   lost,       ///< out of view, infeasible, an outlier for too long, beside the foreground, or sigma
               ///< says anything goes
   absent,     ///< the whole pictures were searched and show no such thing

@@ -79,7 +79,7 @@ class HYPOTRACK_API Tracker {
     Eigen::Index first_landmark, landmarks;  ///< among the scene's
     Status status = Status::missing;
     double kept_time = 0;   ///< when it was surely right last
-    int confirmations = 0;  ///< frames left in which an answer is confirmed
+    int confirmations = 0;  ///< frames left in which other poses are looked for, too
     /// Its motion then, per second, as tangent.hpp has differences; empty: unknown.
     Eigen::VectorXd velocity = {};
 
