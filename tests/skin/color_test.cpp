@@ -48,6 +48,26 @@ TEST(SkinColors, AreLearnedUnderAPoseThatIsWrong) {
   EXPECT_LT(p.outside, 0.15);
 }
 
+TEST(SkinColors, OfASleeveThatGoesOnOutsideAreNotForeground) {
+  Observation observation = colored_box();
+  const cv::Rect box = box_outline();
+  cv::Mat& color = observation.views[0].color;
+  const int top = box.y + box.height * 4 / 5;
+  const cv::Rect sleeve(box.x, top, box.width, std::min(color.rows - top, box.height / 2));
+  color(sleeve).setTo(cv::Scalar(10, 10, 10));
+  ForegroundTeller teller({});
+  const ViewForeground seen = teller.tell(observation, 0);
+  const auto mean = [&](const cv::Rect& where) {
+    double sum = 0;
+    for (int y = where.y; y < where.br().y; ++y)
+      for (int x = where.x; x < where.br().x; ++x)
+        sum += (seen.pixels.row(y)[x] & 0xFFFF) / 65535.0;
+    return sum / where.area();
+  };
+  EXPECT_LT(mean(sleeve), 0.5);
+  EXPECT_GT(mean({box.x, box.y, box.width, top - box.y}), 0.9);
+}
+
 TEST(SkinColors, AreKeptAfterTheFirstFrames) {
   const Observation first = colored_box();
   Observation second = colored_box();

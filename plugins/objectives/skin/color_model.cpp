@@ -17,14 +17,11 @@ std::vector<double> spread_along(const std::vector<double>& counts, std::size_t 
   return out;
 }
 
-/// Frequencies of colours: counts, spread, divided by their sum.
-std::vector<double> frequencies(std::vector<double> out) {
+/// Counts of colours, spread over bins next to each other.
+std::vector<double> spread(std::vector<double> out) {
   for (const std::size_t stride :
-       {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels}) {
+       {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels})
     out = spread_along(spread_along(out, stride), stride);
-  }
-  const double sum = std::accumulate(out.begin(), out.end(), 0.0);
-  for (double& value : out) value = sum > 0 ? value / sum : 0;
   return out;
 }
 
@@ -33,9 +30,14 @@ std::vector<double> ratios(const std::vector<double>& foreground,
                            const std::vector<double>& background) {
   // A colour as rare as one in a million pixels says nothing either way.
   constexpr double kUnseen = 1e-6;
-  std::vector<double> f = frequencies(foreground);
-  const std::vector<double> b = frequencies(background);
-  for (std::size_t i = 0; i < kBins; ++i) f[i] /= f[i] + b[i] + kUnseen;
+  std::vector<double> f = spread(foreground);
+  const std::vector<double> b = spread(background);
+  const double unseen = kUnseen * (std::accumulate(f.begin(), f.end(), 0.0) +
+                                   std::accumulate(b.begin(), b.end(), 0.0));
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const double sum = f[i] + b[i] + unseen;
+    f[i] = sum > 0 ? f[i] / sum : 0;
+  }
   return f;
 }
 
