@@ -48,12 +48,12 @@ TEST(SkinColors, AreLearnedUnderAPoseThatIsWrong) {
   EXPECT_LT(p.outside, 0.15);
 }
 
-TEST(SkinColors, OfASleeveThatGoesOnOutsideAreNotForeground) {
+TEST(SkinColors, OfASleeveThatGoesOnOutsideAreInDoubt) {
   Observation observation = colored_box();
   const cv::Rect box = box_outline();
   cv::Mat& color = observation.views[0].color;
   const int top = box.y + box.height * 4 / 5;
-  const cv::Rect sleeve(box.x, top, box.width, std::min(color.rows - top, box.height / 2));
+  const cv::Rect sleeve(box.x, top, box.width, color.rows - top);
   color(sleeve).setTo(cv::Scalar(10, 10, 10));
   ForegroundTeller teller({});
   const ViewForeground seen = teller.tell(observation, 0);
@@ -64,7 +64,7 @@ TEST(SkinColors, OfASleeveThatGoesOnOutsideAreNotForeground) {
         sum += (seen.pixels.row(y)[x] & 0xFFFF) / 65535.0;
     return sum / where.area();
   };
-  EXPECT_LT(mean(sleeve), 0.5);
+  EXPECT_LT(mean(sleeve), 0.7);
   EXPECT_GT(mean({box.x, box.y, box.width, top - box.y}), 0.9);
 }
 

@@ -9,16 +9,27 @@
 namespace hypotrack::skin {
 namespace {
 
-/// How likely each pixel is foreground by its place: 1/2 on the silhouette's edge and rising to its
-/// inside over as many pixels as the pose may be wrong by. Negative where the image is invalid.
-cv::Mat1f place_prior(const cv::Mat1b& silhouette, const cv::Mat1b& valid, double pose_error) {
+constexpr double kBeside = 0.025;  // metres from the silhouette in which background counts
+
+/// What a place says of a pixel.
+struct PlaceModel {
+  cv::Mat1f prior;   ///< how likely it is foreground; negative where the image is invalid
+  cv::Mat1f weight;  ///< how much it counts as background
+};
+
+/// The prior is 1/2 on the silhouette's edge and rises to its inside over as many pixels as the
+/// pose may be wrong by. Background counts beside the silhouette: of a sleeve, which goes on there,
+/// as large a share lies beside the hand as under the model's wrist.
+PlaceModel model_places(const cv::Mat1b& silhouette, const cv::Mat1b& valid, double pose_error,
+                        double beside) {
   cv::Mat1f inside, outside;
   cv::distanceTransform(silhouette, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   cv::distanceTransform(silhouette == 0, outside, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  cv::Mat1f out;
-  cv::exp((outside - inside) / pose_error, out);
-  out = 1 / (1 + out);
-  out.setTo(-1, valid == 0);
+  PlaceModel out;
+  cv::exp((outside - inside) / pose_error, out.prior);
+  out.prior = 1 / (1 + out.prior);
+  out.prior.setTo(-1, valid == 0);
+  cv::exp(-outside / beside, out.weight);
   return out;
 }
 
@@ -47,8 +58,10 @@ void ColorLearner::learn(const Observation& observation, const TileCamera& camer
     if (learned_ == 0) probabilities_.assign(kBins, 0.5f);
     return;
   }
-  const double pose_error = settings_.pose_error * scale_at(observation, camera);
-  colors_.add(color, place_prior(models, valid, std::max(pose_error, 0.1)));
+  const double scale = scale_at(observation, camera);
+  const PlaceModel places = model_places(models, valid, std::max(settings_.pose_error * scale, 0.1),
+                                         std::max(kBeside * scale, 1.0));
+  colors_.add(color, places.prior, places.weight);
   probabilities_ = colors_.probabilities();
   ++learned_;
   from_guess_ = observation.start_is_guess;

@@ -17,11 +17,14 @@ std::vector<double> spread_along(const std::vector<double>& counts, std::size_t 
   return out;
 }
 
-/// Counts of colours, spread over bins next to each other.
-std::vector<double> spread(std::vector<double> out) {
+/// Frequencies of colours: counts, spread, divided by their sum.
+std::vector<double> frequencies(std::vector<double> out) {
   for (const std::size_t stride :
-       {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels})
+       {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels}) {
     out = spread_along(spread_along(out, stride), stride);
+  }
+  const double sum = std::accumulate(out.begin(), out.end(), 0.0);
+  for (double& value : out) value = sum > 0 ? value / sum : 0;
   return out;
 }
 
@@ -30,14 +33,9 @@ std::vector<double> ratios(const std::vector<double>& foreground,
                            const std::vector<double>& background) {
   // A colour as rare as one in a million pixels says nothing either way.
   constexpr double kUnseen = 1e-6;
-  std::vector<double> f = spread(foreground);
-  const std::vector<double> b = spread(background);
-  const double unseen = kUnseen * (std::accumulate(f.begin(), f.end(), 0.0) +
-                                   std::accumulate(b.begin(), b.end(), 0.0));
-  for (std::size_t i = 0; i < kBins; ++i) {
-    const double sum = f[i] + b[i] + unseen;
-    f[i] = sum > 0 ? f[i] / sum : 0;
-  }
+  std::vector<double> f = frequencies(foreground);
+  const std::vector<double> b = frequencies(background);
+  for (std::size_t i = 0; i < kBins; ++i) f[i] /= f[i] + b[i] + kUnseen;
   return f;
 }
 
@@ -45,16 +43,19 @@ std::vector<double> ratios(const std::vector<double>& foreground,
 struct Seen {
   std::size_t bin;
   double prior;
+  double weight;  ///< as background
 };
 
-std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior) {
+std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
+                              const cv::Mat1f& weight) {
   std::vector<Seen> out;
   out.reserve(color.total());
   for (int y = 0; y < color.rows; ++y) {
     for (int x = 0; x < color.cols; ++x) {
       const cv::Vec3b& p = color(y, x);
       if (!(prior(y, x) >= 0)) continue;
-      out.push_back({static_cast<std::size_t>(bin_of(p[0], p[1], p[2])), double{prior(y, x)}});
+      out.push_back({static_cast<std::size_t>(bin_of(p[0], p[1], p[2])), double{prior(y, x)},
+                     double{weight(y, x)}});
     }
   }
   return out;
@@ -62,9 +63,9 @@ std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior) {
 
 }  // namespace
 
-void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior) {
+void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight) {
   constexpr int kRounds = 12;  // it settles within a few
-  const std::vector<Seen> pixels = seen_pixels(color, prior);
+  const std::vector<Seen> pixels = seen_pixels(color, prior, weight);
   Counts foreground, background;
   std::vector<double> ratio(kBins, 0.5);
   for (int round = 0; round < kRounds; ++round) {
@@ -75,7 +76,7 @@ void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior) {
       const double b = (1 - ratio[pixel.bin]) * (1 - pixel.prior);
       const double share = f + b > 0 ? f / (f + b) : 0;
       foreground[pixel.bin] += share;
-      background[pixel.bin] += 1 - share;
+      background[pixel.bin] += pixel.weight * (1 - share);
     }
     ratio = ratios(foreground, background);
   }
