@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kNewest = 0.1f;   // least weight of a new colour
 constexpr double kNoise = 10;     // of a channel, 0 .. 255: noise and changes of light
-constexpr double kEnough = 0.25;  // share of the visible points that were seen before
+constexpr double kEnough = 0.5;   // share of the visible points that were seen before
 constexpr int kLeast = 30;        // points
 constexpr double kShift = 0.008;  // metres by which a picture may be off
 constexpr double kFarthest = 4;   // grid points: the same, of models that are small
