@@ -116,7 +116,7 @@ class Recoveries {
     std::vector<Recovered> out;
     search_->show(shown);
     const Recovery::Quest quest =
-        recovery_.begin(*search_, frame, judge_, {kept, seconds}, model, shown, limits_);
+        recovery_.begin(*search_, frame, judge_, {kept, seconds}, model, shown, {}, limits_);
     std::vector<bool> moving(shown.size(), false);
     moving[model] = true;
     for (const PoseGuess& guess : quest.guesses) {

@@ -111,15 +111,22 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
 
 std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
                                       const Eigen::VectorXd& base, const std::vector<bool>& hidden,
-                                      const PoseGuess& guess, const PoseEffort& effort,
-                                      std::uint64_t seed) {
+                                      const std::vector<Held>& held, const PoseGuess& guess,
+                                      const PoseEffort& effort, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const Eigen::MatrixXd own = hypotheses(guess, effort.hypotheses, random);
   if (tiles_.visible_share(own.col(0)) == 0) return {};
   take_in(search, frame, base, own.col(0));
   Evaluator& evaluator = search.evaluator();
-  Eigen::MatrixXd states = without(base, hidden).replicate(1, own.cols());
-  states.middleRows(item_.offset, own.rows()) = own;
+  const Eigen::VectorXd others = without(base, hidden);
+  Eigen::MatrixXd states(base.size(), own.cols());
+  for (Eigen::Index i = 0; i < own.cols(); ++i) {
+    Eigen::VectorXd state = others;
+    state.segment(item_.offset, own.rows()) = own.col(i);
+    const Eigen::Isometry3d pose = pose_of(item_, state);
+    for (const Held& one : held) set_pose(scene_.items()[one.model], pose * one.pose, state);
+    states.col(i) = state;
+  }
   Eigen::VectorXd costs(states.cols());
   evaluator.evaluate(states, costs);
   std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
@@ -129,6 +136,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
 
   std::vector<bool> free(hidden.size(), false);
   free[model_] = true;
+  for (const Held& one : held) free[one.model] = true;
   std::vector<Refined> all;
   for (const Eigen::Index i : order)
     if (std::isfinite(costs[i])) all.push_back({states.col(i), costs[i], 0});

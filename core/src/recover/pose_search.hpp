@@ -10,6 +10,7 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
+#include "recover/held.hpp"
 #include "recover/least_squares.hpp"
 #include "recover/place_finder.hpp"
 #include "recover/postures.hpp"
@@ -28,6 +29,7 @@ struct PoseGuess {
   double scatter = 0.012;
   /// Points that half of the hypotheses lie about, instead of the center; empty: none do.
   std::vector<Eigen::Vector3d> points = {};
+  double covered = 0.5;  ///< share of the model that others may hide
 };
 
 /// How much a search spends on one place.
@@ -46,11 +48,11 @@ class PoseSearch {
              const RecoverySettings& settings);
 
   /// Finds poses of the model in a frame around a place, best first; costs compare among them only.
-  /// `base` is the scene's state; models with `hidden` are not drawn, the others stay where they
-  /// are. The first pose bears the evaluations of all.
+  /// `base` is the scene's state; models with `hidden` are not drawn, except those that are held;
+  /// the others stay where they are. The first pose bears the evaluations of all.
   std::vector<Refined> find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
-                            const std::vector<bool>& hidden, const PoseGuess& guess,
-                            const PoseEffort& effort, std::uint64_t seed);
+                            const std::vector<bool>& hidden, const std::vector<Held>& held,
+                            const PoseGuess& guess, const PoseEffort& effort, std::uint64_t seed);
 
   /// The state with models that are hidden, and the one that is searched for, where nothing draws
   /// them.

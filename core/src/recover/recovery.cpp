@@ -21,7 +21,7 @@ constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;       // radians
 constexpr double kHopeless = 4;         // -log odds: no search makes such a candidate right
 constexpr double kPlaceScatter = 0.02;  // metres
-constexpr double kCovered = 0.5;        // share of a model that others may hide
+constexpr double kHeldCovered = 0.7;    // share of what a hand holds that may be hidden
 constexpr double kDistinct = 0.012;  // metres between candidates, mean over the model's landmarks
 constexpr double kHides = 0.35;      // share of another model that a candidate may newly hide
 
@@ -59,6 +59,7 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
     finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
                           settings.farthest);
     searched_.emplace_back(cameras, searches_[m]->radius());
+    searched_held_.push_back(searched_.back());
   }
 }
 
@@ -67,6 +68,7 @@ void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
   for (std::size_t m = 0; m < searches_.size(); ++m) {
     if (!tracked[m]) continue;
     searched_[m].forget();
+    searched_held_[m].forget();
     const Scene::Item& item = scene_.items()[m];
     searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
   }
@@ -119,7 +121,10 @@ std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& place
   if (last.hint.size() > 0)
     out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
   if (last.near_hint_only) return out;
-  SearchedPlaces& searched = searched_[quest.model];
+  if (last.before.size() > 0)
+    for (std::size_t m = 0; m < quest.hidden.size(); ++m)
+      if (m != quest.model && !quest.hidden[m]) out.push_back(beside(quest, m));
+  SearchedPlaces& searched = (quest.held.empty() ? searched_ : searched_held_)[quest.model];
   if (last.seconds < kRemembered && searched.is_worth(quest.frame, was))
     out.push_back({was, own(last.state), kNearLast, turn});
   const double reach = reach_within(limits, last.seconds).position + search.radius();
@@ -127,6 +132,17 @@ std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& place
     if ((place.center - was).norm() <= reach && searched.is_worth(quest.frame, place.center))
       out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter, place.points});
   searched.end_frame();
+  return out;
+}
+
+PoseGuess Recovery::beside(const Quest& quest, std::size_t other) const {
+  constexpr double kShare = 0.9, kTurn = 0.15, kScatter = 0.006;
+  const Scene::Item& own = scene_.items()[quest.model];
+  const Eigen::VectorXd state =
+      moved_with(scene_, quest.model, other, quest.last.before, quest.last.state);
+  PoseGuess out{searches_[quest.model]->center(state),
+                state.segment(own.offset, own.model->dimension()), kShare, kTurn, kScatter};
+  out.covered = kHeldCovered;
   return out;
 }
 
@@ -141,10 +157,14 @@ bool Recovery::hides_others(const Quest& quest, const Eigen::VectorXd& state,
 
 Recovery::Quest Recovery::begin(FrameSearch& search, const Frame& frame, Judge& judge,
                                 LastKnown last, std::size_t model, const std::vector<bool>& shown,
-                                const MotionLimits& limits) {
+                                const std::vector<bool>& held, const MotionLimits& limits) {
   Quest quest{search, frame, judge, model, std::move(last), shown};
   quest.hidden[model] = false;
   quest.hidden.flip();
+  for (std::size_t m = 0; m < held.size(); ++m)
+    if (held[m])
+      quest.held.push_back({m, pose_of(scene_.items()[model], quest.last.before).inverse() *
+                                   pose_of(scene_.items()[m], quest.last.before)});
   const Places seen = places(quest);
   const ModelJudge& of_model = judge.model(model);
   quest.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
@@ -169,18 +189,23 @@ Candidates Recovery::find(const Quest& quest, const PoseGuess& guess, const Moti
   Candidates out;
   std::vector<Refined> seen;
   for (Refined& one : searches_[quest.model]->find(quest.search, quest.frame, base, quest.hidden,
-                                                   guess, effort, seed)) {
+                                                   quest.held, guess, effort, seed)) {
     out.evaluations += std::exchange(one.evaluations, 0);
     const Evidence evidence = judge.look(quest.frame, one.state, colors);
     // Behind another model it may be anything.
-    if (evidence.covered > kCovered || hides_others(quest, one.state, colors)) continue;
+    if (evidence.covered > guess.covered || hides_others(quest, one.state, colors)) continue;
     // What the pictures show tells more than costs in a coarse tile.
     one.cost = -judge.log_odds(evidence);
     if (one.cost > kHopeless) continue;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());
-    if (!is_within(scene_, reach, base, state)) continue;
+    Eigen::VectorXd from = base;
+    for (const Held& held : quest.held) {
+      const Scene::Item& with = scene_.items()[held.model];
+      for (Eigen::VectorXd* to : {&state, &from}) set_pose(with, pose_of(with, one.state), *to);
+    }
+    if (!is_within(scene_, reach, from, state)) continue;
     one.state = std::move(state);
     seen.push_back(std::move(one));
   }

@@ -12,6 +12,7 @@
 #include "hypotrack/scene.hpp"
 #include "judge/judge.hpp"
 #include "recover/background_model.hpp"
+#include "recover/held.hpp"
 #include "recover/place_finder.hpp"
 #include "recover/pose_search.hpp"
 #include "recover/recovery_settings.hpp"
@@ -28,6 +29,8 @@ struct LastKnown {
   /// Where it may be now; empty if nobody knows.
   Eigen::VectorXd hint = {};
   bool near_hint_only = false;  ///< looks nowhere else
+  /// Where all models were when all were surely tracked; empty: unknown.
+  Eigen::VectorXd before = {};
 };
 
 /// States that a recovery found at one place.
@@ -48,6 +51,7 @@ class HYPOTRACK_API Recovery {
     std::size_t model;
     LastKnown last;
     std::vector<bool> hidden = {};        ///< models that are nowhere; the lost one, too
+    std::vector<Held> held = {};          ///< those of them that move with the lost one
     std::vector<double> covered = {};     ///< share of each model that others hide
     bool in_view = true;                  ///< false: no picture shows colours of the lost model
     std::vector<PoseGuess> guesses = {};  ///< where it may be, likeliest first
@@ -58,12 +62,13 @@ class HYPOTRACK_API Recovery {
            const RecoverySettings& settings);
 
   /// Finds places where a model may be, without those that were searched in vain and look the same.
-  /// Other models with `shown` are where `last` has them, the rest nowhere. What is given must
-  /// outlive the quest.
+  /// Other models with `shown` are where `last` has them; those with `held` move with the lost one
+  /// (held_by()), the rest is nowhere. What is given must outlive the quest.
   Quest begin(FrameSearch& search, const Frame& frame, Judge& judge, LastKnown last,
-              std::size_t model, const std::vector<bool>& shown, const MotionLimits& limits);
+              std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
+              const MotionLimits& limits);
 
-  /// Finds up to settings.searched poses of the model at one of the places.
+  /// Finds up to settings.searched poses of the model, and of what it holds, at one of the places.
   Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
                   std::uint64_t seed);
 
@@ -75,6 +80,8 @@ class HYPOTRACK_API Recovery {
   std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
                                  const MotionLimits& limits);
   Places places(const Quest& quest) const;
+  /// Where the model is if it has moved with another, as what a hand holds.
+  PoseGuess beside(const Quest& quest, std::size_t other) const;
   void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
   /// Whether a state hides models that are not hidden without the lost one.
   static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
@@ -86,6 +93,7 @@ class HYPOTRACK_API Recovery {
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
   std::vector<SearchedPlaces> searched_;        ///< by model
+  std::vector<SearchedPlaces> searched_held_;   ///< with what it holds
   std::array<BackgroundModel, 2> backgrounds_;  ///< of the reduced pictures
 };
 

@@ -18,6 +18,8 @@ constexpr double kSure = 0.95;
 // Seconds since a model was surely right for which poses that agree end the search: after that they
 // may agree in what is wrong.
 constexpr double kRecent = 0.15;
+// Seconds in which belief in a model that is hidden dies away.
+constexpr double kForgotten = 0.6;
 // An answer of this probability is worth searches around it.
 constexpr double kHint = 0.02;
 
@@ -51,10 +53,11 @@ Candidate CandidateFinder::judged(const Frame& frame, Found found) {
   if (settings_.evidence && out.answers())
     out.verdict = judge_.judge(frame, search_.drawn(out.found.state), search_.second_view_colors(),
                                out.shown);
-  // A model that others hide is as likely right as it was before.
   if (std::isnan(out.probability())) return out;
+  // A model that others hide is as likely right as it was before, for a while.
+  const double left = std::exp(-std::max(frame.time - believed_time_, 0.0) / kForgotten);
   for (std::size_t m = 0; m < models; ++m)
-    if (out.shown[m] && std::isnan(out.verdict[m])) out.verdict[m] = believed_[m];
+    if (out.shown[m] && std::isnan(out.verdict[m])) out.verdict[m] = left * believed_[m];
   return out;
 }
 
@@ -102,7 +105,9 @@ Candidate CandidateFinder::go_on(const Frame& frame, const Candidate& from, std:
   return out;
 }
 
-Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candidate>& candidates) {
+Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candidate>& candidates,
+                                   const std::vector<double>& apart) {
+  constexpr double kSimilar = 0.05;  // of the cost
   const auto most = std::ranges::max_element(candidates, {}, [](const Candidate& c) {
     const double p = c.probability();
     return std::isnan(p) ? -1.0 : p;
@@ -122,6 +127,13 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
     if (candidates[i].probability() >= enough &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
       best = i;
+  // Turned by half a box looks the same: what a hand holds is rather where it was in the hand.
+  const double cheapest = costs[static_cast<Eigen::Index>(best)];
+  const double similar = cheapest + kSimilar * std::abs(cheapest);
+  for (std::size_t i = 0; i < apart.size(); ++i)
+    if (candidates[i].probability() >= enough && costs[static_cast<Eigen::Index>(i)] <= similar &&
+        apart[i] < apart[best])
+      best = i;
   Candidate out = candidates[best];
   if (&candidates[best] != &*most) look_at(frame, out.found.state);
   out.found.cost = costs[static_cast<Eigen::Index>(best)];
@@ -139,7 +151,8 @@ void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) 
 
 std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const LossReport& report,
                                                      const Candidate& base, Candidate& best,
-                                                     std::size_t model, std::uint64_t seed) {
+                                                     std::size_t model, const ModelFlags& held,
+                                                     std::uint64_t seed) {
   const Scene::Item& item = scene_.items()[model];
   const auto put = [&](Eigen::VectorXd& to, const Eigen::VectorXd& from) {
     to.segment(item.offset, item.model->dimension()) =
@@ -153,11 +166,14 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
     put(last.hint, best.found.state);
   }
   last.near_hint_only = report.near_only;
-  const Recovery::Quest quest =
-      recovery_.begin(search_, frame, judge_, std::move(last), model, base.shown, settings_.motion);
+  last.before = report.together;
+  const Recovery::Quest quest = recovery_.begin(search_, frame, judge_, std::move(last), model,
+                                                base.shown, held, settings_.motion);
   best.in_view[model] = quest.in_view;
   ModelFlags shown = base.shown, moving(shown.size(), false);
   shown[model] = moving[model] = true;
+  for (std::size_t m = 0; m < held.size(); ++m)
+    if (held[m]) shown[m] = moving[m] = true;
   std::vector<Candidate> all;
   if (has_answer && shown == best.shown) all.push_back(best);
   std::uint32_t part = 0;
@@ -185,11 +201,15 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   }
   search_.show(shown);
   if (all.empty()) return std::nullopt;
-  Candidate chosen = best_of(frame, all);
+  std::vector<double> apart;
+  for (const Candidate& one : all)
+    apart.push_back(moved_in_hand(scene_, report.together, one.found.state, shown));
+  Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
-  // It is one of them itself.
-  chosen.confirmed[model] = std::ranges::count_if(all, [&](const Candidate& one) {
-                              return is_same(one, chosen, model);
+  for (std::size_t m = 0; m < moving.size(); ++m)
+    if (moving[m])  // it is one of them itself
+      chosen.confirmed[m] = std::ranges::count_if(all, [&](const Candidate& one) {
+                              return is_same(one, chosen, m);
                             }) > 1;
   return chosen;
 }
@@ -210,6 +230,14 @@ bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_
     return posed_landmarks(*item.model, scene_.part(item, one.found.state));
   };
   return (landmarks(a) - landmarks(b)).colwise().norm().mean() < kSame;
+}
+
+ModelFlags CandidateFinder::lost_with(const LossReport& report, const Candidate& base,
+                                      std::size_t model) const {
+  ModelFlags out = held_by(scene_, model, report.together);
+  for (std::size_t m = 0; m < out.size(); ++m)
+    out[m] = out[m] && report.sought[m] && !base.shown[m] && !report.near_only;
+  return out;
 }
 
 bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
@@ -235,8 +263,12 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
     std::size_t joins = 0;
     for (std::size_t m = 0; m < left.size(); ++m) {
       if (!left[m]) continue;
-      std::optional<Candidate> one =
-          with_model(frame, report, base, best, m, seed_of_part(seed, ++part));
+      std::optional<Candidate> one;
+      const ModelFlags held = lost_with(report, base, m);
+      if (any(held))
+        one = with_model(frame, report, base, best, m, held, seed_of_part(seed, ++part));
+      if (!one || !(one->probability() >= settings_.uncertain_above))
+        one = with_model(frame, report, base, best, m, {}, seed_of_part(seed, ++part));
       if (!one || (chosen && !(one->verdict[m] > chosen->verdict[joins]))) continue;
       chosen = std::move(one);
       joins = m;
@@ -244,7 +276,8 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
     // Where there is nothing else, a poor answer says how poor it is.
     if (!chosen || (any(base.shown) && !may_join(*chosen, base, report, joins))) break;
     base = std::move(*chosen);
-    left[joins] = false;
+    for (std::size_t m = 0; m < left.size(); ++m)
+      if (base.shown[m]) left[m] = false;
     if (!(base.verdict[joins] >= settings_.uncertain_above)) break;
   }
   base.in_view = best.in_view;
@@ -258,24 +291,33 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
 }
 
 void CandidateFinder::accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
-  if (best.answers() && !std::isnan(best.probability()))
-    for (std::size_t m = 0; m < best.shown.size(); ++m)
-      if (best.shown[m]) believed_[m] = best.verdict[m];
-  if (any(tracked)) learn(frame, best, tracked);
+  const bool is_judged = best.answers() && !std::isnan(best.probability());
+  for (std::size_t m = 0; m < best.shown.size(); ++m) {
+    if (is_judged && best.shown[m])
+      believed_[m] = best.verdict[m];
+    else if (judge_.experienced(m) && !(best.answers() && best.shown[m]))
+      believed_[m] = 0;  // lost: what hides behind others is not found there
+  }
+  believed_time_ = frame.time;
+  // What is tracked but doubtful teaches nothing: a model that slides off would be followed there.
+  ModelFlags sure = tracked;
+  for (std::size_t m = 0; m < sure.size(); ++m)
+    if (judge_.experienced(m) && best.verdict[m] < settings_.surely_above) sure[m] = false;
+  if (any(sure)) learn(frame, best, sure);
 }
 
-void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
+void CandidateFinder::learn(const Frame& frame, const Candidate& best, const ModelFlags& sure) {
   constexpr int kAtFirst = 10, kEvery = 4;  // frames
   const bool is_time = learned_ < kAtFirst || learned_ % kEvery == 0;
   if (settings_.evidence && !std::isnan(best.probability()) && is_time) {
     const Eigen::VectorXd drawn = search_.drawn(best.found.state);
     if (!judge_.judged(drawn)) judge_.judge(frame, drawn, search_.second_view_colors(), best.shown);
-    judge_.learn(tracked);
+    judge_.learn(sure);
   }
   ++learned_;
-  search_.show(tracked);
+  search_.show(sure);
   search_.learn(frame, best.found.state);
-  recovery_.remember(frame, best.found.state, tracked);
+  recovery_.remember(frame, best.found.state, sure);
 }
 
 }  // namespace hypotrack

@@ -37,6 +37,7 @@ struct Candidate {
 /// What to find models again by.
 struct LossReport {
   Eigen::VectorXd kept;              ///< where each model was surely right last
+  Eigen::VectorXd together;          ///< where all were when that was so of all at once
   std::vector<double> seconds = {};  ///< since then, by model
   std::vector<double> needed = {};   ///< probability by model, from which on it is right
   ModelFlags sought;                 ///< models to look for, or to look for other poses of
@@ -65,8 +66,8 @@ class HYPOTRACK_API CandidateFinder {
   /// Searches on from an answer to an earlier frame.
   Candidate go_on(const Frame& frame, const Candidate& from, std::uint64_t seed);
 
-  /// Takes note of the answer that a frame was given. The models of which `tracked` is set were
-  /// surely right: learns from them.
+  /// Takes note of the answer that a frame was given, and learns from those of its tracked models
+  /// that are surely right (StatusSettings::surely_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
 
   FrameSearch& search() { return search_; }
@@ -76,16 +77,19 @@ class HYPOTRACK_API CandidateFinder {
   Budget& budget() { return budget_; }
 
  private:
-  void learn(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
+  void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
   Candidate judged(const Frame& frame, Found found);
   /// The best by probability and, among those alike, by cost. All show the same models. The frame
   /// is then taken in around it.
-  Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates);
+  Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates,
+                    const std::vector<double>& apart = {});
   void look_at(const Frame& frame, const Eigen::VectorXd& state);
   /// The best answer that has a model in addition to those of `base`.
   std::optional<Candidate> with_model(const Frame& frame, const LossReport& report,
                                       const Candidate& base, Candidate& best, std::size_t model,
-                                      std::uint64_t seed);
+                                      const ModelFlags& held, std::uint64_t seed);
+  /// Lost models that were at this one when all were surely right.
+  ModelFlags lost_with(const LossReport& report, const Candidate& base, std::size_t model) const;
   /// Whether two answers have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
   /// Whether two likely answers have.
@@ -101,6 +105,7 @@ class HYPOTRACK_API CandidateFinder {
   Judge judge_;
   Recovery recovery_;
   std::vector<double> believed_;  ///< probability of each model in the last answer
+  double believed_time_ = 0;      ///< of that answer
   int learned_ = 0;               ///< frames
 };
 

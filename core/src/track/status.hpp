@@ -48,7 +48,9 @@ struct StatusSettings {
        .min = 0,
        .max = 1});
     v("surely_above", surely_above,
-      {.help = "with `evidence`: the same just after a loss", .min = 0, .max = 1});
+      {.help = "with `evidence`: the same just after a loss; less probable frames teach no colours",
+       .min = 0,
+       .max = 1});
     v("first_above", first_above,
       {.help = "with `evidence`: the same before a model was ever tracked, where a start was given",
        .min = 0,

@@ -99,7 +99,7 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
     landmarks += models_.back().landmarks;
   }
   scene.normalize(first_);
-  state_ = kept_ = output_ = first_;
+  state_ = kept_ = together_ = output_ = first_;
   if (parts.hindsight.enabled) reserve_for(parts.hindsight, finder_.budget());
   if (settings_.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
@@ -162,7 +162,7 @@ Candidate Tracker::follow(const Frame& frame) {
 
 LossReport Tracker::report(const Frame& frame, const Candidate& best) {
   constexpr int kEvery = 4;  // doubtful frames
-  LossReport out{.kept = kept_, .sought = ModelFlags(models_.size(), false)};
+  LossReport out{.kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
   ModelFlags confirmed = out.sought, doubtful = out.sought;
   constexpr double kDoubt = 0.8;  // probability
   bool doubts = false;
@@ -350,6 +350,7 @@ void Tracker::keep(const Frame& frame, const Candidate& best, const ModelFlags& 
     }
     first += size - 1;
   }
+  if (std::ranges::find(tracked, false) == tracked.end()) together_ = kept_;
 }
 
 void Tracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const {

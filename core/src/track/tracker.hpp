@@ -126,13 +126,14 @@ class HYPOTRACK_API Tracker {
   OneEuroFilter smoother_;
   bool smoothing_;
   std::vector<ModelTrack> models_;
-  Eigen::VectorXd kept_;    ///< where each model was surely right last
-  Eigen::VectorXd state_;   ///< where the next search starts
-  double time_ = 0;         ///< of it
-  Eigen::VectorXd output_;  ///< the last state that was given out
-  int begun_ = 0;           ///< frames searched before anything was found
-  bool found_any_ = false;  ///< whether `state_` is a solution
-  int doubts_ = 0;          ///< frames whose answers hardly did
+  Eigen::VectorXd kept_;      ///< where each model was surely right last
+  Eigen::VectorXd together_;  ///< where all were when that was so of all at once
+  Eigen::VectorXd state_;     ///< where the next search starts
+  double time_ = 0;           ///< of it
+  Eigen::VectorXd output_;    ///< the last state that was given out
+  int begun_ = 0;             ///< frames searched before anything was found
+  bool found_any_ = false;    ///< whether `state_` is a solution
+  int doubts_ = 0;            ///< frames whose answers hardly did
   std::uint64_t seed_;
   std::future<Candidate> job_;
 };
