@@ -170,6 +170,15 @@ TEST(Lost, GoesOnFromAnyAnswerAsThePaperDoesWhereItIsToldTo) {
       std::ranges::none_of(frames, [](const Tracked& f) { return f.status == Status::absent; }));
 }
 
+TEST(Lost, WaitsForAHandThatIsNotThereAtFirst) {
+  const auto frames = track(
+      24, {absent(0, 11),
+           "source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [60, 80, 500],"
+           " rotation_deg: [180, 0, 0]}}}, {frame: 12, gesture: open}, {frame: 40, gesture: spread,"
+           " pose: {hand: {position_mm: [90, 80, 500], rotation_deg: [175, 0, 10]}}}]"});
+  expect_found_again(frames, 12);
+}
+
 TEST(Lost, DoesNotSlideIntoASleeve) {
   const auto frames = track(
       19, {"source.keyframes=null", "source.random={seed: 1204, frames: 180}",

@@ -79,8 +79,25 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
     if (std::isnan(candidates.back().probability())) break;
   }
   Candidate best = candidates.size() == 1 ? candidates[0] : best_of(frame, candidates);
+  for (std::size_t m = 0; m < best.confirmed.size(); ++m)
+    best.confirmed[m] = is_confirmed(candidates, best, m);
   best.found.evaluations = evaluations;
   return best;
+}
+
+bool CandidateFinder::begin_again(const Frame& frame, const Eigen::VectorXd& start, int count,
+                                  std::uint64_t seed, Candidate& best) {
+  search_.show(ModelFlags(scene_.items().size(), true));
+  Candidate again = begin(frame, start, count, seed);
+  again.found.evaluations += best.found.evaluations;
+  const bool is_better = again.probability() > best.probability();
+  if (is_better) {
+    best = std::move(again);
+  } else {
+    best.found.evaluations = again.found.evaluations;
+    look_at(frame, best.found.state);
+  }
+  return is_better;
 }
 
 Candidate CandidateFinder::follow(const Frame& frame, const Eigen::MatrixXd& starts,
@@ -207,11 +224,14 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
   for (std::size_t m = 0; m < moving.size(); ++m)
-    if (moving[m])  // it is one of them itself
-      chosen.confirmed[m] = std::ranges::count_if(all, [&](const Candidate& one) {
-                              return is_same(one, chosen, m);
-                            }) > 1;
+    if (moving[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
   return chosen;
+}
+
+bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
+                                   std::size_t model) const {
+  const auto same = [&](const Candidate& one) { return is_same(one, chosen, model); };
+  return std::ranges::count_if(all, same) > 1;  // it is one of them itself
 }
 
 bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size_t model) const {

@@ -55,6 +55,11 @@ class HYPOTRACK_API CandidateFinder {
   /// Searches a frame from around a start, before anything was found: from `count` starts.
   Candidate begin(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed);
 
+  /// Searches from around a start again while nothing was ever found. Returns whether that gave a
+  /// likelier answer than `best`, which it replaces then.
+  bool begin_again(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed,
+                   Candidate& best);
+
   /// Searches a frame for some models from the cheapest of several starts (DxN).
   Candidate follow(const Frame& frame, const Eigen::MatrixXd& starts, const ModelFlags& models,
                    const Budget& budget, const std::optional<Reach>& reach, std::uint64_t seed);
@@ -92,6 +97,9 @@ class HYPOTRACK_API CandidateFinder {
   ModelFlags lost_with(const LossReport& report, const Candidate& base, std::size_t model) const;
   /// Whether two answers have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
+  /// Whether another of all answers has a model where the chosen one has it.
+  bool is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
+                    std::size_t model) const;
   /// Whether two likely answers have.
   bool has_confirmed(const std::vector<Candidate>& all, std::size_t model) const;
   /// Whether a model may join: the pictures show it, and still show the others.

@@ -59,6 +59,9 @@ class HYPOTRACK_API Predictor {
   /// Takes in a solution (normalised) and its time (s), after those before it.
   void add(const Eigen::VectorXd& state, double time);
 
+  /// Forgets all solutions: the next one is the first.
+  void begin_anew() { state_.resize(0); }
+
   /// The solution at hand is no continuation of those before: no motion is known.
   void forget_motion() { velocity_.reset(); }
 

@@ -17,6 +17,8 @@ namespace {
 
 // Frames that are searched from several starts before anything was found.
 constexpr int kPatientFrames = 3;
+// The same later, while nothing was ever found: every so many frames.
+constexpr int kSeveralAgain = 5;
 // Frames after a loss in which other poses are looked for although one looks right.
 constexpr int kConfirmations = 4;
 // An answer of this probability is worth a search of the next frame.
@@ -157,7 +159,18 @@ Candidate Tracker::follow(const Frame& frame) {
   budget.usual_cost = models_.front().monitor.usual_cost();
   std::optional<Reach> reach;
   if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
-  return finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
+  Candidate best = finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
+  // The models may still come to where they were said to start.
+  if (recovers() && !finder_.judge().experienced() &&
+      best.probability() < settings_.uncertain_above) {
+    const bool several = begun_++ % kSeveralAgain == 0;
+    if (finder_.begin_again(frame, first_, several ? settings_.recovery.first_starts : 1,
+                            seed_of_part(seed, 9), best)) {
+      predictor_.begin_anew();
+      smoother_.begin_anew();
+    }
+  }
+  return best;
 }
 
 LossReport Tracker::report(const Frame& frame, const Candidate& best) {
