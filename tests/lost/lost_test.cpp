@@ -179,6 +179,17 @@ TEST(Lost, WaitsForAHandThatIsNotThereAtFirst) {
   expect_found_again(frames, 12);
 }
 
+TEST(Lost, WaitsForAHandThatStartsOutOfView) {
+  const auto frames = track(
+      30, {"source.keyframes=[{frame: 0, gesture: open, pose: {hand: {position_mm: [600, 80, 500],"
+           " rotation_deg: [180, 0, 0]}}}, {frame: 12, gesture: open, pose: {hand: {position_mm:"
+           " [60, 80, 500], rotation_deg: [180, 0, 0]}}}, {frame: 60, gesture: open}]",
+           "init.from=rest",
+           "init.pose={hand: {position_mm: [60, 80, 500], rotation_deg: [180, 0, 0]}}"});
+  EXPECT_EQ(frames.back().status, Status::tracked) << statuses(frames);
+  EXPECT_LT(frames.back().error_mm, 10) << statuses(frames);
+}
+
 TEST(Lost, DoesNotSlideIntoASleeve) {
   const auto frames = track(
       19, {"source.keyframes=null", "source.random={seed: 1204, frames: 180}",

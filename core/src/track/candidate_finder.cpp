@@ -90,7 +90,8 @@ bool CandidateFinder::begin_again(const Frame& frame, const Eigen::VectorXd& sta
   search_.show(ModelFlags(scene_.items().size(), true));
   Candidate again = begin(frame, start, count, seed);
   again.found.evaluations += best.found.evaluations;
-  const bool is_better = again.probability() > best.probability();
+  const bool is_better = search_.tiles().visible_share(best.found.state) == 0 ||
+                         again.probability() > best.probability();
   if (is_better) {
     best = std::move(again);
   } else {

@@ -56,7 +56,7 @@ class HYPOTRACK_API CandidateFinder {
   Candidate begin(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed);
 
   /// Searches from around a start again while nothing was ever found. Returns whether that gave a
-  /// likelier answer than `best`, which it replaces then.
+  /// likelier answer than `best`, or `best` is out of view: it is replaced then.
   bool begin_again(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed,
                    Candidate& best);
 
