@@ -3,9 +3,10 @@
 
     fit.py TABLE.csv... > core/src/judge/weights.hpp
 
-How much the likeness of surfaces counts is fitted after the network. The network, with one hidden layer, says whether a model's landmarks are within 10 mm of the truth, against
+A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
 more than 20 mm or nothing there; what lies between is left out. A third of the tables is held out, and
-what the weights say of those is printed to standard error. Needs python3-sklearn.
+what the weights say of those is printed to standard error. How much the likeness of
+surfaces counts is fitted after the network. Needs python3-sklearn.
 """
 import csv
 import sys

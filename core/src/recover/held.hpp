@@ -18,6 +18,7 @@ struct Held {
 
 /// Pose of a model of a scene in a state.
 HYPOTRACK_API Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state);
+/// Puts a model there.
 HYPOTRACK_API void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose,
                             Eigen::VectorXd& state);
 
@@ -25,7 +26,7 @@ HYPOTRACK_API void set_pose(const Scene::Item& item, const Eigen::Isometry3d& po
 HYPOTRACK_API Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t other,
                                          const Eigen::VectorXd& before, const Eigen::VectorXd& now);
 
-/// Rigid models so near an articulated one in a state that it may hold them.
+/// Says of each model whether it is rigid and so near an articulated one that that may hold it.
 HYPOTRACK_API std::vector<bool> held_by(const Scene& scene, std::size_t model,
                                         const Eigen::VectorXd& state);
 
