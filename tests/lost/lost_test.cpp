@@ -250,11 +250,14 @@ TEST(Lost, FollowsOneHandWhileTheOtherIsAway) {
 TEST(Lost, FindsABoxInTheHandThatHeldIt) {
   const auto frames =
       track_models("hand_and_box.yaml", 30, {"source.faults=[{frames: [8, 19], kind: absent}]"});
+  constexpr std::size_t kAway = 8, kBack = 20;
   for (std::size_t m = 0; m < 2; ++m) {
-    EXPECT_EQ(frames.back().status[m], Status::tracked) << "model " << m;
-    EXPECT_LT(frames.back().error_mm[m], 10) << "model " << m;
-    for (std::size_t i = 8; i < 20; ++i) {
+    for (std::size_t i = kAway; i < kBack; ++i) {
       EXPECT_NE(frames[i].status[m], Status::tracked) << "frame " << i;
+    }
+    for (std::size_t i = kBack; i < frames.size(); ++i) {
+      EXPECT_EQ(frames[i].status[m], Status::tracked) << "model " << m << ", frame " << i;
+      EXPECT_LT(frames[i].error_mm[m], 15) << "model " << m << ", frame " << i;
     }
   }
 }
