@@ -1,6 +1,7 @@
 // Writes evidence of right and wrong poses of a rendered scene, for fit.py: what the scene's
 // tracker finds, the true pose, poses off by 1 to 200 mm, and what recoveries find that do not know
-// where the models are. The judge has learned from true poses.
+// where the models are. The judge has learned from what the tracker found where that is right, else
+// from the true pose: they differ where the rendered hand has another shape than the model.
 //
 //   collect_evidence SCENE.yaml OUT.csv FRAMES SEED [KEY=VALUE...]
 #include <fmt/format.h>
@@ -38,6 +39,16 @@ double error_mm(const Scene::Item& item, const Eigen::VectorXd& a, const Eigen::
     if (std::isfinite(d)) sum += d, ++count;
   }
   return count > 0 ? 1000 * sum / count : std::nan("");
+}
+
+/// Whether every model's landmarks are within 10 mm of the truth.
+bool all_right(const Scene& scene, const Eigen::VectorXd& state, const Eigen::Matrix3Xd& truth) {
+  Eigen::Index first = 0;
+  for (const Scene::Item& item : scene.items()) {
+    if (!(error_mm(item, state, truth, first) <= 10)) return false;
+    first += static_cast<Eigen::Index>(item.model->data().landmarks.size());
+  }
+  return true;
 }
 
 class Collector {
@@ -231,10 +242,11 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
       add_shown("recovered", one.searched);
     }
     if (!complete) continue;
-    collector.learn(*frame, truth, colors);
-    recoveries.learn(*frame, truth);
+    const Eigen::VectorXd& right = all_right(scene, s.state, landmarks) ? s.state : truth;
+    collector.learn(*frame, right, colors);
+    recoveries.learn(*frame, right);
     tiles.leave_out(std::vector<bool>(scene.items().size(), false));
-    photometric.learn(tiles, *frame, tiles.plan(*frame, truth), truth);
+    photometric.learn(tiles, *frame, tiles.plan(*frame, right), right);
   }
   std::fclose(out);
   return 0;

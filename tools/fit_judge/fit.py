@@ -5,8 +5,7 @@
 
 A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
 more than 20 mm or nothing there; what lies between is left out. A third of the tables is held out, and
-what the weights say of those is printed to standard error. How much the likeness of
-surfaces counts is fitted after the network. Needs python3-sklearn.
+what the weights say of those is printed to standard error. Needs python3-sklearn.
 """
 import csv
 import sys
@@ -15,9 +14,10 @@ import numpy as np
 from sklearn.neural_network import MLPClassifier
 
 RIGHT_MM, WRONG_MM = 10, 20
-HIDDEN = 12
-PENALTY = 3.0  # of the squared weights, for features of variance 1
+HIDDEN = 32
+PENALTY = 0.3  # of the squared weights, for features of variance 1
 COPIES = 3  # of what searches end at, which is what is judged; other poses fill in what they lack
+LIKENESS = 9.0  # weight of the likeness of surfaces; larger than the likeliest, 4 to 6: fists are told by little else
 SEARCHED = ["tracker", "recovered"]
 APPEARANCE = {"inside", "ring", "worst_inside", "worst_ring"}  # unknown before anything was learned
 
@@ -57,15 +57,6 @@ def probability(odds):
     return 1 / (1 + np.exp(-odds))
 
 
-def fit_slope(odds, x, y, copies):
-    """Fits a logistic regression with one slope and given log odds at x = 0 by Newton's method."""
-    slope = 0
-    for _ in range(50):
-        p = probability(odds + slope * x)
-        slope += (copies * (y - p) * x).sum() / (copies * p * (1 - p) * x * x).sum()
-    return slope
-
-
 def main():
     names, rows, table, kind = read(sys.argv[1:])
     column = {n: i for i, n in enumerate(names)}
@@ -77,7 +68,7 @@ def main():
     right, wrong = (error <= RIGHT_MM) & ~absent, (error > WRONG_MM) | absent
     usual, likeness = rows[:, column["usual_likeness"]], rows[:, column["likeness"]]
     likeness = np.where(experienced & ~np.isnan(likeness), usual * (likeness - usual), 0)
-    shown, slope = {}, 0
+    shown = {}
     for label, chosen, allowed in (
         ("kFresh", ~experienced, [n not in APPEARANCE and not n.startswith("d_") for n in feature_names]),
         ("kExperienced", experienced, [True] * len(feature_names)),
@@ -87,10 +78,7 @@ def main():
         usable = chosen & known & (right | wrong)
         held_out = table % 3 == 0
         train = usable & ~held_out
-        odds = log_odds(fit(x[train], right[train], copies[train]), x)
-        if likeness[train].any():
-            slope = fit_slope(odds[train], likeness[train], right[train], copies[train])
-            odds += slope * likeness
+        odds = log_odds(fit(x[train], right[train], copies[train]), x) + LIKENESS * likeness
         p = probability(odds)
         for threshold in (0.3, 0.5, 0.7, 0.8, 0.9):
             tests = [("<=3", error <= 3), ("<=10", error <= 10), ("10-20", (error > 10) & (error <= 20)),
@@ -104,7 +92,6 @@ def main():
                         cells.append(f"{only[:4]} {name} {(p[m] >= threshold).mean():.3f}/{m.sum()}")
             print(label, threshold, "; ".join(cells), file=sys.stderr)
         shown[label] = fit(x[usable], right[usable], copies[usable])
-    slope = fit_slope(log_odds(shown["kExperienced"], x[usable]), likeness[usable], right[usable], copies[usable])
     print("// Made by tools/fit_judge/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
     print('#include "judge/evidence.hpp"\n')
     print("/// Weights of networks over ModelJudge::features(): how likely a model's landmarks are within\n"
@@ -125,7 +112,7 @@ def main():
             print(f"{{{{{numbers(row)}}}}},")
         print(f"}}}}, {{{{{numbers(hidden_bias)}}}}}, {{{{{numbers(out)}}}}}, {out_bias:.5g}}};\n")
     print("/// Of the usual likeness times its difference to the likeness.\n"
-          f"inline constexpr double kLikeness = {slope:.2g};\n")
+          f"inline constexpr double kLikeness = {LIKENESS:.2g};\n")
     print("}  // namespace hypotrack::judge_weights")
 
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -174,7 +175,6 @@ Candidate Tracker::follow(const Frame& frame) {
 }
 
 LossReport Tracker::report(const Frame& frame, const Candidate& best) {
-  constexpr int kEvery = 4;  // doubtful frames
   LossReport out{.kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
   ModelFlags confirmed = out.sought, doubtful = out.sought;
   constexpr double kDoubt = 0.8;  // probability
@@ -192,10 +192,11 @@ LossReport Tracker::report(const Frame& frame, const Candidate& best) {
     doubts = doubts || doubtful[m];
   }
   if (out.lost) return out;
-  // Other poses are looked for around an answer that will do, because it hardly does.
+  // Other poses are looked for around an answer that will do, because it hardly does: ever less
+  // often while there are none.
   out.near_only = true;
-  out.sought = confirmed;
-  if (doubts && doubts_++ % kEvery == 0) out.sought = doubtful;
+  doubts_ = doubts ? doubts_ + 1 : doubts_ / 2;
+  out.sought = doubts && std::has_single_bit(doubts_) ? doubtful : confirmed;
   return out;
 }
 

@@ -133,7 +133,7 @@ class HYPOTRACK_API Tracker {
   Eigen::VectorXd output_;    ///< the last state that was given out
   int begun_ = 0;             ///< frames searched before anything was found
   bool found_any_ = false;    ///< whether `state_` is a solution
-  int doubts_ = 0;            ///< frames whose answers hardly did
+  unsigned doubts_ = 0;       ///< doubtful answers of late
   std::uint64_t seed_;
   std::future<Candidate> job_;
 };
