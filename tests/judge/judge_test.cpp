@@ -86,6 +86,20 @@ TEST_F(JudgeTest, FindsTheRightPlaceLikelierThanOthers) {
     EXPECT_LT(judge.judge(frame, box_.state(x), {}, {true})[0], right) << x;
 }
 
+TEST_F(JudgeTest, BearsUnlikeColorsBetterInAModelThatWasTracked) {
+  ModelJudge judge(box_.scene, 0, box_.cameras);
+  for (int k = 0; k < 3; ++k) judge.learn(judge.look(box_.frame(), box_.state(), {}));
+  Evidence evidence = judge.look(box_.frame(), box_.state(), {});
+  ASSERT_GT(judge.usual_likeness(), 0);
+  evidence.likeness = judge.usual_likeness();
+  const double alike = judge.log_odds(evidence);
+  evidence.likeness = judge.usual_likeness() - 0.5;
+  const double unlike = judge.log_odds(evidence);
+  EXPECT_LT(unlike, alike);
+  judge.expect(true);
+  EXPECT_NEAR(judge.log_odds(evidence), (alike + unlike) / 2, 1e-9);
+}
+
 TEST_F(JudgeTest, RemembersWhichStateItJudgedLast) {
   Judge judge(box_.scene, box_.cameras);
   EXPECT_FALSE(judge.judged(box_.state()));

@@ -48,7 +48,8 @@ double ModelJudge::log_odds(const Evidence& evidence) const {
     sum += network.out[unit] * std::max(0.0, weights.dot(x) + network.hidden_bias[unit]);
   }
   if (usual_ && !std::isnan(evidence.likeness))
-    sum += judge_weights::kLikeness * usual_likeness_ * (evidence.likeness - usual_likeness_);
+    sum += (tracked_ ? 0.5 : 1.0) * judge_weights::kLikeness * usual_likeness_ *
+           (evidence.likeness - usual_likeness_);
   return sum;
 }
 

@@ -34,6 +34,10 @@ class HYPOTRACK_API ModelJudge {
   /// (weights.hpp).
   double log_odds(const Evidence& evidence) const;
 
+  /// Says whether the model was tracked until now: then it may turn sides to the cameras that look
+  /// unlike those seen before, and its likeness counts half.
+  void expect(bool tracked) { tracked_ = tracked; }
+
   /// Learns colours and usual evidence from the last look, at which the model was surely right.
   void learn(const Evidence& evidence);
   bool experienced() const { return usual_.has_value(); }
@@ -48,6 +52,7 @@ class HYPOTRACK_API ModelJudge {
   ForegroundColors colors_;
   Appearance appearance_;
   double usual_likeness_ = 0;
+  bool tracked_ = false;
   std::optional<std::array<double, Evidence::kCount>> usual_;
 };
 
@@ -64,6 +69,11 @@ class HYPOTRACK_API Judge {
   /// Nothing is known of the others, and of any without colours in two views.
   Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
                 const std::vector<bool>& models);
+
+  /// Says whether a model was tracked until now (ModelJudge::expect()).
+  void expect(std::size_t model, bool tracked) {
+    if (model < models_.size()) models_[model].expect(tracked);
+  }
 
   /// Learns from the last frame judged. The models of which `right` is set were surely right.
   void learn(const std::vector<bool>& right);

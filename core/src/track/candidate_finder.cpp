@@ -275,7 +275,10 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
                               std::uint64_t seed) {
   Candidate base = best;
   for (std::size_t m = 0; m < report.sought.size(); ++m)
-    if (report.sought[m]) base.shown[m] = false;
+    if (report.sought[m]) {
+      base.shown[m] = false;
+      if (report.lost) judge_.expect(m, false);
+    }
   if (!any(base.shown)) base.found.cost = std::numeric_limits<double>::infinity();
   ModelFlags left = report.sought;
   std::uint32_t part = 0;
@@ -320,6 +323,7 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
       believed_[m] = 0;  // lost: what hides behind others is not found there
   }
   believed_time_ = frame.time;
+  for (std::size_t m = 0; m < tracked.size(); ++m) judge_.expect(m, tracked[m]);
   // What is tracked but doubtful teaches nothing: a model that slides off would be followed there.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
