@@ -259,6 +259,7 @@ TEST(Lost, FindsABoxInTheHandThatHeldIt) {
       EXPECT_EQ(frames[i].status[m], Status::tracked) << "model " << m << ", frame " << i;
       EXPECT_LT(frames[i].error_mm[m], 15) << "model " << m << ", frame " << i;
     }
+    EXPECT_LT(frames.back().error_mm[m], 10) << "model " << m;
   }
 }
 

@@ -17,7 +17,7 @@ RIGHT_MM, WRONG_MM = 10, 20
 HIDDEN = 32
 PENALTY = 0.3  # of the squared weights, for features of variance 1
 COPIES = 3  # of what searches end at, which is what is judged; other poses fill in what they lack
-LIKENESS = 9.0  # weight of the likeness of surfaces; larger than the likeliest, 4 to 6: fists are told by little else
+LIKENESS = 9.0  # weight of the likeness of surfaces, chosen by hand; maximum likelihood gives 4 to 6
 SEARCHED = ["tracker", "recovered"]
 APPEARANCE = {"inside", "ring", "worst_inside", "worst_ring"}  # unknown before anything was learned
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kHidden = 0.7;     // share of a model's points that others hide: not judged
 constexpr double kUsualRate = 0.1;  // of a frame in what is usual
+constexpr double kOfTracked = 0.5;  // share of the likeness's weight for a tracked model
 
 bool has_colors(const Frame& frame) {
   return frame.views.size() >= 2 && !frame.views[0].color.empty() && !frame.views[1].color.empty();
@@ -48,7 +49,7 @@ double ModelJudge::log_odds(const Evidence& evidence) const {
     sum += network.out[unit] * std::max(0.0, weights.dot(x) + network.hidden_bias[unit]);
   }
   if (usual_ && !std::isnan(evidence.likeness))
-    sum += (tracked_ ? 0.5 : 1.0) * judge_weights::kLikeness * usual_likeness_ *
+    sum += (tracked_ ? kOfTracked : 1.0) * judge_weights::kLikeness * usual_likeness_ *
            (evidence.likeness - usual_likeness_);
   return sum;
 }

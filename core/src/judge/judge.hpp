@@ -34,9 +34,9 @@ class HYPOTRACK_API ModelJudge {
   /// (weights.hpp).
   double log_odds(const Evidence& evidence) const;
 
-  /// Says whether the model was tracked until now: then it may turn sides to the cameras that look
-  /// unlike those seen before, and its likeness counts half.
-  void expect(bool tracked) { tracked_ = tracked; }
+  /// Sets whether the model was tracked in the last frame. Its likeness counts half then: a hand
+  /// that turns or closes shows sides unlike those seen before.
+  void set_tracked(bool tracked) { tracked_ = tracked; }
 
   /// Learns colours and usual evidence from the last look, at which the model was surely right.
   void learn(const Evidence& evidence);
@@ -70,9 +70,9 @@ class HYPOTRACK_API Judge {
   Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
                 const std::vector<bool>& models);
 
-  /// Says whether a model was tracked until now (ModelJudge::expect()).
-  void expect(std::size_t model, bool tracked) {
-    if (model < models_.size()) models_[model].expect(tracked);
+  /// Sets whether a model was tracked in the last frame (ModelJudge::set_tracked()).
+  void set_tracked(std::size_t model, bool tracked) {
+    if (model < models_.size()) models_[model].set_tracked(tracked);
   }
 
   /// Learns from the last frame judged. The models of which `right` is set were surely right.

@@ -277,7 +277,7 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
   for (std::size_t m = 0; m < report.sought.size(); ++m)
     if (report.sought[m]) {
       base.shown[m] = false;
-      if (report.lost) judge_.expect(m, false);
+      if (report.lost) judge_.set_tracked(m, false);
     }
   if (!any(base.shown)) base.found.cost = std::numeric_limits<double>::infinity();
   ModelFlags left = report.sought;
@@ -323,7 +323,7 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
       believed_[m] = 0;  // lost: what hides behind others is not found there
   }
   believed_time_ = frame.time;
-  for (std::size_t m = 0; m < tracked.size(); ++m) judge_.expect(m, tracked[m]);
+  for (std::size_t m = 0; m < tracked.size(); ++m) judge_.set_tracked(m, tracked[m]);
   // What is tracked but doubtful teaches nothing: a model that slides off would be followed there.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)

@@ -9,7 +9,7 @@
 namespace hypotrack::skin {
 namespace {
 
-constexpr double kBeside = 0.07;  // metres from the silhouette in which background counts
+constexpr double kBeside = 0.08;  // metres from the silhouette in which background counts
 
 /// What a place says of a pixel.
 struct PlaceModel {
