@@ -165,6 +165,9 @@ class Recoveries {
   bool first_ = true;
 };
 
+// A recovery takes as long as ten frames of tracking or more.
+constexpr unsigned kRecoverEvery = 4;
+
 int collect(const std::string& file, const std::string& csv, int frames, int seed,
             const std::vector<std::string>& overrides) {
   PluginLoader plugins(std::vector<std::filesystem::path>{});
@@ -237,10 +240,11 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
         if (!shown[m]) state.segment<3>(scene.items()[m].offset) += Eigen::Vector3d(0, 0, -20);
       add(kind, state, only);
     };
-    for (const Recovered& one : recoveries.find(*frame, kept, seconds, model, shown, random())) {
-      add_shown("candidate", one.candidate);
-      add_shown("recovered", one.searched);
-    }
+    if (random() % kRecoverEvery == 0)
+      for (const Recovered& one : recoveries.find(*frame, kept, seconds, model, shown, random())) {
+        add_shown("candidate", one.candidate);
+        add_shown("recovered", one.searched);
+      }
     if (!complete) continue;
     const Eigen::VectorXd& right = all_right(scene, s.state, landmarks) ? s.state : truth;
     collector.learn(*frame, right, colors);

@@ -4,7 +4,7 @@
     fit.py TABLE.csv... > core/src/judge/weights.hpp
 
 A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
-more than 20 mm or nothing there; what lies between is left out. A third of the tables is held out, and
+more than 20 mm or nothing there; what lies between is left out. A quarter of the tables is held out, and
 what the weights say of those is printed to standard error. Needs python3-sklearn.
 """
 import csv
@@ -76,7 +76,7 @@ def main():
         x = np.where(allowed, features, 0)
         copies = np.where(np.isin(kind, SEARCHED), COPIES, 1)
         usable = chosen & known & (right | wrong)
-        held_out = table % 3 == 0
+        held_out = table % 4 == 3
         train = usable & ~held_out
         odds = log_odds(fit(x[train], right[train], copies[train]), x) + LIKENESS * likeness
         p = probability(odds)
