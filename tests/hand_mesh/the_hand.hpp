@@ -9,7 +9,7 @@ namespace hypotrack::hand_mesh {
 
 using DigitAngles = std::array<std::array<double, 4>, kDigits>;
 
-/// The hand, made once per program, with the texture of the file that the build makes.
+/// The hand, made once per program, with the texture of the committed file.
 const HandAsset& the_hand();
 
 /// Abduction and three flexions per digit, degrees, thumb first.
