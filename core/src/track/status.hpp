@@ -25,8 +25,8 @@ HYPOTRACK_API std::string_view to_string(Status status);
 /// `tracker:` of a scene.
 struct StatusSettings {
   bool evidence = true;
-  double tracked_above = 0.45;
-  double surely_above = 0.65;
+  double tracked_above = 0.55;
+  double surely_above = 0.75;
   double first_above = 0.35;
   double confirmed_above = 0.25;
   double uncertain_above = 0.15;
