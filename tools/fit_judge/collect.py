@@ -5,9 +5,13 @@
     collect.py build/dev/bin/collect_evidence TABLES [--jobs 2] [--video handpose3d/media]
 
 The sequences differ in motion, absences, cameras, light, noise, background, forearm and in the hand's
-shape, which in half of them is not the model's. Tables that are there already are kept. The video is that
-of configs/two_webcams.yaml; two_webcams_poses.csv has what the tracker found in it, in the 126 frames that
-it called tracked. About 55 pictures of them were looked at.
+shape. In half of them that is not the model's. Tables that are there already are kept.
+
+The video is that of configs/two_webcams.yaml. two_webcams_poses.csv has the poses that the tracker found in
+126 of its frames, with earlier weights. Some 55 of them were checked in pictures.
+
+The weights that are committed come from tables that were cut short: all 72 ran side by side on 32 cores for
+nine minutes, and had 85,000 rows then. Whole tables give other weights.
 """
 import argparse
 import concurrent.futures
@@ -52,12 +56,14 @@ def pictures(draw, number):
 
 
 def motion(draw, number, frames):
+    """Draws a random motion with absences, source.random of a scene."""
     return {"seed": 9000 + number, "frames": frames, "speed_mm_per_s": draw.choice([200, 300, 500]),
             "turn_deg_per_s": draw.choice([90, 120, 250]), "gesture_s": draw.choice([0.3, 0.5, 0.7]),
             "tilt_deg": draw.choice([50, 70, 90]), "absence": {"after": 15, "frames": [1, 6]}}
 
 
 def other_hand(draw):
+    """Draws the shape of a rendered hand that is not the model's."""
     return {"scale": draw.uniform(0.93, 1.07), "finger_scale": [draw.uniform(0.9, 1.1)]}
 
 
@@ -67,16 +73,16 @@ def sequence(number, frames):
     kind, moved = KINDS[number % len(KINDS)], motion(draw, number, frames)
     settings = {"evaluate.backend": "cpu", "evaluate.threads": 1, "source.keyframes": "null",
                 **pictures(draw, number)}
-    tracker, shape = draw.choice(["demo", "demo", "real_time"]), number % 2 == 1
+    tracker, other_shape = draw.choice(["demo", "demo", "real_time"]), number % 2 == 1
     settings["budget.evaluations"] = 32 if tracker == "real_time" else 1024
     if kind == "two_hands":
         tracker = "two_hands"
         moved |= {"tilt_deg": 50, "apart_mm": 180, "lowest_mm": [-160, 0, 480], "highest_mm": [280, 180, 700]}
         settings["source.gesture_file"] = CONFIGS / "datasets/gestures.yaml"
-        if shape:
+        if other_shape:
             right = {"type": "hand", **other_hand(draw)}
             settings["source.render_models"] = {"right": right, "left": {"type": "mirrored_hand", "of": right}}
-    elif shape:
+    elif other_shape:
         settings["source.render_models"] = {"hand": {"type": "hand", **other_hand(draw)}}
     if kind == "object":
         moved |= {"gestures": ["around", "looser"], "tilt_deg": 40, "hold": {"box": "hand"},
@@ -95,6 +101,7 @@ def sequence(number, frames):
 
 
 def video(media):
+    """Returns the scene of the real video and its overrides."""
     poses = pathlib.Path(__file__).resolve().with_name("two_webcams_poses.csv")
     return CONFIGS / "two_webcams.yaml", ["evaluate.backend=cpu", "evaluate.threads=1",
                                           f"source.left={media / 'cam0_test.mp4'}",
