@@ -143,11 +143,11 @@ TEST(Status, AConfirmedAnswerNeedsLess) {
   StatusMonitor monitor({});
   judge_by_pictures(monitor, 0.95);
   judge_by_pictures(monitor, 0.01);
-  StatusEvidence evidence{.cost = -100, .probability = 0.3, .visible = 1, .sigma = kUnknown};
+  StatusEvidence evidence{.cost = -100, .probability = 0.5, .visible = 1, .sigma = kUnknown};
   EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
   evidence.confirmed = true;
   EXPECT_EQ(monitor.judge(evidence), Status::tracked);
-  evidence.probability = 0.2;
+  evidence.probability = 0.4;
   EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
 }
 

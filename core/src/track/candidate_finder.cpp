@@ -11,8 +11,8 @@
 namespace hypotrack {
 namespace {
 
-// Of probability: answers less apart are told by their costs.
-constexpr double kAlike = 0.2;
+// Factor between odds of being right: answers less apart are told by their costs.
+constexpr double kAlike = 2.3;
 // From this probability on nobody looks at further places.
 constexpr double kSure = 0.95;
 // Seconds since a model was surely right for which poses that agree end the search: after that they
@@ -24,6 +24,14 @@ constexpr double kForgotten = 0.6;
 constexpr double kHint = 0.02;
 
 bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
+
+/// The least probability that cannot be told from the highest of some.
+double as_likely(double highest) {
+  constexpr double kMost = 0.98;  // more says no more
+  const double p = std::min(highest, kMost);
+  const double odds = p / (1 - p) / kAlike;
+  return odds / (1 + odds);
+}
 
 }  // namespace
 
@@ -139,8 +147,7 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
   const Eigen::VectorXd costs = search_.costs(states);
   auto best = static_cast<std::size_t>(most - candidates.begin());
   const double highest = most->probability();
-  const double enough =
-      std::max(std::min(highest - kAlike, settings_.tracked_above), 0.5 * highest);
+  const double enough = as_likely(highest);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     if (candidates[i].probability() >= enough &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])

@@ -28,7 +28,7 @@ struct StatusSettings {
   double tracked_above = 0.55;
   double surely_above = 0.75;
   double first_above = 0.35;
-  double confirmed_above = 0.25;
+  double confirmed_above = 0.45;
   double uncertain_above = 0.15;
   MotionLimits motion;
   RecoverySettings recovery;
