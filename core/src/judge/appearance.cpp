@@ -24,7 +24,8 @@ cv::Vec3f color_at(const cv::Mat3f& grid, const cv::Point2f& p) {
          fy * ((1 - fx) * grid(y + 1, x) + fx * grid(y + 1, x + 1));
 }
 
-/// Takes the mean off some colours; returns the sum of their squares then, and of noise of kNoise.
+/// Subtracts the mean from the colours. Returns the sum of their squares plus that of noise of
+/// kNoise.
 double center(std::vector<cv::Vec3f>& colors) {
   cv::Vec3f mean(0, 0, 0);
   for (const cv::Vec3f& color : colors) mean += color;

@@ -8,21 +8,21 @@
 
 namespace hypotrack {
 
-/// Remembers what colours the points of a model's surface had where it was surely right: a turned
-/// or shifted box agrees between the views, but not with its own picture.
+/// Learns the colours of a model's surface points and compares later frames with them. A box that
+/// is turned or shifted agrees between the views, but not with its own earlier picture.
 class HYPOTRACK_API Appearance {
  public:
-  /// Remembers the points that samples show. Older colours fade.
+  /// Updates the running mean colour of every point that the samples show. Older colours fade.
   void learn(const SurfaceSamples& samples);
 
-  /// Correlation (-1 .. 1) of the colours that the points have and had, around their means: the
-  /// best of some shifts. About 0 for surfaces of one colour; NaN for a side that was hardly seen
-  /// before.
+  /// Returns the correlation (-1 .. 1) of the present with the learned colours, the best over small
+  /// image shifts. It is about 0 for a surface of one colour. NaN if too few visible points were
+  /// seen before.
   double likeness(const SurfaceSamples& samples) const;
 
  private:
   std::vector<cv::Vec3f> colors_;
-  std::vector<float> times_;  ///< that a point was seen
+  std::vector<float> times_;  ///< frames in which each point was seen
 };
 
 }  // namespace hypotrack

@@ -43,7 +43,7 @@ struct Products {
   }
 };
 
-/// Correlation around the means of all points.
+/// Computes the correlation around the means of all points.
 double plain_correlation(const Pairs& pairs) {
   const cv::Scalar a = cv::mean(pairs.first, pairs.mask), b = cv::mean(pairs.other, pairs.mask);
   Products sums;
@@ -61,7 +61,7 @@ double plain_correlation(const Pairs& pairs) {
   return sums.correlation(kNoise);
 }
 
-/// Colours without their mean over the points of a patch that count.
+/// Subtracts from each colour the weighted mean of its patch.
 cv::Mat3f without_local_mean(const cv::Mat3f& color, const cv::Mat1f& weight,
                              const cv::Mat1f& weight_sum) {
   cv::Mat3f weighted, local;
@@ -77,7 +77,7 @@ cv::Mat3f without_local_mean(const cv::Mat3f& color, const cv::Mat1f& weight,
   return out;
 }
 
-/// Means of a measurement over pieces of the grid, which overlap by half.
+/// Averages a measurement over pieces of the grid that overlap by half.
 class Pieces {
  public:
   Pieces() : sum_(kPieces * kPieces), count_(sum_.size()) {}
@@ -91,7 +91,8 @@ class Pieces {
         count_[i] += 1;
       }
   }
-  /// The mean of the lowest tenth of the pieces with enough points; `otherwise` if there is none.
+  /// Returns the mean of the lowest tenth of the pieces with enough points; `otherwise` if there is
+  /// none.
   double lowest(double otherwise) const { return extreme(otherwise, std::less<>()); }
   double highest(double otherwise) const { return extreme(otherwise, std::greater<>()); }
 
@@ -114,7 +115,7 @@ class Pieces {
   std::vector<double> sum_, count_;
 };
 
-/// What patches say: correlation over all, share of patches that agree, contrast.
+/// Patch statistics: correlation over all, share of patches that agree, contrast.
 struct Texture {
   double correlation = 0, agreement = 0, contrast = 0, worst_agreement = 0;
 };
@@ -166,7 +167,8 @@ double median_difference(const Pairs& pairs) {
   return log10_of(median(distances));
 }
 
-/// Total variation distance of the colours inside and beside a silhouette, in bins of 32 levels.
+/// Computes the total variation distance of the colour histograms inside and beside a silhouette,
+/// in bins of 32 levels.
 double separation(const SampledView& view) {
   constexpr int kLevels = 8;
   std::vector<double> inside(kLevels * kLevels * kLevels), ring(inside.size());
@@ -188,7 +190,7 @@ double separation(const SampledView& view) {
   return distance / 2;
 }
 
-/// Changes of colour across a silhouette, and along the same lines inside and outside of it.
+/// Colour changes across a silhouette, compared with changes along the same lines on either side.
 struct Edges {
   double share = 0, ratio = 0, worst_share = 0;
 };
@@ -239,7 +241,7 @@ Edges edges(const SampledView& view) {
   return {clear / count, std::log10((here + 5) / (there + 5)), worst};
 }
 
-/// Foreground probability of the points of a mask, over both views.
+/// Foreground probability over the points of a mask, in both views.
 struct Probability {
   double mean = 0, lowest = 0, highest = 0;
 };

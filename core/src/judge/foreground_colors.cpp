@@ -7,13 +7,13 @@
 namespace hypotrack {
 namespace {
 
-// Bins of brightness, and of the red and green shares of a colour, which light changes less.
+// Histogram bins of brightness and of the red and green chromaticity, which light changes less.
 constexpr int kBright = 8, kShares = 32;
 constexpr float kFade = 0.9f;
-// Counts that a colour needs before it says something: below it is hardly foreground.
+// Count below which a colour says little: it is hardly foreground then.
 constexpr float kUnseen = 1e-4f;
 
-/// A colour's place among the bins.
+/// Histogram bin of a colour.
 struct Bin {
   int bright, red, green;
 
@@ -27,12 +27,12 @@ struct Bin {
 };
 
 Bin bin_of(const cv::Vec3f& color) {
-  // Dark colours have shares of noise: a floor draws them to grey.
+  // The chromaticity of dark colours is noise: the floor draws them to grey.
   constexpr float kFloor = 8;
   const float blue = std::max(color[0], 0.0f) + kFloor, green = std::max(color[1], 0.0f) + kFloor,
               red = std::max(color[2], 0.0f) + kFloor;
   const float sum = blue + green + red;
-  // Shares lie around a third; few colours are beyond 0.7.
+  // Chromaticities lie around a third; few are beyond 0.7.
   const auto share = [&](float channel) {
     return std::clamp(static_cast<int>(channel / sum * (kShares / 0.7f)), 0, kShares - 1);
   };
@@ -40,7 +40,7 @@ Bin bin_of(const cv::Vec3f& color) {
   return {std::clamp(static_cast<int>(bright), 0, kBright - 1), share(red), share(green)};
 }
 
-/// Adds a colour to its bin, and parts of it to the neighbours, as noise and light would.
+/// Adds a colour to its bin, and fractions of it to the neighbours, as noise and light would.
 void add(std::vector<float>& counts, const cv::Vec3f& color) {
   constexpr float kShare = 0.3f, kLight = 0.4f;
   const Bin here = bin_of(color);

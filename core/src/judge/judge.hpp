@@ -17,32 +17,33 @@
 
 namespace hypotrack {
 
-/// Judges from the pictures alone whether one model is where it was found.
+/// Estimates from the pictures alone whether the pose of one model is right.
 class HYPOTRACK_API ModelJudge {
  public:
   /// The scene must outlive the judge.
   ModelJudge(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
 
-  /// Measures a frame with the scene posed in `state`. `colors` makes the second view's colours the
-  /// first's.
+  /// Measures how well a frame supports the model's pose in `state`. `colors` maps the second
+  /// view's colours to the first's.
   Evidence look(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
 
-  /// Evidence and, after learn(), its differences to what is usual: what classifiers see.
+  /// Returns the classifier's features: the evidence and, after learn(), its differences from the
+  /// usual evidence (zeros before).
   Eigen::VectorXd features(const Evidence& evidence) const;
 
-  /// Logarithm of the odds that the model's landmarks are about where they were found
-  /// (weights.hpp).
+  /// Returns the log odds that the model's landmarks are about where they were found (weights.hpp).
+  /// -infinity without evidence.
   double log_odds(const Evidence& evidence) const;
 
-  /// Sets whether the model was tracked in the last frame. Its likeness counts half then: a hand
-  /// that turns or closes shows sides unlike those seen before.
+  /// Sets whether the model was tracked in the last frame. Its likeness then counts half, because a
+  /// hand that turns or closes shows sides that were not seen before.
   void set_tracked(bool tracked) { tracked_ = tracked; }
 
-  /// Learns colours and usual evidence from the last look, at which the model was surely right.
+  /// Learns colours and usual evidence from the last look(), in which the model was surely right.
   void learn(const Evidence& evidence);
   bool experienced() const { return usual_.has_value(); }
   const ForegroundColors& colors() const { return colors_; }
-  /// What is usual where the model is surely right; 0 before learn().
+  /// Returns the mean evidence of frames in which the model was surely right; 0 before learn().
   double usual(Evidence::Index i) const { return usual_ ? (*usual_)[i] : 0; }
   double usual_likeness() const { return usual_likeness_; }
 
@@ -56,17 +57,17 @@ class HYPOTRACK_API ModelJudge {
   std::optional<std::array<double, Evidence::kCount>> usual_;
 };
 
-/// Probability that each model is right; NaN: nothing is known, as of one that others hide.
+/// Probability, by model, that its pose is right. NaN: unknown, for example where others hide it.
 using Verdict = std::vector<double>;
 
-/// Judges all models of a scene.
+/// Estimates for every model of a scene whether its pose is right.
 class HYPOTRACK_API Judge {
  public:
   /// The scene must outlive the judge.
   Judge(const Scene& scene, const std::vector<Camera>& cameras);
 
-  /// Judges some models (one flag each) in a frame with the scene posed in a normalised state.
-  /// Nothing is known of the others, and of any without colours in two views.
+  /// Judges the flagged models (one flag each) in a frame with the scene posed in a normalised
+  /// state. The others get NaN, and so do all in frames without colours in two views.
   Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
                 const std::vector<bool>& models);
 
@@ -75,19 +76,19 @@ class HYPOTRACK_API Judge {
     if (model < models_.size()) models_[model].set_tracked(tracked);
   }
 
-  /// Learns from the last frame judged. The models of which `right` is set were surely right.
+  /// Learns from the last frame judged. `right` flags the models whose pose was surely right.
   void learn(const std::vector<bool>& right);
 
-  /// Whether a state was judged last.
+  /// Returns whether the last call of judge() was for this state.
   bool judged(const Eigen::VectorXd& state) const {
     return state_.size() == state.size() && state_ == state;
   }
-  /// Whether a model, or any, was surely right once.
+  /// Returns whether a model was surely right at least once.
   bool experienced(std::size_t model) const {
     return model < models_.size() && models_[model].experienced();
   }
   bool experienced() const;
-  /// The judge of one model. A look of its own makes learn() wrong until the next judge().
+  /// Returns the judge of one model. Its look() invalidates learn() until the next judge().
   ModelJudge& model(std::size_t i) {
     state_.resize(0);
     return models_[i];

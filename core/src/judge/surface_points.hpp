@@ -7,18 +7,18 @@
 
 namespace hypotrack {
 
-/// Points of a surface. Each lies in a triangle: the sum of its corners, weighted.
+/// Points on a mesh, each a weighted sum of its triangle's corners.
 struct SurfacePoints {
-  Eigen::Matrix3Xi corners;  ///< vertices
+  Eigen::Matrix3Xi corners;  ///< vertex indices
   Eigen::Matrix3Xf weights;  ///< barycentric coordinates
 
   Eigen::Index count() const { return corners.cols(); }
 };
 
-/// Spreads points evenly over the area of a mesh. None where it has no area.
+/// Spreads points evenly over the area of a mesh. Returns none if it has no area.
 HYPOTRACK_API SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count);
 
-/// Positions of the points with the mesh's vertices at `vertices` (3xV), 3xN.
+/// Returns the positions (3xN) of the points with the mesh's vertices at `vertices` (3xV).
 HYPOTRACK_API Eigen::Matrix3Xf positions(const SurfacePoints& points,
                                          const Eigen::Matrix3Xf& vertices);
 

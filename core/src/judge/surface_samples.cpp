@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Sce
   return {{item.name, item.model}};
 }
 
-/// A colour of an image, interpolated; false outside.
+/// Interpolates a colour of an image. Returns false outside.
 bool color_at(const cv::Mat& image, const ImagePoint& p, cv::Vec3f& color) {
   const float x0 = std::floor(p.x), y0 = std::floor(p.y);
   if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
@@ -48,7 +48,7 @@ cv::Vec3f mapped(const ColorMap& map, const cv::Vec3f& color) {
           map.gain[2] * color[2] + map.offset[2]};
 }
 
-/// A picture through its lens.
+/// Looks up a picture through its lens.
 struct Lookup {
   const LensMap& lens;
   TileIntrinsics grid;
@@ -62,7 +62,7 @@ struct Lookup {
   }
 };
 
-/// The drawn depths of a view as a matrix, 1/z.
+/// Returns the drawn depths of a view as a matrix of 1/z.
 cv::Mat1f inverse_depths(const DepthTile& tile) {
   cv::Mat1f out(tile.height, tile.width, 0.0f);
   for (int y = std::max(tile.y0, 0); y < std::min(tile.y1, tile.height); ++y)
@@ -71,7 +71,7 @@ cv::Mat1f inverse_depths(const DepthTile& tile) {
   return out;
 }
 
-/// Points of the ring get the depth of the nearest point inside.
+/// Gives points of the ring the depth of the nearest point inside.
 void extend(cv::Mat1f& depth, const cv::Mat1b& inside, const cv::Mat1b& ring) {
   cv::Mat1b outside;
   cv::bitwise_not(inside, outside);
@@ -104,7 +104,7 @@ struct SurfaceSampler::Impl {
     whole_drawer = std::make_unique<HypothesisDrawer>(*whole_plan);
   }
 
-  /// Draws the model, and all models, into the views' grids.
+  /// Draws into the views' grids the model alone and the whole scene.
   void draw(const Observation& header, const Eigen::VectorXd& state, const Eigen::VectorXd& own);
   SampledView look(const Lookup& lookup, std::size_t view) const;
   void pair(const Lookup& other, const Observation& header, SurfaceSamples& out) const;

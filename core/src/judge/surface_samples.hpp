@@ -13,16 +13,16 @@
 
 namespace hypotrack {
 
-/// One view around a drawn model, on a grid of kSampleGrid x kSampleGrid points.
+/// One view around a drawn model, resampled to a grid of kSampleGrid x kSampleGrid points.
 struct SampledView {
   cv::Mat3f color;   ///< B, G, R, 0 .. 255
   cv::Mat1b inside;  ///< 255 where the model is the nearest surface and the picture shows it
   cv::Mat1b ring;    ///< 255 beside its silhouette, where no model of the scene is drawn
 };
 
-/// What a stereo pair shows of one model and of what is around it.
+/// Samples of a stereo pair on one model and around it.
 struct SurfaceSamples {
-  /// A point of the surface, always the same one.
+  /// A fixed point of the surface.
   struct Point {
     cv::Point2f at;     ///< in the first view's grid
     bool seen = false;  ///< false: hidden, turned away or out of the picture
@@ -30,7 +30,7 @@ struct SurfaceSamples {
 
   std::array<SampledView, 2> views;
   /// The second view's colour of the surface point at each point of the first view's grid. Beside
-  /// the silhouette the surface goes on at the depth of its nearest point.
+  /// the silhouette the surface is extended at the depth of its nearest point.
   cv::Mat3f other;
   cv::Mat1b paired;  ///< 255 where `other` is known; inside, where both views see the point
   std::vector<Point> points;
@@ -43,8 +43,8 @@ struct SurfaceSamples {
 
 inline constexpr int kSampleGrid = 64;
 
-/// Samples the first two views of a frame around one model of a scene. Keeps its memory: one per
-/// thread.
+/// Samples the first two views of a frame around one model of a scene. Reuses its memory, so each
+/// thread needs its own.
 class HYPOTRACK_API SurfaceSampler {
  public:
   /// The scene must outlive the sampler.
@@ -52,8 +52,9 @@ class HYPOTRACK_API SurfaceSampler {
   ~SurfaceSampler();
   SurfaceSampler(SurfaceSampler&&) noexcept;
 
-  /// Samples a frame with the scene posed in `state` (normalised). `colors` makes the second view's
-  /// colours the first's. Empty if a view has no colour or a camera does not see the model.
+  /// Samples a frame with the scene posed in `state` (normalised). `colors` maps the second view's
+  /// colours to the first's. The result is empty if a view has no colour or a camera does not see
+  /// the model.
   SurfaceSamples sample(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
 
  private:
