@@ -11,23 +11,23 @@
 namespace hypotrack {
 namespace {
 
-// Factor between odds of being right: answers less apart are told by their costs.
+// Ratio of odds below which candidates count as equally probable; their costs decide then.
 constexpr double kAlike = 2.3;
-// From this probability on nobody looks at further places.
+// A candidate of this probability ends the search for other poses.
 constexpr double kSure = 0.95;
-// Seconds since a model was surely right for which poses that agree end the search: after that they
-// may agree in what is wrong.
+// Longest time since a model was surely right, in seconds, at which two agreeing poses end the
+// search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
-// Seconds in which belief in a model that is hidden dies away.
+// Time constant, in seconds, with which the belief in a hidden model decays.
 constexpr double kForgotten = 0.6;
-// An answer of this probability is worth searches around it.
+// Least probability of a candidate that is worth searches around it.
 constexpr double kHint = 0.02;
 
 bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
 
-/// The least probability that cannot be told from the highest of some.
+/// Returns the least probability that counts as equal to the given highest one.
 double as_likely(double highest) {
-  constexpr double kMost = 0.98;  // more says no more
+  constexpr double kMost = 0.98;  // higher probabilities are not told apart
   const double p = std::min(highest, kMost);
   const double odds = p / (1 - p) / kAlike;
   return odds / (1 + odds);
@@ -38,7 +38,7 @@ double as_likely(double highest) {
 double Candidate::probability() const {
   double least = std::numeric_limits<double>::quiet_NaN();
   for (std::size_t m = 0; m < verdict.size(); ++m)
-    if (shown[m]) least = std::fmin(least, verdict[m]);  // which passes NaN over
+    if (shown[m]) least = std::fmin(least, verdict[m]);  // fmin ignores NaN
   return least;
 }
 
@@ -62,7 +62,7 @@ Candidate CandidateFinder::judged(const Frame& frame, Found found) {
     out.verdict = judge_.judge(frame, search_.drawn(out.found.state), search_.second_view_colors(),
                                out.shown);
   if (std::isnan(out.probability())) return out;
-  // A model that others hide is as likely right as it was before, for a while.
+  // A hidden model keeps its last probability, which decays with time.
   const double left = std::exp(-std::max(frame.time - believed_time_, 0.0) / kForgotten);
   for (std::size_t m = 0; m < models; ++m)
     if (out.shown[m] && std::isnan(out.verdict[m])) out.verdict[m] = left * believed_[m];
@@ -75,7 +75,7 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
   std::int64_t evaluations = 0;
   for (int k = 0; k < count; ++k) {
     const auto part = static_cast<std::uint32_t>(k);
-    // Off by as much as a start by hand is, in another direction each.
+    // Typical error of a start set by hand, in a different direction each time.
     const Displacement off{0.025, 20 * kDegree, 0};
     const Eigen::VectorXd from =
         k == 0 ? start : displaced(scene_, start, off, seed_of_part(seed, 100 + part));
@@ -140,7 +140,7 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
   });
   if (search_.tiles().visible_share(most->found.state) == 0) return *most;
   look_at(frame, most->found.state);
-  // Costs compare in one tile only.
+  // Costs are comparable within one tile only.
   Eigen::MatrixXd states(scene_.dimension(), static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i)
     states.col(static_cast<Eigen::Index>(i)) = candidates[i].found.state;
@@ -152,7 +152,8 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
     if (candidates[i].probability() >= enough &&
         costs[static_cast<Eigen::Index>(i)] < costs[static_cast<Eigen::Index>(best)])
       best = i;
-  // Turned by half a box looks the same: what a hand holds is rather where it was in the hand.
+  // A box turned by 180 degrees looks the same: prefer the pose closest to the last one in the
+  // hand.
   const double cheapest = costs[static_cast<Eigen::Index>(best)];
   const double similar = cheapest + kSimilar * std::abs(cheapest);
   for (std::size_t i = 0; i < apart.size(); ++i)
@@ -167,7 +168,7 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
 
 void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) {
   if (!judge_.experienced()) {
-    // Whatever was learned from another start is wrong here.
+    // Colours learned from another start are wrong here.
     search_.forget_colors();
     search_.look(frame, state, true);
   }
@@ -239,7 +240,7 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
 bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
                                    std::size_t model) const {
   const auto same = [&](const Candidate& one) { return is_same(one, chosen, model); };
-  return std::ranges::count_if(all, same) > 1;  // it is one of them itself
+  return std::ranges::count_if(all, same) > 1;  // the chosen one itself counts once
 }
 
 bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size_t model) const {
@@ -304,7 +305,7 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
       chosen = std::move(one);
       joins = m;
     }
-    // Where there is nothing else, a poor answer says how poor it is.
+    // With nothing else found, a poor candidate still reports its probability.
     if (!chosen || (any(base.shown) && !may_join(*chosen, base, report, joins))) break;
     base = std::move(*chosen);
     for (std::size_t m = 0; m < left.size(); ++m)
@@ -327,11 +328,11 @@ void CandidateFinder::accept(const Frame& frame, const Candidate& best, const Mo
     if (is_judged && best.shown[m])
       believed_[m] = best.verdict[m];
     else if (judge_.experienced(m) && !(best.answers() && best.shown[m]))
-      believed_[m] = 0;  // lost: what hides behind others is not found there
+      believed_[m] = 0;  // lost: it is not assumed to hide behind others
   }
   believed_time_ = frame.time;
   for (std::size_t m = 0; m < tracked.size(); ++m) judge_.set_tracked(m, tracked[m]);
-  // What is tracked but doubtful teaches nothing: a model that slides off would be followed there.
+  // Do not learn from doubtful models: the tracker would follow a model that slides off.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
     if (judge_.experienced(m) && best.verdict[m] < settings_.surely_above) sure[m] = false;

@@ -21,58 +21,61 @@ namespace hypotrack {
 /// One flag per model of a scene.
 using ModelFlags = std::vector<bool>;
 
-/// An answer to a frame and what the pictures say of it. Without an answer the cost is infinite.
+/// A pose hypothesis for a frame and how well the pictures support it. The cost is infinite if no
+/// pose was found.
 struct Candidate {
   Found found{{}, std::numeric_limits<double>::infinity(), 0};
-  Verdict verdict = {};     ///< by model
-  ModelFlags shown = {};    ///< models that it has; what the state has of the others does not count
-  ModelFlags in_view = {};  ///< false: the whole pictures do not show the model
-  ModelFlags confirmed = {};  ///< searches from other starts ended in the same pose, too
+  Verdict verdict = {};     ///< probability by model
+  ModelFlags shown = {};    ///< models that this candidate poses; the state's values of the others
+                            ///< are meaningless
+  ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
+  ModelFlags confirmed = {};  ///< searches from other starts ended in the same pose
 
   bool answers() const { return std::isfinite(found.cost); }
-  /// The smallest probability of the models shown; NaN where nothing is known.
+  /// Returns the smallest probability of the models shown; NaN if none is known.
   double probability() const;
 };
 
-/// What to find models again by.
+/// Input of a recovery: the last known poses and the models to find.
 struct LossReport {
-  Eigen::VectorXd kept;              ///< where each model was surely right last
-  Eigen::VectorXd together;          ///< where all were when that was so of all at once
-  std::vector<double> seconds = {};  ///< since then, by model
-  std::vector<double> needed = {};   ///< probability by model, from which on it is right
-  ModelFlags sought;                 ///< models to look for, or to look for other poses of
-  bool lost = false;                 ///< false: to look for other poses only
-  bool near_only = false;            ///< looks around the answer only
+  Eigen::VectorXd kept;      ///< each model's last pose that was surely right
+  Eigen::VectorXd together;  ///< the last state in which all models were surely right at once
+  std::vector<double> seconds = {};  ///< time since `kept`, by model
+  std::vector<double> needed = {};   ///< probability, by model, that an answer needs to count as
+                                     ///< right
+  ModelFlags sought;                 ///< models to find, or to find alternative poses for
+  bool lost = false;                 ///< false: only alternative poses are wanted
+  bool near_only = false;            ///< searches only around the answer
 };
 
-/// Answers frames: searches from given starts, looks for lost models, and judges all by the
-/// pictures.
+/// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the
+/// candidates by what the pictures show.
 class HYPOTRACK_API CandidateFinder {
  public:
-  /// Takes the optimizer of the parts. The scene must outlive it.
+  /// Moves the optimizer out of `parts`. The scene must outlive the finder.
   CandidateFinder(const Scene& scene, TrackerParts& parts, const StatusSettings& settings);
 
-  /// Searches a frame from around a start, before anything was found: from `count` starts.
+  /// Searches a frame from `count` starts around `start`, before anything was found.
   Candidate begin(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed);
 
-  /// Searches from around a start again while nothing was ever found. Returns whether that gave a
-  /// likelier answer than `best`, or `best` is out of view: it is replaced then.
+  /// Searches again from around `start` while nothing was ever found. Replaces `best` and returns
+  /// true if the new candidate is likelier or `best` is out of view.
   bool begin_again(const Frame& frame, const Eigen::VectorXd& start, int count, std::uint64_t seed,
                    Candidate& best);
 
-  /// Searches a frame for some models from the cheapest of several starts (DxN).
+  /// Searches a frame for the flagged models from the cheapest of several starts (DxN).
   Candidate follow(const Frame& frame, const Eigen::MatrixXd& starts, const ModelFlags& models,
                    const Budget& budget, const std::optional<Reach>& reach, std::uint64_t seed);
 
-  /// Finds models that an answer lacks or has in doubtful places. Models that the report does not
-  /// seek stay in the answer.
+  /// Finds the models that `best` lacks or has in doubtful poses. Models that the report does not
+  /// seek stay as they are.
   void recover(const Frame& frame, const LossReport& report, Candidate& best, std::uint64_t seed);
 
-  /// Searches on from an answer to an earlier frame.
+  /// Searches this frame from a candidate of an earlier frame.
   Candidate go_on(const Frame& frame, const Candidate& from, std::uint64_t seed);
 
-  /// Takes note of the answer that a frame was given, and learns from those of its tracked models
-  /// that are surely right (StatusSettings::surely_above).
+  /// Records the final candidate of a frame. Learns from those tracked models that are surely right
+  /// (StatusSettings::surely_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
 
   FrameSearch& search() { return search_; }
@@ -84,25 +87,25 @@ class HYPOTRACK_API CandidateFinder {
  private:
   void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
   Candidate judged(const Frame& frame, Found found);
-  /// The best by probability and, among those alike, by cost. All show the same models. The frame
-  /// is then taken in around it.
+  /// Returns the most probable candidate; among about equally probable ones the cheapest. All must
+  /// show the same models. Prepares the search for the frame around the result.
   Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates,
                     const std::vector<double>& apart = {});
   void look_at(const Frame& frame, const Eigen::VectorXd& state);
-  /// The best answer that has a model in addition to those of `base`.
+  /// Returns the best candidate that has `model` in addition to those of `base`.
   std::optional<Candidate> with_model(const Frame& frame, const LossReport& report,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       const ModelFlags& held, std::uint64_t seed);
-  /// Lost models that were at this one when all were surely right.
+  /// Returns the lost models that the last sure state has in the hand of this one.
   ModelFlags lost_with(const LossReport& report, const Candidate& base, std::size_t model) const;
-  /// Whether two answers have a model in the same pose.
+  /// Returns whether two candidates have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
-  /// Whether another of all answers has a model where the chosen one has it.
+  /// Returns whether another candidate has a model in the same pose as the chosen one.
   bool is_confirmed(const std::vector<Candidate>& all, const Candidate& chosen,
                     std::size_t model) const;
-  /// Whether two likely answers have.
+  /// Returns whether any two likely candidates have a model in the same pose.
   bool has_confirmed(const std::vector<Candidate>& all, std::size_t model) const;
-  /// Whether a model may join: the pictures show it, and still show the others.
+  /// Returns whether a model may join: the pictures support it, and still support the others.
   bool may_join(const Candidate& with, const Candidate& base, const LossReport& report,
                 std::size_t model) const;
 
@@ -112,9 +115,9 @@ class HYPOTRACK_API CandidateFinder {
   FrameSearch search_;
   Judge judge_;
   Recovery recovery_;
-  std::vector<double> believed_;  ///< probability of each model in the last answer
-  double believed_time_ = 0;      ///< of that answer
-  int learned_ = 0;               ///< frames
+  std::vector<double> believed_;  ///< probability of each model in the last candidate accepted
+  double believed_time_ = 0;      ///< time of that candidate
+  int learned_ = 0;               ///< frames learned from
 };
 
 }  // namespace hypotrack

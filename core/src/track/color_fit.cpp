@@ -17,7 +17,7 @@ constexpr int kDeciles = 9;
 constexpr double kTrim = 4;  // times the median distance: 2.7 standard deviations
 constexpr int kPasses = 2;
 
-/// Counts of values 0 .. 255, for quantiles without sorting.
+/// Histogram of values 0 .. 255, for quantiles without sorting.
 class Histogram {
  public:
   void add(float value) {
@@ -25,7 +25,7 @@ class Histogram {
     ++bins_[static_cast<std::size_t>(std::clamp(bin, 0, kBins - 1))];
     ++count_;
   }
-  /// The values below which given shares of all lie, which grow; between bins it interpolates.
+  /// Returns the quantiles of given shares, which must increase. Interpolates within bins.
   template <std::size_t N>
   std::array<double, N> quantiles(const std::array<double, N>& shares) const {
     std::array<double, N> out{};
@@ -56,8 +56,8 @@ struct Line {
   }
 };
 
-/// Least squares through the deciles of both views, with the ratio of the means as the expected
-/// gain that is worth as much as deciles that spread by kFlat.
+/// Fits a line through the deciles of both views by least squares. A prior pulls the gain to the
+/// ratio of the means with the weight of deciles that spread by kFlat.
 Line fit_line(const Histogram& first, const Histogram& other) {
   std::array<double, kDeciles> shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) {
@@ -79,7 +79,7 @@ Line fit_line(const Histogram& first, const Histogram& other) {
   return {gain, to_mean - gain * from_mean};
 }
 
-/// One channel's pairs that no camera has cut off.
+/// Pairs of one channel without those that are dark or saturated.
 struct Pairs {
   Pairs(const std::vector<float>& a, const std::vector<float>& b) {
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -89,7 +89,7 @@ struct Pairs {
     }
   }
 
-  /// A line through those pairs that lie within a distance of another.
+  /// Fits a line to the pairs that lie within a distance of another line.
   Line fit(const Line& line, double distance) const {
     Histogram a, b;
     for (std::size_t i = 0; i < first.size(); ++i) {

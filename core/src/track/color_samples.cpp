@@ -11,11 +11,11 @@ namespace hypotrack {
 namespace {
 
 constexpr int kGrid = 64;
-// Of the depths of one surface at neighbouring points of the grid and in both views: those are
-// some 3 mm apart on a hand, so that it may be slanted by 60 degrees.
+// Largest depth difference of neighbouring grid points of one surface, in metres. Grid points are
+// some 3 mm apart on a hand, so the surface may be slanted by 60 degrees.
 constexpr float kSameSurface = 0.006f;
 
-/// The tile's camera with kGrid x kGrid pixels.
+/// Returns the tile's camera with kGrid x kGrid pixels.
 TileCamera coarse(const TileCamera& tile) {
   TileCamera out = tile;
   const double x = static_cast<double>(kGrid) / tile.width;
@@ -32,7 +32,7 @@ float depth_at(const DepthTile& tile, int x, int y) {
   return tile.inverse_depth[y * tile.stride + x];
 }
 
-/// Whether the same surface lies at a pixel and at its four neighbours.
+/// Returns whether a pixel and its four neighbours show the same surface.
 bool is_interior(const DepthTile& tile, int x, int y) {
   if (x < 1 || y < 1 || x + 1 >= tile.width || y + 1 >= tile.height) return false;
   const float w = depth_at(tile, x, y);
@@ -42,7 +42,8 @@ bool is_interior(const DepthTile& tile, int x, int y) {
   return w > 0 && same(x - 1, y) && same(x + 1, y) && same(x, y - 1) && same(x, y + 1);
 }
 
-/// The plane through neighbouring points: 1/z is linear in the image of a plane.
+/// Computes the normal of the plane through neighbouring points: 1/z is linear in the image of a
+/// plane.
 Eigen::Vector3f normal_at(const DepthTile& tile, const TileCamera& camera, int x, int y) {
   const double dx = (double{depth_at(tile, x + 1, y)} - depth_at(tile, x - 1, y)) / 2;
   const double dy = (double{depth_at(tile, x, y + 1)} - depth_at(tile, x, y - 1)) / 2;
@@ -58,7 +59,7 @@ Eigen::Matrix3Xf columns(const std::vector<Eigen::Vector3f>& vectors) {
   return out;
 }
 
-/// Colour at a position of an image, interpolated; false outside.
+/// Interpolates the colour at a position of an image. Returns false outside.
 bool color_at(const cv::Mat& image, const ImagePoint& p, std::array<float, 3>& color) {
   const float x0 = std::floor(p.x), y0 = std::floor(p.y);
   if (!(x0 >= 0 && y0 >= 0 && x0 + 1 < static_cast<float>(image.cols) &&
@@ -78,7 +79,7 @@ bool color_at(const cv::Mat& image, const ImagePoint& p, std::array<float, 3>& c
   return true;
 }
 
-/// A camera's image, looked up at positions of its grid.
+/// Looks up a camera's image at positions of its grid.
 struct ImageLookup {
   const Resampler& camera;
   TileIntrinsics grid;
@@ -89,7 +90,7 @@ struct ImageLookup {
   }
 };
 
-/// A tile, looked up at positions of the grid that covers it.
+/// Looks up a tile at positions of the grid that covers it.
 struct TileLookup {
   const TileView& tile;
 
@@ -102,7 +103,8 @@ struct TileLookup {
   }
 };
 
-/// Where a point of the first view's grid lies in another view's; false where that does not see it.
+/// Maps a point of the first view's grid to another view's. Returns false if that view does not see
+/// it.
 bool seen_by_other(const DepthTile& other, const StereoMap& map, int x, int y, float w,
                    scalar::Mapped<float>& at) {
   const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
@@ -125,7 +127,7 @@ struct ColorSampler::Impl {
   Observation grid;  // cameras only
   FrameProjection projection;
 
-  /// Samples by what looks up either view at positions of its grid.
+  /// Takes samples; `here` and `there` look up the two views at positions of their grids.
   template <class LookUp>
   ColorSamples take(const LookUp& here, const LookUp& there, std::size_t other,
                     bool with_normals) const;

@@ -14,7 +14,7 @@
 namespace hypotrack {
 namespace {
 
-/// Where no term looks at pictures, their colours are nobody's business.
+/// Turns colour matching off where no term looks at pictures.
 PhotometricSettings of_pictures(PhotometricSettings settings,
                                 const std::vector<ObjectiveTerm>& terms) {
   settings.match = settings.match && look_at_pictures(terms);
@@ -61,7 +61,7 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   if (!photometric_.knows()) photometric_.begin(tiles_, frame, plan_, posed);
   photometric_.apply(plan_);
   photometric_.apply_highlights(plan_, posed);
-  // Depths of the tile are those of what is shown.
+  // Put hidden models where a shown one is, so that the tile's depths are those of shown models.
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
   plan_.header.start_is_guess = is_guess;
@@ -114,7 +114,7 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
 
 Found FrameSearch::settled(const Eigen::VectorXd& start, const Budget& budget, std::uint64_t seed) {
   constexpr int kMost = 4;
-  constexpr double kGain = 0.02;  // of the cost that is worth another search
+  constexpr double kGain = 0.02;  // least relative gain of another search
   Found found{start, std::numeric_limits<double>::infinity(), 0};
   for (int k = 0; k < kMost; ++k) {
     Found next =

@@ -17,7 +17,7 @@
 
 namespace hypotrack {
 
-/// The answer of a search.
+/// The result of a search.
 struct Found {
   Eigen::VectorXd state;
   double cost = 0;
@@ -28,46 +28,48 @@ struct Found {
 /// colours, minimises.
 class HYPOTRACK_API FrameSearch {
  public:
-  /// Takes the optimizer and settings of a tracker's parts. The scene must outlive it. Throws
-  /// DeviceError if the optimizer needs a GPU and the scene is not evaluated on one.
+  /// Moves the optimizer out of `parts` and copies its settings. The scene must outlive the search.
+  /// Throws DeviceError if the optimizer needs a GPU and the scene is not evaluated on one.
   FrameSearch(const Scene& scene, TrackerParts& parts);
 
-  /// Draws and learns from these models only from now on, and searches for those of them that are
-  /// `moving` (empty: all): one flag per model, any of them set. What states have of the others
-  /// stays; where they are not shown it does not count.
+  /// Restricts drawing and learning to `models`, and searches to those of them that are `moving`
+  /// (empty: all). Both have one flag per model; any of `models` must be set. States keep their
+  /// values of the other models, which are meaningless where those are not shown.
   void show(const std::vector<bool>& models, const std::vector<bool>& moving = {});
   const std::vector<bool>& shown() const { return shown_; }
-  /// The state with the models that are not shown where nothing draws them.
+  /// Returns the state with the models that are not shown moved behind the camera, where nothing
+  /// draws them.
   Eigen::VectorXd drawn(Eigen::VectorXd state) const;
 
-  /// Takes a frame in for searches that begin at `start`, or near it (Observation::start_is_guess).
+  /// Prepares a frame for searches from `start`. `is_guess` sets Observation::start_is_guess.
   void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
 
-  /// Takes a frame in through tiles of a plan of one's own, with colours matched.
+  /// Prepares a frame with the caller's tile plan, with colours matched.
   void take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan);
 
-  /// Costs of some states (DxN) in the frame as it is taken in.
+  /// Returns the costs of states (DxN) in the prepared frame.
   Eigen::VectorXd costs(Eigen::MatrixXd states);
-  /// The cheapest of them.
+  /// Returns the cheapest of states (DxN) in the prepared frame.
   Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
 
-  /// Searches the frame as it is taken in.
+  /// Searches the prepared frame once, from `prior`.
   Found from(const Eigen::VectorXd& prior, const Budget& budget, const std::optional<Reach>& reach,
              std::uint64_t seed);
 
-  /// Searches the frame as it is taken in, again from each answer until that gains little.
+  /// Searches the prepared frame repeatedly, each time from the last result, until the cost hardly
+  /// falls.
   Found settled(const Eigen::VectorXd& start, const Budget& budget, std::uint64_t seed);
 
-  /// Begins at a guess: searches, learns colours anew where that ended, and searches again with a
-  /// share `search.second_look` of the budget.
+  /// Searches from a guess, relearns the colours at the result, and searches again with the share
+  /// `search.second_look` of the budget.
   Found from_guess(const Frame& frame, const Eigen::VectorXd& start, const Budget& budget,
                    std::uint64_t seed);
 
-  /// Learns colours from a frame, taken in last, in which the shown models were surely found.
+  /// Learns colours from the frame prepared last. The shown models' poses must be surely right.
   void learn(const Frame& frame, const Eigen::VectorXd& state);
   void forget_colors() { photometric_.forget(); }
 
-  /// What the frame taken in last shows, with highlights.
+  /// Returns the tiles of the frame prepared last, with highlights.
   Observation seen(const Frame& frame) const;
 
   std::int64_t default_evaluations() const { return optimizer_->default_evaluations(); }
@@ -75,7 +77,7 @@ class HYPOTRACK_API FrameSearch {
   Evaluator& evaluator() { return evaluator_; }
   const Evaluator& evaluator() const { return evaluator_; }
   const PhotometricMatch& photometric() const { return photometric_; }
-  /// What makes the second view's colours the first's.
+  /// Returns the map from the second view's colours to the first's.
   ColorMap second_view_colors() const { return photometric_.colors(1); }
 
  private:
@@ -83,7 +85,7 @@ class HYPOTRACK_API FrameSearch {
 
   const Scene& scene_;
   SearchSettings settings_;
-  Eigen::Vector3d nowhere_;  ///< behind the first camera: what is there is not drawn
+  Eigen::Vector3d nowhere_;  ///< a point behind the first camera, which is not drawn
   std::vector<bool> shown_, moving_;
   TileMaker tiles_;
   PhotometricMatch photometric_;

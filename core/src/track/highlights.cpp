@@ -7,12 +7,12 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kLights = 128;  // 18 degrees apart, so half vectors are 9 and highlights 24 wide
-constexpr float kFar = 20;    // of 255: a difference that is off by this counts half
-constexpr float kRidge = 1;   // samples that say that there is no light
+constexpr int kLights = 128;  // 18 degrees apart; half vectors are 9 apart and highlights 24 wide
+constexpr float kFar = 20;    // of 255: a sample with this residual counts half
+constexpr float kRidge = 1;   // ridge regularisation, in samples that say there is no light
 constexpr int kSweeps = 30;
 
-/// Directions that cover the sphere evenly: Fibonacci's lattice.
+/// Returns directions that cover the sphere evenly (Fibonacci lattice).
 Eigen::Matrix3Xf make_lights() {
   const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
   Eigen::Matrix3Xf lights(3, kLights);
@@ -25,7 +25,7 @@ Eigen::Matrix3Xf make_lights() {
   return lights;
 }
 
-/// What a camera sees of every light of strength 1 (L x N).
+/// Computes the reflection of every light of strength 1 to a camera (L x N).
 Eigen::ArrayXXf reflected(const Eigen::Matrix3Xf& normals, const Eigen::Vector3d& to_camera) {
   static const Eigen::Matrix3Xf lights = make_lights();
   const Eigen::Matrix3Xf half = (lights.colwise() + to_camera.cast<float>()).colwise().normalized();
@@ -53,7 +53,7 @@ void Highlights::learn(const Eigen::Matrix3Xf& normals, const Eigen::VectorXf& d
   const Eigen::MatrixXf weighted = lights * weight.asDiagonal();
   products_ = kept_ * products_ + weighted * lights.transpose();
   sums_ = kept_ * sums_ + weighted * differences;
-  // Least squares with strengths that are not negative, one after the other.
+  // Non-negative least squares by coordinate descent.
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (Eigen::Index l = 0; l < kLights; ++l) {
       const float rest = sums_[l] - products_.col(l).dot(strength_) - kRidge * strength_[l];

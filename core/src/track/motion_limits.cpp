@@ -7,7 +7,7 @@
 namespace hypotrack {
 
 Reach reach_within(const MotionLimits& limits, double seconds) {
-  // Frames that bear one time, or come back in time, are taken for a 30th of a second apart.
+  // Frames with equal or decreasing times count as 1/30 s apart.
   constexpr double kFrame = 1.0 / 30;
   const double t = seconds > 0 ? seconds : kFrame;
   return {limits.speed * t, limits.turn * t, limits.bend * t};

@@ -8,14 +8,14 @@
 
 namespace hypotrack {
 
-/// How far a scene may be from where it was: no answer is farther.
+/// Largest change of a scene's pose that a search allows.
 struct Reach {
   double position = 0;  ///< metres, of each model's origin
   double rotation = 0;  ///< radians, of each model
   double angle = 0;     ///< radians, of each joint angle
 };
 
-/// `tracker.motion:` of a scene. The defaults are above what people's hands do.
+/// `tracker.motion:` of a scene. The defaults exceed the speed of human hands.
 struct MotionLimits {
   double speed = 4;
   double turn = 2000 * kDegree;
@@ -29,10 +29,10 @@ struct MotionLimits {
   }
 };
 
-/// How far a scene can get within a time.
+/// Returns the largest change of pose within a time. A time that is not positive counts as 1/30 s.
 HYPOTRACK_API Reach reach_within(const MotionLimits& limits, double seconds);
 
-/// Whether a normalised state is within reach of another.
+/// Returns whether a normalised state is within reach of another.
 HYPOTRACK_API bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& from,
                              const Eigen::VectorXd& to);
 

@@ -7,7 +7,8 @@
 namespace hypotrack {
 namespace {
 
-/// The weight of a new value in a low-pass filter (Eq. 3 of the paper, for a sampling interval).
+/// Returns the low-pass filter's weight of a new value (Eq. 3 of the paper, for a sampling
+/// interval).
 double weight_of(double cutoff, double seconds) {
   const double r = 2 * std::numbers::pi * cutoff * seconds;
   return r / (r + 1);

@@ -39,19 +39,20 @@ struct SmoothingSettings {
   }
 };
 
-/// Smooths states from frame to frame, more at rest than in motion: the filter of Casiez, Roussel
-/// and Vogel, "1 Euro Filter" (CHI 2012). A position and a rotation are filtered as wholes, by
-/// their speed's length, rotations along the shortest turn; every joint angle by itself.
+/// Smooths states from frame to frame, more at rest than in motion. It is the filter of Casiez,
+/// Roussel and Vogel, "1 Euro Filter" (CHI 2012). A position and a rotation are each filtered as a
+/// whole, by the length of their speed, rotations along the shortest turn. Every joint angle is
+/// filtered alone.
 class HYPOTRACK_API OneEuroFilter {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive the filter.
   OneEuroFilter(const Scene& scene, const SmoothingSettings& settings);
 
-  /// The smoothed state at a time (s) for the normalised state found there. What is not later than
-  /// the state before, begins anew.
+  /// Returns the smoothed state for a normalised state found at a time (s). A time that is not
+  /// later than the last one restarts the filter.
   Eigen::VectorXd filter(const Eigen::VectorXd& state, double time);
 
-  /// The next state is passed on as it is.
+  /// Restarts the filter: the next state passes unchanged.
   void begin_anew() { state_.resize(0); }
 
  private:
@@ -59,9 +60,9 @@ class HYPOTRACK_API OneEuroFilter {
 
   const Scene* scene_;
   SmoothingSettings settings_;
-  Eigen::VectorXd state_;  ///< the last smoothed one; empty: none
-  Eigen::VectorXd found_;  ///< the last as it was found
-  Eigen::VectorXd speed_;  ///< smoothed, per second
+  Eigen::VectorXd state_;  ///< the last smoothed state; empty: none
+  Eigen::VectorXd found_;  ///< the last unsmoothed state
+  Eigen::VectorXd speed_;  ///< smoothed speed, per second
   double time_ = 0;
 };
 

@@ -10,19 +10,19 @@
 namespace hypotrack {
 namespace {
 
-// A line is known by its values at two places, which say how far maps are apart.
+// A line is determined by its values at two levels; their changes are limited.
 constexpr float kLow = 64, kHigh = 192;
-// What both views see of a hand correlates by 0.7 and more if the pose is no more than 6 mm off,
-// and by less than 0.45 if it is 30 mm off.
+// The views' samples of a hand correlate by 0.7 or more if the pose is within 6 mm, and by less
+// than 0.45 if it is 30 mm off.
 constexpr double kSameSurface = 0.5;
-// From then on the pose is one that a search has found, and a map may not leap.
+// After this many frames the pose comes from a search, and the map may only change slowly.
 constexpr int kSettled = 3;
 
 float moved(float from, float to, float rate, float largest) {
   return from + std::clamp(rate * (to - from), -largest, largest);
 }
 
-/// The colours of whole pictures, sorted: both views show about the same colours as often.
+/// Samples the colours of whole pictures, sorted: matching quantiles are paired.
 ColorSamples of_pictures(const Frame& frame, std::size_t other) {
   constexpr int kStep = 8;  // pixels
   const auto sorted = [](const cv::Mat& picture, std::size_t channel) {
@@ -42,7 +42,7 @@ ColorSamples of_pictures(const Frame& frame, std::size_t other) {
   return samples;
 }
 
-/// The samples with the first view darker, in all channels.
+/// Returns the samples with all channels of the first view darkened by `by`.
 ColorSamples darkened(ColorSamples samples, const Eigen::VectorXf& by) {
   for (std::vector<float>& channel : samples.first)
     Eigen::Map<Eigen::VectorXf>(channel.data(), by.size()) -= by;

@@ -36,40 +36,39 @@ struct PhotometricSettings {
   }
 };
 
-/// How the colours of each view become those of the first, learned from frame to frame.
+/// Learns from frame to frame how to map each view's colours to the first's.
 class HYPOTRACK_API PhotometricMatch {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive the object.
   PhotometricMatch(const Scene& scene, const PhotometricSettings& settings);
 
-  /// Before the first search: learns from the start's pose, if both views show the same there
-  /// (correlation), as they do if it is no more than some 10 mm off. Where they do not, maps bring
-  /// the whole pictures' colours together until a solution teaches more, and nothing counts as
-  /// learned. To be called while nothing is known.
+  /// Initialises the maps before the first search, while nothing is learned. Learns from the
+  /// start's pose if both views show the same there (correlation), as for starts within about 10
+  /// mm. Otherwise it matches the colours of the whole pictures, and knows() stays false.
   void begin(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& start);
 
-  /// Looks at a frame with the scene posed in a normalised state, and changes the maps. `plan` is
-  /// of the frame. Where a frame teaches nothing (fit_color_map), maps stay. Does nothing with one
-  /// view or with match off.
+  /// Updates the maps from a frame with the scene posed in a normalised state. `plan` must be of
+  /// that frame. Maps stay as they are where a frame teaches nothing (fit_color_map()). Does
+  /// nothing with one view or with match off.
   void learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
              const Eigen::VectorXd& state);
 
   void forget() { views_.clear(); }
-  /// The map of a view's colours to the first's (view from 1 on); identity where nothing is known.
+  /// Returns the map of a view's colours to the first's (view from 1 on); identity if unknown.
   ColorMap colors(std::size_t view) const {
     return view <= views_.size() ? views_[view - 1].map : ColorMap{};
   }
-  /// Whether anything has been learned.
+  /// Returns whether anything was learned from a pose.
   bool knows() const;
-  /// Puts the maps, and by how much the first two views still differ, into the plan of a frame.
+  /// Puts the maps and the remaining difference of the first two views into the plan of a frame.
   void apply(TilePlan& plan) const;
-  /// Puts what highlights are expected to make the other views differ by, if the scene is about as
-  /// in a normalised state, into the plan as well; nothing if the settings do not ask for that.
+  /// Puts the expected brightness differences by highlights into the plan, for the scene in a
+  /// normalised state. Does nothing unless the settings ask for it.
   void apply_highlights(TilePlan& plan, const Eigen::VectorXd& state);
 
  private:
-  /// One view's map and the number of frames that it was learned from.
+  /// One view's map and the number of frames it was learned from.
   struct Learned {
     ColorMap map;
     double difference = 0;  ///< Observation::color_difference
@@ -77,13 +76,13 @@ class HYPOTRACK_API PhotometricMatch {
     Highlights highlights;
   };
   void learn(Learned& learned, const ColorSamples& samples, std::size_t view) const;
-  /// Colours without the highlights known so far, then highlights without these colours.
+  /// Fits colours without the known highlights, then highlights with these colours.
   void learn_both(Learned& learned, const ColorSamples& samples, const ViewDirections& to) const;
   void update(Learned& learned, const ColorMap& found, double difference) const;
 
   PhotometricSettings settings_;
   ColorSampler sampler_;
-  std::vector<Learned> views_;  // but for the first
+  std::vector<Learned> views_;  // without the first
 };
 
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// How much of the last motion is expected to go on.
+/// How much of the last motion a prediction extrapolates.
 enum class Prediction {
   none,      ///< searches start from the last solution, as in the paper
   constant,  ///< a fixed share
@@ -45,27 +45,27 @@ struct PredictionSettings {
   }
 };
 
-/// Where the scene may be next: the last motion goes on for a while, in part. Motion is what
-/// tangent.hpp calls a difference.
+/// Extrapolates a part of the last motion to predict the next state. Motion is a difference of
+/// tangent.hpp.
 class HYPOTRACK_API Predictor {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive the predictor.
   Predictor(const Scene& scene, const PredictionSettings& settings);
 
-  /// States (DxN, normalised) that the scene may have at a time (s), the middle one first: one or,
-  /// for an adaptive share, nine. None where no motion is known that leads there.
+  /// Returns predicted states (DxN, normalised) at a time (s), the middle one first. There is one
+  /// or, for an adaptive share, nine; none if the motion is unknown or the gap too long.
   Eigen::MatrixXd at(double time) const;
 
-  /// Takes in a solution (normalised) and its time (s), after those before it.
+  /// Adds a solution (normalised) and its time (s), in the order of time.
   void add(const Eigen::VectorXd& state, double time);
 
   /// Forgets all solutions: the next one is the first.
   void begin_anew() { state_.resize(0); }
 
-  /// The solution at hand is no continuation of those before: no motion is known.
+  /// Forgets the motion, because the last solution does not continue those before.
   void forget_motion() { velocity_.reset(); }
 
-  /// The last motion per second, as tangent.hpp has differences; nothing where it is not known.
+  /// Returns the last motion per second, a difference of tangent.hpp; nothing if unknown.
   const std::optional<Eigen::VectorXd>& velocity() const { return velocity_; }
 
  private:

@@ -8,11 +8,11 @@ namespace hypotrack {
 namespace {
 
 constexpr Eigen::Index kRows = 64;  // per block: half a row of a tile
-// Residuals that are all zero say that everything is known: as well as floats can tell.
+// Floor of s^2: all-zero residuals would claim perfect knowledge, which floats cannot have.
 constexpr double kLeastNoise = 1e-12;
 
-/// Adds up blocks of residuals. Most do not feel most numbers: what is equal on both sides of a
-/// pose costs a comparison only.
+/// Adds up blocks of residuals. Most residuals do not depend on most dimensions: equal values on
+/// both sides of a pose cost only a comparison.
 class Sums {
  public:
   Sums(const Eigen::MatrixXf& residuals, const Eigen::VectorXd& width)
@@ -49,7 +49,7 @@ class Sums {
   }
 
  private:
-  /// J of a block, with the columns that are not zero.
+  /// Computes the non-zero columns of J for a block.
   void take_columns(Eigen::Index row) {
     columns_.clear();
     const auto bytes = static_cast<std::size_t>(rows_) * sizeof(float);

@@ -6,15 +6,16 @@
 
 namespace hypotrack {
 
-/// What linearised residuals say about a pose: J^T J / s^2 and J^T r / s^2, s^2 the mean square of
-/// the residuals that J touches.
+/// Information of the linearised residuals about a pose: J^T J / s^2 and J^T r / s^2, with s^2 the
+/// mean square of the residuals that J touches.
 struct ResidualInformation {
   Eigen::MatrixXd a;  ///< DxD
   Eigen::VectorXd g;  ///< D
 };
 
-/// `residuals` (Mx(2D+1)) are those of a pose, then of those below and above it in each of D
-/// numbers, `width` (D) apart. A number with a width of 0 touches nothing.
+/// Computes the information from finite differences. `residuals` (Mx(2D+1)) has the residuals of a
+/// pose, then those below and above it in each of D dimensions, `width` (D) apart. A dimension of
+/// width 0 touches nothing.
 HYPOTRACK_API ResidualInformation residual_information(const Eigen::MatrixXf& residuals,
                                                        const Eigen::VectorXd& width);
 

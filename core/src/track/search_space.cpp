@@ -13,8 +13,8 @@
 namespace hypotrack {
 namespace {
 
-/// Groups of the moving models' parameters as groups of dimensions. Where a rotation vector stands
-/// for a quaternion, it belongs where w, x and y did.
+/// Returns the moving models' parameter groups as groups of dimensions. A rotation vector takes the
+/// place of the quaternion's w, x and y.
 std::vector<SearchGroup> search_groups(const Scene& scene, const std::vector<bool>& moving,
                                        bool rotation_vectors) {
   std::vector<SearchGroup> groups;
@@ -65,7 +65,7 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
   region.groups = groups_;
   for (auto* v : {&region.start, &region.lower, &region.upper, &region.spread})
     v->resize(dimension_);
-  // A component of a unit quaternion changes by up to sin(angle / 2) under a rotation by the angle.
+  // A rotation by an angle changes a unit quaternion's components by up to sin(angle / 2).
   const double component = std::sin(settings_.rotation / 2);
   const auto& parameters = scene_->parameters();
   int out = 0;

@@ -15,15 +15,14 @@
 
 namespace hypotrack {
 
-/// How an optimizer sees a rotation.
+/// Parametrisation of rotations in search points.
 enum class RotationSearch {
   quaternion,  ///< its four components, normalised when a point becomes a state (as in the paper)
   tangent,     ///< a rotation vector (3 numbers, radians) applied to the prior's rotation
 };
 HYPOTRACK_API std::span<const std::string_view> enum_names(RotationSearch);
 
-/// `search:` of a scene: where a search starts, and how far from there the solution may plausibly
-/// be.
+/// `search:` of a scene: where a search starts, and how far from there it expects the solution.
 struct SearchSettings {
   double position = 0.040;
   double rotation = 10 * kDegree;
@@ -62,34 +61,33 @@ struct SearchSettings {
   }
 };
 
-/// Maps between states and the points that optimizers search. The one place that knows how
-/// rotations are parametrised.
+/// Maps between states and search points. No other class knows how rotations are parametrised.
 class HYPOTRACK_API SearchSpace {
  public:
-  /// The scene must outlive the search space. `moving`: one flag per model; the others keep what
-  /// the prior has. Empty: all move.
+  /// `moving` has one flag per model (empty: all move); the others keep the prior's values. The
+  /// scene must outlive the search space.
   SearchSpace(const Scene& scene, const SearchSettings& settings,
               const std::vector<bool>& moving = {});
 
   /// Length of a search point.
   int dimension() const { return dimension_; }
-  /// Whether points have rotation vectors in place of quaternions.
+  /// Returns whether search points have rotation vectors in place of quaternions.
   bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
 
-  /// The region around a prior state; its groups are the models' (parameter_groups()). Angles of
-  /// the prior outside the models' bounds are moved onto them. With `reach`, nothing is farther
-  /// from the prior along any axis; quaternions are not bounded.
+  /// Returns the search region around a prior state. Its groups are the models'
+  /// (parameter_groups()). Angles of the prior outside the models' bounds are moved onto them.
+  /// `reach` limits the distance from the prior along every axis, except of quaternions.
   SearchRegion region(const Eigen::VectorXd& prior,
                       const std::optional<Reach>& reach = std::nullopt) const;
 
-  /// States (DxN, normalised) of search points (dimension() x N) found around a prior.
+  /// Returns the states (DxN, normalised) of search points (dimension() x N) around a prior.
   Eigen::MatrixXd states(const Eigen::Ref<const Eigen::MatrixXd>& points,
                          const Eigen::VectorXd& prior) const;
 
  private:
   const Scene* scene_;
   SearchSettings settings_;
-  std::vector<int> moving_;  ///< parameters of the scene that move
+  std::vector<int> moving_;  ///< indices of the scene's moving parameters
   int dimension_ = 0;
   std::vector<SearchGroup> groups_;
 };

@@ -6,7 +6,7 @@ namespace hypotrack {
 
 cv::Mat spread(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
   constexpr double kReach = 1.5;        // grid points
-  constexpr double kLeastShare = 0.05;  // of those around that have values
+  constexpr double kLeastShare = 0.05;  // least share of neighbours with values
   cv::Mat image = cv::Mat::zeros(inside.size(), CV_32F);
   Eigen::Index next = 0;
   for (int y = 0; y < inside.rows; ++y)

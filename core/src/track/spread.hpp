@@ -7,8 +7,9 @@
 
 namespace hypotrack {
 
-/// Values at the points of a grid that are `inside` (8-bit), row by row, continued beyond by those
-/// nearby, as an image of a tile's size (32-bit float).
+/// Extrapolates values of grid points to a whole tile by normalised Gaussian blurring. The values
+/// belong to the `inside` points (8-bit), row by row. Returns an image of the tile's size (32-bit
+/// float).
 HYPOTRACK_API cv::Mat spread(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile);
 
 }  // namespace hypotrack

@@ -3,7 +3,7 @@
 namespace hypotrack {
 namespace {
 
-/// Residuals of search points that stay where the evaluator has them.
+/// Residual differences of search points; the residuals stay where the evaluator has them.
 class PointDifferences final : public ResidualDifferences {
  public:
   PointDifferences(const SearchSpace& space, const Eigen::VectorXd& prior,

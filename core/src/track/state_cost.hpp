@@ -9,10 +9,10 @@
 
 namespace hypotrack {
 
-/// Costs of search points: points become states, states are evaluated.
+/// Costs of search points: converts points to states and evaluates them.
 class StateCost final : public CostFunction, public ResidualCost {
  public:
-  /// Everything given must outlive the cost.
+  /// All arguments must outlive the cost.
   StateCost(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
       : space_(space), prior_(prior), evaluator_(evaluator) {}
 

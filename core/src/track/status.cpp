@@ -24,14 +24,14 @@ std::string_view to_string(Status status) {
 }
 
 double StatusMonitor::usual_cost() const {
-  constexpr std::size_t kEnough = 5;  // below that there is nothing to compare with
+  constexpr std::size_t kEnough = 5;  // too few costs to compare with below that
   if (costs_.size() < kEnough) return -std::numeric_limits<double>::infinity();
   const std::vector<double> costs(costs_.begin(), costs_.end());
   const double expected = median(costs);
   std::vector<double> deviations;
   deviations.reserve(costs.size());
   for (double c : costs) deviations.push_back(std::abs(c - expected));
-  // 1.4826 MAD estimates a normal distribution's standard deviation; the floor keeps a nearly
+  // 1.4826 MAD estimates a normal distribution's standard deviation. The floor keeps a nearly
   // constant cost from making every frame an outlier.
   const double deviation = std::max(1.4826 * median(deviations), 0.02 * std::abs(expected));
   return expected + settings_.outlier * deviation;
@@ -53,7 +53,7 @@ Status StatusMonitor::judge(const StatusEvidence& evidence) {
 
 Status StatusMonitor::decide(const StatusEvidence& evidence) {
   if (!evidence.in_view) return Status::absent;
-  // Beside all foreground a cost may say nothing: pixels off the mask may weigh nothing.
+  // The cost may be meaningless off the foreground: pixels off the mask may weigh nothing.
   if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
       evidence.sigma > settings_.lost_sigma || evidence.on_foreground == OnForeground::nowhere ||
       evidence.probability < settings_.uncertain_above) {
@@ -75,14 +75,14 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
 Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
   const double usual = usual_cost();
   const bool outlier = std::isfinite(usual) && evidence.cost > usual;
-  // Outliers are remembered, too: a closing fist changes the cost for good, and must become what is
-  // expected.
+  // Remember outliers, too: a closing fist changes the cost for good, and must become the usual
+  // cost.
   remember(evidence.cost);
   if (outlier || evidence.visible < 2 * settings_.min_visible ||
       evidence.on_foreground == OnForeground::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
-  // A sigma that stays large, of hidden fingers, is no reason to give up.
+  // A sigma that stays large, as of hidden fingers, does not make a model lost.
   return evidence.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 

@@ -13,12 +13,12 @@
 namespace hypotrack {
 
 enum class Status {
-  tracked,    ///< likely right: by what the pictures show or, where they do not tell, by its cost
+  tracked,    ///< likely right, judged by the pictures or, where they do not tell, by the cost
   uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view
-  lost,       ///< out of view, infeasible, an outlier for too long, beside the foreground, or sigma
-              ///< says anything goes
-  absent,     ///< the whole pictures were searched and show no such thing
-  missing,    ///< there was no usable frame; the state is the last one
+  lost,    ///< improbable, out of view, infeasible, an outlier for too long, off the foreground, or
+           ///< sigma is above `lost_sigma`
+  absent,  ///< a search of the whole pictures did not find it
+  missing,  ///< no usable frame; the state is the last one
 };
 HYPOTRACK_API std::string_view to_string(Status status);
 
@@ -90,33 +90,35 @@ struct StatusSettings {
   }
 };
 
-/// What a status is decided by.
+/// Measurements that decide a status.
 struct StatusEvidence {
-  double cost = 0;         ///< infinite: there is no answer
-  double probability = 0;  ///< that the answer is right, by what the pictures show; NaN: unknown
+  double cost = 0;         ///< infinite: no pose was found
+  double probability = 0;  ///< that the pose is right, from the pictures; NaN: unknown
   double visible = 0;      ///< share of the models' vertices that project into every image
-  double sigma = 0;        ///< mean over a model's landmarks, of the model where it is largest; NaN
+  double sigma = 0;        ///< mean over a model's landmarks, in metres; NaN: unknown
   OnForeground on_foreground = OnForeground::unknown;
-  bool in_view = true;     ///< false: the whole pictures do not show the models
-  bool confirmed = false;  ///< searches from other starts ended in the same pose, too
+  bool in_view = true;     ///< false: a search of the whole pictures did not find the model
+  bool confirmed = false;  ///< searches from other starts ended in the same pose
 };
 
-/// Decides the status of a frame. Where the pictures do not say whether an answer is right, its
-/// cost is compared with those of past frames.
+/// Decides the status of a model in a frame. Where the pictures do not tell whether a pose is
+/// right, it compares the cost with those of past frames.
 class HYPOTRACK_API StatusMonitor {
  public:
   explicit StatusMonitor(const StatusSettings& settings) : settings_(settings) {}
 
   Status judge(const StatusEvidence& evidence);
 
-  /// Probability that a tracked answer needs now: more just after a loss, less at first.
+  /// Returns the probability that a pose needs to count as tracked now: more just after a loss,
+  /// less before anything was tracked.
   double needed() const {
-    constexpr int kSteady = 4;  // frames with answers that would do at other times
+    constexpr int kSteady = 4;  // frames in a row that reach `tracked_above`
     if (!ever_tracked_) return settings_.first_above;
     return steady_ < kSteady ? settings_.surely_above : settings_.tracked_above;
   }
 
-  /// Above it a cost is an outlier of the recent past; -infinity before there is one.
+  /// Returns the threshold above which a cost is an outlier of recent frames; -infinity with too
+  /// few.
   double usual_cost() const;
 
  private:
@@ -128,7 +130,7 @@ class HYPOTRACK_API StatusMonitor {
   std::deque<double> costs_;  ///< of past frames, newest last
   int uncertain_in_a_row_ = 0;
   bool ever_tracked_ = false;
-  int steady_ = 0;  ///< frames in a row with an answer of `tracked_above`, or tracked
+  int steady_ = 0;  ///< frames in a row that were tracked or reached `tracked_above`
 };
 
 }  // namespace hypotrack

@@ -16,20 +16,20 @@
 namespace hypotrack {
 namespace {
 
-// Frames that are searched from several starts before anything was found.
+// Number of first frames that are searched from several starts.
 constexpr int kPatientFrames = 3;
-// The same later, while nothing was ever found: every so many frames.
+// Interval, in frames, of searches from several starts while nothing was ever found.
 constexpr int kSeveralAgain = 5;
-// Frames after a loss in which other poses are looked for although one looks right.
+// Frames after a loss in which alternative poses are searched although one looks right.
 constexpr int kConfirmations = 4;
-// An answer of this probability is worth a search of the next frame.
+// Least probability of a background result that is worth a search of the next frame.
 constexpr double kHint = 0.02;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// A seed of its own for every frame (splitmix64 of both numbers), so that a frame's search does
-/// not depend on how many random numbers the frames before it used.
+/// Derives a seed for every frame (splitmix64 of both numbers). So a frame's search does not depend
+/// on how many random numbers earlier frames used.
 std::uint64_t frame_seed(std::uint64_t seed, int frame) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
@@ -37,13 +37,14 @@ std::uint64_t frame_seed(std::uint64_t seed, int frame) {
   return z ^ (z >> 31);
 }
 
-/// Where no term looks at pictures, these say nothing of an answer.
+/// Turns evidence off where no term looks at pictures.
 StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveTerm>& terms) {
   settings.evidence = settings.evidence && look_at_pictures(terms);
   return settings;
 }
 
-/// How far a scene may be from where it was last seen: a root mean square, metres.
+/// Returns the root mean square distance that a scene may have moved since it was last seen, in
+/// metres.
 double spread_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
@@ -51,7 +52,7 @@ double spread_after(double seconds) {
 
 bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
 
-/// The status of a frame with models of these.
+/// Returns the status of a frame from those of its models.
 Status worst(const std::vector<Status>& models) {
   if (std::ranges::all_of(models, [](Status s) { return s == Status::absent; }))
     return Status::absent;
@@ -60,8 +61,8 @@ Status worst(const std::vector<Status>& models) {
   return out;
 }
 
-/// Takes what hindsight may spend off the budget of a search. Throws ConfigError if that would
-/// leave it less than half.
+/// Subtracts the evaluations of fixed-lag smoothing from a search's budget. Throws ConfigError if
+/// less than half would be left.
 void reserve_for(const HindsightSettings& hindsight, Budget& budget) {
   if (budget.evaluations < 2 * hindsight.evaluations)
     throw ConfigError(
@@ -73,8 +74,8 @@ void reserve_for(const HindsightSettings& hindsight, Budget& budget) {
   budget.evaluations -= hindsight.evaluations;
 }
 
-/// Takes the evaluations that sigmas need off the budget of a search. Throws ConfigError if that
-/// would leave it less than half.
+/// Subtracts the evaluations of sigmas from a search's budget. Throws ConfigError if less than half
+/// would be left.
 void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
   const std::int64_t needed = uncertainty.evaluations();
   if (budget.evaluations < 2 * needed)
@@ -161,7 +162,7 @@ Candidate Tracker::follow(const Frame& frame) {
   std::optional<Reach> reach;
   if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
   Candidate best = finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
-  // The models may still come to where they were said to start.
+  // The models may still come to the start that was given.
   if (recovers() && !finder_.judge().experienced() &&
       best.probability() < settings_.uncertain_above) {
     const bool several = begun_++ % kSeveralAgain == 0;
@@ -192,8 +193,8 @@ LossReport Tracker::report(const Frame& frame, const Candidate& best) {
     doubts = doubts || doubtful[m];
   }
   if (out.lost) return out;
-  // Other poses are looked for around an answer that will do, because it hardly does: ever less
-  // often while there are none.
+  // Search alternatives around an acceptable but doubtful pose, ever less often while there are
+  // none.
   out.near_only = true;
   doubts_ = doubts ? doubts_ + 1 : doubts_ / 2;
   out.sought = doubts && std::has_single_bit(doubts_) ? doubtful : confirmed;
@@ -219,7 +220,7 @@ bool Tracker::complete(const Frame& frame, Candidate& best) {
 }
 
 void Tracker::start_job(const Frame& frame, const LossReport& loss, const Candidate& best) {
-  // The source may use its images again.
+  // The source may reuse its images.
   Frame copy = frame;
   for (View& view : copy.views) {
     view.color = view.color.clone();
@@ -239,7 +240,7 @@ void Tracker::wait_for_job(const Frame& frame, Solution& solution) {
     return stay_lost(frame, solution);
   Candidate best = job_.get();
   if (best.answers() && best.probability() >= kHint) {
-    // That was an earlier frame: this one is searched from its answer.
+    // The job searched an earlier frame: search this one from its result.
     const std::uint64_t seed = frame_seed(seed_, frame.index);
     best = finder_.go_on(frame, best, seed);
     LossReport loss = report(frame, best);
@@ -269,8 +270,8 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
     good.push_back(tracked.back() || status == Status::uncertain);
   }
   const bool any_good = any(good);
-  // Without a recovery tracking goes on from any answer that can be seen, as in the paper; so it
-  // does where nothing better was ever found of a model.
+  // Without recovery, tracking continues from any pose in view, as in the paper. With it, this
+  // holds for models that were never surely found.
   if (best.answers() && finder_.search().tiles().visible_share(best.found.state) > 0)
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const bool never_found =
@@ -280,7 +281,7 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
   go_on_from(frame, best, good);
   finder_.accept(frame, best, tracked);
   keep(frame, best, tracked);
-  // What comes back did not move there.
+  // A model that comes back did not move there continuously.
   if (!any_good || good != followed_before) {
     predictor_.forget_motion();
     smoother_.begin_anew();
@@ -327,7 +328,7 @@ ModelFlags Tracker::followed() const {
 
 Eigen::MatrixXd Tracker::possible_starts(double time) {
   const Eigen::MatrixXd states = predictor_.at(time);
-  // Tiles can be cut around what is seen only.
+  // A tile needs a start that is in view.
   if (states.cols() == 0 || finder_.search().tiles().visible_share(states.col(0)) == 0)
     return state_;
   return states.cols() < finder_.budget().evaluations ? states : states.leftCols(1);
@@ -368,7 +369,7 @@ void Tracker::keep(const Frame& frame, const Candidate& best, const ModelFlags& 
 }
 
 void Tracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const {
-  constexpr double kSlowing = 0.1;  // seconds in which motion that nobody sees dies away
+  constexpr double kSlowing = 0.1;  // time constant, in seconds, with which unseen motion fades
   const ModelTrack& track = models_[model];
   const Scene::Item& item = scene_.items()[model];
   const Eigen::Index size = item.model->dimension();
@@ -378,7 +379,7 @@ void Tracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state
   if (track.velocity.size() == 0) return;
   const double seconds =
       kSlowing * (1 - std::exp(-std::max(time - track.kept_time, 0.0) / kSlowing));
-  const auto before = static_cast<Eigen::Index>(model);  // a difference is shorter by one each
+  const auto before = static_cast<Eigen::Index>(model);  // a difference is shorter by one per model
   Eigen::VectorXd motion =
       Eigen::VectorXd::Zero(scene_.dimension() - static_cast<Eigen::Index>(scene_.items().size()));
   motion.segment(item.offset - before, size - 1) = track.velocity * seconds;

@@ -24,30 +24,30 @@
 
 namespace hypotrack {
 
-/// The answer for one frame.
+/// The result of one frame.
 struct Solution {
   int frame = 0;
   double time = 0;
-  Status status = Status::missing;  ///< the worst of the models'
+  Status status = Status::missing;  ///< the worst of the models' (StatusMonitor); absent only if
+                                    ///< all are
   std::vector<Status> models;       ///< by model
   double cost = 0;                  ///< NaN if the frame was missing
   std::int64_t evaluations = 0;
-  double seconds = 0;     ///< from the frame to the answer: tiles, features and search
-  Eigen::VectorXd state;  ///< normalised; smoothed if the tracker was told to
-  /// How far off each landmark of the scene may be, in metres: the root of the expected square.
-  /// Empty if the tracker was not told to say, NaN if the frame was missing.
+  double seconds = 0;     ///< wall time from the frame to the result: tiles, features and search
+  Eigen::VectorXd state;  ///< normalised; smoothed if SmoothingSettings::enabled
+  /// Root mean square error expected of each landmark of the scene, in metres. Empty if uncertainty
+  /// is off, NaN if the frame was missing.
   Eigen::VectorXd sigma;
-  /// Probability by model that it is where it was found, by what the pictures show; NaN: they do
-  /// not tell.
+  /// Probability, by model, that its pose is right, judged by the pictures; NaN: unknown.
   std::vector<double> probabilities = {};
 };
 
-/// Follows a scene from frame to frame: the search of a frame starts from the last solution, or
-/// from where its motion leads.
+/// Tracks a scene from frame to frame. The search of a frame starts from the last solution, or from
+/// its extrapolated motion.
 class HYPOTRACK_API Tracker {
  public:
-  /// The scene must outlive the tracker. `start` is the state that the first frame's search starts
-  /// from. Equal seeds and input give equal solutions.
+  /// `start` is the state from which the first frame's search starts. Equal seeds and input give
+  /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
   Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
   ~Tracker();
   Tracker(const Tracker&) = delete;
@@ -55,47 +55,48 @@ class HYPOTRACK_API Tracker {
 
   Solution track(const Frame& frame);
 
-  /// Takes the frame in as track() does and does not search. Throws what stands in the way: a start
-  /// that the cameras do not see, a frame that an objective cannot work with.
+  /// Prepares the frame as track() does, without a search. Throws if the cameras do not see the
+  /// start or an objective cannot work with the frame.
   void check(const Frame& frame);
 
-  /// What people should know of a start at which frames like this usable one count as lost or
-  /// uncertain; nothing of a good one.
+  /// Returns a warning if frames like this one would count as lost or uncertain at the start; empty
+  /// otherwise. The frame must be usable.
   std::string problem_of_start(const Frame& frame) const;
 
-  /// What the search of `frame`, the last one tracked, saw of it; with the highlights.
+  /// Returns the tiles that the search of `frame`, the last one tracked, saw; with the highlights.
   Observation seen(const Frame& frame) const;
 
-  /// What evaluates hypotheses, for the run's protocol.
+  /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const;
 
  private:
-  /// What is known of one model.
+  /// Tracking state of one model.
   struct ModelTrack {
     ModelTrack(const StatusSettings& settings, Eigen::Index first, Eigen::Index count)
         : monitor(settings), first_landmark(first), landmarks(count) {}
 
     StatusMonitor monitor;
-    Eigen::Index first_landmark, landmarks;  ///< among the scene's
+    Eigen::Index first_landmark, landmarks;  ///< range among the scene's landmarks
     Status status = Status::missing;
-    double kept_time = 0;   ///< when it was surely right last
-    int confirmations = 0;  ///< frames left in which other poses are looked for, too
-    /// Its motion then, per second, as tangent.hpp has differences; empty: unknown.
+    double kept_time = 0;   ///< time at which it was surely right last
+    int confirmations = 0;  ///< frames left in which alternative poses are searched
+    /// Its motion at kept_time, per second, a difference of tangent.hpp; empty: unknown.
     Eigen::VectorXd velocity = {};
 
-    /// Whether searches go on from its last state.
+    /// Returns whether searches continue from its last state.
     bool is_followed() const { return status != Status::lost && status != Status::absent; }
-    /// What a vector of the scene's landmarks has of the model's.
+    /// Returns the model's part of a vector over the scene's landmarks.
     auto part_of(Eigen::VectorXd& of_scene) const {
       return of_scene.segment(first_landmark, landmarks);
     }
   };
 
   void find(const Frame& frame, Solution& solution);
-  /// Searches on from the last state; no answer while all is lost.
+  /// Searches from the last state. Returns no pose while all models are lost.
   Candidate follow(const Frame& frame);
-  /// Looks for what an answer lacks, or has in a doubtful place: here or, where nothing else can be
-  /// followed, in the background. False: the background looks, and the frame has no answer.
+  /// Searches for what a candidate lacks or has in doubtful poses. Starts a background job instead
+  /// if the settings say so and no model can be followed. Returns false then: the frame has no
+  /// result.
   bool complete(const Frame& frame, Candidate& best);
   LossReport report(const Frame& frame, const Candidate& best);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
@@ -107,33 +108,34 @@ class HYPOTRACK_API Tracker {
 
   bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
   ModelFlags followed() const;
-  /// States that the search of a frame may start from, the middle one, which is seen, first.
+  /// Returns states from which the search of a frame may start. The middle one, which is in view,
+  /// comes first.
   Eigen::MatrixXd possible_starts(double time);
   void go_on_from(const Frame& frame, const Candidate& best, const ModelFlags& good);
   void keep(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
-  /// Where a model was when it was surely right last, moved on for a moment, in `state`.
+  /// Writes into `state` the model's last sure pose, extrapolated by its fading motion.
   void extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const;
-  /// No sigma of a lost model is below what it may have moved since.
+  /// Raises the sigmas of lost models to the distance they may have moved since.
   void widen(const Frame& frame, Solution& solution) const;
   Eigen::VectorXd smoothed(const Solution& solution);
 
   const Scene& scene_;
   StatusSettings settings_;
-  Eigen::VectorXd first_;  ///< where the first search starts
+  Eigen::VectorXd first_;  ///< start of the first search
   CandidateFinder finder_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;
   bool smoothing_;
   std::vector<ModelTrack> models_;
-  Eigen::VectorXd kept_;      ///< where each model was surely right last
-  Eigen::VectorXd together_;  ///< where all were when that was so of all at once
-  Eigen::VectorXd state_;     ///< where the next search starts
-  double time_ = 0;           ///< of it
-  Eigen::VectorXd output_;    ///< the last state that was given out
+  Eigen::VectorXd kept_;      ///< each model's last pose that was surely right
+  Eigen::VectorXd together_;  ///< the last state in which all models were surely right at once
+  Eigen::VectorXd state_;     ///< start of the next search
+  double time_ = 0;           ///< time of `state_`
+  Eigen::VectorXd output_;    ///< last state returned
   int begun_ = 0;             ///< frames searched before anything was found
   bool found_any_ = false;    ///< whether `state_` is a solution
-  unsigned doubts_ = 0;       ///< doubtful answers of late
+  unsigned doubts_ = 0;       ///< recent count of doubtful poses
   std::uint64_t seed_;
   std::future<Candidate> job_;
 };

@@ -15,7 +15,7 @@
 
 namespace hypotrack {
 
-/// What a tracker is put together from.
+/// The components and settings of a tracker.
 struct TrackerParts {
   std::vector<Camera> cameras;
   std::unique_ptr<Optimizer> optimizer;
@@ -30,10 +30,10 @@ struct TrackerParts {
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 
-/// What the search and the sigmas of a tracker, and hindsight, want of residuals.
+/// Returns which residuals the search, the uncertainty and fixed-lag smoothing need.
 ResidualUse residual_use(const TrackerParts& parts);
 
-/// Whether any term that counts looks at pictures.
+/// Returns whether any term with a weight looks at pictures.
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms);
 
 }  // namespace hypotrack

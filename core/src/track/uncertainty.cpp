@@ -11,12 +11,12 @@
 namespace hypotrack {
 namespace {
 
-// Steps of the differences: large enough to move edges by about a pixel.
+// Steps of the finite differences: large enough to move edges by about a pixel.
 constexpr double kPositionStep = 0.001;
 constexpr double kRotationStep = 0.75 * kDegree;
 constexpr double kAngleStep = 1.5 * kDegree;
 
-/// For every number of the tangent space what a part's kind says.
+/// Returns a vector over the tangent space with one value per kind of dimension.
 Eigen::VectorXd per_kind(const Scene& scene, double position, double rotation, double angle) {
   const std::vector<TangentPart> parts = tangent_parts(scene);
   Eigen::VectorXd out(parts.back().first + parts.back().size);
@@ -29,8 +29,8 @@ Eigen::VectorXd per_kind(const Scene& scene, double position, double rotation, d
   return out;
 }
 
-/// How far every number may be off that the images do not show. The limits of an angle leave no
-/// more open than an even spread between them.
+/// Returns the prior standard deviation of every dimension. An angle's is at most that of a uniform
+/// distribution between its limits.
 Eigen::VectorXd prior_width(const Scene& scene, const UncertaintySettings& settings) {
   Eigen::VectorXd width = per_kind(scene, settings.position, settings.rotation, settings.angle);
   auto parameter = scene.parameters().begin();
@@ -46,8 +46,8 @@ Eigen::VectorXd prior_width(const Scene& scene, const UncertaintySettings& setti
   return width;
 }
 
-/// States on both sides of one, a pair of columns per number of the tangent space, and the widths
-/// of these differences: less than two steps at a limit.
+/// States on both sides of one, a pair of columns per dimension of the tangent space, and the
+/// widths of these differences, which are less than two steps at a limit.
 struct Neighbours {
   Neighbours(const Scene& scene, const Eigen::VectorXd& state, const Eigen::VectorXd& steps)
       : states(state.size(), 2 * steps.size()), width(steps.size()) {
@@ -63,7 +63,7 @@ struct Neighbours {
   Eigen::VectorXd width;
 };
 
-/// Landmarks (3L) over the tangent space.
+/// Computes the Jacobian of the landmarks (3L) over the tangent space.
 Eigen::MatrixXd landmark_jacobian(const Scene& scene, const Neighbours& around) {
   const auto rows = static_cast<Eigen::Index>(3 * scene.landmark_names().size());
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, around.width.size());
@@ -76,10 +76,10 @@ Eigen::MatrixXd landmark_jacobian(const Scene& scene, const Neighbours& around) 
   return out;
 }
 
-/// The information of the residuals and a prior of given widths together. In units of the prior's
-/// widths, where the prior's information is the identity, and by the eigenvectors of the residuals'
-/// information: directions of which they say nothing come out as the prior has them, however much
-/// they say of others.
+/// Posterior of the residuals' information and a prior of given widths. Works in units of the
+/// prior's widths, where the prior's information is the identity, and in the eigenvectors of the
+/// residuals' information. So directions about which the residuals say nothing keep the prior's
+/// variance exactly.
 class Posterior {
  public:
   Posterior(const ResidualInformation& info, const Eigen::VectorXd& width, double noise)
@@ -90,7 +90,7 @@ class Posterior {
     const Eigen::VectorXd& known = solver.eigenvalues();
     directions_ = solver.eigenvectors();
     gradient_ = factor * (directions_.transpose() * (width.asDiagonal() * info.g));
-    // What rounding leaves of an eigenvalue 0.
+    // Rounding error of an eigenvalue 0.
     const double rounding = static_cast<double>(known.size()) *
                             std::numeric_limits<double>::epsilon() * known.cwiseAbs().maxCoeff();
     open_ = Eigen::VectorXd::Ones(known.size());
@@ -102,7 +102,7 @@ class Posterior {
     }
   }
 
-  /// trace(L C L^T) is the squared norm of this for a Jacobian L and the covariance C.
+  /// Returns a matrix whose squared norm is trace(L C L^T), for a Jacobian L and the covariance C.
   Eigen::MatrixXd root(const Eigen::MatrixXd& jacobian) const {
     return open_.cwiseSqrt().asDiagonal() *
            (directions_.transpose() * (width_.asDiagonal() * jacobian.transpose()));
@@ -114,7 +114,7 @@ class Posterior {
  private:
   const Eigen::VectorXd& width_;
   Eigen::MatrixXd directions_;
-  Eigen::VectorXd open_;      // variance along each, of the prior's
+  Eigen::VectorXd open_;      // variance along each, relative to the prior's
   Eigen::VectorXd gradient_;  // J^T r along each
 };
 

@@ -4,8 +4,8 @@
 
 namespace hypotrack {
 
-/// `tracker.uncertainty:` of a scene. Widths are one standard deviation. What the defaults were
-/// found on is in docs/confidence.md.
+/// `tracker.uncertainty:` of a scene. Widths are one standard deviation. docs/confidence.md says
+/// how the defaults were found.
 struct UncertaintySettings {
   bool enabled = false;
   double noise = 1;
