@@ -12,7 +12,7 @@
 namespace hypotrack {
 namespace {
 
-/// Terms that look at the pose only get a share of their weight.
+/// Multiplies the weights of terms that look at the pose only.
 std::vector<ObjectiveTerm> with_prior(std::vector<ObjectiveTerm> terms, double share) {
   for (ObjectiveTerm& term : terms)
     if (term.objective && !term.objective->needs_rendering()) term.weight *= share;
@@ -31,7 +31,7 @@ const HindsightSettings& checked(const HindsightSettings& settings,
   return settings;
 }
 
-constexpr std::size_t kContext = 2;  // settled moments that say where a motion comes from
+constexpr std::size_t kContext = 2;  // settled moments that constrain the motion of the next window
 constexpr int kTurns = 2;            // windows that a frame may be in
 
 }  // namespace

@@ -14,28 +14,29 @@
 
 namespace hypotrack {
 
-/// Changes what was found, frame by frame, by what later frames show. It looks at the frames of a
-/// window together (TrajectoryFit), from where they were found; all but those of the last `lag` are
-/// then settled, and the two last of these hold on to the next window's.
+/// Fixed-lag smoother: improves each state with the frames of a window before and after it. It fits
+/// the frames of a window together (TrajectoryFit), from the states that were found. Then it
+/// settles all but those of the last `lag`. The last two settled states constrain the next window's
+/// motion.
 class HYPOTRACK_API Hindsight {
  public:
-  /// The scene must outlive it. Throws ConfigError where a term has no residuals, or the settings
-  /// do not fit each other or the scene. With `highlights` these are taken off the tiles.
+  /// The scene must outlive it. Throws ConfigError if a term has no residuals, or if the settings
+  /// do not fit each other or the scene. With `highlights` it removes highlights from the tiles.
   Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& evaluate,
             const HindsightSettings& settings, bool highlights = false);
 
-  /// Takes in a frame after those before it: the tiles that its search saw, but with highlights, or
-  /// nothing where that tells nothing of the scene, and the state that was found.
+  /// Adds the next frame: the state found, and the tiles that its search saw, with highlights. Give
+  /// no tiles if the frame tells nothing about the scene.
   void add(Sight sight, const Moment& found);
 
-  /// A state that is not changed any more.
+  /// A state that does not change any more.
   struct Settled {
     Eigen::VectorXd state;
-    std::int64_t evaluations = 0;  ///< that hindsight has taken for it
+    std::int64_t evaluations = 0;  ///< evaluations of the smoothing for it
   };
-  /// Those since the last call, in the order of add().
+  /// Returns the states settled since the last call, in the order of add().
   std::vector<Settled> take();
-  /// The rest, when no more frames come.
+  /// Settles and returns the remaining states, when no more frames come.
   std::vector<Settled> finish();
 
  private:
@@ -46,7 +47,7 @@ class HYPOTRACK_API Hindsight {
   MotionPrior motion_;
   std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;
-  std::vector<Moment> moments_;  ///< the settled two, then those that wait
+  std::vector<Moment> moments_;  ///< last two settled ones, then those that wait
   std::vector<Sight> sights_;
   std::vector<std::int64_t> evaluations_;
   std::size_t fixed_ = 0;

@@ -7,14 +7,13 @@
 
 namespace hypotrack {
 
-/// A moment of a motion.
+/// A state of a motion and its time.
 struct Moment {
   double time = 0;        ///< s
   Eigen::VectorXd state;  ///< normalised
 };
 
-/// What a camera saw at a moment; nothing where there was no picture, or where the scene was not in
-/// it.
+/// Tiles of a moment; nothing if there was no picture or the scene was not in view.
 using Sight = std::optional<Observation>;
 
 }  // namespace hypotrack

@@ -11,23 +11,23 @@
 
 namespace hypotrack {
 
-/// Takes highlights off the tiles of a window's frames by what all of them show: what a frame's
-/// pose has turned by its highlights, frames with other poses tell.
+/// Removes highlights from the tiles of a window's frames. Learns them from all frames together: a
+/// pose that follows its own highlights contradicts frames with other poses.
 class HYPOTRACK_API TileHighlights {
  public:
   /// The scene must outlive it.
   explicit TileHighlights(const Scene& scene) : sampler_(scene) {}
 
-  /// Learns anew from tiles with their highlights, of which there are as many as moments, where the
-  /// scene is as in those. What was known before decides only which differences are far off.
+  /// Relearns the highlights from tiles that still have them, and the scene's states in those
+  /// frames (one per tile set). The former strengths only decide which samples are outliers.
   void learn(const std::vector<Sight>& sights, const std::vector<Moment>& moments);
 
-  /// Tiles without highlights, if the scene is about as in a normalised state.
+  /// Returns the tiles without highlights, for the scene in a normalised state.
   Observation off(const Observation& tiles, const Eigen::VectorXd& state);
 
  private:
   ColorSampler sampler_;
-  std::vector<Highlights> views_;  // but for the first
+  std::vector<Highlights> views_;  // without the first
 };
 
 }  // namespace hypotrack

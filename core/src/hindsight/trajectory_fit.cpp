@@ -12,31 +12,32 @@
 namespace hypotrack {
 namespace {
 
-// Steps of differences: by slopes, surfaces move by a fraction of a pixel; by residuals, edges move
-// by about one.
+// Steps of finite differences. Slopes need motion by a fraction of a pixel, residuals by about one
+// pixel.
 constexpr double kSlopeShare = 0.1;
 constexpr double kPositionStep = 0.001;
 constexpr double kRotationStep = 0.75 * kDegree;
 constexpr double kAngleStep = 1.5 * kDegree;
 
 constexpr double kFirstBlur = 1.5, kLeastBlur = 0.5;  // pixels
-// Damping holds a number by what it matters to the pictures and, if they do not show it, by this
-// much of what a change of speed costs.
+// Damping scales a dimension's diagonal plus this share of the prior's weight, which holds
+// dimensions that the pictures do not show.
 constexpr double kHold = 1;
 constexpr double kFirstDamping = 0.03;
-constexpr int kPatience = 3;  // steps in a row that hardly move anything
-// Speeds may first change by this much more, and by less with every step until half the looks are
-// spent. Otherwise the first step would give up what pictures say for a smoothness that the search,
-// frame by frame, did not have.
+constexpr int kPatience = 3;  // steps in a row without progress that end the fit
+// Initial factor on the allowed change of velocity. It falls with every step to 1 at half the
+// budget. Otherwise the first step would trade the pictures' fit for smoothness, which
+// frame-by-frame search does not have.
 constexpr double kFirstLooseness = 8;
-// Shares of the looks after which highlights are learned again, from better states. Each takes a
-// look, as costs are no longer what they were.
+// Shares of the budget after which highlights are relearned from better states. Each relearning
+// linearises all frames again, as their costs have changed.
 constexpr std::array kLearnAfter = {0.2, 0.4, 0.6};
-constexpr double kLeastStep = 1e-3;  // as a share of what speeds change in a second
-constexpr double kSurprise = 0.5;    // what a cost may exceed its promise by: pixels are noisy
+constexpr double kLeastStep = 1e-3;  // relative to the change of velocity in a second
+constexpr double kSurprise = 0.5;  // tolerated excess of a cost over its prediction, as pixels are
+                                   // noisy
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// States beside one, each off by steps[i] in one number, the other way round at a limit.
+/// States that differ from one by steps[i] in one dimension, in the other direction at a limit.
 struct Beside {
   Beside(const Scene& scene, const Eigen::VectorXd& state, double share) {
     const std::vector<TangentPart> parts = tangent_parts(scene);
@@ -57,7 +58,7 @@ struct Beside {
     }
   }
 
-  Eigen::MatrixXd states;  ///< that state first
+  Eigen::MatrixXd states;  ///< the state itself first
   Eigen::VectorXd steps;
 };
 
@@ -122,7 +123,7 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
   const Eigen::VectorXd weight = full_weight / (looseness * looseness);
   const Eigen::Index d = weight.size();
   const auto rows = static_cast<Eigen::Index>(looks.size()) * d;
-  std::vector<Eigen::Triplet<double>> entries;  // of the lower half
+  std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   Eigen::VectorXd gradient(rows);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const NormalEquations& eq = looks[i].equations;
@@ -164,7 +165,8 @@ std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments
                                               const std::vector<Look>& looks,
                                               const std::vector<Look>& seen,
                                               double looseness) const {
-  // Viterbi's algorithm over what two moments in a row do: bit 1 the first, bit 0 the second.
+  // Viterbi algorithm over the decisions of two consecutive moments: bit 1 the first, bit 0 the
+  // second.
   const std::size_t fixed = moments.size() - looks.size();
   const auto at = [&](std::size_t i, int taken) -> const Moment& {
     return taken ? trial[i] : moments[i];
@@ -173,7 +175,8 @@ std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments
     if (i < fixed) return taken ? kInfinity : 0.0;
     return (taken ? seen : looks)[i - fixed].cost;
   };
-  std::vector<std::array<int, 4>> before(moments.size());  // what the moment before the two did
+  std::vector<std::array<int, 4>> before(moments.size());  // best decision of the moment before the
+                                                           // two
   std::array<double, 4> sum{};
   for (int two = 0; two < 4; ++two) sum[two] = cost(0, two >> 1) + cost(1, two & 1);
   for (std::size_t i = 2; i < moments.size(); ++i) {
@@ -232,7 +235,7 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
     const std::vector<bool> take = worth_taking(moments, trial, looks, seen, looseness);
     double gain = 0;
     for (std::size_t i = 0; i < looks.size(); ++i) {
-      // Where a frame's cost is not what its equations promised, they reach less far.
+      // Damp a frame more if its cost exceeds the prediction of its normal equations.
       const auto dx = steps.segment(static_cast<Eigen::Index>(i) * d, d);
       const NormalEquations& eq = looks[i].equations;
       const bool kept = seen[i].cost <= looks[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;

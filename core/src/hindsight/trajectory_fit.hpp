@@ -11,26 +11,26 @@
 
 namespace hypotrack {
 
-/// Looks for the motion, a state per frame, of lowest
+/// Finds the motion, a state per frame, that minimises
 ///
 ///   sum over frames of their cost + sum over every three in a row of MotionPrior::cost()
 ///
-/// by Levenberg-Marquardt over all frames at once: what a frame's pictures tell stays, what they do
-/// not follows from the frames around it.
+/// by Levenberg-Marquardt over all frames at once. Dimensions that a frame's pictures determine
+/// keep their values; the others follow from the neighbouring frames.
 class HYPOTRACK_API TrajectoryFit {
  public:
-  /// All must outlive it. The evaluator must have residuals. With `highlights` (or null) tiles have
-  /// them taken off, as they are learned from the states so far.
+  /// The evaluator must have residuals. `highlights` (may be null) removes highlights from the
+  /// tiles, learned from the states so far. All arguments must outlive the fit.
   TrajectoryFit(const Scene& scene, Evaluator& evaluator, const MotionPrior& motion,
                 TileHighlights* highlights = nullptr)
       : scene_(&scene), evaluator_(&evaluator), motion_(&motion), highlights_(highlights) {}
 
-  /// Evaluations that one look at a frame takes.
+  /// Returns the evaluations that linearising one frame takes.
   std::int64_t evaluations_per_look() const;
 
-  /// Improves all moments but the first `fixed`, from where they are, with at most `evaluations`
-  /// for each frame; at least two looks, or nothing is done. `sights` are as many as moments.
-  /// Returns the evaluations that each frame seen has taken.
+  /// Improves all moments but the first `fixed`, with at most `evaluations` per frame. `sights` has
+  /// one entry per moment. Does nothing if the evaluations do not suffice for two linearisations.
+  /// Returns the evaluations spent on each frame that has tiles.
   std::int64_t improve(std::vector<Moment>& moments, const std::vector<Sight>& sights,
                        std::size_t fixed, std::int64_t evaluations);
 
@@ -40,20 +40,20 @@ class HYPOTRACK_API TrajectoryFit {
     double cost = 0;
     NormalEquations equations;
   };
-  /// Sights without what highlights are there by the free moments' states.
+  /// Returns the sights without the highlights at the free moments' states.
   std::vector<Sight> matt(const std::vector<Moment>& moments, const std::vector<Sight>& sights,
                           std::size_t fixed);
   Look look(const Sight& sight, const Eigen::VectorXd& state, double blur);
   std::vector<Look> look_at_all(const std::vector<Moment>& moments,
                                 const std::vector<Sight>& sights, std::size_t fixed, double blur);
-  /// The step of every free moment, one after the other, for a motion whose speeds may change
-  /// `looseness` times as much.
+  /// Returns the steps of all free moments, one after the other. `looseness` divides the prior's
+  /// root weights: velocities may change by that factor more.
   Eigen::VectorXd step(const std::vector<Moment>& moments, const std::vector<Look>& looks,
                        const std::vector<double>& damping, double looseness,
                        std::size_t fixed) const;
 
-  /// Which moments take their step, of `looks` and `seen` before and after it, so that all together
-  /// cost least: one frame in which a step goes wrong does not hold up the others.
+  /// Chooses the moments that take their step so that the total cost is lowest. `looks` and `seen`
+  /// are from before and after the step. A frame whose step fails does not hold up the others.
   std::vector<bool> worth_taking(const std::vector<Moment>& moments,
                                  const std::vector<Moment>& trial, const std::vector<Look>& looks,
                                  const std::vector<Look>& seen, double looseness) const;

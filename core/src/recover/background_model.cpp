@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kRate = 0.1f;       // of a frame in the mean
 constexpr float kSame = 4;          // levels of a channel, 0 .. 255: a difference that is noise
-constexpr float kUnchanged = 0.1f;  // weight of a pixel that is the same
+constexpr float kUnchanged = 0.1f;  // weight of an unchanged pixel
 
 }  // namespace
 

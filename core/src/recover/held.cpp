@@ -5,7 +5,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPose = 7;  // numbers of a pose: all that a rigid model has
+constexpr Eigen::Index kPose = 7;  // length of a pose: all parameters of a rigid model
 
 bool is_rigid(const Scene::Item& item) { return item.model->dimension() == kPose; }
 
@@ -14,7 +14,7 @@ Eigen::Matrix3Xd landmarks_of(const Scene& scene, std::size_t model, const Eigen
   return posed_landmarks(*item.model, scene.part(item, state));
 }
 
-/// Largest distance of a landmark from their center.
+/// Returns the largest distance of a landmark from their centre.
 double reach_of(const Eigen::Matrix3Xd& landmarks) {
   const Eigen::Vector3d center = landmarks.rowwise().mean();
   return (landmarks.colwise() - center).colwise().norm().maxCoeff();

@@ -10,9 +10,9 @@ namespace hypotrack {
 namespace {
 
 constexpr double kBlur = 2;         // pixels of a silhouette's way
-constexpr double kFromMean = 0.05;  // of the mean diagonal, added to each damping
+constexpr double kFromMean = 0.05;  // share of the mean diagonal that is added to each damping
 
-/// Spreads bound a step; differences are a share of them.
+/// Spreads bound a step; finite differences are a share of them.
 SearchSettings settings() {
   SearchSettings out;
   out.rotation_as = RotationSearch::tangent;
@@ -41,7 +41,7 @@ NormalEquations LeastSquares::linearize(const SearchRegion& region, const Eigen:
                                         Refined& state) {
   const Eigen::Index d = region.start.size();
   StateCost cost(space_, prior, evaluator_);
-  // Differences go inwards at upper bounds.
+  // Differences go downwards at upper bounds.
   Eigen::VectorXd steps = step_;
   for (Eigen::Index i = 0; i < d; ++i)
     if (region.start[i] + steps[i] > region.upper[i]) steps[i] = -steps[i];

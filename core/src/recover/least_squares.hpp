@@ -10,21 +10,21 @@
 
 namespace hypotrack {
 
-/// A state, its cost and what that took.
+/// A state, its cost, and the evaluations that it took.
 struct Refined {
   Eigen::VectorXd state;
   double cost = 0;
   std::int64_t evaluations = 0;
 };
 
-/// Refines states by a few steps of Levenberg and Marquardt on the residuals of a prepared frame.
+/// Refines states by a few Levenberg-Marquardt steps on the residuals of a prepared frame.
 class LeastSquares {
  public:
-  /// Moves only the models of which `free` is true. The scene and the evaluator, which has
-  /// residuals, must outlive it.
+  /// Moves only the models flagged in `free`. The evaluator must have residuals. The scene and the
+  /// evaluator must outlive the object.
   LeastSquares(const Scene& scene, Evaluator& evaluator, const std::vector<bool>& free);
 
-  /// Refines a state of a known cost by at most `iterations` steps.
+  /// Refines a state of known cost by at most `iterations` steps.
   Refined refine(Refined from, int iterations);
 
  private:
@@ -33,7 +33,7 @@ class LeastSquares {
 
   Evaluator& evaluator_;
   SearchSpace space_;
-  Eigen::VectorXd step_;  ///< of differences, 0 where a dimension does not move
+  Eigen::VectorXd step_;  ///< of the finite differences, 0 where a dimension does not move
 };
 
 }  // namespace hypotrack

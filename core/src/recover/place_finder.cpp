@@ -8,14 +8,14 @@
 #include <utility>
 
 namespace hypotrack {
-/// A view, reduced.
+/// A reduced view.
 struct ReducedView {
   cv::Mat3b color;
   cv::Mat1f gray;
   cv::Mat1f probability;  ///< of foreground
-  cv::Mat1d sums;         ///< integral of that
+  cv::Mat1d sums;         ///< integral image of `probability`
 
-  /// Mean probability over a window; what lies outside the picture counts as 0.
+  /// Returns the mean probability over a window. Pixels outside the picture count as 0.
   double mean(float x, float y, float r) const {
     const int side = 2 * std::max(1, static_cast<int>(std::lround(r))) + 1;
     const int left = static_cast<int>(std::lround(x)) - side / 2;
@@ -29,12 +29,13 @@ struct ReducedView {
 
 namespace {
 
-constexpr int kWidth = 240;  // of a reduced picture, about
+constexpr int kWidth = 240;  // approximate width of a reduced picture
 constexpr int kStep = 3;     // pixels of it between the points of the sweep
 constexpr int kDepths = 20;  // planes, evenly spaced in disparity
 constexpr std::size_t kMostSorted = 2000;
 constexpr double kLeast = 0.2;        // share of the model's colours worth a comparison
-constexpr double kUnexplained = 0.4;  // share of those that other places do not explain
+constexpr double kUnexplained = 0.4;  // least share of a place's foreground that other places leave
+                                      // unexplained
 
 ReducedView reduce(cv::Mat3b picture, const ForegroundColors& colors, const ColorMap& map,
                    const cv::Mat1f& weights) {
@@ -56,16 +57,16 @@ ReducedView reduce(cv::Mat3b picture, const ForegroundColors& colors, const Colo
   return out;
 }
 
-/// Mean probability of what is beside a window, up to twice its size.
+/// Returns the mean probability around a window, up to twice its size.
 double ring_mean(const ReducedView& view, float x, float y, float r, double inside) {
   return (4 * view.mean(x, y, 2 * r) - inside) / 3;
 }
 
-/// Correlation of two views' grey values over a patch that faces the first camera.
+/// Computes the correlation of two views' grey values over a patch that faces the first camera.
 double correlation(const ReducedView& a, float ax, float ay, float ar, const ReducedView& b,
                    float bx, float by, float br) {
   constexpr int kHalf = 3;
-  constexpr double kNoise = 4;  // standard deviation of grey values that says nothing
+  constexpr double kNoise = 4;  // standard deviation of grey values that counts as noise
   double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
   int n = 0;
   const auto at = [](const ReducedView& view, float x, float y, float& value) {
@@ -93,7 +94,7 @@ struct Patch {
   double x = 0, y = 0, r = 0;
 };
 
-/// Where a camera sees a ball, in its reduced picture; false where it does not.
+/// Projects a ball into a camera's reduced picture. Returns false where the camera cannot see it.
 bool patch_of(const Camera& camera, int by, const Eigen::Vector3d& center, double radius,
               Patch& out) {
   const double depth = (camera.camera_from_world * center).z();
@@ -103,12 +104,12 @@ bool patch_of(const Camera& camera, int by, const Eigen::Vector3d& center, doubl
   return true;
 }
 
-/// Correlation of two views' grey values over patches, each point weighed by how likely it is
-/// foreground.
+/// Computes the correlation of two views' grey values over patches, each point weighted by its
+/// foreground probability.
 double foreground_correlation(const ReducedView& a, const Patch& at, const ReducedView& b,
                               const Patch& there) {
   constexpr int kHalf = 10;
-  constexpr double kNoise = 2;  // standard deviation of grey values that says nothing
+  constexpr double kNoise = 2;  // standard deviation of grey values that counts as noise
   const auto value = [](const cv::Mat1f& picture, double x, double y, double& out) {
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     if (x0 < 0 || y0 < 0 || x0 + 1 >= picture.cols || y0 + 1 >= picture.rows) return false;
@@ -198,7 +199,8 @@ std::vector<PlaceFinder::Candidate> PlaceFinder::sweep(const Views& views, doubl
         std::max(0.0, correlation(views[0], a.x, a.y, a.r, views[1], b.x, b.y, b.r));
     const double beside = std::max(ring_mean(views[0], a.x, a.y, a.r, share[0]),
                                    ring_mean(views[1], b.x, b.y, b.r, share[1]));
-    // Small windows are full of the colours sooner; a forearm has them on both sides, too.
+    // Weigh by size, as small windows fill up sooner; subtract the ring, which a forearm fills,
+    // too.
     const double extent = double{a.r} * (both - kLeast - beside);
     if (extent > 0) found.push_back({&point, both, extent * (0.3 + 0.7 * alike)});
   }
@@ -218,7 +220,7 @@ Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, con
               reduce(reduced(frame.views[1].color, 1), colors, map, weights[1])};
   const std::vector<Candidate> found = sweep(views, out.seen);
   while (out.best.size() < count) {
-    // What places explain does not count again: long things are covered place by place.
+    // Count foreground once only, so that several places cover a long object.
     Place best;
     for (const Candidate& one : found) {
       const Window &a = one.point->windows[0], &b = one.point->windows[1];
@@ -261,7 +263,7 @@ Eigen::Vector3d PlaceFinder::at_best_depth(const Views& views,
 
 std::vector<Eigen::Vector3d> PlaceFinder::points_around(const ReducedView& first,
                                                         const Eigen::Vector3d& center) const {
-  constexpr double kWider = 1.6;  // than a window
+  constexpr double kWider = 1.6;  // than the window of a model
   constexpr double kCount = 60;
   const Camera& camera = cameras_[0];
   Patch at;

@@ -16,42 +16,43 @@ namespace hypotrack {
 /// A place where a model may be.
 struct Place {
   Eigen::Vector3d center;  ///< in the world, metres
-  double score = 0;        ///< larger is likelier; compares within one frame
-  /// Points at its depth, spread over what has the model's colours around it.
+  double score = 0;        ///< larger is likelier; comparable within one frame
+  /// Points at the depth of the place, spread over the pixels with the model's colours around it.
   std::vector<Eigen::Vector3d> points = {};
 };
 
 struct ReducedView;
 
-/// What whole pictures show of a model's colours.
+/// Result of a search of the whole pictures for a model's colours.
 struct Places {
   std::vector<Place> best;  ///< best first
-  /// The largest share of the model's colours in a window of its size, in the picture where that is
-  /// smaller: near 0 if one of them shows no such thing.
+  /// Largest mean foreground probability of a window of the model's size, in the view where it is
+  /// smaller. Near 0 if a view does not show the model's colours.
   double seen = 0;
 };
 
-/// Looks over whole pictures for places where both views show a model's colours and agree: a plane
-/// sweep with windows of the model's size (Collins, "A space-sweep approach to true multi-image
-/// matching", CVPR 1996).
+/// Searches whole pictures for places where both views agree and show a model's colours. It is a
+/// plane sweep with windows of the model's size (Collins, "A space-sweep approach to true
+/// multi-image matching", CVPR 1996).
 class HYPOTRACK_API PlaceFinder {
  public:
-  /// Looks for models of about `radius` metres between two depths before the first camera.
+  /// Searches for models of about `radius` metres between two depths (metres) from the first
+  /// camera.
   PlaceFinder(const std::vector<Camera>& cameras, double radius, double nearest, double farthest);
 
-  /// Finds up to `count` places. Each shows the model's colours where the places before it do not.
-  /// `map` makes the second view's colours the first's. `weights` (0 .. 1) of the reduced pictures'
-  /// pixels are their chance to show the model, whatever their colours; empty: all 1.
+  /// Finds up to `count` places, each with model colours that the places before do not explain.
+  /// `map` maps the second view's colours to the first's. `weights` (0 .. 1, per pixel of the
+  /// reduced pictures) multiply the foreground probability; empty: all 1.
   Places find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
               std::size_t count, const std::array<cv::Mat1f, 2>& weights = {}) const;
 
-  /// Pixels of a view (0 or 1) along one pixel of its reduced picture.
+  /// Returns the factor by which the picture of a view (0 or 1) is reduced.
   int reduction(std::size_t view) const { return reductions_[view]; }
-  /// The reduced picture of a view (0 or 1).
+  /// Returns the reduced picture of a view (0 or 1).
   cv::Mat3b reduced(const cv::Mat& picture, std::size_t view) const;
 
  private:
-  /// A point of the sweep in one view: pixel and radius in the reduced picture.
+  /// A sample point of the sweep in one view: pixel and radius in the reduced picture.
   struct Window {
     float x = 0, y = 0, r = 0;
   };
@@ -59,27 +60,27 @@ class HYPOTRACK_API PlaceFinder {
     Eigen::Vector3f center;
     Window windows[2];
   };
-  /// A point that may be a place.
+  /// A sample point that may be a place.
   struct Candidate {
     const Point* point;
-    double share;  ///< of the model's colours in its windows, where that is smaller
+    double share;  ///< mean foreground probability of its windows, smaller of both views
     double score;
   };
   using Views = std::array<ReducedView, 2>;
 
-  /// Scores the points, best first. `seen` is Places::seen.
+  /// Scores the sample points, best first. Sets `seen` to Places::seen.
   std::vector<Candidate> sweep(const Views& views, double& seen) const;
-  /// The point on the first camera's ray at which both views agree best.
+  /// Returns the point on the first camera's ray at which both views agree best.
   Eigen::Vector3d at_best_depth(const Views& views, const Eigen::Vector3d& center) const;
-  /// Place::points of a place.
+  /// Returns Place::points of a place.
   std::vector<Eigen::Vector3d> points_around(const ReducedView& first,
                                              const Eigen::Vector3d& center) const;
-  /// Takes out of a view what a model at a place would show.
+  /// Removes from a view the foreground that a model at a place would explain.
   void explain(ReducedView& view, std::size_t i, const Eigen::Vector3d& center) const;
 
   std::vector<Camera> cameras_;
   double radius_;
-  double inverse_step_;  ///< of 1/z between the planes of the sweep
+  double inverse_step_;  ///< step of 1/z between the planes of the sweep
   std::vector<Point> points_;
   int reductions_[2] = {1, 1};
 };

@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPose = 7;  // numbers of a model's pose
+constexpr Eigen::Index kPose = 7;  // length of a model's pose
 constexpr double kPadding = 0.5;   // of a hypothesis, around it
 constexpr int kIterations = 6;
 
@@ -19,7 +19,7 @@ std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Sce
   return {{item.name, item.model}};
 }
 
-/// A rotation from the uniform distribution (Shoemake, "Uniform random rotations", 1992).
+/// Returns a uniformly distributed rotation (Shoemake, "Uniform random rotations", 1992).
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
   std::normal_distribution<double> normal;
   Eigen::Vector4d q(normal(random), normal(random), normal(random), normal(random));
@@ -101,11 +101,11 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
   TilePlan plan = tiles_.plan(frame, hypothesis);
   plan.header.scene = &scene_;
   plan.header.start = base;
-  // Every model that moves is expected here, so that depths of the tile are those of the place.
+  // Expect every moving model here, so that the tile's depths are those of the place.
   for (const Scene::Item& item : scene_.items())
     plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
   plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
-  plan.header.in_hindsight = true;  // nobody knows the way here
+  plan.header.in_hindsight = true;  // no motion leads here
   search.take_in(tiles_, frame, std::move(plan));
 }
 

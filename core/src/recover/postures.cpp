@@ -8,13 +8,14 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kPose = 7;  // numbers of a model's pose
+constexpr int kPose = 7;  // length of a model's pose
 constexpr std::size_t kRemembered = 8;
 constexpr double kUnlike = 25 * kDegree;  // largest difference of an angle
 
-constexpr double kStraight = 0.03, kHalf = 0.4, kBent = 0.85;  // of a joint's range
+constexpr double kStraight = 0.03, kHalf = 0.4, kBent = 0.85;  // shares of a joint's range
 
-/// The parameters of a limb that bend it: those with most of their range to one side.
+/// Returns the parameters that bend a limb: those with most of their range on one side of the rest
+/// value.
 std::vector<int> bending(const ModelData& model, const std::vector<int>& limb) {
   std::vector<int> out;
   for (const int p : limb) {
@@ -25,7 +26,7 @@ std::vector<int> bending(const ModelData& model, const std::vector<int>& limb) {
   return out;
 }
 
-/// Such a parameter: 0 at rest, 1 at its upper bound.
+/// Returns a parameter's value at a share of its range: 0 at rest, 1 at the upper bound.
 double bent(const ModelData& model, int p, double share) {
   const Parameter& parameter = model.parameters[static_cast<std::size_t>(p)];
   return parameter.rest + share * (parameter.upper - parameter.rest);

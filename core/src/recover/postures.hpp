@@ -8,19 +8,20 @@
 
 namespace hypotrack {
 
-/// Postures that a model may be in: limbs straight or bent in many combinations, and those in which
-/// it was seen. A posture is a model's parameters after its pose.
+/// Postures to try for a model: limbs straight or bent in many combinations, and postures seen
+/// before. A posture is a model's parameters after its pose.
 class HYPOTRACK_API Postures {
  public:
   explicit Postures(const ModelData& model);
 
-  /// Remembers the posture of a parameter vector if it is unlike those remembered before.
+  /// Remembers the posture of a parameter vector unless it resembles a remembered one.
   void remember(const Eigen::VectorXd& parameters);
 
-  /// At least one; a rigid model has one of length 0.
+  /// Returns all postures, at least one. A rigid model has one of length 0.
   const std::vector<Eigen::VectorXd>& all() const { return all_; }
 
-  /// The parameters that bend one limb (a finger), and what they may be: straight, half or bent.
+  /// The parameters that bend one limb (a finger), and their values if it is straight, half bent or
+  /// bent.
   struct Limb {
     std::vector<int> parameters;
     std::vector<Eigen::VectorXd> variants;
@@ -30,8 +31,8 @@ class HYPOTRACK_API Postures {
  private:
   std::vector<Eigen::VectorXd> all_;
   std::vector<Limb> limbs_;
-  std::size_t fixed_ = 0;     ///< of them that do not change
-  std::size_t replaced_ = 0;  ///< next of the others to be replaced
+  std::size_t fixed_ = 0;     ///< number of built-in postures, which come first
+  std::size_t replaced_ = 0;  ///< index, after those, of the next posture to replace
 };
 
 }  // namespace hypotrack

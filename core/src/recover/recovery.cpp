@@ -16,16 +16,16 @@ namespace {
 constexpr double kWindow = 0.75;     // of a model's radius: what a place is looked for by
 constexpr double kSeen = 0.35;       // of the colours that a tracked model shows: it is in view
 constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
-// Shares of hypotheses near the pose that a place is remembered with.
+// Shares of hypotheses near the guess's rotation, by kind of guess.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;       // radians
 constexpr double kHopeless = 4;         // -log odds: no search makes such a candidate right
 constexpr double kPlaceScatter = 0.02;  // metres
-constexpr double kHeldCovered = 0.7;    // share of what a hand holds that may be hidden
+constexpr double kHeldCovered = 0.7;    // largest hidden share of a held model
 constexpr double kDistinct = 0.012;  // metres between candidates, mean over the model's landmarks
 constexpr double kHides = 0.35;      // share of another model that a candidate may newly hide
 
-/// The first of some states that are `near` metres or more apart, mean over landmarks; at most
+/// Returns the first states that are `near` metres or more apart (mean over landmarks), at most
 /// `count`.
 std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, double near,
                               std::size_t count) {
@@ -72,7 +72,7 @@ void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
     const Scene::Item& item = scene_.items()[m];
     searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
   }
-  // A model that is lost may be anywhere.
+  // A lost model may be anywhere in the background.
   if (std::ranges::find(tracked, false) == tracked.end()) learn_backgrounds(frame, state);
 }
 
@@ -192,9 +192,9 @@ Candidates Recovery::find(const Quest& quest, const PoseGuess& guess, const Moti
                                                    quest.held, guess, effort, seed)) {
     out.evaluations += std::exchange(one.evaluations, 0);
     const Evidence evidence = judge.look(quest.frame, one.state, colors);
-    // Behind another model it may be anything.
+    // Behind another model any pose fits.
     if (evidence.covered > guess.covered || hides_others(quest, one.state, colors)) continue;
-    // What the pictures show tells more than costs in a coarse tile.
+    // The pictures' evidence tells more than costs in a coarse tile.
     one.cost = -judge.log_odds(evidence);
     if (one.cost > kHopeless) continue;
     Eigen::VectorXd state = base;

@@ -22,68 +22,69 @@
 
 namespace hypotrack {
 
-/// Where a lost model was when it was last surely tracked.
+/// The last known pose of a lost model.
 struct LastKnown {
-  Eigen::VectorXd state;  ///< of the scene; the other models are where they are now
-  double seconds = 0;     ///< since then
-  /// Where it may be now; empty if nobody knows.
+  Eigen::VectorXd state;  ///< of the scene; the other models have their present poses
+  double seconds = 0;     ///< time since then
+  /// State with a guess of its present pose; empty if there is none.
   Eigen::VectorXd hint = {};
-  bool near_hint_only = false;  ///< looks nowhere else
-  /// Where all models were when all were surely tracked; empty: unknown.
+  bool near_hint_only = false;  ///< searches around the hint only
+  /// The last state in which all models were surely tracked; empty: unknown.
   Eigen::VectorXd before = {};
 };
 
 /// States that a recovery found at one place.
 struct Candidates {
-  std::vector<Eigen::VectorXd> states;  ///< of the whole scene, best first; none that is hopeless
+  std::vector<Eigen::VectorXd> states;  ///< of the whole scene, best first, without hopeless ones
   std::int64_t evaluations = 0;
 };
 
-/// Looks for a lost model in whole pictures: around where it was, and wherever both views show its
-/// colours.
+/// Searches whole pictures for a lost model: around its last place, and wherever both views show
+/// its colours.
 class HYPOTRACK_API Recovery {
  public:
-  /// A frame in which one model is looked for.
+  /// The search for one model in one frame.
   struct Quest {
     FrameSearch& search;
     const Frame& frame;
     Judge& judge;
     std::size_t model;
     LastKnown last;
-    std::vector<bool> hidden = {};        ///< models that are nowhere; the lost one, too
-    std::vector<Held> held = {};          ///< those of them that move with the lost one
-    std::vector<double> covered = {};     ///< share of each model that others hide
-    bool in_view = true;                  ///< false: no picture shows colours of the lost model
-    std::vector<PoseGuess> guesses = {};  ///< where it may be, likeliest first
+    std::vector<bool> hidden = {};     ///< models that are not in the scene now, and the lost one
+    std::vector<Held> held = {};       ///< hidden models that move with the lost one
+    std::vector<double> covered = {};  ///< share of each model that others hide
+    bool in_view = true;               ///< false: no picture shows colours of the lost model
+    std::vector<PoseGuess> guesses = {};  ///< poses to search around, likeliest first
   };
 
-  /// The scene must outlive it.
+  /// The scene must outlive the recovery.
   Recovery(const Scene& scene, const std::vector<Camera>& cameras,
            const RecoverySettings& settings);
 
-  /// Finds places where a model may be, without those that were searched in vain and look the same.
-  /// Other models with `shown` are where `last` has them; those with `held` move with the lost one
-  /// (held_by()), the rest is nowhere. What is given must outlive the quest.
+  /// Finds places where a model may be, except places that were searched in vain and look the same.
+  /// Other models with `shown` keep their poses of `last`. Those with `held` move with the lost one
+  /// (held_by()). The rest are hidden. All arguments must outlive the quest.
   Quest begin(FrameSearch& search, const Frame& frame, Judge& judge, LastKnown last,
               std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
               const MotionLimits& limits);
 
-  /// Finds up to settings.searched poses of the model, and of what it holds, at one of the places.
+  /// Finds up to `settings.searched` poses of the model, and of what it holds, at one of the
+  /// places.
   Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
                   std::uint64_t seed);
 
-  /// Remembers the postures of the models with `tracked`, which are surely right, and what is
-  /// behind them.
+  /// Learns the postures of the models with `tracked`, which are surely right. Learns the
+  /// background if all are tracked.
   void remember(const Frame& frame, const Eigen::VectorXd& state, const std::vector<bool>& tracked);
 
  private:
   std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
                                  const MotionLimits& limits);
   Places places(const Quest& quest) const;
-  /// Where the model is if it has moved with another, as what a hand holds.
+  /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
   PoseGuess beside(const Quest& quest, std::size_t other) const;
   void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
-  /// Whether a state hides models that are not hidden without the lost one.
+  /// Returns whether a state hides models that are visible without the lost one.
   static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
                            const ColorMap& colors);
 
@@ -93,7 +94,7 @@ class HYPOTRACK_API Recovery {
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
   std::vector<SearchedPlaces> searched_;        ///< by model
-  std::vector<SearchedPlaces> searched_held_;   ///< with what it holds
+  std::vector<SearchedPlaces> searched_held_;   ///< for searches with what it holds
   std::array<BackgroundModel, 2> backgrounds_;  ///< of the reduced pictures
 };
 

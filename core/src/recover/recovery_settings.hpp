@@ -11,7 +11,7 @@ namespace hypotrack {
 /// When a recovery is computed.
 enum class RecoveryRun {
   frame,       ///< within the frame that is lost
-  background,  ///< in a thread of its own, while frames go by
+  background,  ///< in a separate thread, while frames go by
 };
 HYPOTRACK_API std::span<const std::string_view> enum_names(RecoveryRun);
 

@@ -46,7 +46,7 @@ cv::Mat3b SearchedPlaces::patch(const Frame& frame, const Eigen::Vector3d& cente
 bool SearchedPlaces::is_worth(const Frame& frame, const Eigen::Vector3d& center) {
   for (Place& place : places_) {
     if ((place.center - center).norm() > kSamePlace) continue;
-    // Looked at where it was searched: the place may wobble.
+    // Compare at the stored centre, as the place may jitter.
     bool same = true;
     for (std::size_t i = 0; i < 2; ++i)
       same = same && difference(place.patches[i], patch(frame, place.center, i)) < kSamePicture;

@@ -11,15 +11,15 @@
 
 namespace hypotrack {
 
-/// Remembers which places were searched in vain, so that they are not searched again while both
-/// views show the same there.
+/// Remembers places that were searched in vain, so that they are not searched again while both
+/// views look the same there.
 class HYPOTRACK_API SearchedPlaces {
  public:
-  /// Patches of about `radius` metres around a place are compared.
+  /// Compares patches of about `radius` metres around a place.
   SearchedPlaces(const std::vector<Camera>& cameras, double radius);
 
-  /// Counts a search at a place. False if it was searched several times already and looks the same;
-  /// every tenth time it may be searched all the same.
+  /// Counts a search at a place and returns whether it is worth it. Returns false if the place
+  /// looks the same and was searched several times; every tenth time it returns true all the same.
   bool is_worth(const Frame& frame, const Eigen::Vector3d& center);
 
   /// Forgets the places that is_worth() was not asked about since the last call.

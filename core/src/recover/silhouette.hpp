@@ -10,8 +10,8 @@
 
 namespace hypotrack {
 
-/// Draws the silhouettes of some models of a scene into a picture reduced by a whole factor:
-/// 255 where one of them is. Leaves out triangles that reach behind the camera.
+/// Draws the silhouettes of the flagged models into a picture that is reduced by an integer factor:
+/// 255 inside. Leaves out triangles that reach behind the camera.
 HYPOTRACK_API cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
                                     const Eigen::VectorXd& state, const Camera& camera,
                                     int reduction);
