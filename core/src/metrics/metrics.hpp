@@ -19,11 +19,11 @@ inline constexpr double kAucLowMm = 20;
 inline constexpr double kAucHighMm = 50;
 inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
 
-/// How good a sequence of solutions is; docs/metrics.md defines every number. NaN: unknown, because
-/// no frame has what it takes.
+/// Metrics of a sequence of solutions; docs/metrics.md defines every number. NaN: unknown, because
+/// no frame has the data for it.
 struct Metrics {
   int frames = 0;
-  int evaluated_frames = 0;  ///< those with an error
+  int evaluated_frames = 0;  ///< frames with an error
   int missing_frames = 0;
   double mean_error_mm = 0;
   double sd_error_mm = 0;
@@ -45,10 +45,11 @@ struct Metrics {
   std::array<double, kSuccessCurvePoints> success_curve{};  ///< share below 0, 1, ..., 100 mm
 };
 
-/// metrics.json: the numbers, then `models`, `landmarks` and `success_curve`. NaN becomes null.
+/// Returns the text of metrics.json: the numbers, then `models`, `landmarks` and `success_curve`.
+/// NaN becomes null.
 HYPOTRACK_API std::string to_json(const Metrics& metrics);
 
-/// The numbers' keys there, in their order.
+/// Returns the keys of the numbers in metrics.json, in their order.
 HYPOTRACK_API std::vector<std::string> metric_names();
 
 /// Collects Metrics frame by frame.
@@ -58,11 +59,13 @@ class HYPOTRACK_API MetricsCollector {
 
   const LandmarkLayout& layout() const { return layout_; }
 
-  /// Adds the next frame; frame numbers ascend. `estimate` and `truth` are 3xL in metres, NaN where
-  /// a landmark is unknown; `truth` is empty where nothing is known. `time` is in seconds, NaN if
-  /// unknown. `absent` says of each model whether the truth knows that it is in no picture (empty:
-  /// none), `sigma` how far off each landmark may be as the tracker says (L, metres; empty: it says
-  /// nothing). Returns the errors in metres, NaN for a missing frame.
+  /// Adds the next frame and returns its errors in metres, NaN for a missing frame. Frame numbers
+  /// must ascend.
+  ///
+  /// `estimate` and `truth` are 3xL in metres, NaN where a landmark is unknown; `truth` is empty
+  /// where nothing is known. `time` is in seconds, NaN if unknown. `absent` flags the models that
+  /// the truth knows to be in no picture (empty: none). `sigma` is the tracker's uncertainty of
+  /// each landmark (L, metres; empty: none).
   FrameError add(int frame, double time, const FrameVerdicts& verdicts,
                  const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
                  const std::vector<bool>& absent = {}, const Eigen::VectorXd& sigma = {});
@@ -70,12 +73,12 @@ class HYPOTRACK_API MetricsCollector {
   Metrics metrics() const;
 
  private:
-  /// Error vectors, estimate minus truth, of a frame.
+  /// Error vectors of a frame, estimate minus truth.
   struct Offsets {
     int frame = 0;
     Eigen::Matrix3Xd vectors;
   };
-  /// What is known of each model.
+  /// Collects the data of each model for StatusCollector::add().
   std::vector<StatusCollector::Judged> judged(const FrameVerdicts& verdicts,
                                               const FrameError& error,
                                               const Eigen::Matrix3Xd& truth,

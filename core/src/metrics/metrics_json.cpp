@@ -16,7 +16,7 @@ Json table(const std::vector<std::pair<std::string, double>>& entries) {
   return json;
 }
 
-/// Counts are null where nothing is said of any frame.
+/// Writes the status numbers. Counts are null if no frame has a verdict.
 Json numbers(const StatusMetrics& s) {
   const auto count = [&](int frames) { return s.judged_frames > 0 ? Json(frames) : Json(); };
   Json json;
@@ -78,7 +78,7 @@ std::string to_json(const Metrics& m) {
   std::array<int, kSuccessCurvePoints> thresholds{};
   std::iota(thresholds.begin(), thresholds.end(), 0);
   json["success_curve"] = {{"threshold_mm", thresholds}, {"share", m.success_curve}};
-  return json.dump(2) + "\n";  // JSON knows no NaN: nlohmann writes null
+  return json.dump(2) + "\n";  // nlohmann writes NaN as null
 }
 
 }  // namespace hypotrack

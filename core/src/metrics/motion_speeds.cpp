@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-/// Adds a step to a speed whose mean is still a sum; whether it is the new peak.
+/// Adds a step to a speed whose mean is still a sum. Returns whether it is the new peak.
 bool add_step(Speed& speed, double step, int frame) {
   speed.mean += step;
   if (step <= speed.peak) return false;

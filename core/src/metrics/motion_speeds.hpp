@@ -10,11 +10,11 @@
 
 namespace hypotrack {
 
-/// How fast something moves between one frame and the next.
+/// Speed between consecutive frames.
 struct Speed {
   double peak = 0;
   double mean = 0;
-  int frame = 0;  ///< the later of the two frames with the peak
+  int frame = 0;  ///< later frame of the pair with the peak
 };
 
 /// Speeds of one model. A tracker that searches around its last solution has to bridge the peaks.
@@ -26,14 +26,15 @@ struct ModelSpeeds {
   std::string fastest_joint;  ///< parameter with the peak; empty without joints
 };
 
-/// Of every model of the scene, over states in ascending order of frames. Pairs of states that are
-/// not of consecutive frames do not count.
+/// Computes the speeds of every model of the scene. `states` must be in ascending order of frames.
+/// Pairs of states of non-consecutive frames do not count.
 HYPOTRACK_API std::vector<ModelSpeeds> motion_speeds(const Scene& scene,
                                                      std::span<const StateRow> states);
 
-/// motion.json: peak, mean and frame of each speed by model, mm and degrees per frame.
+/// Returns the text of motion.json: peak, mean and frame of each speed by model, mm and degrees per
+/// frame.
 HYPOTRACK_API std::string motion_json(std::span<const ModelSpeeds> speeds);
-/// A line per model for people.
+/// Returns a readable text with one line per model.
 HYPOTRACK_API std::string motion_text(std::span<const ModelSpeeds> speeds);
 
 }  // namespace hypotrack

@@ -8,30 +8,32 @@
 
 namespace hypotrack {
 
-/// Landmarks whose sigma lies from `low` up to `high`. Lengths are metres.
+/// Statistics of landmarks with a sigma in [low, high). Lengths are in metres.
 struct ReliabilityBin {
   double low = 0, high = 0;
   std::int64_t count = 0;
   double sigma = 0, error = 0;  ///< root mean squares; NaN if there are none
 };
 
-/// Compares how far landmarks may be off, as their tracker says, with how far they are.
+/// Measures the calibration of the predicted uncertainty (sigma) against the true error of
+/// landmarks.
 class HYPOTRACK_API Reliability {
  public:
   static constexpr std::size_t kBins = 9;
 
-  /// Sigma and true error of each landmark of a frame. Pairs that are not finite are left out.
+  /// Adds the sigma and true error of each landmark of a frame. Leaves out pairs that are not
+  /// finite.
   void add(const Eigen::VectorXd& sigma, const Eigen::VectorXd& error);
 
   std::int64_t count() const { return all_.count; }
-  /// By sigma: below 0.5 mm, then doubling, the last from 64 mm on.
+  /// Returns bins by sigma: below 0.5 mm, then doubling, the last from 64 mm on.
   std::array<ReliabilityBin, kBins> bins() const;
-  /// Root mean square of error / sigma: 1 if sigma is right on the whole; above, it promises too
-  /// much. NaN without pairs.
+  /// Returns the root mean square of error / sigma: 1 if sigma is calibrated, above 1 if it is too
+  /// small. NaN without pairs.
   double error_over_sigma() const;
-  /// Share of the landmarks that are off by less than `sigmas` (1, 2 or 3) of their own; NaN
-  /// without pairs. An error that is normal in one direction gives 0.683, 0.954 and 0.997, alike in
-  /// all three 0.608, 0.993 and 1.
+  /// Returns the share of landmarks with an error below `sigmas` (1, 2 or 3) times sigma. NaN
+  /// without pairs. Errors that are normal in one direction give 0.683, 0.954 and 0.997; isotropic
+  /// normal errors in 3D give 0.608, 0.993 and 1.
   double within(int sigmas) const;
 
  private:

@@ -6,8 +6,8 @@
 
 #include "hypotrack/export.hpp"
 
-// Numbers about a set of errors. Errors are non-negative and finite, in any order and any one unit;
-// what has no error (NaN) is left out before: without_nan. Of no errors at all everything is NaN.
+// Statistics of a set of errors, which are non-negative and finite, in any order and any one unit.
+// Remove NaN first with without_nan(). Results for an empty set are NaN.
 
 namespace hypotrack {
 
@@ -15,24 +15,25 @@ HYPOTRACK_API std::vector<double> without_nan(std::span<const double> values);
 
 HYPOTRACK_API double mean(std::span<const double> values);
 
-/// Of the values themselves, not estimated for a larger population: divided by n.
+/// Computes the population standard deviation, divided by n.
 HYPOTRACK_API double standard_deviation(std::span<const double> values);
 
-/// The value that a share 0 <= p <= 1 of the values lies below, linear between the two nearest
-/// (Hyndman and Fan's type 7, what NumPy does); p = 0.5 is the median.
+/// Returns the value below which a share 0 <= p <= 1 of the values lies; p = 0.5 is the median. It
+/// interpolates linearly between the two nearest values (Hyndman and Fan's type 7, as NumPy does).
 HYPOTRACK_API double percentile(std::span<const double> values, double p);
 
-/// Share of the values strictly below a threshold: one point of the success curve.
+/// Returns the share of values strictly below a threshold: one point of the success curve.
 HYPOTRACK_API double share_below(std::span<const double> values, double threshold);
 
-/// Area under the success curve t -> share_below(values, t) from `low` to `high`, over the width
-/// of that interval: 1 if no value exceeds `low`, 0 if none lies below `high`. Exact, without a
-/// grid: a value e adds (high - e) / (high - low), cut off at 0 and 1.
+/// Computes the area under the success curve t -> share_below(values, t) from `low` to `high`,
+/// divided by the width of the interval. It is 1 if no value exceeds `low`, 0 if none lies below
+/// `high`. It is exact, without a grid: a value e adds (high - e) / (high - low), clamped to 0 and
+/// 1.
 HYPOTRACK_API double area_under_success(std::span<const double> values, double low, double high);
 
 inline constexpr int kSuccessCurvePoints = 101;
 
-/// share_below at thresholds 0, 1, 2, ..., 100.
+/// Returns share_below() at thresholds 0, 1, 2, ..., 100.
 HYPOTRACK_API std::array<double, kSuccessCurvePoints> success_curve(std::span<const double> values);
 
 }  // namespace hypotrack

@@ -36,12 +36,12 @@ void StatusCollector::add_model(const Judged& model, Presence& presence) {
   if (is_tracked && (model.absent || !std::isnan(model.error_mm)))
     false_tracked_.add(model.absent || model.error_mm > kFalseErrorMm);
   if (!model.absent && model.error_mm <= kRightErrorMm) right_tracked_.add(is_tracked);
-  constexpr int kGrace = 2;  // frames of an absence in which nobody needs to know of it
+  constexpr int kGrace = 2;  // frames of an absence in which a tracker need not notice it
   presence.absent_in_a_row = model.absent ? presence.absent_in_a_row + 1 : 0;
   if (presence.absent_in_a_row > kGrace) absent_tracked_.add(is_tracked);
   add_return(model, presence);
   if (model.verdict == FrameVerdict::lost)
-    least_lost_sigma_ = std::fmin(least_lost_sigma_, model.sigma_mm);  // which passes NaN over
+    least_lost_sigma_ = std::fmin(least_lost_sigma_, model.sigma_mm);  // fmin ignores NaN
 }
 
 void StatusCollector::add_verdict(FrameVerdict verdict) {

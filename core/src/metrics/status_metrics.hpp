@@ -9,24 +9,25 @@
 
 namespace hypotrack {
 
-inline constexpr double kRightErrorMm = 10;  ///< up to it a frame should be tracked
-inline constexpr double kFalseErrorMm = 20;  ///< beyond it none should be
+inline constexpr double kRightErrorMm = 10;  ///< up to this error a frame should be tracked
+inline constexpr double kFalseErrorMm = 20;  ///< beyond this error no frame should be tracked
 
-/// What a tracker says of a frame, apart from where the landmarks are.
+/// A tracker's verdict on a frame, without the landmarks.
 enum class FrameVerdict {
   tracked,
   uncertain,
-  lost,     ///< the tracker itself says that it lost the scene
-  absent,   ///< the tracker says that the scene is in no picture
-  missing,  ///< there is no solution; what is given for it counts for nothing
-  solved,   ///< there is a solution and no word about it: another tracker's
+  lost,     ///< the tracker lost the scene
+  absent,   ///< the tracker found that the scene is in no picture
+  missing,  ///< there is no solution; its values are ignored
+  solved,   ///< there is a solution without a verdict, as of other trackers
 };
 
-/// The verdict that a word of a status column means, all but `solved`; nothing for another word.
+/// Returns the verdict that a word of a status column means, all but `solved`; nothing for other
+/// words.
 HYPOTRACK_API std::optional<FrameVerdict> verdict_named(std::string_view word);
 
-/// How true it is what a tracker says of its frames, and how it comes back; docs/metrics.md defines
-/// every number. NaN: unknown, because no frame has what it takes.
+/// Metrics of how well a tracker's verdicts fit the truth, and of how it recovers; docs/metrics.md
+/// defines every number. NaN: unknown, because no frame has the data for it.
 struct StatusMetrics {
   int judged_frames = 0;  ///< with a verdict, missing ones included
   int tracked_frames = 0;
@@ -46,46 +47,48 @@ struct StatusMetrics {
   double lost_sigma_min_mm = 0;
 };
 
-/// What a tracker says of a frame.
+/// A tracker's verdicts on a frame and its models.
 struct FrameVerdicts {
   FrameVerdict frame = FrameVerdict::solved;
-  std::vector<FrameVerdict> models = {};  ///< of each model; empty: the frame's of all
+  std::vector<FrameVerdict> models = {};  ///< of each model; empty: all have the frame's
 };
 
 /// Collects StatusMetrics frame by frame.
 class HYPOTRACK_API StatusCollector {
  public:
-  /// What is known of one model in a frame.
+  /// Verdict and truth of one model in a frame.
   struct Judged {
     FrameVerdict verdict = FrameVerdict::solved;
     double error_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
-    bool in_view = false;  ///< the truth knows where some landmark is
+    bool in_view = false;  ///< the truth knows some landmark's position
     bool absent = false;   ///< the truth says that the model is in no picture
-    double sigma_mm = std::numeric_limits<double>::quiet_NaN();  ///< mean; NaN: unknown
+    double sigma_mm = std::numeric_limits<double>::quiet_NaN();  ///< mean over its landmarks; NaN:
+                                                                 ///< unknown
   };
 
-  /// Adds the next frame: the verdict of all, and as many models as in every frame.
+  /// Adds the next frame: the verdict on all, and on each model. The number of models must not
+  /// change.
   void add(FrameVerdict verdict, const std::vector<Judged>& models);
 
   StatusMetrics metrics() const;
 
  private:
-  /// Part of a number of frames.
+  /// A share of a number of frames.
   struct Share {
     int part = 0, of = 0;
     void add(bool is_part);
     double value() const;
   };
-  /// A time in view after an absence.
+  /// A model's time in view after an absence.
   struct Return {
     int frames = 0;     ///< so far
-    int recovered = 0;  ///< in which of them, from 1; 0: in none yet
+    int recovered = 0;  ///< frame of recovery, counted from 1; 0: not yet
   };
-  /// What is known of a model from one frame to the next.
+  /// Presence of a model, carried from frame to frame.
   struct Presence {
     int absent_in_a_row = 0;
     bool away = false;     ///< it was absent from the last frame
-    bool is_back = false;  ///< it came back, and stayed
+    bool is_back = false;  ///< it came back and stayed
     Return last = {};
   };
   void add_verdict(FrameVerdict verdict);
@@ -95,7 +98,7 @@ class HYPOTRACK_API StatusCollector {
   StatusMetrics counts_;
   Share false_tracked_, right_tracked_, absent_tracked_;
   std::vector<Presence> models_;
-  std::vector<Return> returns_;  ///< that are over
+  std::vector<Return> returns_;  ///< finished ones
   double least_lost_sigma_ = std::numeric_limits<double>::quiet_NaN();
 };
 

@@ -46,7 +46,7 @@ std::string_view trimmed(std::string_view cell) {
   return cell;
 }
 
-/// A cell for a message: printable and not too long.
+/// Returns a cell for a message: printable and not too long.
 std::string shown(std::string_view cell) {
   std::string text(cell.substr(0, 40));
   for (char& c : text) {

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kOtherUnits = 30;  // nobody is that far off, and units differ by 10 at least
+constexpr double kOtherUnits = 30;  // errors are never that large, and units differ by 10 at least
 
 fs::path run_table(const fs::path& run) {
   if (!fs::exists(run))
@@ -56,7 +56,7 @@ fs::path truth_table(const EvaluationInput& input) {
                   : "the run's source knew no truth: name one with --truth"));
 }
 
-/// The landmarks that a table has columns for.
+/// Returns the landmarks that a table has columns for.
 std::vector<std::string> landmarks_in(const fs::path& file) {
   const CsvTable table(file);
   std::vector<std::string> names;
@@ -72,8 +72,8 @@ std::vector<std::string> landmarks_in(const fs::path& file) {
   return names;
 }
 
-/// The truth's landmarks under their full names: one without a model gets that of the one landmark
-/// of the run that is called so.
+/// Returns the truth's landmarks under their full names. One without a model gets the model of the
+/// one landmark of the run with that name.
 std::vector<std::string> full_names(std::vector<std::string> names,
                                     const std::vector<std::string>& of_run) {
   for (std::string& name : names) {
@@ -95,7 +95,7 @@ FrameVerdict verdict_of(const CsvTable& table, const CsvTable::Row& row, int col
                   table.where(row), status));
 }
 
-/// What the tracker said of each frame; empty for a table from elsewhere.
+/// Reads the tracker's verdict on each frame; empty for a table from elsewhere.
 std::map<int, FrameVerdicts> read_verdicts(const fs::path& run,
                                            const std::vector<std::string>& models) {
   std::map<int, FrameVerdicts> verdicts;
@@ -117,16 +117,16 @@ std::map<int, FrameVerdicts> read_verdicts(const fs::path& run,
   return verdicts;
 }
 
-/// What the tracker said of each landmark; empty where it did not.
+/// Reads the tracker's sigma of each landmark; empty if there is none.
 std::map<int, Eigen::VectorXd> read_sigmas(const fs::path& run,
                                            const std::vector<std::string>& names) {
   if (!fs::is_directory(run) || !fs::exists(run / "uncertainty.csv")) return {};
   const SigmaTable table(run / "uncertainty.csv");
-  if (table.names() != names) return {};  // of other landmarks than are compared
+  if (table.names() != names) return {};  // sigmas of other landmarks than compared
   return table.by_frame();
 }
 
-/// One side of the comparison, by frame.
+/// One table of the comparison, by frame.
 class Side {
  public:
   Side(const fs::path& file, const std::vector<std::string>& names,
@@ -146,7 +146,7 @@ class Side {
     const auto it = rows_.find(frame);
     return it == rows_.end() ? nullptr : &it->second;
   }
-  /// NaN if the table says nothing about it.
+  /// Returns the time of a frame; NaN if unknown.
   double time(int frame) const {
     const LandmarkRow* row = has_times_ ? find(frame) : nullptr;
     return row == nullptr ? kNan : row->time;
@@ -154,7 +154,7 @@ class Side {
   std::string frames() const {
     return fmt::format("frames {} to {}", rows_.begin()->first, rows_.rbegin()->first);
   }
-  /// Median distance of the landmarks from the origin; NaN without any.
+  /// Returns the median distance of the landmarks from the origin; NaN without any.
   double distance() const {
     std::vector<double> distances;
     for (const auto& [frame, row] : rows_)

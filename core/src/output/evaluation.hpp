@@ -10,12 +10,12 @@
 
 namespace hypotrack {
 
-/// What is judged, and by what.
+/// Tables to compare, and their units.
 struct EvaluationInput {
-  /// A folder of `hypotrack run` (its joints.csv, and track.csv for what the tracker said of each
-  /// frame), or a table of landmarks (tables.hpp) from any other tracker.
+  /// A folder of `hypotrack run`, with joints.csv and, for the verdicts, track.csv; or a table of
+  /// landmarks (tables.hpp) of any other tracker.
   std::filesystem::path run;
-  /// A folder with truth_landmarks.csv (a recording or a run), or a table of landmarks; nothing:
+  /// A folder with truth_landmarks.csv (a recording or a run), or a table of landmarks. Nothing:
   /// the truth in the folder of the run.
   std::optional<std::filesystem::path> truth;
   double run_metres_per_unit = 1;
@@ -28,11 +28,10 @@ struct Evaluation {
   Metrics metrics;
 };
 
-/// Matches the tables frame by frame, from the first to the last frame of the run; frames of the
-/// truth in between that the run has no row for are missing. A landmark of the run that the truth
-/// does not have is an error, one that only the truth has is unknown. Throws DataError on missing
-/// and damaged files, unknown landmarks, no frame or landmark in common, and tables in different
-/// units.
+/// Compares the tables frame by frame, from the first to the last frame of the run. Frames that
+/// only the truth has are missing; landmarks that only the truth has are unknown. Throws DataError
+/// on missing and damaged files, landmarks that only the run has, no frame or landmark in common,
+/// and tables in different units.
 HYPOTRACK_API Evaluation evaluate(const EvaluationInput& input);
 
 }  // namespace hypotrack

@@ -12,20 +12,22 @@
 
 namespace hypotrack {
 
-/// Hands a run's frames to its output at once or, with hindsight, when their states are settled.
+/// Passes a run's frames to its output: at once or, with fixed-lag smoothing, when their states are
+/// settled.
 class HYPOTRACK_API HindsightOutput {
  public:
-  /// The output must outlive it. Without `hindsight` (null) frames are written as they come.
+  /// The output must outlive the object. Without `hindsight` (null) frames are written as they
+  /// come.
   HindsightOutput(std::unique_ptr<Hindsight> hindsight, RunOutput& output)
       : hindsight_(std::move(hindsight)), output_(&output) {}
 
-  /// Takes in the frame that `tracker` has just solved and returns the solution's error in metres:
-  /// NaN where it is not known, or not yet.
+  /// Adds the frame that `tracker` has just solved. Returns the solution's error in metres, NaN
+  /// where it is unknown, also while it waits.
   double add(const Tracker& tracker, const Frame& frame, const Solution& solution);
 
-  /// What still waits, changed as far as it can be.
+  /// Smooths and writes the frames that still wait.
   void finish();
-  /// The same, as it was found or last changed: after an error.
+  /// Writes the frames that still wait as they are. Use it after an error.
   void finish_unchanged();
 
  private:

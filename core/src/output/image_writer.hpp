@@ -8,8 +8,8 @@
 
 namespace hypotrack {
 
-/// Writes PNG files from all cores while the caller goes on. What an image's file holds does not
-/// depend on when and where it is compressed.
+/// Writes PNG files on all cores while the caller goes on. The files do not depend on the threads'
+/// timing.
 class HYPOTRACK_API ImageWriter {
  public:
   ImageWriter();
@@ -18,12 +18,12 @@ class HYPOTRACK_API ImageWriter {
   ImageWriter(const ImageWriter&) = delete;
   ImageWriter& operator=(const ImageWriter&) = delete;
 
-  /// Takes an image (any that PNG can hold; it must not change any more) and its file. With many
-  /// images waiting, writes this one before it returns. Throws OutputError if an image so far could
-  /// not be written; nothing more is written then.
+  /// Queues an image (any that PNG can hold) for a file; the image must not change afterwards. If
+  /// many images wait, it writes this one itself. Throws OutputError if an earlier image could not
+  /// be written; it writes nothing more then.
   void write(std::filesystem::path file, cv::Mat image);
 
-  /// Returns when all files are complete. Throws like write().
+  /// Waits until all files are complete. Throws like write().
   void wait();
 
  private:

@@ -13,7 +13,7 @@
 namespace hypotrack {
 namespace {
 
-/// White text on a dark edge, readable on any image.
+/// Writes white text with a dark edge, readable on any image.
 void write_caption(cv::Mat& image, const std::string& text) {
   const double scale = image.rows / 720.0 + 0.2;
   const cv::Point at(static_cast<int>(12 * scale), static_cast<int>(30 * scale));
@@ -22,7 +22,7 @@ void write_caption(cv::Mat& image, const std::string& text) {
               cv::LINE_AA);
 }
 
-/// The status; of several models by name, where they differ.
+/// Returns the status as text; if the models' differ, by name.
 std::string status_text(const Scene& scene, const Solution& solution) {
   const std::vector<Status>& models = solution.models;
   if (std::ranges::all_of(models, [&](Status s) { return s == models.front(); }))
@@ -33,20 +33,20 @@ std::string status_text(const Scene& scene, const Solution& solution) {
   return text;
 }
 
-/// Models that are not to be drawn, because nobody knows where they are.
+/// Flags the models that are not drawn, because their pose is unknown.
 std::vector<bool> unknown_models(const Solution& solution) {
   std::vector<bool> out;
   for (const Status s : solution.models) out.push_back(s == Status::lost || s == Status::absent);
   return out;
 }
 
-/// A ring about every landmark, as large as it may be off.
+/// Draws a ring about every landmark with its sigma as radius.
 void draw_sigmas(cv::Mat& image, const Camera& camera, const Eigen::Matrix3Xd& landmarks,
                  const Eigen::VectorXd& sigmas) {
   for (Eigen::Index i = 0; i < sigmas.size(); ++i) {
     const Eigen::Vector2d at = project(camera, landmarks.col(i));
     const double radius = camera.fx * sigmas[i] / (camera.camera_from_world * landmarks.col(i)).z();
-    // NaN fails both: nothing is known, or the landmark is behind the camera.
+    // NaN fails both: unknown, or the landmark is behind the camera.
     if (!(at.cwiseAbs().maxCoeff() < 1e4) || !(radius > 0 && radius < camera.width)) continue;
     const cv::Point center(cvRound(at.x()), cvRound(at.y()));
     cv::circle(image, center, cvRound(radius), {0, 0, 0}, 3, cv::LINE_AA);

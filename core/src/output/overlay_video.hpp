@@ -11,7 +11,7 @@
 
 namespace hypotrack {
 
-/// overlay.mp4: every frame's solution drawn on the first view.
+/// Writes overlay.mp4: every frame's solution drawn on the first view.
 class HYPOTRACK_API OverlayVideo {
  public:
   /// The scene and its renderer must outlive the video. Throws OutputError if the video cannot be

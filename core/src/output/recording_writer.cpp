@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kDepthUnitMm = 0.1;
 
-/// 16-bit image in this unit, 0: not measured or farther than 6.5535 m.
+/// Returns a 16-bit image in kDepthUnitMm; 0: not measured or farther than 6.5535 m.
 cv::Mat stored_depth(const cv::Mat& depth) {
   cv::Mat stored;
   const double unit = kDepthUnitMm * kMillimetre;

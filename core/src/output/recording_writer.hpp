@@ -16,12 +16,13 @@
 
 namespace hypotrack {
 
-/// Writes a source of one camera or two as a folder that the `image_sequence` source reads:
-/// left_000000.png, right_000000.png, masks (left_mask_000000.png) and depths
-/// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some,
-/// calibration.yaml, truth_states.csv (with motion.json, its speeds) and truth_landmarks.csv where
-/// the truth is known, scene.yaml, which tracks it, and source.yaml, the scene that was recorded.
-/// The folder appears under its name when everything is in it.
+/// Writes the frames of one or two cameras as a folder that the `image_sequence` source reads.
+///
+/// Images: left_000000.png, right_000000.png, masks (left_mask_000000.png) and depths
+/// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
+/// Also calibration.yaml; scene.yaml, which tracks the recording; source.yaml, the recorded scene.
+/// If the truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the speeds.
+/// The folder gets its name when it is complete.
 class HYPOTRACK_API RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (Session::resolved), whose source is replaced. Throws
@@ -33,14 +34,14 @@ class HYPOTRACK_API RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// A frame without views leaves a gap in the numbering. Its images are compressed while the
-  /// caller goes on and must not change any more. Throws OutputError if one could not be written.
+  /// Adds a frame; one without views leaves a gap in the numbering. Its images must not change
+  /// afterwards: they are compressed while the caller goes on. Throws OutputError if one could not
+  /// be written.
   void add(const Frame& frame);
-  /// Throws OutputError; also if no frame was added.
+  /// Completes the folder. Throws OutputError, also if no frame was added.
   void finish();
   bool empty() const { return first_ < 0; }
-  /// Of the true states so far of frames with all models (motion.json); empty where they are
-  /// unknown.
+  /// Returns the true speeds so far (motion.json), over frames with all models; empty if unknown.
   std::vector<ModelSpeeds> motion() const;
 
  private:
@@ -53,19 +54,19 @@ class HYPOTRACK_API RecordingWriter {
   double frame_rate_;
   std::string scene_yaml_;
   std::filesystem::path directory_;
-  std::filesystem::path part_;  ///< grows here; removed if never finished
+  std::filesystem::path part_;  ///< folder under construction; removed if never finished
   std::vector<StateRow> states_;
-  std::vector<StateRow> seen_;  ///< of these, where no model is absent
+  std::vector<StateRow> seen_;  ///< the states in which no model is absent
   std::vector<LandmarkRow> landmarks_;
-  std::set<std::string> names_;  ///< of the kinds of images: left, left_mask, ...
+  std::set<std::string> names_;  ///< kinds of images: left, left_mask, ...
   int first_ = -1;
   int last_ = -1;
   std::optional<ImageWriter> images_{std::in_place};
 };
 
-/// A calibration in the project's own form (calibration.hpp, form 3): what load_calibration reads
-/// back to the same cameras, bit for bit but for the last digit of rotations (it makes them
-/// orthonormal).
+/// Returns a calibration in the project's own form (calibration.hpp, form 3). load_calibration()
+/// reads the same cameras back, exactly except for the last digit of rotations (it orthonormalises
+/// them).
 HYPOTRACK_API std::string calibration_yaml(const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack

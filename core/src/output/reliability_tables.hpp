@@ -10,15 +10,15 @@
 
 namespace hypotrack {
 
-/// What runs with ground truth said of their own errors, and what these were.
+/// Predicted uncertainty of runs with ground truth, and their true errors.
 struct SelfJudgement {
   Reliability reliability;
   std::map<std::string, std::vector<double>> errors_by_status;  ///< of frames, in metres
 };
 
-/// Adds a run, frame by frame: uncertainty.csv and the status in track.csv beside joints.csv
-/// against truth_landmarks.csv. Frames without a known error are left out. Throws DataError on
-/// missing and damaged files, naming what is missing.
+/// Adds a run, frame by frame. Compares joints.csv with truth_landmarks.csv, and reads
+/// uncertainty.csv and the status in track.csv. Leaves out frames without a known error. Throws
+/// DataError on missing and damaged files, naming what is missing.
 HYPOTRACK_API void add_run(const std::filesystem::path& run, SelfJudgement& judgement);
 
 }  // namespace hypotrack

@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kPartPrefix = ".part.";
 
-/// Whether a name is what a result may be called, # standing for digits.
+/// Returns whether a name matches a result's name, # standing for digits.
 bool matches(std::string_view name, std::string_view result) {
   const std::size_t hash = result.find('#');
   if (hash == std::string_view::npos) return name == result;
@@ -43,7 +43,7 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
         "{}: the output folder cannot be written; change its permissions or name another with "
         "--out",
         directory_.string()));
-  // Found at the end, this would cost the whole run.
+  // Check this now: found at the end, it would cost the whole run.
   for (const std::string& name : results_there(""))
     if (std::filesystem::is_directory(directory_ / name))
       throw OutputError(fmt::format(
@@ -58,7 +58,8 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
 
 void RunDirectory::spare_foreign_files() const {
   const std::vector<std::string> there = results_there("");
-  const std::vector<std::string> parts = results_there(kPartPrefix);  // of one killed at its end
+  const std::vector<std::string> parts = results_there(kPartPrefix);  // of a run that was killed at
+                                                                      // its end
   const bool of_a_run =
       std::ranges::any_of(
           there, [&](const std::string& name) { return matches(name, results_.front()); }) ||
@@ -74,14 +75,14 @@ RunDirectory::~RunDirectory() {
   if (!keep_) {
     std::error_code ignored;
     for (const std::string& name : names_) std::filesystem::remove(part_path(name), ignored);
-    if (made_) std::filesystem::remove(directory_, ignored);  // only if it is empty
+    if (made_) std::filesystem::remove(directory_, ignored);  // succeeds only if it is empty
   }
   if (descriptor_ >= 0) close(descriptor_);
 }
 
 void RunDirectory::lock() {
   descriptor_ = open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // A file system without locks keeps nobody out, and nobody from working.
+  // Without support for locks, go on.
   if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   close(descriptor_);
   throw OutputError(fmt::format(

@@ -8,49 +8,50 @@
 
 namespace hypotrack {
 
-/// The folder of a run's results. Files grow under a name of their own (`.part.track.csv`) and get
-/// their real one all together when the run ends, so that whatever carries a final name is whole.
+/// The folder of a run's results. Files are written under temporary names (`.part.track.csv`) and
+/// renamed together when the run ends, so that a file with its final name is complete.
 class HYPOTRACK_API RunDirectory {
  public:
-  /// Makes the folder if need be and removes what an earlier, killed run left unfinished. `results`
+  /// Makes the folder if needed and removes unfinished files of an earlier, killed run. `results`
   /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Every
-  /// run writes the first of them. Throws OutputError if the folder cannot be made or written,
-  /// another run is writing there, a folder has the name of a result, or files that no run wrote
-  /// have.
+  /// run writes the first of them. Throws OutputError in three cases: the folder cannot be made or
+  /// written; another run is writing there; a folder, or a file that no run wrote, has the name of
+  /// a result.
   RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
 
-  /// Unless keep() was called, removes the unfinished files, and the folder if it was made here.
+  /// Removes the unfinished files, and the folder if it was made here, unless keep() was called.
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   const std::filesystem::path& path() const { return directory_; }
 
-  /// Where to write the file that will be called `name`. A video keeps its suffix.
+  /// Returns the path at which to write the file that will be called `name`. Keeps a video's
+  /// suffix.
   std::filesystem::path part(const std::string& name);
 
-  /// From now on unfinished files are worth keeping, whatever happens.
+  /// Keeps unfinished files from now on, whatever happens.
   void keep() { keep_ = true; }
 
-  /// Gives every file of part() its final name, replacing what an earlier run left there, and
-  /// removes results of an earlier run that this one did not write. Throws OutputError.
+  /// Gives every file of part() its final name, replacing results of an earlier run. Removes
+  /// earlier results that this run did not write. Throws OutputError.
   void finish();
 
  private:
   std::filesystem::path part_path(const std::string& name) const;
-  /// Names in the folder that are `prefix` and a result's name.
+  /// Returns the names in the folder that consist of `prefix` and a result's name.
   std::vector<std::string> results_there(const std::string& prefix) const;
-  /// Throws OutputError if there are files with the names of results, such as the answer of a
-  /// recording, in a folder that is not a run's.
+  /// Throws OutputError if the folder is not a run's but has files with names of results, such as
+  /// the truth of a recording.
   void spare_foreign_files() const;
-  /// Keeps other runs out for as long as this one lives. Throws OutputError if one is there.
+  /// Locks the folder for the life of the object. Throws OutputError if another run holds the lock.
   void lock();
   std::filesystem::path directory_;
   std::vector<std::string> results_;
   std::vector<std::string> names_;
   bool made_ = false;
   bool keep_ = false;
-  int descriptor_ = -1;  ///< of the locked folder
+  int descriptor_ = -1;  ///< file descriptor of the locked folder
 };
 
 }  // namespace hypotrack

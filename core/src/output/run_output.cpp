@@ -14,7 +14,7 @@
 namespace hypotrack {
 namespace {
 
-/// A line of track.csv.
+/// Returns a line of track.csv.
 std::string row_of(const Solution& solution) {
   std::string row = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                 to_string(solution.status), solution.cost, solution.evaluations,

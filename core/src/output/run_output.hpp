@@ -22,9 +22,10 @@ namespace hypotrack {
 
 class OverlayVideo;
 
-/// Writes what a run leaves behind: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json;
-/// online.csv and online_joints.csv if hindsight changes what was found; uncertainty.csv if the
-/// tracker says how far off landmarks may be; with ground truth also truth_states.csv,
+/// Writes the results of a run: track.csv, joints.csv, overlay.mp4, run.yaml and summary.json.
+///
+/// With fixed-lag smoothing: online.csv and online_joints.csv with the unsmoothed solutions. With
+/// predicted uncertainty: uncertainty.csv. With ground truth: truth_states.csv,
 /// truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
 class HYPOTRACK_API RunOutput {
  public:
@@ -35,25 +36,26 @@ class HYPOTRACK_API RunOutput {
     double frame_rate = 30;
     std::string resolved;  ///< content of run.yaml
     std::string backend;
-    bool hindsight = false;  ///< frames come twice: as they were found, and changed
+    bool hindsight = false;  ///< fixed-lag smoothing: frames come twice, online and smoothed
   };
 
-  /// The scene must outlive it. Throws OutputError or DeviceError and then leaves nothing behind.
+  /// The scene must outlive the output. Throws OutputError or DeviceError and then leaves nothing
+  /// behind.
   RunOutput(const Scene& scene, const Camera& camera, Options options);
 
   ~RunOutput();
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
-  /// With hindsight, what was found in a frame: for the online tables and the overlay.
+  /// Adds the unsmoothed solution of a frame, for the online tables and the overlay.
   void add_online(const Frame& frame, const Solution& solution);
 
-  /// Adds a frame (with hindsight, its pictures may be gone) and returns its error in metres (NaN
-  /// without ground truth or a solution).
+  /// Adds a frame and returns its error in metres (NaN without ground truth or a solution). With
+  /// fixed-lag smoothing its pictures may be gone.
   double add(const Frame& frame, const Solution& solution);
 
-  /// Closes everything and gives the files their names. Without it the unfinished files stay, or go
-  /// if no frame was added.
+  /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
+  /// frame was added.
   Summary finish(bool complete);
 
   bool empty() const { return frames_ == 0; }

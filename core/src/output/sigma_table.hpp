@@ -10,15 +10,15 @@
 
 namespace hypotrack {
 
-/// The sigmas of uncertainty.csv, in metres.
+/// Reads the sigmas of uncertainty.csv, in metres.
 class SigmaTable {
  public:
   /// Throws DataError.
   explicit SigmaTable(const std::filesystem::path& file);
 
-  /// Names of the landmarks, in the order of the columns.
+  /// Returns the names of the landmarks, in the order of the columns.
   const std::vector<std::string>& names() const { return names_; }
-  /// A sigma for each landmark; NaN where the table has none.
+  /// Returns by frame a sigma for each landmark; NaN where the table has none.
   std::map<int, Eigen::VectorXd> by_frame() const;
 
  private:

@@ -18,8 +18,8 @@
 namespace hypotrack {
 namespace {
 
-/// Which of `names` a column means: the name itself, or the name without its model where that fits
-/// only one.
+/// Returns the index in `names` of the name that a column means: the name itself, or the name
+/// without its model if that is unique.
 std::optional<std::size_t> resolve(std::string_view column, std::span<const std::string> names) {
   std::optional<std::size_t> found;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -33,7 +33,7 @@ std::optional<std::size_t> resolve(std::string_view column, std::span<const std:
   return found;
 }
 
-/// For every name its column, -1 where the table has none.
+/// Returns the column of every name, -1 where the table has none.
 std::vector<int> columns_of(const CsvTable& table, std::span<const std::string> names) {
   std::vector<int> columns(names.size(), -1);
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
@@ -99,7 +99,7 @@ Renames read_renames(std::span<const std::string> entries, const std::string& fi
   return renames;
 }
 
-/// A renaming of what the table does not have is a slip of the pen.
+/// Throws if a renaming names a column that the table does not have: it is a typing error.
 void check_renames(const Renames& renames, const CsvTable& table, const std::string& file) {
   std::vector<std::string> bases;
   for (const std::string_view column : table.columns())
@@ -166,7 +166,7 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
   const std::vector<int> columns = columns_of(table, names);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (columns[i] >= 0) continue;
-    std::vector<std::string> offered;  // what might be the column, misspelt
+    std::vector<std::string> offered;  // candidates for a misspelt column
     for (const std::string_view column : table.columns()) {
       if (!resolve(column, names)) offered.emplace_back(column);
     }

@@ -14,7 +14,7 @@ class HYPOTRACK_API TextFile {
  public:
   /// Throws OutputError.
   explicit TextFile(std::filesystem::path path);
-  /// Throws OutputError, a full disk for example.
+  /// Throws OutputError, for example on a full disk.
   void write(std::string_view text);
 
  private:
@@ -22,10 +22,12 @@ class HYPOTRACK_API TextFile {
   std::ofstream out_;
 };
 
-/// For what is written after long work: throws OutputError if write_whole() has no chance there.
+/// Checks early that write_whole() can work for a file, for results of long work. Throws
+/// OutputError if it cannot.
 HYPOTRACK_API void expect_writable(const std::filesystem::path& file);
 
-/// Writes beside the file and moves into place, so that nobody sees half of it. Throws OutputError.
+/// Writes a file beside its place and moves it there, so that it is never seen incomplete. Throws
+/// OutputError.
 HYPOTRACK_API void write_whole(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace hypotrack

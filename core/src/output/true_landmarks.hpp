@@ -13,19 +13,19 @@
 
 namespace hypotrack {
 
-/// World positions of the true landmarks (3xL, metres; NaN columns are unknown or absent), nothing
-/// if the frame has no truth.
+/// Returns the world positions of the true landmarks (3xL, metres; NaN columns are unknown or
+/// absent). Returns nothing if the frame has no truth.
 HYPOTRACK_API std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene,
                                                              const Frame& frame);
 
-/// For each landmark of the scene, whether its model is absent, from the same for each model; empty
-/// if that is.
+/// Returns for each landmark of the scene whether its model is absent. `absent_models` has a flag
+/// per model; if it is empty, so is the result.
 HYPOTRACK_API std::vector<bool> absent_landmarks(const Scene& scene,
                                                  const std::vector<bool>& absent_models);
-/// For each landmark of the scene the index of its model.
+/// Returns for each landmark of the scene the index of its model.
 HYPOTRACK_API std::vector<std::size_t> landmark_owners(const Scene& scene);
-/// For each of `models` models whether it is absent: landmarks of it are and none of them is known.
-/// `owners` are the landmarks' models. Empty if no model is absent.
+/// Returns for each of `models` models whether it is absent: some of its landmarks are and none is
+/// known. `owners` are the landmarks' models. Empty if no model is absent.
 HYPOTRACK_API std::vector<bool> absent_models(const LandmarkRow& row,
                                               std::span<const std::size_t> owners,
                                               std::size_t models);

@@ -11,21 +11,21 @@
 
 namespace hypotrack {
 
-/// What a tracker says of its own errors, frame by frame: uncertainty.csv, a column per landmark,
-/// in millimetres. The file appears with the first frame that has something for it.
+/// Writes the predicted uncertainty frame by frame: uncertainty.csv, a column per landmark, in
+/// millimetres. The file appears with the first frame that has data for it.
 class UncertaintyOutput {
  public:
-  /// Both must outlive it.
+  /// Both arguments must outlive the object.
   UncertaintyOutput(const Scene& scene, RunDirectory& directory)
       : scene_(&scene), directory_(&directory) {}
 
-  /// `errors` are the landmarks' in metres, NaN where unknown. Does nothing for a solution without
-  /// sigma. Throws OutputError.
+  /// Adds a solution; does nothing if it has no sigma. `errors` are the landmarks' in metres, NaN
+  /// where unknown. Throws OutputError.
   void add(const Solution& solution, const Eigen::VectorXd& errors);
 
-  /// Mean of all sigmas in metres; nothing if there were none.
+  /// Returns the mean of all sigmas in metres; nothing if there were none.
   std::optional<double> mean_sigma() const;
-  /// Of the landmarks with a truth.
+  /// Returns the calibration of the sigmas, over landmarks with a truth.
   const Reliability& reliability() const { return reliability_; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// Returns what a solution says of a frame and of each model that has landmarks.
+/// Returns a solution's verdicts on the frame and on each model that has landmarks.
 HYPOTRACK_API FrameVerdicts verdicts_of(const Scene& scene, const Solution& solution);
 
 }  // namespace hypotrack

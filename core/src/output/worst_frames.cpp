@@ -15,7 +15,7 @@ namespace {
 
 bool is_less_bad(const WorstFrame& a, const WorstFrame& b) { return a.error < b.error; }
 
-/// Whether two frames compete for the same place.
+/// Returns whether two frames compete for the same place.
 bool share_a_place(int a, int b) { return a / WorstFrames::kApart == b / WorstFrames::kApart; }
 
 }  // namespace

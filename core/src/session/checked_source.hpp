@@ -12,8 +12,8 @@
 
 namespace hypotrack {
 
-/// The source of a plugin, with what the program relies on and no other part checks: that there are
-/// cameras, the frame rate, the order of frames and the sizes of the ground truth.
+/// Wraps a plugin's source and checks what no other part checks: the presence of cameras, the frame
+/// rate, the order of frames and the sizes of the ground truth.
 class CheckedSource final : public Source {
  public:
   /// Throws DataError, naming the plugin.
@@ -22,7 +22,7 @@ class CheckedSource final : public Source {
   const std::vector<Camera>& cameras() const override { return source_->cameras(); }
   double frame_rate() const override { return source_->frame_rate(); }
   std::optional<int> frame_count() const override { return source_->frame_count(); }
-  /// Throws DataError, naming the plugin and the frame.
+  /// Returns the next frame. Throws DataError, naming the plugin and the frame.
   std::optional<Frame> next() override;
 
  private:

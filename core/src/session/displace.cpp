@@ -8,7 +8,8 @@
 namespace hypotrack {
 namespace {
 
-/// A direction per (seed, model, purpose): three normal numbers have no preferred one.
+/// Returns a random direction for (seed, model, purpose): three normal numbers have no preferred
+/// one.
 Eigen::Vector3d direction(std::uint64_t seed, std::uint32_t model, std::uint32_t purpose) {
   Eigen::Vector3d v;
   for (std::uint32_t i = 0; i < 3; ++i) {

@@ -8,15 +8,15 @@
 
 namespace hypotrack {
 
-/// How far from a state another one lies.
+/// Size of a random displacement of a state.
 struct Displacement {
-  double metres = 0;   ///< of every model, in a direction of its own
-  double radians = 0;  ///< of every model about its origin, about an axis of its own
+  double metres = 0;   ///< of every model, in a random direction
+  double radians = 0;  ///< of every model about its origin, about a random axis
   double angles = 0;   ///< standard deviation of every joint angle, radians
 };
 
-/// The state displaced within the parameters' bounds. Directions and axes are uniform, and all is a
-/// function of the seed.
+/// Returns the state displaced randomly within the parameters' bounds. Directions and axes are
+/// uniform. The result depends on the arguments only.
 HYPOTRACK_API Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state,
                                         const Displacement& by, std::uint64_t seed);
 

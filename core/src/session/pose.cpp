@@ -31,7 +31,7 @@ struct PoseParams {
   }
 };
 
-/// The angles of one model, whose names and bounds are the model's.
+/// The angles of one model in degrees, with the model's names and bounds.
 struct Angles {
   struct Angle {
     double value = 0;

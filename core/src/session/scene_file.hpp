@@ -21,7 +21,7 @@
 
 namespace hypotrack {
 
-/// Where the first search starts.
+/// Source of the state from which the first search starts.
 enum class InitFrom {
   truth,  ///< the source's ground truth of the first frame
   rest,   ///< the models' rest state
@@ -103,7 +103,7 @@ struct OutputSettings {
   }
 };
 
-/// The keys of a scene. Plugins' parameters stay nodes until their plugin reads them.
+/// The keys of a scene. Plugins' parameters stay nodes until the plugin reads them.
 struct SceneFile {
   ConfigNode models, source, objective, optimizer;
   BudgetSettings budget;
@@ -139,13 +139,13 @@ struct SceneFile {
   }
 };
 
-/// A scene file and the node that plugins are read from.
+/// A scene file and the node from which plugins are made.
 struct LoadedScene {
   SceneFile file;
   ConfigNode root;
 };
 
-/// Reads a scene file strictly. Throws ConfigError.
+/// Reads a scene file and applies the overrides. Throws ConfigError, also on unknown keys.
 HYPOTRACK_API LoadedScene load_scene(const std::filesystem::path& path,
                                      std::span<const std::string> overrides);
 

@@ -20,7 +20,7 @@ namespace {
 
 using detail::YamlDocument;
 
-/// Builds a session part by part and keeps the protocol of what each part was made with.
+/// Builds a session part by part and records the resolved parameters of each.
 class Opening {
  public:
   Opening(LoadedScene scene, PluginLoader& plugins)
@@ -50,7 +50,7 @@ class Opening {
   YamlDocument record_;
 };
 
-/// Text of a scalar key that core reads beside the plugin's own parameters.
+/// Returns the text of a scalar key that core reads beside the plugin's own parameters.
 std::string text_of(const ConfigNode& node, std::string_view key, std::string otherwise) {
   const ConfigNode value = node.get(key);
   if (!value.defined()) return otherwise;
@@ -146,7 +146,7 @@ void Opening::objective() {
   record_.set_list("objective", records);
 }
 
-/// Before the source makes any: those that a GPU will read lie where it can.
+/// Page-locks image memory if a GPU will read it. Call before the source makes images.
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
   const auto& terms = session_.parts.objective;

@@ -27,32 +27,33 @@ struct Session {
   OutputSettings output;
   std::uint64_t seed = 0;
   ShapeEstimateSettings shape;
-  std::string resolved;         ///< YAML that repeats the run: every parameter with its value
-  std::string source_resolved;  ///< the same of the source alone
+  std::string resolved;         ///< YAML that repeats the run, with the value of every parameter
+  std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
-/// Opens a scene: models first, then the source, the objective and the optimizer. Throws what is
-/// wrong with any of them.
+/// Opens a scene: models first, then the source, the objective and the optimizer. Throws the error
+/// of the part that fails.
 HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
                                    std::span<const std::string> overrides, PluginLoader& plugins);
 
-/// Models and source only, for programs that look at a source (`hypotrack synth`).
+/// Opens only the models and the source of a scene, for programs that look at a source (`hypotrack
+/// synth`).
 HYPOTRACK_API Session open_source(const std::filesystem::path& scene_file,
                                   std::span<const std::string> overrides, PluginLoader& plugins);
 
-/// A scene whose source is open already: that of another session of it (which must outlive this one
-/// if it made the source), as its `source` and `source_resolved`.
+/// Opens a scene with a source that another session of the same scene has opened. `source` and
+/// `source_resolved` are that session's. It must outlive this one if it made the source.
 HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
                                    std::span<const std::string> overrides, PluginLoader& plugins,
                                    std::unique_ptr<Source> source,
                                    const std::string& source_resolved);
 
-/// Hindsight of a session that still has its parts; null where the scene does not ask for it.
-/// Throws ConfigError.
+/// Makes the fixed-lag smoother of a session that still has its parts. Returns null if the scene
+/// does not ask for it. Throws ConfigError.
 HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const Session& session);
 
-/// The state that the first search starts from. `first` is the first usable frame of the source.
-/// Throws ConfigError if the scene asks for a ground truth that is not there.
+/// Returns the state from which the first search starts. `first` is the first usable frame of the
+/// source. Throws ConfigError if the scene asks for a ground truth that does not exist.
 HYPOTRACK_API Eigen::VectorXd initial_state(const Session& session, const Frame& first);
 
 }  // namespace hypotrack

@@ -8,12 +8,12 @@
 
 namespace hypotrack {
 
-/// What a covered pixel of the first view costs. A sum over pixels rewards whoever covers more of
-/// them, so that a free size grows; with a charge a pixel is worth covering only if it explains
-/// more than that.
+/// Charges a constant cost for every covered pixel of the first view. A sum over pixels rewards
+/// covering more of them, so a free size grows without limit. With a charge, covering a pixel pays
+/// only if it explains more than that.
 class HYPOTRACK_API Coverage final : public Objective, public ResidualTerm {
  public:
-  /// Of every covered pixel from now on, >= 0.
+  /// Sets the charge of every covered pixel, >= 0.
   void set_charge(double charge) { charge_ = charge; }
   double charge() const { return charge_; }
 
@@ -29,7 +29,7 @@ class HYPOTRACK_API Coverage final : public Objective, public ResidualTerm {
   std::int64_t count_ = 0;
 };
 
-/// Number of covered pixels of a view.
+/// Returns the number of covered pixels of a view.
 HYPOTRACK_API std::int64_t covered_pixels(const DepthTile& tile);
 
 }  // namespace hypotrack

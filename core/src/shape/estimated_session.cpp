@@ -12,9 +12,9 @@
 namespace hypotrack {
 namespace {
 
-/// Overrides by which a synthetic source says itself that it shows the models as the scene has
-/// them: it then knows the landmarks of those, whatever shape is found, and run.yaml, which has
-/// that shape in its models, shows the same pictures again.
+/// Returns overrides that make a synthetic source keep rendering the models as the scene gives
+/// them. It then still knows their landmarks, whatever shape is estimated. run.yaml has that shape
+/// in its models but renders the same pictures again.
 std::vector<std::string> show_models_as_given(const SceneFile& scene) {
   std::string path = "source";
   ConfigNode source = scene.source;

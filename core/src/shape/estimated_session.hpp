@@ -11,16 +11,16 @@
 
 namespace hypotrack {
 
-/// A scene with `shape.estimate_s`, ready to be tracked: its models have the shape found in the
-/// first seconds, and its source begins with the frames that it was found in.
+/// A scene with `shape.estimate_s`, ready to be tracked. Its models have the shape found in the
+/// first seconds. Its source starts with the frames in which it was found.
 struct EstimatedSession {
-  Session first;  ///< that the source was made for; outlives `session`
+  Session first;  ///< the session that made the source; outlives `session`
   ShapeEstimate estimate;
   Session session;
 };
 
-/// Reads the first `settings.seconds` of a scene's source (held in memory), estimates the shape and
-/// opens the scene again with it. Throws what estimate_shape() throws.
+/// Estimates the shape from the first `settings.seconds` of a scene's source and reopens the scene
+/// with it. Holds those frames in memory. Throws what estimate_shape() throws.
 HYPOTRACK_API EstimatedSession open_estimated(const std::filesystem::path& scene_file,
                                               std::span<const std::string> overrides,
                                               PluginLoader& plugins,

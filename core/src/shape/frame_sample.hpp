@@ -8,13 +8,13 @@
 
 namespace hypotrack {
 
-/// Some frames of a run, evenly spread over those that were tracked, however many there will be:
-/// whenever twice as many as wanted are held, every second one goes.
+/// Samples the tracked frames of a run evenly, without knowing their number. Whenever it holds
+/// twice as many frames as wanted, it drops every second one.
 class HYPOTRACK_API FrameSample {
  public:
   explicit FrameSample(int wanted) : wanted_(static_cast<std::size_t>(wanted)) {}
   void add(const Frame& frame, const Solution& solution);
-  /// At most as many as wanted, in their order.
+  /// Returns the sampled frames in their order, at most as many as wanted.
   std::vector<TrackedFrame> take();
 
  private:

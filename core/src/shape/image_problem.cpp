@@ -22,7 +22,7 @@ SearchSettings steps_of(double length) {
 }
 constexpr double kShapeStep = 0.2;  // deviations
 
-/// A shape with one number a step up (or down), within the bounds.
+/// Returns a shape with one parameter a step up (or down), within its bounds.
 VectorXd stepped(const VectorXd& shape, const std::vector<ShapeParameter>& parameters, Index i,
                  double step) {
   const ShapeParameter& p = parameters[static_cast<std::size_t>(i)];
@@ -31,7 +31,7 @@ VectorXd stepped(const VectorXd& shape, const std::vector<ShapeParameter>& param
   return other;
 }
 
-/// The state with all models where no camera sees them.
+/// Returns the state with all models moved out of view.
 VectorXd out_of_sight(const Scene& scene, VectorXd state) {
   constexpr double kFar = 1e4;  // metres, to the side
   for (const Scene::Item& item : scene.items()) state[item.offset] += kFar;
@@ -140,7 +140,7 @@ VectorXd ImageProblem::costs(const JointTrial& trial) {
   return costs;
 }
 
-/// Columns of the pose: each a step forth and one back.
+/// Fills the columns of the pose by central differences.
 void ImageProblem::add_poses(Evaluator& evaluator, const VectorXd& pose, FrameSystem& system,
                              MatrixXf& jacobian) {
   const SearchRegion region = space_.region(pose);

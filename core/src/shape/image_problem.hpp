@@ -21,7 +21,7 @@ struct TrackedFrame {
   Eigen::VectorXd state;
 };
 
-/// What a scene's objective says about shapes, in several frames.
+/// Settings and objective of an ImageProblem.
 struct ImageProblemParts {
   std::vector<Camera> cameras;
   std::vector<ObjectiveTerm> objective;  ///< with residuals
@@ -32,34 +32,33 @@ struct ImageProblemParts {
   double edge = 0;      ///< see ImageProblem, pixels of a tile
 };
 
-/// The objective of a scene over several frames, by numerical derivatives (central differences of
-/// costs for gradients and of residuals for Gauss-Newton's Hessians).
+/// The objective of a scene over several frames as a function of shape and poses. Derivatives are
+/// numerical: central differences of costs for gradients, of residuals for Gauss-Newton Hessians.
 ///
-/// To the objective it adds a charge on covered pixels (Coverage): `coverage` times what a covered
-/// pixel explains on average where the frame's fit begins, which is the cost of a scene out of
-/// sight less that of the start, per pixel. A boundary then lies where covering one more pixel
-/// explains that share of what the mean one does. With 0.5 that is where S / sqrt(N) of a sum S
-/// over N pixels is stationary, too.
+/// It adds a charge on covered pixels (Coverage): `coverage` times what a covered pixel explains on
+/// average where the frame's fit begins. This is the cost with the scene out of view minus that of
+/// the start, per pixel. A boundary then lies where one more covered pixel explains that share of
+/// the mean. With 0.5 this is also where S / sqrt(N) is stationary, for a sum S over N pixels.
 ///
-/// Pixels at the edge of what is seen show some of it and some of what is behind it. The views
-/// agree on them only where little of that is, so a silhouette fits best that lies a little inside
-/// of the true one. `edge` says how much, in pixels: surfaces are drawn that much farther in, as
-/// far as a pixel is wide at the models on average.
+/// Pixels at the edge of a surface mix it with the background. The views agree on such pixels only
+/// if the background's part is small, so the best silhouette lies a little inside the true one.
+/// `edge` is this distance in pixels. Surfaces are drawn that much farther in, by a pixel's mean
+/// width at the models.
 class HYPOTRACK_API ImageProblem final : public JointProblem {
  public:
   /// The scene must outlive the problem. Throws ConfigError if the objective has no residuals,
-  /// DataError if a frame does not fit the cameras or a start lies at or behind one.
+  /// DataError if a frame does not fit the cameras or a start lies at or behind a camera.
   ImageProblem(const Scene& scene, const ShapeTargets& targets, ImageProblemParts parts,
                std::vector<TrackedFrame> frames);
   ~ImageProblem() override;
 
-  /// The shape and states to start from.
+  /// Returns the shape and states to start from.
   JointTrial start() const;
-  /// Length of the derivatives' steps from now on: 1 moves surfaces by about a millimetre, which
-  /// should be a pixel of a tile. Long ones see farther: a pixel counts only if a step makes the
-  /// silhouette pass it.
+  /// Sets the length of the derivatives' steps. 1 moves surfaces by about a millimetre, which
+  /// should be a pixel of a tile. Longer steps see farther: a pixel counts only if the silhouette's
+  /// edge passes it.
   void set_steps(double length);
-  /// What a covered pixel of each frame explains at the start. 0 or less: nothing.
+  /// Returns what a covered pixel of each frame explains at the start; 0 or less: nothing.
   const std::vector<double>& explained() const { return explained_; }
 
   std::vector<FrameSystem> systems(const JointTrial& trial) override;
@@ -67,7 +66,7 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
   Eigen::VectorXd moved(const Eigen::VectorXd& pose, const Eigen::VectorXd& step) const override;
 
  private:
-  /// A scene built with one shape, and what evaluates it.
+  /// A scene built with one shape, and its evaluator.
   struct Built {
     std::unique_ptr<Scene> scene;
     std::unique_ptr<Evaluator> evaluator;
@@ -75,7 +74,7 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
   Built built(const Eigen::VectorXd& shape) const;
   void prepare(Evaluator& evaluator, std::size_t frame);
   void measure_explained();
-  /// What a pixel of the first view is wide at the models that are looked for, metres, on average.
+  /// Returns the mean width in metres of a pixel of the first view at the models in question.
   double pixel_width() const;
   void add_poses(Evaluator& evaluator, const Eigen::VectorXd& pose, FrameSystem& system,
                  Eigen::MatrixXf& jacobian);

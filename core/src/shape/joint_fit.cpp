@@ -16,15 +16,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// A frame's part of the normal equations of the shape, its pose eliminated.
+/// A frame's part of the shape's normal equations, after elimination of its pose.
 struct Reduced {
   MatrixXd hessian;        // PxP
   VectorXd gradient;       // P
-  MatrixXd pose_by_shape;  // DxP: how the pose follows the shape
-  VectorXd pose_alone;     // D: its own step
+  MatrixXd pose_by_shape;  // DxP: the step of the pose per step of the shape
+  VectorXd pose_alone;     // D: the pose's own step
 };
 
-/// Damps by a share of the diagonal and a little of the mean one, which holds what no pixel sees.
+/// Adds a share of the diagonal and a little of its mean, which holds dimensions that no pixel
+/// shows.
 MatrixXd damped(MatrixXd hessian, double damping) {
   constexpr double kOfMean = 0.05;
   const double floor = kOfMean * hessian.diagonal().mean() + 1e-12;
@@ -60,7 +61,7 @@ class Minimizer {
   double cost() const { return cost_; }
   const JointTrial& trial() const { return trial_; }
 
-  /// One accepted step; what it gains, 0 if there is none.
+  /// Makes one accepted step. Returns its gain, 0 if no step was accepted.
   double step() {
     constexpr double kTooDamped = 1e4, kLongest = 8;
     systems_ = problem_.systems(trial_);
@@ -110,7 +111,7 @@ class Minimizer {
     return step;
   }
 
-  /// Poses follow the shape and take `length` times their own step.
+  /// Returns the trial in which poses follow the shape and take `length` times their own step.
   JointTrial moved(const JointTrial& from, const Step& step, const VectorXd& shape,
                    double length) const {
     const VectorXd taken = shape - from.shape;
@@ -123,8 +124,8 @@ class Minimizer {
     return next;
   }
 
-  /// Makes `length` times the step the trial if that is better. Each frame takes the share of its
-  /// pose's own step that is best for it: one whose step fails stops no other.
+  /// Accepts `length` times the step if it lowers the total cost. Each frame takes the share of its
+  /// pose's own step that is best for it, so one failing frame stops no other.
   bool accept(const JointTrial& from, const Step& step, double length) {
     const VectorXd shape =
         (from.shape + length * step.shape).cwiseMax(prior_.lower).cwiseMin(prior_.upper);

@@ -8,21 +8,22 @@
 
 namespace hypotrack {
 
-/// A shape that all frames share, and a pose for each of them.
+/// A shape that all frames share, and a pose for each frame.
 struct JointTrial {
   Eigen::VectorXd shape;               ///< P numbers
   std::vector<Eigen::VectorXd> poses;  ///< states, one per frame
 };
 
-/// The cost of one frame about a trial, to second order in steps of the pose (D numbers) and, after
-/// them, of the shape (P numbers).
+/// Quadratic model of one frame's cost around a trial. Steps are of the pose (D numbers), then of
+/// the shape (P numbers).
 struct FrameSystem {
   double cost = 0;
   Eigen::VectorXd gradient;  ///< D + P
   Eigen::MatrixXd hessian;   ///< square, positive semidefinite
 };
 
-/// What fit_jointly() minimises: the sum of the frames' costs and a prior of the shape.
+/// The cost that fit_jointly() minimises, as a sum over frames. A prior of the shape is added to
+/// it.
 class HYPOTRACK_API JointProblem {
  public:
   JointProblem() = default;
@@ -30,36 +31,38 @@ class HYPOTRACK_API JointProblem {
   JointProblem(const JointProblem&) = delete;
   JointProblem& operator=(const JointProblem&) = delete;
 
-  /// One per frame.
+  /// Returns the quadratic models at a trial, one per frame.
   virtual std::vector<FrameSystem> systems(const JointTrial& trial) = 0;
-  /// Costs alone, one per frame; +infinity where there is none.
+  /// Returns the costs, one per frame; +infinity where a trial is infeasible.
   virtual Eigen::VectorXd costs(const JointTrial& trial) = 0;
-  /// A pose after a step of D numbers, within its bounds.
+  /// Returns a pose after a step of D numbers, within its bounds.
   virtual Eigen::VectorXd moved(const Eigen::VectorXd& pose, const Eigen::VectorXd& step) const = 0;
 };
 
-/// What is known of the shape beforehand: weight * sum(((shape - mean) / deviation)^2) is added to
-/// the cost.
+/// Gaussian prior of the shape. It adds weight * sum(((shape - mean) / deviation)^2) to the cost.
 struct ShapePrior {
-  Eigen::VectorXd mean, deviation, lower, upper;  ///< P numbers each; bounds are kept
+  Eigen::VectorXd mean, deviation, lower, upper;  ///< P numbers each; bounds are hard
   double weight = 0;
 };
 
 struct JointFit {
   JointTrial best;
-  double first_cost = 0;  ///< of the trial that it began with, prior included
+  double first_cost = 0;  ///< of the start, prior included
   double cost = 0;
   int iterations = 0;
 };
 
-/// Levenberg-Marquardt on shape and poses together. The poses, each in its own frame only, are
-/// eliminated from the normal equations (Schur complement), so that the step of the shape knows
-/// that the poses will follow. Gradients are taken as they are given, so costs need not be sums of
-/// squares; where Hessians are larger than the curvature (pixels that a silhouette's edge passes
-/// count by the step that moved it), a step that gains is tried at twice its length and so on. Of
-/// its own step each pose takes all, a quarter or nothing, whichever is best for its frame.
+/// Minimises over shape and poses together by Levenberg-Marquardt. Each pose occurs in its own
+/// frame only, so a Schur complement eliminates the poses from the normal equations. The step of
+/// the shape thus accounts for the poses that follow it.
+///
+/// Gradients are used as given, so costs need not be sums of squares. Hessians may exceed the
+/// curvature, as pixels that a silhouette's edge passes count by the step that moved it. So a step
+/// that gains is tried at twice its length and so on. Each pose takes all, a quarter or nothing of
+/// its own step, whichever is best for its frame.
+///
 /// Stops after `iterations` steps, when a step gains less than 1e-4 of the cost, or when `stop`
-/// says so. Throws DataError if no frame has a finite cost.
+/// returns true. Throws DataError if no frame has a finite cost.
 HYPOTRACK_API JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
                                    int iterations, const std::function<bool()>& stop = {});
 

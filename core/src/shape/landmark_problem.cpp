@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 const SearchSettings kTangent = {.rotation_as = RotationSearch::tangent, .prediction = {}};
 constexpr double kStep = 1e-6;
 
-/// The columns of a scene's landmarks that belong to one model: the first, and how many.
+/// Returns the range of a model's landmarks among the scene's: the first and the count.
 std::pair<Index, Index> columns_of(const Scene& scene, int model) {
   Index first = 0;
   for (int i = 0; i < model; ++i)
@@ -117,7 +117,7 @@ std::vector<FrameSystem> LandmarkProblem::systems(const JointTrial& trial) {
     MatrixXd jacobian(r.size(), d + p);
     const SearchRegion region = space_.region(pose);
     for (Index i = 0; i < d; ++i) {
-      // A step that a bound forbids leaves no trace: the number stays where it is.
+      // If a bound forbids the step, the column is zero and the parameter keeps its value.
       const VectorXd point = (region.start + kStep * VectorXd::Unit(d, i)).cwiseMin(region.upper);
       jacobian.col(i) = (residuals(*scene, k, space_.states(point, pose)) - r) / kStep;
     }

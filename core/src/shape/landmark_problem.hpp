@@ -9,22 +9,23 @@
 
 namespace hypotrack {
 
-/// What labelled landmarks say about shapes, in several frames: the sum of squared distances, in
-/// units of `kLabelDeviation`. With a prior of weight 1 the minimum is the most probable shape for
-/// labels that are off by that much.
+/// The sum of squared distances of labelled landmarks over several frames, in units of
+/// `kLabelDeviation`. With a prior of weight 1 its minimum is the most probable shape for labels
+/// with that standard deviation.
 class HYPOTRACK_API LandmarkProblem final : public JointProblem {
  public:
   static constexpr double kLabelDeviation = 3e-3;  ///< metres, each axis
 
   /// `landmarks`: world positions in the order of Scene::landmark_names(), 3xL, one entry per
   /// frame; NaN columns are unknown. The scene must outlive the problem. Throws DataError if a
-  /// frame knows fewer than three landmarks of a model that is looked for.
+  /// frame knows fewer than three landmarks of a model whose shape is fitted.
   LandmarkProblem(const Scene& scene, const ShapeTargets& targets,
                   std::vector<Eigen::Matrix3Xd> landmarks);
 
-  /// The shape to start from and poses fitted with it, each from the one before.
+  /// Returns the initial shape and poses fitted with it. Each pose's fit starts from the one
+  /// before.
   JointTrial start() const;
-  /// Mean distance over known landmarks and frames, metres.
+  /// Returns the mean distance over known landmarks and frames, metres.
   double mean_distance(const JointTrial& trial) const;
 
   std::vector<FrameSystem> systems(const JointTrial& trial) override;
@@ -38,7 +39,7 @@ class HYPOTRACK_API LandmarkProblem final : public JointProblem {
   const Scene& scene_;
   const ShapeTargets& targets_;
   SearchSpace space_;
-  std::vector<Eigen::Matrix3Xd> landmarks_;  // of other models: NaN
+  std::vector<Eigen::Matrix3Xd> landmarks_;  // NaN for other models
 };
 
 }  // namespace hypotrack

@@ -20,7 +20,7 @@ ReplaySource::ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> fram
 
 std::optional<Frame> ReplaySource::next() {
   if (next_ < frames_.size()) {
-    // With a rest nobody comes back for them: they need not stay in memory.
+    // With a rest, frames are read once only: they need not stay in memory.
     const std::size_t i = next_++;
     return rest_ ? std::move(frames_[i]) : frames_[i];
   }

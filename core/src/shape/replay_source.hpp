@@ -8,12 +8,12 @@
 
 namespace hypotrack {
 
-/// Frames that have been read already, once more, and then what a source still has.
+/// Replays frames that were read already, then continues with the rest of a source.
 class HYPOTRACK_API ReplaySource final : public Source {
  public:
-  /// Only `frames`, as if they came from `from`.
+  /// Replays `frames` only, with the cameras and frame rate of `from`.
   ReplaySource(const Source& from, std::vector<Frame> frames);
-  /// `frames` and then the rest of `from`.
+  /// Replays `frames`, then the rest of `from`.
   ReplaySource(std::unique_ptr<Source> from, std::vector<Frame> frames);
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
@@ -30,7 +30,7 @@ class HYPOTRACK_API ReplaySource final : public Source {
   std::size_t next_ = 0;
 };
 
-/// The frames of a source before `seconds`, missing ones included.
+/// Returns the frames of a source before `seconds`, missing ones included.
 HYPOTRACK_API std::vector<Frame> first_seconds(Source& source, double seconds);
 
 }  // namespace hypotrack

@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// ImageProblemParts::edge. Chosen on synthetic hands: fits that begin at the truth stay there.
+// ImageProblemParts::edge. Chosen on synthetic hands: fits that start at the truth stay there.
 constexpr double kEdge = 0.3;
 
 std::vector<std::string> overrides_of(const ShapeTargets& targets,
@@ -45,7 +45,7 @@ void take(const JointFit& fit, const ShapeTargets& targets, ShapeEstimate& estim
   estimate.overrides = overrides_of(targets, estimate.shape);
 }
 
-/// What one round is made of.
+/// One round of tracking and fitting.
 class Round {
  public:
   Round(Session session, const ShapeEstimateSettings& settings, const ShapeProgress& progress)
@@ -70,7 +70,7 @@ class Round {
                             .evaluate = session_.parts.evaluate,
                             .coverage = settings_.coverage,
                             .edge = kEdge};
-    parts.evaluate.backend = Backend::cpu;  // where residuals are
+    parts.evaluate.backend = Backend::cpu;  // residuals exist on the CPU
     std::vector<TrackedFrame> frames = track(limit);
     if (progress_.stop()) return estimate_;
     if (frames.size() < 2) {
@@ -105,7 +105,7 @@ class Round {
     return sample.take();
   }
 
-  /// Without those that explain much less than the others do: they are not where the model is.
+  /// Drops frames that explain much less than the others: the model is elsewhere in them.
   std::vector<TrackedFrame> believable(const ImageProblemParts& parts,
                                        std::vector<TrackedFrame> frames) const {
     constexpr double kMuchLess = 0.6;
@@ -127,8 +127,8 @@ class Round {
     return kept;
   }
 
-  /// On the tiles that were tracked on, with long steps of the derivatives, and then on finer ones,
-  /// where less of the pixels lies at an edge.
+  /// Fits first on the tracker's tiles with long steps of the derivatives, then on finer tiles,
+  /// where a smaller share of the pixels lies at an edge.
   JointFit fit(ImageProblemParts parts, const std::vector<TrackedFrame>& frames) const {
     struct Pass {
       int finer;
@@ -147,7 +147,7 @@ class Round {
     return fit;
   }
 
-  /// The standard error of the shape, from fits to a few parts of the frames.
+  /// Estimates the standard error of the shape from fits to a few parts of the frames.
   VectorXd deviation(const ImageProblemParts& parts,
                      const std::vector<TrackedFrame>& frames) const {
     constexpr std::size_t kParts = 4, kFewest = 2;

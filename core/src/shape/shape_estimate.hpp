@@ -14,19 +14,19 @@
 
 namespace hypotrack {
 
-/// What fitting a shape has found.
+/// The result of fitting a shape.
 struct ShapeEstimate {
-  std::vector<ShapeParameter> shape;   ///< of the models, all of it
-  std::vector<ShapeParameter> wanted;  ///< what was looked for, with its values
-  Eigen::VectorXd deviation;           ///< standard error of `wanted`, from fits to parts of
-                                       ///< the frames; NaN: not known
-  int tracked_frames = 0;              ///< in the last round
+  std::vector<ShapeParameter> shape;   ///< all shape parameters of the models
+  std::vector<ShapeParameter> wanted;  ///< the fitted parameters, with their values
+  Eigen::VectorXd deviation;  ///< standard error of `wanted`, from fits to parts of the frames;
+                              ///< NaN: unknown
+  int tracked_frames = 0;     ///< in the last round
   int used_frames = 0;
   double first_cost = 0, cost = 0;     ///< of the last round's joint fit
-  std::vector<std::string> overrides;  ///< that give a scene's models this shape
+  std::vector<std::string> overrides;  ///< scene overrides that give the models this shape
 };
 
-/// Where estimating stands, and whether it is to go on.
+/// Callbacks that report the progress of an estimate, and may stop it.
 struct ShapeProgress {
   std::function<void(int round)> begin_round = [](int) {};
   std::function<void(const Frame&, const Solution&)> tracked = [](const Frame&, const Solution&) {};
@@ -34,27 +34,29 @@ struct ShapeProgress {
   std::function<bool()> stop = [] { return false; };
 };
 
-/// A session of the scene whose models are changed by `overrides`, its source at the beginning.
+/// Opens a session of the scene with models changed by `overrides` and the source at its beginning.
 using OpenShaped = std::function<Session(const std::vector<std::string>& overrides)>;
 
-/// Tracks and fits in turn, `settings.rounds` times: the frames are tracked with the shape found so
-/// far, some of them are taken, and shape and poses are fitted to them together (fit_jointly,
-/// ImageProblem). Frames that explain much less than the others are left out as not tracked.
-/// `limit`: frames of the source to look at; 0: all. `deviations`: find out how sure the shape is,
-/// too, which takes as long again as the last round's fit. Throws ConfigError if the objective has
-/// no residuals or a model no shape, DataError if fewer than 2 frames were tracked or most of them
-/// explain nothing.
+/// Estimates the shape by tracking and fitting in turn, `settings.rounds` times. Each round tracks
+/// the frames with the shape found so far and samples some of them. Then it fits shape and poses to
+/// them together (fit_jointly, ImageProblem). Frames that explain much less than the others are
+/// left out as not tracked.
+///
+/// `limit`: number of frames of the source to read; 0: all. `deviations`: also estimate standard
+/// errors, which takes as long again as the last round's fit. Throws ConfigError if the objective
+/// has no residuals or a model no shape. Throws DataError if fewer than 2 frames were tracked or
+/// most of them explain nothing.
 HYPOTRACK_API ShapeEstimate estimate_shape(const OpenShaped& open,
                                            const ShapeEstimateSettings& settings, int limit,
                                            bool deviations, const ShapeProgress& progress = {});
 
-/// The shape of the models whose landmarks the source's truth knows, fitted to `settings.frames` of
-/// them (LandmarkProblem). The session's source is at its beginning. Throws DataError if fewer than
-/// 2 frames have a truth, ConfigError if a model has no shape.
+/// Fits the shape to the true landmarks of `settings.frames` frames (LandmarkProblem). It fits the
+/// models whose landmarks the source's truth knows. The session's source must be at its beginning.
+/// Throws DataError if fewer than 2 frames have a truth, ConfigError if a model has no shape.
 HYPOTRACK_API ShapeEstimate shape_of_labels(Session session, const ShapeEstimateSettings& settings,
                                             int limit);
 
-/// The shape as a file for `shape_file`, what it was made of in comments.
+/// Returns the text of a `shape_file` with the shape, and its origin in comments.
 HYPOTRACK_API std::string shape_file_text(const ShapeEstimate& estimate);
 
 }  // namespace hypotrack

@@ -40,7 +40,7 @@ std::vector<int> find_models(const Scene& scene, const std::vector<std::string>&
   return found;
 }
 
-/// Unit vectors outwards, of the faces around each vertex, larger ones more (3xV).
+/// Computes unit normals of the vertices, outwards, weighted by the areas of their triangles (3xV).
 Eigen::Matrix3Xf vertex_normals(const Mesh& mesh) {
   Eigen::Matrix3Xf normals = Eigen::Matrix3Xf::Zero(3, mesh.vertices.cols());
   for (const auto& corners : mesh.triangles.colwise()) {
@@ -52,7 +52,7 @@ Eigen::Matrix3Xf vertex_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// A model as another individual.
+/// A model with another individual's shape.
 class Reshaped final : public Model {
  public:
   explicit Reshaped(ModelData data) : Model(std::move(data)) {}
