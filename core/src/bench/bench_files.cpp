@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Six digits are more than repeat. JSON has no NaN.
+/// Rounds to six digits, more than repeat between runs. NaN becomes null.
 Json number(double value) {
   return std::isnan(value) ? Json() : Json(std::stod(fmt::format("{:.6g}", value)));
 }

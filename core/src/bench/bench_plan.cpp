@@ -23,7 +23,7 @@ std::vector<std::string> assignments(const std::vector<study::Change>& changes) 
   return overrides;
 }
 
-/// Takes the axis of the ways out of the study's grid.
+/// Removes the axis of the ways from the study's grid and returns them.
 std::vector<Way> take_ways(study::Study& study, const std::filesystem::path& table) {
   const auto axis = std::find_if(study.axes.begin(), study.axes.end(),
                                  [](const study::Axis& other) { return other.name == kWays; });
@@ -61,7 +61,7 @@ std::vector<std::string> names_of(const std::vector<T>& items) {
   return names;
 }
 
-/// The cases of the table with a name, or that of the scene file with this path.
+/// Returns the cases of the table with a name, or a case for a scene file.
 std::vector<Case> find_cases(const std::vector<Case>& table, const std::string& scene) {
   std::vector<Case> found;
   std::copy_if(table.begin(), table.end(), std::back_inserter(found),
@@ -104,7 +104,7 @@ Plan make_plan(const Request& request) {
   for (Case& c : plan.cases) {
     c.overrides.insert(c.overrides.end(), request.set.begin(), request.set.end());
     enter_directory(c);
-    load_scene(c.file, c.overrides);  // a mistake is found before anything is measured
+    load_scene(c.file, c.overrides);  // finds mistakes before anything is measured
   }
   return plan;
 }

@@ -11,28 +11,28 @@ namespace hypotrack::bench {
 
 /// A scene to measure.
 struct Case {
-  std::string name;   ///< by which it is asked for
-  std::string label;  ///< in tables
+  std::string name;   ///< name for selection on the command line
+  std::string label;  ///< name in tables
   std::filesystem::path file;
   std::vector<std::string> overrides;  ///< `key.path=value`
-  std::filesystem::path directory;     ///< what relative paths in the overrides refer to
+  std::filesystem::path directory;     ///< base of relative paths in the overrides
 };
 
 /// A way to track every scene: a backend, perhaps with an optimizer made for it.
 struct Way {
   std::string name;
-  std::vector<std::string> overrides;  ///< after those of the case
+  std::vector<std::string> overrides;  ///< applied after those of the case
 };
 
-/// Every case is tracked in every way.
+/// Cases and ways of a benchmark; every case is tracked in every way.
 struct Plan {
   std::string title;
   std::vector<Case> cases;
   std::vector<Way> ways;
-  std::optional<int> frames;  ///< to measure of each
+  std::optional<int> frames;  ///< number to measure of each
 };
 
-/// What is asked for.
+/// The user's selection for a benchmark.
 struct Request {
   std::filesystem::path table;         ///< study file whose grid has an axis `backend`
   std::optional<std::string> variant;  ///< of the table
@@ -42,11 +42,11 @@ struct Request {
   std::vector<std::string> backends;  ///< ways to keep; empty: all
 };
 
-/// Throws ConfigError if the table or a scene cannot be read, a scene does not fit its overrides,
-/// or a name is not one of the table's.
+/// Makes a plan. Throws ConfigError if the table or a scene cannot be read, a scene does not fit
+/// its overrides, or a name is not in the table.
 HYPOTRACK_API Plan make_plan(const Request& request);
 
-/// Makes the directory of a case the working directory, which overrides are read relative to.
+/// Makes the directory of a case the working directory, so that relative paths in overrides work.
 void enter_directory(const Case& c);
 
 }  // namespace hypotrack::bench

@@ -10,10 +10,10 @@
 namespace hypotrack::bench {
 namespace {
 
-/// Lines that are told once, in the order in which they come up.
+/// Footnotes without repetition, in order of first use.
 class Lines {
  public:
-  /// The number of a line, from 1.
+  /// Returns the number of a line, from 1; adds it if it is new.
   std::size_t number_of(const std::string& line) {
     const auto found = std::find(lines_.begin(), lines_.end(), line);
     if (found != lines_.end()) return static_cast<std::size_t>(found - lines_.begin()) + 1;
@@ -26,14 +26,14 @@ class Lines {
   std::vector<std::string> lines_;
 };
 
-/// `58.6 k`, `3.07 M`
+/// Formats with a prefix: `58.6 k`, `3.07 M`.
 std::string with_prefix(double value) {
   if (value >= 1e6) return fmt::format("{:.2f} M", value / 1e6);
   if (value >= 1e3) return fmt::format("{:.1f} k", value / 1e3);
   return fmt::format("{:.0f}", value);
 }
 
-/// Three digits or more.
+/// Formats with three digits or more.
 std::string short_number(double value) {
   const int decimals = value >= 100 ? 0 : value >= 10 ? 1 : value >= 1 ? 2 : 3;
   return fmt::format("{:.{}f}", value, decimals);
@@ -61,7 +61,8 @@ class Table {
   int round_;
   std::size_t case_width_ = 5, way_width_ = 7;
   bool tells_memory_ = false;
-  std::vector<std::size_t> references_;  ///< ways to compare with: those measured, if there are two
+  std::vector<std::size_t> references_;  ///< ways to compare with: all measured ones, if there are
+                                         ///< two
   Lines reasons_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace hypotrack::bench {
 
-/// A measurement and what was measured.
+/// A measurement with its round, case and way.
 struct Row {
   int round = 1;
   std::size_t case_index = 0;  ///< into Plan::cases
@@ -19,16 +19,16 @@ struct Row {
   Measurement measurement;
 };
 
-/// The median frame in words: `21.3 ms, 46.9 fps (50 frames)`, or why there is none.
+/// Formats the median frame: `21.3 ms, 46.9 fps (50 frames)`, or why there is none.
 HYPOTRACK_API std::string in_words(const Measurement& measurement);
 
-/// One round as a table for people, with the devices and the reasons for gaps below it.
+/// Formats one round as a table for people, followed by the devices and the reasons for gaps.
 HYPOTRACK_API std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round);
 
-/// Throws ConfigError unless write_rows() knows the format of such a file.
+/// Throws ConfigError if write_rows() does not know the format of a file name.
 HYPOTRACK_API void check_format(const std::filesystem::path& file);
 
-/// Writes all rows as CSV or JSON, whichever the name ends in. Throws OutputError.
+/// Writes all rows as CSV or JSON, by the suffix of the name. Throws OutputError.
 HYPOTRACK_API void write_rows(const std::filesystem::path& file, const Plan& plan,
                               const std::vector<Row>& rows);
 

@@ -8,7 +8,7 @@
 namespace hypotrack::bench {
 namespace {
 
-/// All that decides what the frames are.
+/// Returns a key of everything that decides the frames.
 std::string source_of(const Case& c) {
   const LoadedScene scene = load_scene(c.file, c.overrides);
   return fmt::format("{}\n{}\n{}\n{}", c.directory.string(), c.file.parent_path().string(),
@@ -36,7 +36,7 @@ std::vector<Frame>& Frames::of(const Case& c) {
   const std::string source = source_of(c);
   if (source == source_) return frames_;
   source_.clear();
-  frames_.clear();  // before the next are read: one source's frames may fill the memory
+  frames_.clear();  // free them first: one source's frames may fill the memory
   frames_ = read(*open_source(c.file, c.overrides, *plugins_).source, usable_, c);
   source_ = source;
   return frames_;

@@ -10,15 +10,14 @@
 
 namespace hypotrack::bench {
 
-/// Frames in memory, kept for as long as the cases that follow have the same source.
+/// Frames in memory, kept while consecutive cases have the same source.
 class HYPOTRACK_API Frames {
  public:
-  /// `usable` frames are read of each source, or as many as it has; those that cannot be used and
-  /// lie between them are read, too.
+  /// Reads up to `usable` usable frames of each source, and the unusable ones between them.
   Frames(PluginLoader& plugins, int usable) : plugins_(&plugins), usable_(usable) {}
 
-  /// The frames of a case from the first that can be used; valid until the next call. Throws what
-  /// is wrong with the scene, DataError if it has no such frame.
+  /// Returns the frames of a case, starting with the first usable one; valid until the next call.
+  /// Throws the errors of the scene, DataError if no frame is usable.
   std::vector<Frame>& of(const Case& c);
 
  private:
@@ -28,8 +27,8 @@ class HYPOTRACK_API Frames {
   std::vector<Frame> frames_;
 };
 
-/// Copies what lies elsewhere than images are made now to where they are: opening a scene that is
-/// evaluated on a GPU changes that.
+/// Copies images that are not in memory of OpenCV's present default allocator. Opening a scene that
+/// is evaluated on a GPU changes that allocator.
 HYPOTRACK_API void renew_images(std::vector<Frame>& frames);
 
 }  // namespace hypotrack::bench

@@ -6,10 +6,10 @@
 
 namespace hypotrack {
 
-/// The cores that this process may use, which a cluster may have limited.
+/// Returns the number of cores that this process may use, which a cluster may limit.
 HYPOTRACK_API int core_count();
 
-/// `Intel(R) Xeon(R) Gold 6448Y`, or `unknown processor` where the system does not say.
+/// Returns the processor's name: `Intel(R) Xeon(R) Gold 6448Y`, or `unknown processor`.
 HYPOTRACK_API std::string processor_name();
 
 }  // namespace hypotrack

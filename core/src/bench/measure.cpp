@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A scene that is ready to track in one way.
+/// A scene that is ready to be tracked in one way.
 struct Opened {
   Session session;
   Tracker tracker;
@@ -30,7 +30,7 @@ struct Opened {
       : session(std::move(opened)),
         tracker(*session.scene, std::move(session.parts), initial_state(session, first),
                 session.seed) {
-    session.source.reset();  // its frames have been read, and it may hold a device
+    session.source.reset();  // its frames were read, and it may hold a device
     tracker.check(first);
   }
 };
@@ -42,7 +42,7 @@ Session open(const Case& c, const Way& way, PluginLoader& plugins) {
   return open_session(c.file, overrides, plugins);
 }
 
-/// What a GPU's memory has lost since this was made.
+/// Measures how much a GPU's free memory has shrunk since construction.
 class DeviceMemory {
  public:
   explicit DeviceMemory(int device) : device_(device), free_(cuda::free_memory(device)) {}
@@ -88,7 +88,7 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
   result.metrics = metrics.metrics();
 }
 
-/// What the exception that is being handled says.
+/// Returns the message of the exception being handled.
 std::string current_message() {
   try {
     throw;

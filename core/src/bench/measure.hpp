@@ -17,27 +17,27 @@ namespace hypotrack::bench {
 
 enum class Outcome {
   measured,
-  unavailable,  ///< this machine, this build or this scene cannot be tracked in this way
-  failed,       ///< it broke while it tracked
+  unavailable,  ///< this machine, build or scene does not support this way
+  failed,       ///< it failed while tracking
 };
 HYPOTRACK_API std::string_view to_string(Outcome outcome);
 
-/// What tracking a case in one way took.
+/// Time, memory and accuracy of tracking a case in one way.
 struct Measurement {
   Outcome outcome = Outcome::measured;
-  std::string message = {};  ///< why there are no numbers
+  std::string message = {};  ///< reason if there are no numbers
   std::string device = {};   ///< Tracker::backend()
   int warm_up = 0;
-  std::vector<double> seconds = {};      ///< of every measured frame, from the frame to the answer
+  std::vector<double> seconds = {};      ///< of every measured frame, from the frame to the result
   std::vector<double> evaluations = {};  ///< of every measured frame
   Metrics metrics = {};                  ///< of the measured frames
-  /// What it took of the GPU's memory, where there is one, whatever uses it.
+  /// GPU memory in use since before the scene was opened, by any process; nothing without a GPU.
   std::optional<double> device_mib = {};
 };
 
-/// Tracks frames, which lie in memory, one after the other; the first of them has views. Their
-/// images move to where a source would make them for this way. `again` is asked before every frame
-/// and ends the work by returning false. What goes wrong is told in the result and not thrown.
+/// Tracks frames in memory, one after the other. The first must have views. Moves their images to
+/// where a source would allocate them for this way. Calls `again` before every frame; it ends the
+/// work by returning false. Reports errors in the result and does not throw.
 HYPOTRACK_API Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
                                   PluginLoader& plugins, const Limits& limits,
                                   const std::function<bool()>& again);

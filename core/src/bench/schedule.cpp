@@ -5,7 +5,7 @@
 namespace hypotrack::bench {
 namespace {
 
-/// The warm-up ends with this share of the time for all.
+/// The warm-up ends at this share of the total time.
 constexpr double kWarmUpShare = 0.25;
 
 int warm_up_of(const Limits& limits, int usable) {

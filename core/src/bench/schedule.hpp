@@ -4,30 +4,31 @@
 
 namespace hypotrack::bench {
 
-/// A measurement goes on past its time until it has so many frames, but not past a multiple of it.
+/// Least number of frames. A measurement exceeds its time to reach it, but only up to kLongest
+/// times.
 inline constexpr int kFewestFrames = 3;
 inline constexpr double kLongest = 3;
 
-/// How much is measured of every case in every way.
+/// Amount to measure of every case in every way.
 struct Limits {
   int frames = 50;
-  int warm_up = 5;      ///< frames that are tracked before; fewer of a slow way or a short source
-  double seconds = 10;  ///< for warm-up and frames
+  int warm_up = 5;      ///< frames tracked before; fewer for a slow way or a short source
+  double seconds = 10;  ///< for warm-up and measured frames
 };
 
-/// Decides which frames of a sequence count, and when there are enough of them. Times are in
-/// seconds since the first frame began.
+/// Decides which frames of a sequence are measured, and when to stop. Times are in seconds since
+/// the first frame began.
 class HYPOTRACK_API Schedule {
  public:
-  /// `usable` is the number of frames that can be tracked. Of a short sequence, one frame at most
-  /// warms up.
+  /// `usable` is the number of frames that can be tracked. A short sequence has at most one warm-up
+  /// frame.
   Schedule(const Limits& limits, int usable);
 
-  /// To be asked before every frame.
+  /// Returns whether to track another frame. Call it before every frame.
   bool goes_on(double seconds) const;
 
-  /// Takes in that a frame has been tracked; whether it is one to measure. A frame that alone takes
-  /// too long is.
+  /// Records a tracked frame and returns whether it is measured. A frame that alone takes too long
+  /// is measured.
   bool counts(double seconds);
 
  private:

@@ -19,7 +19,7 @@ namespace {
 constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::size_t kMostShown = 5;
 
-/// A folder for what the checks say, which goes away.
+/// A temporary folder for the logs of the checks.
 class Scratch {
  public:
   Scratch() {
@@ -40,14 +40,15 @@ class Scratch {
   std::filesystem::path path_;
 };
 
-/// The line of the study that a message is about: that of the change it names, or the scene's.
+/// Returns the line of the study that a message is about: that of the change it names, or the
+/// scene's.
 std::string position_of(const Plan& plan, const Cell& cell, const std::string& message) {
   for (const Change& change : plan.changes_of(cell))
     if (message.find("--set " + change.assignment()) != std::string::npos) return change.where;
   return plan.scene_of(cell).where;
 }
 
-/// One message for all that is wrong; the same problem of several cells is named once.
+/// Joins all problems to one message; names the same problem of several cells once.
 std::string report(const Plan& plan, const std::map<std::size_t, std::string>& problems) {
   std::set<std::string> known;
   std::string text;

@@ -10,9 +10,9 @@
 
 namespace hypotrack::study {
 
-/// Opens the scene of every given cell as a run would, up to its first frame, each in a process of
-/// its own. `again` is asked now and then, and stops the work by returning false. Throws
-/// ConfigError with what is wrong, and the line of the study that it comes from.
+/// Checks the scenes of the given cells: opens each as a run would, up to its first frame, in a
+/// separate process. Calls `again` now and then; it stops the work by returning false. Throws
+/// ConfigError with all problems and the lines of the study that they come from.
 HYPOTRACK_API void check_cells(const Plan& plan, const std::vector<std::size_t>& cells,
                                const Launch& launch, const std::function<bool()>& again);
 

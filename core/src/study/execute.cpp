@@ -16,7 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{5};
-constexpr std::chrono::milliseconds kRetry{500};  // of a run that another process has in hand
+constexpr std::chrono::milliseconds kRetry{500};  // interval of looks at a run that another process
+                                                  // is making
 constexpr int kInterrupted = 130;                 // exit code of a run that was told to stop
 
 class Execution {
@@ -41,7 +42,7 @@ class Execution {
  private:
   struct Waiting {
     std::size_t run;
-    Clock::time_point retry;  ///< not to be looked at before
+    Clock::time_point retry;  ///< not to be tried before
     RunState before;          ///< a failure that was there before is tried again
   };
 
@@ -54,15 +55,17 @@ class Execution {
   const Launch& launch_;
   Watcher& watcher_;
   std::deque<Waiting> waiting_;
-  std::map<std::size_t, RunFolder> working_;  // outlived by no process: pool_ goes first
+  std::map<std::size_t, RunFolder> working_;  // declared before pool_, whose processes must end
+                                              // first
   ProcessPool pool_;
 };
 
-/// Takes the first waiting run that is free in hand; false if there is nothing to do at present.
+/// Starts the first waiting run that no other process makes. Returns false if nothing can start
+/// now.
 bool Execution::start_next() {
   if (waiting_.empty() || pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
   Waiting next = waiting_.front();
-  if (next.retry > Clock::now()) return false;  // and so are all behind it
+  if (next.retry > Clock::now()) return false;  // all behind it wait longer
   waiting_.pop_front();
   const PlannedRun& run = plan_.runs[next.run];
   auto claimed = folder_.claim(run);

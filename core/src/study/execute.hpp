@@ -11,19 +11,19 @@
 
 namespace hypotrack::study {
 
-/// Who watches the runs of a study.
+/// Observer of the runs of a study, which can stop them.
 class HYPOTRACK_API Watcher {
  public:
   virtual ~Watcher();
-  /// Asked some hundred times per second; true ends the work.
+  /// Returns true to end the work. Called some hundred times per second.
   virtual bool stop() = 0;
-  /// A run is there now, made here or by another process. `failure` is empty if it succeeded.
+  /// Called when a run is finished, by this or another process. `failure` is empty if it succeeded.
   virtual void on_run(const PlannedRun& run, const std::string& failure) = 0;
 };
 
-/// Makes the given runs (indices into the plan), each in a process of its own, and waits for those
-/// that other processes have in hand. A run that fails is noted in the folder. False if the watcher
-/// or somebody who interrupted a run ended the work early: what was being made is then given up.
+/// Makes the given runs (indices into the plan), each in a separate process. Also waits for runs
+/// that other processes are making. Records failures in the folder. Returns false if the watcher,
+/// or somebody who interrupted a run, ended the work early; unfinished runs are then given up.
 /// Throws OutputError.
 HYPOTRACK_API bool execute(const StudyFolder& folder, const Plan& plan,
                            const std::vector<std::size_t>& runs, const Launch& launch,

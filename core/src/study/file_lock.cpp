@@ -19,8 +19,8 @@ namespace {
 
 std::string error_text() { return std::generic_category().message(errno); }
 
-/// Whether the locked file is the one that the name still stands for: the last owner may have
-/// removed it between open and flock.
+/// Returns whether the name still refers to the locked file. The last owner may have removed it
+/// between open and flock.
 bool is_current(const std::filesystem::path& file, int descriptor) {
   struct stat named {};
   struct stat opened {};
@@ -32,7 +32,7 @@ void write_owner(int descriptor) {
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   const std::string owner = fmt::format("{} {}\n", host.data(), getpid());
-  // Only people read it; the lock holds without it.
+  // Only people read the content; the lock works without it.
   [[maybe_unused]] const bool written =
       ftruncate(descriptor, 0) == 0 && write(descriptor, owner.data(), owner.size()) > 0;
 }
@@ -47,7 +47,7 @@ FileLock::FileLock(FileLock&& other) noexcept
 
 FileLock::~FileLock() {
   if (descriptor_ < 0) return;
-  unlink(file_.c_str());  // while it is locked, so that nobody else's file goes
+  unlink(file_.c_str());  // while locked, so that it cannot be another owner's file
   close(descriptor_);
 }
 

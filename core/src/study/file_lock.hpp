@@ -7,14 +7,15 @@
 
 namespace hypotrack::study {
 
-/// An exclusive lock that the kernel gives back when its last owner ends, however it ends:
-/// processes that work on one folder, on one machine or over a network file system, keep apart by
-/// it. It is a file (flock), whose content tells people who holds it.
+/// An exclusive lock between processes, on one machine or over a network file system. The kernel
+/// frees it when its last owner ends, however it ends. It is a file (flock) whose content tells
+/// people who holds it.
 class HYPOTRACK_API FileLock {
  public:
-  /// Waits until the lock is free. Throws OutputError if the file cannot be made or locked.
+  /// Waits until the lock is free and takes it. Throws OutputError if the file cannot be made or
+  /// locked.
   static FileLock wait_for(const std::filesystem::path& file);
-  /// Nothing if another process, or another FileLock, holds it.
+  /// Takes the lock. Returns nothing if another process, or another FileLock, holds it.
   static std::optional<FileLock> try_take(const std::filesystem::path& file);
 
   FileLock(FileLock&& other) noexcept;
@@ -22,7 +23,7 @@ class HYPOTRACK_API FileLock {
   /// Removes the file and frees the lock.
   ~FileLock();
 
-  /// For a child process that is to keep the lock while it lives.
+  /// Returns the file descriptor, for a child process that must keep the lock while it lives.
   int descriptor() const { return descriptor_; }
 
  private:

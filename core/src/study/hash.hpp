@@ -5,8 +5,8 @@
 
 namespace hypotrack::study {
 
-/// FNV-1a with 64 bits (Fowler, Noll, Vo) over texts that stay apart from each other: the same on
-/// every machine.
+/// 64-bit FNV-1a hash (Fowler, Noll, Vo) of a sequence of texts, which do not run together. It is
+/// the same on every machine.
 class Hash {
  public:
   void add(std::string_view text);

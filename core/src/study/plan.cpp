@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
 
-/// The content of a scene's file and, where it takes parts from other scenes, what it comes to.
+/// Returns the content of a scene's file, with the parts it takes from other scenes resolved.
 std::string read_scene_text(const StudyScene& scene) {
   std::ifstream in(scene.file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
@@ -64,7 +64,7 @@ std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
     hash.add(plan.choice_of(cell, axis).label);
   }
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
-  if (plan.study.recordings) hash.add("recordings");  // may round depths
+  if (plan.study.recordings) hash.add("recordings");  // recordings may round depths
   return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, seed, hash.value());
 }
 

@@ -23,15 +23,16 @@ struct PlannedRun {
   std::string id;  ///< name of its folder
 };
 
-/// Every run of a study. Cells are in the order of the file, the last axis fastest; runs are in the
-/// order in which they are made, all cells with the first seed before any with the second.
+/// Every run of a study. Cells are in the order of the file, the last axis fastest. Runs are in the
+/// order in which they are made: all cells with the first seed before any with the second.
 ///
-/// A run's id is made of the scene's name, the seed and a hash of all that decides the result: the
-/// content of the scene file, every change, what they take from other scenes, the seed and the
-/// number of frames. So a study may grow (further seeds, values, scenes) and keeps the runs it has.
+/// A run's id consists of the scene's name, the seed and a hash of all that decides the result: the
+/// content of the scene file, all changes, the parts that they take from other scenes, the seed and
+/// the number of frames. So a study may grow (further seeds, values, scenes) and keeps its runs.
 struct Plan {
   Study study;
-  std::vector<std::string> scene_texts;  ///< of each scene's file, with what it takes from others
+  std::vector<std::string> scene_texts;  ///< text of each scene's file, with the parts it takes
+                                         ///< from others
   std::vector<Cell> cells;
   std::vector<PlannedRun> runs;
 
@@ -39,9 +40,9 @@ struct Plan {
   const Choice& choice_of(const Cell& cell, std::size_t axis) const {
     return study.axes[axis].choices[cell.choices[axis]];
   }
-  /// The changes to the scene, in the order in which they apply.
+  /// Returns the changes to the scene, in the order in which they apply.
   HYPOTRACK_API std::vector<Change> changes_of(const Cell& cell) const;
-  /// For messages: `sh_stereo, optimizer.particles 32`.
+  /// Returns a description for messages: `sh_stereo, optimizer.particles 32`.
   HYPOTRACK_API std::string describe(const Cell& cell) const;
 };
 
@@ -51,11 +52,12 @@ struct Shard {
   std::size_t count = 1;
 };
 
-/// Throws ConfigError if a scene file cannot be read or the study has more than 100,000 runs.
+/// Plans all runs. Throws ConfigError if a scene file cannot be read or the study has more than
+/// 100,000 runs.
 HYPOTRACK_API Plan make_plan(Study study);
 
-/// Indices of the runs of a shard. Shards share out the seeds of every cell, so that none gets all
-/// the slow ones.
+/// Returns the indices of the runs of a shard. Each cell's seeds are spread over the shards, so
+/// that no shard gets all the slow cells.
 HYPOTRACK_API std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
 
 }  // namespace hypotrack::study

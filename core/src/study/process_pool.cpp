@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kMesaThreads = "LP_NUM_THREADS";
 
-/// What the child needs, put together before fork: after it, nothing may be allocated.
+/// Data of the child, prepared before fork: nothing may be allocated after it.
 struct Prepared {
   std::vector<std::string> words, variables;
   std::vector<char*> argv, envp;
@@ -41,7 +41,7 @@ Prepared prepare(const Command& command) {
   prepared.words = {command.program.string()};
   prepared.words.insert(prepared.words.end(), command.arguments.begin(), command.arguments.end());
   for (char** variable = environ; *variable; ++variable) prepared.variables.emplace_back(*variable);
-  // Mesa's software rasteriser starts a thread per core otherwise, in every run.
+  // Otherwise Mesa's software rasteriser starts a thread per core in every run.
   if (!std::getenv(kMesaThreads))
     prepared.variables.push_back(fmt::format("{}={}", kMesaThreads, command.threads));
   prepared.argv = pointers(prepared.words);
@@ -54,7 +54,7 @@ Prepared prepare(const Command& command) {
   return prepared;
 }
 
-/// In the child: becomes the program.
+/// Turns the child process into the program.
 [[noreturn]] void become(const Command& command, const Prepared& prepared, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(126);  // it died before it could be watched
@@ -104,7 +104,7 @@ std::optional<Ended> ProcessPool::take_ended() {
 void ProcessPool::kill_all() {
   for (const Running& running : running_) kill(-running.pid, SIGKILL);
   for (const Running& running : running_) {
-    kill(running.pid, SIGKILL);  // it may not have had the time to lead a group
+    kill(running.pid, SIGKILL);  // it may not lead its group yet
     while (waitpid(running.pid, nullptr, 0) < 0 && errno == EINTR) {
     }
   }

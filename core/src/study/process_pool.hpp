@@ -16,21 +16,21 @@ struct Command {
   std::filesystem::path program;
   std::vector<std::string> arguments;
   std::filesystem::path directory;  ///< working directory
-  std::filesystem::path log;        ///< what it says on stdout and stderr
-  int threads = 1;                  ///< for what is told so by the environment (Mesa)
-  int inherit = -1;                 ///< a descriptor that stays open in it
+  std::filesystem::path log;        ///< file for its stdout and stderr
+  int threads = 1;                  ///< for programs that take it from the environment (Mesa)
+  int inherit = -1;                 ///< file descriptor that stays open in it
 };
 
 /// How a program ended.
 struct Ended {
-  std::size_t key = 0;  ///< that it was started with
+  std::size_t key = 0;  ///< key given to start()
   int exit_code = 0;
-  int signal = 0;  ///< that ended it; 0 if none did
+  int signal = 0;  ///< signal that ended it; 0: none
   double seconds = 0;
 };
 
-/// Programs that run at the same time. None outlives the pool, nor this process: when it is killed,
-/// the kernel kills them. They do not get the terminal's Ctrl-C.
+/// Programs that run at the same time. None outlives the pool, nor this process: the kernel kills
+/// them with it. They do not get the terminal's Ctrl-C.
 class ProcessPool {
  public:
   ProcessPool() = default;
@@ -38,10 +38,10 @@ class ProcessPool {
   ProcessPool(const ProcessPool&) = delete;
   ProcessPool& operator=(const ProcessPool&) = delete;
 
-  /// Throws OutputError if no process can be made or the log cannot be written; a program that
-  /// cannot be run ends with exit code 126.
+  /// Starts a program. Throws OutputError if no process can be made or the log cannot be written. A
+  /// program that cannot be run ends with exit code 126.
   void start(std::size_t key, const Command& command);
-  /// One that has ended, if any.
+  /// Removes and returns a program that has ended, if any.
   std::optional<Ended> take_ended();
   void kill_all();
   std::size_t size() const { return running_.size(); }

@@ -5,8 +5,8 @@
 
 namespace hypotrack::study {
 
-/// A map in a JSON file, its keys in the order of the file. Throws DataError if it cannot be read
-/// or is none.
+/// Reads a map from a JSON file, with its keys in order. Throws DataError if the file cannot be
+/// read or is not a map.
 nlohmann::ordered_json read_json(const std::filesystem::path& file);
 
 }  // namespace hypotrack::study

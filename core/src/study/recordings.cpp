@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{20};
 
-/// Whether a change is one of what a recording is made of.
+/// Returns whether a change affects the recording.
 bool is_recorded(const Change& change) {
   for (const std::string part : {"models", "source"})
     if (change.key == part || change.key.starts_with(part + ".")) return true;
@@ -32,7 +32,7 @@ std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
   return selected;
 }
 
-/// Recordings that are yet to be made, by name, with a cell that needs each.
+/// Recordings still to be made, by name, with a cell that needs each.
 using Wanted = std::map<std::string, std::size_t>;
 
 Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
@@ -66,7 +66,7 @@ class Recorder {
   }
 
  private:
-  /// Starts a recording; false if it has to wait for a free place or another process.
+  /// Starts a recording. Returns false if it must wait for a free slot or another process.
   bool take_in_hand(const std::string& id, std::size_t cell) {
     if (std::filesystem::exists(folder_.recording_path(id))) return true;
     if (pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
@@ -92,7 +92,8 @@ class Recorder {
   const StudyFolder& folder_;
   const Plan& plan_;
   const Launch& launch_;
-  std::map<std::size_t, RunFolder> working_;  // outlived by no process: pool_ goes first
+  std::map<std::size_t, RunFolder> working_;  // declared before pool_, whose processes must end
+                                              // first
   ProcessPool pool_;
 };
 

@@ -13,22 +13,22 @@
 
 namespace hypotrack::study {
 
-// A study with `recordings: true` writes every source as a recording once (`hypotrack synth`), and
-// all runs read that: a synthetic source is drawn once and not in every run.
+// With `recordings: true` a study writes every source once as a recording (`hypotrack synth`),
+// which all runs read. So a synthetic source is rendered once, not in every run.
 
-/// Name of the recording that a cell reads: the same for all cells whose scene file is the same and
-/// has the same changes in its models and source.
+/// Returns the name of the recording that a cell reads. Cells share it if their scene files and
+/// their changes of models and source are the same.
 HYPOTRACK_API std::string recording_id(const Plan& plan, const Cell& cell);
 
-/// Makes the recordings of the given cells, each in a process of its own, and waits for those that
-/// other processes make. `again` is asked now and then and ends the work by returning false.
-/// Throws DataError with what a recording failed with.
+/// Makes the recordings of the given cells, each in a separate process. Also waits for those that
+/// other processes make. Calls `again` now and then; it ends the work by returning false. Throws
+/// DataError with the error of a failed recording.
 HYPOTRACK_API void make_recordings(const StudyFolder& folder, const Plan& plan,
                                    const std::vector<std::size_t>& cells, const Launch& launch,
                                    const std::function<bool()>& again);
 
-/// The first arguments of `hypotrack run` for a cell: `run`, the cell's own scene or that of its
-/// recording, which has what the study changes in models and source already, and the changes.
+/// Returns the first arguments of `hypotrack run` for a cell: `run`, the scene and the changes. The
+/// scene of a recording already contains the changes of models and source.
 std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
                                        const Cell& cell, const Launch& launch);
 

@@ -19,7 +19,7 @@ bool is_timed(const std::string& name) {
   return std::find(kTimed.begin(), kTimed.end(), name) != kTimed.end();
 }
 
-/// The numbers at the top of a file. `null` is a number that is not defined.
+/// Reads the numbers at the top level of a file. `null` is an undefined number.
 Metrics read_metrics(const std::filesystem::path& file) {
   Metrics metrics;
   const auto json = read_json(file);
@@ -39,7 +39,7 @@ RunResult read_result(const PlannedRun& run, const std::filesystem::path& folder
     return result;
   }
   result.timing = read_metrics(folder / "timing.json");
-  // Without ground truth there are no metrics, but some of the summary is worth comparing.
+  // Without ground truth there are no metrics: compare the numbers of the summary instead.
   Metrics summary = read_metrics(folder / "summary.json");
   for (const auto& entry : summary)
     if (is_timed(entry.first)) result.timing.push_back(entry);

@@ -80,7 +80,7 @@ RunFolder::~RunFolder() {
 
 void RunFolder::rename() {
   std::error_code error;
-  std::filesystem::remove_all(final_, error);  // a failure that was tried again
+  std::filesystem::remove_all(final_, error);  // a failed run that was repeated
   std::filesystem::rename(working_, final_, error);
   if (error)
     throw OutputError(fmt::format("{}: cannot be moved to {}: {}", working_.string(),
@@ -121,7 +121,7 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
 std::string failure_message(const std::filesystem::path& log, int exit_code, int signal) {
   std::ifstream in(log);
   std::string message;
-  bool goes_on = false;  // the further lines of a message are indented
+  bool goes_on = false;  // further lines of a message are indented
   for (std::string line; std::getline(in, line);) {
     const std::size_t text = line.find_first_not_of(' ');
     if (line.starts_with(kMessagePrefix)) {

@@ -14,38 +14,38 @@ namespace hypotrack::study {
 /// How a run ended that left no results.
 struct RunFailure {
   std::string message;
-  int exit_code = 0;  ///< 128 + signal if a signal ended it, as shells have it
+  int exit_code = 0;  ///< 128 + signal if a signal ended it, as in shells
 };
 
-/// What a run cost. Not the same twice, so it is kept apart from the results.
+/// Cost of a run. It differs between runs of the same id, so it is kept apart from the results.
 struct RunCost {
   double seconds = 0;
   int threads = 0;
 };
 
-/// A run, or a recording, that this process makes: it holds its lock and a folder to work in, which
-/// becomes the run's folder when all of it is there and goes away otherwise.
+/// The working folder of a run, or a recording, that this process makes, and its lock. Moves to its
+/// final place when complete; removed otherwise.
 class HYPOTRACK_API RunFolder {
  public:
-  /// `final` is where the folder will be.
+  /// `final` is the folder's final path.
   RunFolder(FileLock lock, std::filesystem::path working, std::filesystem::path final);
   RunFolder(RunFolder&& other) noexcept;
   RunFolder& operator=(RunFolder&&) = delete;
   ~RunFolder();
 
-  /// Where the run writes.
+  /// Returns the folder into which the run writes.
   const std::filesystem::path& working() const { return working_; }
-  /// What the run says.
+  /// Returns the file for the run's stdout and stderr.
   std::filesystem::path log() const { return working_ / "log.txt"; }
-  /// To be inherited by the process that writes into working().
+  /// Returns the lock's descriptor, which the process that writes into working() must inherit.
   int lock_descriptor() const { return lock_.descriptor(); }
 
-  /// Gives the folder its name, without the log. Throws OutputError.
+  /// Moves the folder to its final path, without the log. Throws OutputError.
   void put_into_place();
-  /// Puts the finished run into place. Throws OutputError.
+  /// Completes a successful run and moves it to its final path. Throws OutputError.
   void finish(const Plan& plan, const PlannedRun& run, const RunCost& cost);
-  /// Puts a note of the failure into place, with the log; results that the run left go. Throws
-  /// OutputError.
+  /// Replaces the run's results by a note of the failure, and moves it with the log to its final
+  /// path. Throws OutputError.
   void fail(const Plan& plan, const PlannedRun& run, const RunFailure& failure);
 
  private:
@@ -54,10 +54,11 @@ class HYPOTRACK_API RunFolder {
   std::filesystem::path working_, final_;
 };
 
-/// Whether a run's folder holds a failure, and which. Throws DataError if the note is damaged.
+/// Reads the failure of a run's folder; nothing if it did not fail. Throws DataError if the note is
+/// damaged.
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
-/// The line of a log that says why a run failed, without the names of its folders.
+/// Returns the line of a log that says why a run failed, without the names of its folders.
 HYPOTRACK_API std::string failure_message(const std::filesystem::path& log, int exit_code,
                                           int signal);
 

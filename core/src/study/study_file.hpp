@@ -13,18 +13,19 @@
 
 namespace hypotrack::study {
 
-/// One change to a scene, as `--set` takes it.
+/// One change to a scene, as for `--set`.
 struct Change {
   std::string key;              ///< dotted path
   std::string value;            ///< YAML on one line
-  std::string where;            ///< in the study: `study.yaml:12:5`
-  std::string content = value;  ///< the value with the parts that it takes from other scenes
+  std::string where;            ///< place in the study: `study.yaml:12:5`
+  std::string content = value;  ///< the value, with the parts that it takes from other scenes
   std::string assignment() const { return key + "=" + value; }
-  /// What the change comes to, whatever the files are called that it takes parts from.
+  /// Returns the change with resolved content, independent of the names of the files it takes parts
+  /// from.
   std::string meaning() const { return key + "=" + content; }
 };
 
-/// A scene of a study: a scene file and what the study changes in it.
+/// A scene of a study: a scene file and the study's changes to it.
 struct StudyScene {
   std::string name;
   std::filesystem::path file;  ///< absolute
@@ -40,7 +41,7 @@ struct Choice {
   std::vector<Change> changes;
 };
 
-/// One direction of the grid.
+/// One axis of the grid.
 struct Axis {
   std::string name;
   bool is_key = true;  ///< the name is a key of a scene; otherwise the choices are named cases
@@ -64,12 +65,12 @@ struct Study {
   std::vector<StudyScene> scenes;
   std::vector<Axis> axes;
   std::vector<std::int64_t> seeds;
-  std::optional<int> frames;  ///< of each run; the whole source if empty
+  std::optional<int> frames;  ///< of each run; empty: the whole source
   bool overlay = false;       ///< whether runs write overlay.mp4
-  bool recordings = false;    ///< whether sources are recorded once, for all runs to read
+  bool recordings = false;    ///< whether sources are recorded once, for all runs
   std::vector<Plot> plots;
-  std::string table_per;            ///< axis with a table of its own for each value; may be empty
-  std::filesystem::path directory;  ///< absolute; what relative paths in changes refer to
+  std::string table_per;            ///< axis with a separate table for each value; may be empty
+  std::filesystem::path directory;  ///< absolute; base of relative paths in changes
 };
 
 /// Reads a study file and applies one of its variants. Throws ConfigError with file, line and
@@ -77,7 +78,7 @@ struct Study {
 HYPOTRACK_API Study load_study(const std::filesystem::path& file,
                                const std::optional<std::string>& variant = std::nullopt);
 
-/// The study as a study file without variants; load_study of it gives the same study.
+/// Returns the study as a study file without variants. load_study() reads the same study back.
 HYPOTRACK_API std::string to_yaml(const Study& study);
 
 }  // namespace hypotrack::study

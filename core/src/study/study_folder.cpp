@@ -41,7 +41,7 @@ void make_folder(const std::filesystem::path& folder) {
                                   error ? error.message() : "there is a file of that name"));
 }
 
-/// The parts of two studies that decide their runs and are not the same: `seeds, frames`.
+/// Returns the differing parts of two studies that decide their runs: `seeds, frames`.
 std::string differences(const std::string& old_text, const Plan& plan) {
   const ConfigNode before = ConfigNode::parse(old_text, kStudyFile);
   const ConfigNode now = ConfigNode::parse(to_yaml(plan.study), kStudyFile);
@@ -88,14 +88,14 @@ void StudyFolder::begin() const {
   make_folder(working());
   make_folder(folder_ / "runs");
   const FileLock guard = lock();
-  // Somebody else may have begun another study since the constructor looked.
+  // Another study may have begun since the constructor looked.
   if (std::filesystem::exists(folder_ / kPlanFile)) check_same_study();
   write_whole(folder_ / kStudyFile, to_yaml(plan_->study));
   write_whole(folder_ / kPlanFile, plan_text(*plan_));
   remove_leftovers();
 }
 
-/// Whatever lies in the working folder and is not locked belongs to nobody any more.
+/// Removes everything in the working folder that is not locked: its process has ended.
 void StudyFolder::remove_leftovers() const {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(working()))

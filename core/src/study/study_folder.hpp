@@ -19,31 +19,32 @@ enum class RunState { missing, ok, failed };
 ///   study.yaml      the study, variant applied
 ///   plan.txt        the ids of all runs
 ///   runs/<id>/      finished runs; a failed one has failure.json instead of results
-///   recordings/<id>/recording/  sources that the runs share, where the study wants that
+///   recordings/<id>/recording/  sources that the runs share, if the study asks for it
 ///   .working/<id>/  a run or recording being made, and its lock beside it
 ///
 /// Any number of processes may work on one folder.
 class HYPOTRACK_API StudyFolder {
  public:
-  /// Looks, but changes nothing. Throws OutputError if the folder is none of a study, or of another
-  /// study: one with a run that is not in the plan.
+  /// Opens a folder without changing it. Throws OutputError if it belongs to no study, or to
+  /// another study (one with a run that is not in the plan).
   StudyFolder(std::filesystem::path folder, const Plan& plan);
 
   const std::filesystem::path& path() const { return folder_; }
-  /// Whether a process with this very plan has begun already.
+  /// Returns whether a process has begun exactly this plan.
   bool begun() const;
-  /// Makes the folder, notes the plan and removes what killed processes left. Throws OutputError.
+  /// Makes the folder, writes the plan and removes leftovers of killed processes. Throws
+  /// OutputError.
   void begin() const;
 
   RunState state(const PlannedRun& run) const;
   std::filesystem::path run_path(const PlannedRun& run) const;
-  /// Takes a run in hand; nothing if another process has it. Look at state() again afterwards: it
-  /// may have been finished in between.
+  /// Claims a run for this process. Returns nothing if another process has it. Check state()
+  /// afterwards: the run may have been finished in between.
   std::optional<RunFolder> claim(const PlannedRun& run) const;
-  /// The same for recordings.
+  /// Returns the final folder of a recording.
   std::filesystem::path recording_path(const std::string& id) const;
   std::optional<RunFolder> claim_recording(const std::string& id) const;
-  /// Waits for, and holds, the right to write the tables.
+  /// Waits for the lock on the tables and takes it.
   FileLock lock() const;
 
  private:

@@ -22,7 +22,7 @@ namespace {
 using detail::fail_at;
 using detail::fail_type;
 
-/// Columns of the tables, which no axis can share.
+/// Columns of the tables, whose names no axis may have.
 constexpr std::array<std::string_view, 6> kColumns = {"scene",   "seed", "status",
                                                       "message", "runs", "failed"};
 
@@ -34,7 +34,7 @@ Change read_change(const ConfigNode& map, const std::string& key) {
   return {key, to_flow(map.get(key)), map.where_key(key)};
 }
 
-/// A choice of an axis that is a key: the value is its own label.
+/// Reads a choice of an axis that is a key: the value is its own label.
 Choice read_value_choice(const std::string& key, const ConfigNode& value) {
   if (!value.is_scalar() || value.is_null())
     fail_at(value,

@@ -7,14 +7,14 @@
 
 namespace hypotrack::study {
 
-/// A node as YAML on one line: `{type: pso, particles: 32}`. Reading it gives the same node again.
+/// Formats a node as YAML on one line: `{type: pso, particles: 32}`. It parses to the same node.
 std::string to_flow(const ConfigNode& node);
 
-/// A text as a YAML scalar on one line, in quotes where it needs them to stay a text.
+/// Formats a text as a YAML scalar on one line, quoted if it would not stay a text otherwise.
 std::string yaml_scalar(std::string_view text);
 
-/// Whether a name of a scene, a case or a variant is a word of letters, digits, '_' and '-', as it
-/// must be to become a part of file names.
+/// Returns whether a name of a scene, case or variant consists of letters, digits, '_' and '-', as
+/// file names require.
 bool is_word(std::string_view text);
 
 }  // namespace hypotrack::study

@@ -35,7 +35,7 @@ std::string row_of(const Plan& plan, const Cell& cell) {
   return text;
 }
 
-/// Names of all numbers that any run has, in the order in which they first appear.
+/// Returns the names of all numbers that any run has, in the order in which they first appear.
 std::vector<std::string> names_of(const std::vector<RunResult>& results, Column column) {
   std::vector<std::string> names;
   for (const RunResult& result : results)
@@ -83,7 +83,7 @@ std::string timing_text(const Plan& plan, const std::vector<RunResult>& results)
   return text;
 }
 
-/// Mean and standard deviation of each number over the runs [begin, end) of one cell.
+/// Formats the mean and standard deviation of each number over the runs [begin, end) of one cell.
 std::string cell_numbers(const RunResult* begin, const RunResult* end,
                          const std::vector<std::string>& names) {
   std::string text;
@@ -126,7 +126,7 @@ Tally tally_of(const Plan& plan, const std::vector<RunResult>& results) {
 }  // namespace
 
 Tally write_tables(const StudyFolder& folder, const Plan& plan) {
-  // Under the lock, the last process that writes has seen the runs of all others.
+  // Under the lock, the last process that writes sees the runs of all others.
   const FileLock lock = folder.lock();
   const std::vector<RunResult> results = read_results(plan, folder.path() / "runs");
   write_whole(folder.path() / "results.csv", results_text(plan, results));
