@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
 
-/// Returns the content of a scene's file, with the parts it takes from other scenes resolved.
+/// The content of a scene's file and, where it takes parts from other scenes, what it comes to.
 std::string read_scene_text(const StudyScene& scene) {
   std::ifstream in(scene.file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -57,7 +57,7 @@ Prepared prepare(const Command& command) {
 /// Turns the child process into the program.
 [[noreturn]] void become(const Command& command, const Prepared& prepared, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(126);  // it died before it could be watched
+  if (getppid() != parent) _exit(126);  // the parent died before the line above
   setpgid(0, 0);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
   if (command.inherit >= 0) fcntl(command.inherit, F_SETFD, 0);

@@ -121,7 +121,7 @@ StudyScene read_scene(const ConfigNode& scenes, const std::string& name,
           scenes.where_key(name)};
 }
 
-/// Reads the scenes; `changes` apply to each before its own.
+/// The scenes, with `changes` to each of them before their own.
 std::vector<StudyScene> read_scenes(const ConfigNode& node, const std::vector<Change>& changes) {
   if (!node.is_map() || node.size() == 0)
     fail_type(node, "a map with at least one scene, `{NAME: {file: scene.yaml}}`");
@@ -160,7 +160,7 @@ void apply_variant(Study& study, const ConfigNode& node) {
   for (StudyScene& scene : study.scenes) add_changes(scene.changes, changes);
 }
 
-/// Resolves the parts that changes take from other scenes.
+/// Finds out what the changes take from other scenes.
 void take_parts(Study& study) {
   std::map<std::string, std::string> contents;  // of assignments, which scenes share
   const auto take = [&](std::vector<Change>& changes) {
@@ -175,7 +175,7 @@ void take_parts(Study& study) {
     for (Choice& choice : axis.choices) take(choice.changes);
 }
 
-/// Applies a variant. Reads every variant, so that a mistake in one is found early.
+/// Every variant is read, so that a mistake in one is found before it is asked for.
 void apply_variants(Study& study, const ConfigNode& variants, const std::string& file,
                     const std::optional<std::string>& name) {
   if (variants.defined() && !variants.is_map())
@@ -195,8 +195,8 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
   apply_variant(study, variants.get(*name));
 }
 
-/// Throws ConfigError unless plots can draw a metric: a number of metrics.json or, as every run
-/// has, summary.json.
+/// Throws ConfigError unless a plot can draw it: a number of metrics.json or, of every run,
+/// summary.json.
 void check_metric(const ConfigNode& node, const std::string& name) {
   if (name.empty()) fail_at(node, "required key is missing: the metric to draw");
   std::vector<std::string> known = metric_names();
@@ -206,7 +206,7 @@ void check_metric(const ConfigNode& node, const std::string& name) {
                             detail::did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
-/// Checks that plots draw metrics over things that vary.
+/// What varies must be there to be drawn over, and what is drawn must be a metric.
 void check_plots(const Study& study, const ConfigNode& plots) {
   std::vector<std::string> known = names_of(study.axes);
   known.insert(known.end(), {"scene", "seed"});
