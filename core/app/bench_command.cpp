@@ -21,7 +21,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// Exit code where a way of tracking broke in the middle.
+/// Exit code if a way of tracking failed while it tracked.
 constexpr int kFailedExitCode = 3;
 
 struct BenchOptions {
@@ -32,7 +32,7 @@ struct BenchOptions {
   std::filesystem::path out;
 };
 
-/// Measures what is planned, row by row.
+/// Measures a plan row by row.
 class Bench {
  public:
   Bench(const bench::Plan& plan, const BenchOptions& options, PluginLoader& plugins)
@@ -43,9 +43,9 @@ class Bench {
         progress_(static_cast<int>(plan.cases.size() * plan.ways.size()) * options.rounds,
                   Progress::Unit::runs) {}
 
-  /// False if the user ended it.
+  /// Returns false if the user interrupted it.
   bool run() {
-    write();  // a file that cannot be written is found before anything is measured
+    write();  // finds an unwritable file before anything is measured
     for (int round = 1; round <= options_.rounds; ++round)
       for (std::size_t c = 0; c < plan_.cases.size(); ++c)
         for (std::size_t way = 0; way < plan_.ways.size(); ++way) {
@@ -70,7 +70,7 @@ class Bench {
                           [&] { return !interrupt_.interrupted(); });
   }
 
-  /// Writes all rows again, so that whatever ends the program leaves those before.
+  /// Adds a row and rewrites the file, so that an abort keeps the rows before it.
   void add(bench::Row row) {
     rows_.push_back(std::move(row));
     const bench::Row& last = rows_.back();

@@ -9,7 +9,7 @@
 
 namespace hypotrack::app {
 
-/// What every subcommand that opens plugins shares.
+/// Options of every subcommand that opens plugins.
 struct CommonOptions {
   std::vector<std::filesystem::path> plugin_path;
 };
@@ -22,13 +22,13 @@ struct SceneOptions {
 void add_scene_options(CLI::App& command, SceneOptions& options);
 void add_set_option(CLI::App& command, std::vector<std::string>& set);
 
-/// Checks of an option's value, whose messages say what is expected.
+/// Checks of an option's value; their messages say what is expected.
 CLI::Validator whole_number(std::int64_t lowest,
                             std::int64_t highest = std::numeric_limits<int>::max());
 CLI::Validator positive_number();
 CLI::Validator file_name();
 
-// Each adds one subcommand whose callback does the work and sets `exit_code`.
+// Each adds one subcommand, whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code);
 void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code);

@@ -28,7 +28,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// Exit code of a study that is complete, but for runs that failed.
+/// Exit code of a complete study with failed runs.
 constexpr int kFailedRunsExitCode = 3;
 
 struct CompareOptions {
@@ -95,7 +95,7 @@ class Console : public study::Watcher {
   int failed_ = 0;
 };
 
-/// Runs of the shard that are yet to be made.
+/// Returns the runs of the shard that are not made yet.
 std::vector<std::size_t> runs_to_make(const study::StudyFolder& folder, const study::Plan& plan,
                                       const CompareOptions& options) {
   std::vector<std::size_t> runs = study::runs_of(plan, parse_shard(options.shard));
@@ -113,7 +113,8 @@ std::vector<std::size_t> cells_of(const study::Plan& plan, const std::vector<std
   return {cells.begin(), cells.end()};
 }
 
-/// The cells to look at before anything runs: all of a new study, later those with runs to make.
+/// Returns the cells to check before anything runs: all of a new study, later those with runs to
+/// make.
 std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const study::Plan& plan,
                                         const std::vector<std::size_t>& runs) {
   std::vector<std::size_t> cells(plan.cells.size());
@@ -122,7 +123,7 @@ std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const 
   return cells_of(plan, runs);
 }
 
-/// Says what there is and returns the exit code.
+/// Prints the state of the study and returns the exit code.
 int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool complete) {
   const std::size_t failed = tally.failed;
   fmt::print("{} of {} runs are there, {} failed; tables in {}\n", tally.ok + failed, tally.planned,

@@ -27,7 +27,7 @@ double metres_per(const std::string& unit) {
   return unit == "cm" ? 1e-2 : 1;
 }
 
-/// A number with two decimals, `-` where there is none.
+/// Formats a number with two decimals; `-` for NaN.
 std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
 
 std::string loss_of(const Metrics& m) {
@@ -86,7 +86,7 @@ void print_metrics(const Metrics& m) {
   print_means("landmark", m.landmarks);
 }
 
-/// Beside what was judged, unless the user says where.
+/// Returns the output file: beside the evaluated run, unless the user names one.
 std::filesystem::path metrics_file(const EvaluateOptions& options) {
   if (options.out) return *options.out;
   if (std::filesystem::is_directory(options.input.run)) return options.input.run / "metrics.json";

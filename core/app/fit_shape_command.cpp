@@ -47,8 +47,8 @@ void warn_of_bounds(const ShapeEstimate& e) {
   }
 }
 
-/// Rounds with a source of their own, opened with the models as the scene has them: a synthetic one
-/// shows those, whatever is tracked.
+/// Opens each round with a new source. The source is opened with the models of the scene file: a
+/// synthetic one renders those, whatever is tracked.
 class Rounds {
  public:
   Rounds(const FitShapeOptions& options, PluginLoader& plugins)

@@ -12,7 +12,7 @@ volatile std::sig_atomic_t g_interrupted = 0;
 
 void on_signal(int signal) {
   g_interrupted = 1;
-  // When a terminal is closed, its shell and the kernel may both say so.
+  // A closed terminal may send SIGHUP twice, from its shell and the kernel: keep ignoring it.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
 }
 
@@ -20,10 +20,10 @@ void on_signal(int signal) {
 
 InterruptGuard::InterruptGuard() {
   g_interrupted = 0;
-  // A shell's background job and nohup ignore Ctrl-C; so does the program then.
+  // A shell's background jobs and nohup ignore Ctrl-C: keep it ignored then.
   for (const int signal : kSignals)
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
-  // Ctrl-C ends a `| tee log`, too, before the files are finished.
+  // Ctrl-C also ends the reader of `| tee log`, before the files are finished.
   of_broken_pipe_ = std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -2,12 +2,12 @@
 
 namespace hypotrack::app {
 
-/// Exit code of a run that Ctrl-C ended early, as shells have it.
+/// Exit code of a run that Ctrl-C ended early, as in shells.
 inline constexpr int kInterruptedExitCode = 130;
 
-/// While it lives, Ctrl-C, SIGTERM and SIGHUP (a closed terminal) set a flag instead of ending the
-/// program, so that a frame can be finished and the files be closed. A second Ctrl-C ends the
-/// program at once. What is printed into a pipe that nobody reads any more is lost.
+/// Makes Ctrl-C, SIGTERM and SIGHUP (a closed terminal) set a flag instead of ending the program
+/// while it lives. So a frame can be finished and files closed. A second Ctrl-C or SIGTERM ends the
+/// program at once. Ignores SIGPIPE: output into a closed pipe is lost.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -17,7 +17,7 @@ class InterruptGuard {
   bool interrupted() const;
 
  private:
-  void (*of_broken_pipe_)(int);  ///< what was done on SIGPIPE before
+  void (*of_broken_pipe_)(int);  ///< handler of SIGPIPE before
 };
 
 }  // namespace hypotrack::app

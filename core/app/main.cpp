@@ -36,7 +36,7 @@ void add_set_option(CLI::App& command, std::vector<std::string>& set) {
 
 namespace {
 
-/// What was wrong with the command line, and what there is where a word is no command.
+/// Returns a message about a wrong command line, with the valid commands if a word is not one.
 std::string mistake(const CLI::App* app, const CLI::Error& error) {
   const std::string way_out = "\nRun with --help for more information.\n";
   const std::vector<std::string> left = app->remaining();
@@ -49,7 +49,7 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
                      hint.empty() ? "." : hint, fmt::join(commands, ", "), way_out);
 }
 
-/// Whether all that was printed has arrived.
+/// Flushes stdout. Returns whether all output was written.
 bool close_output() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   tell("hypotrack: the standard output cannot be written: {}\n",
@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     tell("hypotrack: {}\n", e.what());
   } catch (const std::bad_alloc&) {
     tell("hypotrack: out of memory\n");
-  } catch (const std::system_error& e) {  // of a full disk for what is printed
+  } catch (const std::system_error& e) {  // a full disk behind stdout
     tell("hypotrack: {}\n", e.what());
   } catch (const std::exception& e) {
     tell("hypotrack: unexpected error: {}\n", e.what());

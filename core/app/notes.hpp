@@ -6,8 +6,7 @@
 
 namespace hypotrack::app {
 
-/// Points out what looks like a mistake in a scene, seen from its first usable frame, and is no
-/// error.
+/// Prints notes on a scene that has no error but looks mistaken in its first usable frame.
 void tell_notes(const Source& source, const Tracker& tracker, const Frame& first);
 
 }  // namespace hypotrack::app

@@ -11,7 +11,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// The number that the whole text is.
+/// Parses a whole text as a number.
 template <class T>
 std::optional<T> parse(const std::string& text) {
   T value{};

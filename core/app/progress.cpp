@@ -57,7 +57,7 @@ std::string Progress::line(const std::string& note) const {
 
 void Progress::say(const std::string& text) {
   tell("{}{}\n", terminal_ ? "\r\x1b[K" : "", text);
-  shown_ = {};  // the next step shows the bar again
+  shown_ = {};  // shows the bar again at the next step
 }
 
 void Progress::advance(const std::string& note) {

@@ -6,22 +6,22 @@
 
 namespace hypotrack::app {
 
-/// Progress on stderr: a bar with the speed and the time left on a terminal, a plain line every few
-/// seconds otherwise.
+/// Shows progress on stderr: on a terminal a bar with the speed and the time left, otherwise a
+/// plain line every few seconds.
 class Progress {
  public:
   enum class Unit { frames, runs };
 
-  /// `total` is the number of frames or runs, where it is known.
+  /// `total` is the number of frames or runs, if known.
   explicit Progress(std::optional<int> total, Unit unit = Unit::frames);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// One more frame or run is done; `note` is shown behind the numbers.
+  /// Counts one more frame or run; shows `note` after the numbers.
   void advance(const std::string& note);
 
-  /// A line of its own, clear of the bar.
+  /// Prints a separate line without disturbing the bar.
   void say(const std::string& text);
 
  private:

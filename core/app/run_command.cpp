@@ -29,8 +29,8 @@ struct RunOptions {
   std::optional<std::int64_t> seed;
 };
 
-/// The frames up to the first that can be used, which is the last of them. Throws DataError if none
-/// of the first `limit` frames can be.
+/// Reads frames up to and including the first usable one. Throws DataError if none of the first
+/// `limit` frames is usable.
 std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limit) {
   std::vector<Frame> frames;
   while (!limit || frames.size() < static_cast<std::size_t>(*limit)) {
@@ -44,7 +44,7 @@ std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limi
                               frames.size(), frames.front().problem));
 }
 
-/// How true the statuses are and whether what was away was found again, where that is known.
+/// Prints how right the statuses were and how models were recovered, if known.
 void print_status(const StatusMetrics& s) {
   if (!std::isnan(s.false_tracked_share))
     fmt::print("tracked: {:.2f} % of these frames are off by more than {:.0f} mm or show nothing\n",
@@ -85,8 +85,8 @@ std::string note_of(const Solution& solution, double error) {
   return note;
 }
 
-/// Tracks `first`, which the source has given already, and then the rest of the source, until it
-/// ends, `limit` frames are done or the user interrupts; true in the first two cases.
+/// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
+/// frames or on an interrupt. Returns false if interrupted.
 bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
                const std::vector<Frame>& first, std::optional<int> limit,
                const InterruptGuard& interrupt) {
@@ -106,14 +106,14 @@ bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
   return true;
 }
 
-/// Says where the frames are whose files could not be finished.
+/// Says where the unfinished files with the frames so far are.
 void tell_of_parts(const RunOutput& output, const std::filesystem::path& out) {
   if (output.empty() || !std::filesystem::exists(out / ".part.track.csv")) return;
   tell("the frames so far are in {}/.part.track.csv and the files beside it\n", out.string());
 }
 
-/// Ends a run by the exception that is being handled: what was tracked so far is kept, unless that
-/// is what fails.
+/// Ends a run after an exception, which is being handled. Keeps the frames tracked so far, unless
+/// writing them is what failed.
 void finish_after_error(HindsightOutput& frames, RunOutput& output,
                         const std::filesystem::path& out) {
   try {
@@ -126,7 +126,7 @@ void finish_after_error(HindsightOutput& frames, RunOutput& output,
   }
 }
 
-/// With the shape of the first seconds where the scene asks for it.
+/// Opens a scene; estimates the shape from the first seconds if the scene asks for it.
 EstimatedSession open_for_run(const RunOptions& options, const std::vector<std::string>& overrides,
                               PluginLoader& plugins, const InterruptGuard& interrupt) {
   const ShapeEstimateSettings shapes = load_scene(options.scene.scene, overrides).file.shape;

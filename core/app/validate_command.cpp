@@ -12,7 +12,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// Opens everything that a run would open, looks at the first frame and stops there.
+/// Opens everything that a run would open and checks the first frame.
 int validate_scene(const SceneOptions& options, const CommonOptions& common, bool print) {
   PluginLoader plugins(common.plugin_path);
   Session session = open_session(options.scene, options.set, plugins);

@@ -6,7 +6,7 @@
 namespace hypotrack {
 namespace {
 
-/// Index of the best mean, -1 if there is nothing to choose from.
+/// Returns the index of the best mean, -1 if there is nothing to choose from.
 int best_of(const std::vector<Comparison>& all, MetricInfo::Better better) {
   int best = -1;
   int candidates = 0;

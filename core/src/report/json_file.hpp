@@ -7,13 +7,14 @@ namespace hypotrack {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads a JSON object. Throws DataError, naming the file and the position, if there is no such
-/// file, it is larger than 64 MiB, it is no JSON or anything but an object.
+/// Reads a JSON object. Throws DataError, naming the file and the position, if the file does not
+/// exist, is larger than 64 MiB, is no JSON or is anything but an object.
 Json read_json_object(const std::filesystem::path& file);
 
-/// A member as a number; NaN if it is null or absent. Throws DataError if it is anything else.
+/// Returns a member as a number; NaN if it is null or absent. Throws DataError if it is anything
+/// else.
 double number_in(const Json& object, const char* key, const std::filesystem::path& file);
-/// A member as text. Throws DataError if it is absent or no string.
+/// Returns a member as text. Throws DataError if it is absent or no string.
 std::string text_in(const Json& object, const char* key, const std::filesystem::path& file);
 
 }  // namespace hypotrack

@@ -66,8 +66,8 @@ MetricInfo metric_info(const std::string& key) {
 }
 
 const std::vector<std::string>& table_metrics() {
-  // Time to loss says nothing of the runs that were never lost, and speed is the machine's as much
-  // as the method's: no best value is marked in either.
+  // No best value is marked for the time to loss, which ignores runs that were never lost, nor for
+  // speed, which depends on the machine as much as on the method.
   static const std::vector<std::string> columns{"mean_error_mm",
                                                 "median_error_mm",
                                                 "p95_error_mm",

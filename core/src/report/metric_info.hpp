@@ -7,23 +7,23 @@
 
 namespace hypotrack {
 
-/// How a number of a run is shown.
+/// How a metric of a run is shown.
 struct MetricInfo {
   std::string key;    ///< as in metrics.json
   std::string label;  ///< `mean error`
   std::string unit;   ///< `mm`, `%`, or empty
   double factor = 1;  ///< from the stored number to the unit
-  int digits = 2;     ///< after the point
+  int digits = 2;     ///< after the decimal point
   enum class Better { lower, higher, neither } better = Better::neither;
 
-  /// `mean error (mm)`
+  /// Returns the label with the unit: `mean error (mm)`.
   std::string label_with_unit() const;
 };
 
-/// What is known about a metric; one that is not known is shown under its own name.
+/// Returns how a metric is shown. An unknown metric is shown under its own name.
 HYPOTRACK_API MetricInfo metric_info(const std::string& key);
 
-/// The columns of the tables, in their order.
+/// Returns the metrics of the tables' columns, in their order.
 HYPOTRACK_API const std::vector<std::string>& table_metrics();
 
 }  // namespace hypotrack

@@ -44,7 +44,7 @@ std::string dumped(const Json& data) {
   return data.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// The content for one of the template's markers.
+/// Returns the content for one of the template's markers.
 std::string content(std::string_view marker, const Json& data) {
   if (marker == "title") return escape_html(Json::parse(dumped(data["title"])).get<std::string>());
   if (marker == "style") return asset("report.css");

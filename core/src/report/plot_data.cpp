@@ -22,7 +22,7 @@ constexpr const char* kMeanError = "mean_error_mm";
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
-/// Numeric values as numbers, so that an axis can be to scale.
+/// Returns numeric values as numbers, so that an axis can be to scale.
 Json value_json(const StudyData& study, std::string_view key, const std::string& value) {
   double number = 0;
   if (study.is_numeric(key) && parse_number(value, number)) return number;
@@ -40,7 +40,7 @@ Json dimension(const StudyData& study, const std::string& key, const std::string
   return json;
 }
 
-/// The runs with a value on an axis; all of them for no axis.
+/// Returns the runs with a value on an axis; all runs if `key` is empty.
 Runs with_value(const Runs& runs, const std::string& key, const std::string& value) {
   Runs found;
   for (const StudyRun* run : runs)
@@ -48,8 +48,8 @@ Runs with_value(const Runs& runs, const std::string& key, const std::string& val
   return found;
 }
 
-/// Calls `use(value, runs)` for each value on an axis, in the study's order, that has runs; once
-/// with all runs for no axis.
+/// Calls `use(value, runs)` for each value on an axis that has runs, in the study's order. If `key`
+/// is empty, calls it once with all runs.
 void for_each_value(const StudyData& study, const Runs& runs, const std::string& key,
                     const std::function<void(const std::string&, const Runs&)>& use) {
   if (key.empty()) return use("", runs);
@@ -59,7 +59,7 @@ void for_each_value(const StudyData& study, const Runs& runs, const std::string&
   }
 }
 
-/// Adds mean, sd and n to a row; false if there is no number at all.
+/// Adds mean, sd and n to a row. Returns false if there is no finite number.
 bool add_statistics(Json& row, const std::vector<double>& numbers) {
   const std::vector<double> finite = without_nan(numbers);
   if (finite.empty()) return false;
@@ -69,7 +69,7 @@ bool add_statistics(Json& row, const std::vector<double>& numbers) {
   return true;
 }
 
-/// Rows of one facet.
+/// Makes the rows of one facet.
 class Rows {
  public:
   Rows(const StudyData& study, const PlotRequest& request) : study_(study), request_(request) {}
@@ -137,7 +137,7 @@ void require_metric(const StudyData& study, const PlotRequest& request, const st
     if (run.metrics.contains(key) || run.timing.contains(key)) return;
     measured = measured || run.metrics.contains(kMeanError);
   }
-  if (!measured) return;  // no truth, or every run failed: the plot is empty and says so
+  if (!measured) return;  // without truth, or if every run failed, the plot is empty and says so
   throw DataError(fmt::format(
       "study.yaml: a {} plot is of '{}', which no run has in its metrics.json; `mean_error_mm` is "
       "what most want",
@@ -160,7 +160,7 @@ void check(const StudyData& study, const PlotRequest& request) {
   if (!request.facet.empty()) require_axis(study, request, "facet", request.facet);
 }
 
-/// What is varied but not shown, and so averaged over.
+/// Returns the names of what varies but is not shown, and so is averaged over.
 std::string averaged_over(const StudyData& study, const PlotRequest& request) {
   std::string names;
   const auto add = [&](const std::string& key) {

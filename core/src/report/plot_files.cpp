@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first of some programs that is on the PATH; empty if none is.
+/// Returns the first of some programs that is on the PATH; empty if none is.
 fs::path find_program(const std::vector<std::string>& names) {
   const char* variable = std::getenv("PATH");
   std::istringstream folders(variable ? variable : "");
@@ -33,7 +33,7 @@ fs::path find_program(const std::vector<std::string>& names) {
   return {};
 }
 
-/// Runs a program to its end. Throws OutputError, with what it said, if it fails.
+/// Runs a program to its end. Throws OutputError, with its output, if it fails.
 void run_tool(const fs::path& program, const std::vector<std::string>& arguments,
               const fs::path& log) {
   std::vector<std::string> words{program.string()};
@@ -69,7 +69,7 @@ std::string write_plot_files(const Json& page, const fs::path& directory) {
   if (node.empty())
     return "no SVG and PNG files of the plots were made: install nodejs (SVG) and librsvg2-bin "
            "(PNG)";
-  // What plots are made of; the replays and pictures of the runs are not.
+  // Keep what plots need; drop the replays and pictures of the runs.
   Json small{{"kind", page["kind"]}, {"plots", page["plots"]}, {"runs", Json::array()}};
   if (page["kind"] == "run") {
     small["runs"].push_back(page["runs"][0]);

@@ -19,7 +19,7 @@ std::string text_of(const ConfigNode& map, const char* key) {
   return node.is_scalar() && !node.is_null() ? node.scalar() : std::string();
 }
 
-/// The last part of a key; the whole key where two axes end alike.
+/// Labels axes by the last part of their keys; by the whole key where two axes end alike.
 void label_axes(std::vector<StudyAxis>& axes) {
   const auto last_part = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
   for (StudyAxis& axis : axes) {
@@ -82,7 +82,7 @@ void read_study_file(const fs::path& file, StudyData& study) {
   read_plots(root.get("plots"), study.plots);
 }
 
-/// Scenes, axes and values that runs have and study.yaml does not say, at the end.
+/// Adds scenes, axes and values that runs have and study.yaml does not name, at the end.
 void add_what_runs_say(StudyData& study) {
   const auto add_once = [](std::vector<std::string>& values, const std::string& value) {
     if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);

@@ -7,9 +7,9 @@
 
 namespace hypotrack {
 
-/// A reliability diagram as SVG: for each bin of sigma the root mean square of what landmarks are
-/// off by, over that of sigma, both on logarithmic axes in millimetres. Where sigma is right, dots
-/// lie on the diagonal; their areas follow the numbers of landmarks.
+/// Draws a reliability diagram as SVG. For each bin of sigma it shows the root mean square error of
+/// landmarks over that of sigma, on logarithmic axes in millimetres. Dots lie on the diagonal if
+/// sigma is calibrated; their areas follow the numbers of landmarks.
 HYPOTRACK_API std::string reliability_svg(const Reliability& reliability, const std::string& title);
 
 }  // namespace hypotrack

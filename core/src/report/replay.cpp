@@ -40,7 +40,7 @@ std::uint16_t quantised_unit(double value) {
   return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::lround(32767 * value)));
 }
 
-/// Rotations and translations from the bind pose to the world, per frame and bone.
+/// Returns the rotations and translations from the bind pose to the world, per frame and bone.
 Json bone_motion(const Scene& scene, const Scene::Item& item, const States& states) {
   const ModelData& data = item.model->data();
   const std::vector<Eigen::Isometry3d> bind = bind_transforms(data);
@@ -66,7 +66,7 @@ Json bone_motion(const Scene& scene, const Scene::Item& item, const States& stat
   return {{"bones", bind.size()}, {"q", pack_words(rotations)}, {"t", pack_numbers(translations)}};
 }
 
-/// Landmarks per frame, of a model that only itself can pose.
+/// Returns the landmarks per frame, for a model that poses itself.
 Json point_motion(const Scene& scene, const Scene::Item& item, const States& states) {
   const std::size_t count = item.model->data().landmarks.size();
   std::vector<double> points;
@@ -81,7 +81,7 @@ Json point_motion(const Scene& scene, const Scene::Item& item, const States& sta
   return {{"points", count}, {"p", pack_numbers(points)}};
 }
 
-/// The rows of a table for the given frames; null where it has none.
+/// Returns the rows of a table for the given frames; null where it has none.
 template <class Row, class Value>
 std::vector<const Value*> on_frames(const std::vector<Row>& rows, Value Row::*value,
                                     const std::vector<int>& frames) {
@@ -95,7 +95,7 @@ std::vector<const Value*> on_frames(const std::vector<Row>& rows, Value Row::*va
   return found;
 }
 
-/// True landmarks where the true state is not known.
+/// Returns the true landmarks, for runs without true states.
 Json truth_points(const fs::path& file, const Scene& scene, const std::vector<int>& frames) {
   const std::vector<LandmarkRow> rows = read_landmarks(file, scene.landmark_names());
   const std::size_t count = scene.landmark_names().size();

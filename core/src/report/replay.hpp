@@ -14,25 +14,27 @@
 namespace hypotrack {
 
 /// Collects the 3D replays of runs for the page. Meshes and motions that several runs share (the
-/// truth of a data set, the same model) are kept once.
+/// truth of a data set, the same model) are stored once.
 class HYPOTRACK_API ReplayCollector {
  public:
   explicit ReplayCollector(PluginLoader& plugins) : plugins_(&plugins) {}
 
-  /// The replay of a run folder, from the models that its run.yaml names, its track.csv and its
-  /// truth (states, or else landmarks):
+  /// Adds a run folder and returns its replay, from the models in its run.yaml, its track.csv and
+  /// its truth (states, or else landmarks):
+  ///
   ///   {frames: [...], models: [{name, shape, tracked, truth}, ...],
   ///    truth_points: {count, p} or absent}
-  /// where `shape`, `tracked` and `truth` number the entries of shapes() and motions(). Throws
-  /// DataError, ConfigError or PluginError.
+  ///
+  /// `shape`, `tracked` and `truth` are indices into shapes() and motions(). Throws DataError,
+  /// ConfigError or PluginError.
   nlohmann::ordered_json add(const std::filesystem::path& run);
 
-  /// [{box, vertices, triangles, bones, weights, landmarks: [{name, bone, p}], edges}, ...] with
-  /// positions at the bind pose; without vertices for a model that poses itself.
+  /// Returns [{box, vertices, triangles, bones, weights, landmarks: [{name, bone, p}], edges}, ...]
+  /// with positions at the bind pose; without vertices for a model that poses itself.
   const nlohmann::ordered_json& shapes() const { return shapes_; }
-  /// [{bones, q, t}, ...]: per frame and bone the rotation (quaternion x y z w, 16-bit signed,
-  /// 32767 is 1; all zero: unknown) and the translation that carry the bind pose to the world; or
-  /// {points, p}: per frame and landmark its position.
+  /// Returns [{bones, q, t}, ...]: per frame and bone the rotation and the translation from the
+  /// bind pose to the world. Rotations are quaternions x y z w, 16-bit signed, 32767 is 1; all
+  /// zero: unknown. Or {points, p}: per frame and landmark its position.
   const nlohmann::ordered_json& motions() const { return motions_; }
 
  private:
@@ -53,7 +55,8 @@ class HYPOTRACK_API ReplayCollector {
   std::map<std::string, int> known_shapes_, known_motions_;
 };
 
-/// A replay shows every k-th frame of a run with more frames than this.
+/// Frames of the longest replay that shows every frame. A replay of a longer run shows every k-th
+/// frame.
 inline constexpr std::size_t kMostReplayFrames = 1000;
 
 }  // namespace hypotrack

@@ -18,7 +18,7 @@ Json rounded(const Eigen::Vector3d& p) {
   return json;
 }
 
-/// Largest weight last rounded so that the four sum to 255.
+/// Appends weights as bytes. Adjusts the largest so that the four sum to 255.
 void append_weights(const Eigen::Vector4f& weights, std::vector<std::uint8_t>& bytes) {
   Eigen::Vector4i whole = (255 * weights).array().round().cast<int>();
   Eigen::Index largest = 0;
@@ -64,7 +64,7 @@ std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data) {
     int above = data.bones[bone].parent;
     while (above >= 0 && on_bone[static_cast<std::size_t>(above)].empty())
       above = data.bones[static_cast<std::size_t>(above)].parent;
-    // From the landmark of the bone above that its children hang on: the one nearest its origin.
+    // Start from the parent bone's landmark that is nearest its origin, where its children attach.
     int last = above < 0 ? -1 : on_bone[static_cast<std::size_t>(above)].front();
     for (const int landmark : here) {
       if (last >= 0) edges.emplace_back(last, landmark);

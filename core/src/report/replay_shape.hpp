@@ -7,11 +7,11 @@
 
 namespace hypotrack {
 
-/// A model's mesh and skeleton as ReplayCollector::shapes() describes.
+/// Returns a model's mesh and skeleton in the format of ReplayCollector::shapes().
 HYPOTRACK_API nlohmann::ordered_json replay_shape(const Model& model);
 
-/// Pairs of landmarks to be joined by lines: each with the nearest one towards the root. Landmarks
-/// of one bone form a chain from its origin outwards.
+/// Returns pairs of landmarks to join by lines, each with the nearest one towards the root.
+/// Landmarks of one bone form a chain from its origin outwards.
 HYPOTRACK_API std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data);
 
 }  // namespace hypotrack

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder beside the report in which it grows; removed at the end.
+/// A temporary folder beside the report, in which the report is made.
 class Workshop {
  public:
   explicit Workshop(const fs::path& page)
@@ -43,7 +43,7 @@ class Workshop {
   fs::path folder_;
 };
 
-/// Puts what was made in place of what is there.
+/// Replaces `target` by what was made.
 void put_in_place(const fs::path& made, const fs::path& target) {
   std::error_code error;
   if (fs::is_directory(made)) fs::remove_all(target, error);

@@ -10,8 +10,8 @@ namespace hypotrack {
 
 /// Whether a report comes with files of its plots.
 enum class PlotFiles {
-  if_possible,  ///< where the programs that draw them are installed
-  required,     ///< OutputError where they are not
+  if_possible,  ///< if the programs that draw them are installed
+  required,     ///< OutputError if they are not
   none,
 };
 
@@ -22,7 +22,7 @@ struct ReportOptions {
   PlotFiles plot_files = PlotFiles::if_possible;
 };
 
-/// What came of a report.
+/// The result of write_report().
 struct ReportSummary {
   std::filesystem::path page;
   std::filesystem::path files;  ///< folder with plots/ and tables/
@@ -30,13 +30,13 @@ struct ReportSummary {
   std::size_t runs = 0;
   std::size_t failed = 0;
   std::size_t replays = 0;
-  std::string skipped;  ///< why plots have no files of their own; empty if they have
+  std::string skipped;  ///< why plots have no separate files; empty if they have
 };
 
-/// Writes one self-contained HTML file about a study or a run, and beside it, in a folder of the
-/// same name without `.html`, plots/*.svg, plots/*.png and tables/*.csv. Everything appears when it
-/// is complete, in place of an earlier report. Throws DataError, ConfigError, PluginError or
-/// OutputError, and then leaves what was there.
+/// Writes a self-contained HTML file about a study or a run. Beside it, in a folder of the same
+/// name without `.html`, it writes plots/*.svg, plots/*.png and tables/*.csv. Replaces an earlier
+/// report when all is complete. Throws DataError, ConfigError, PluginError or OutputError, and then
+/// keeps the earlier one.
 HYPOTRACK_API ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins);
 
 }  // namespace hypotrack

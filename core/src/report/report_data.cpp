@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kError = "mean_error_mm";
 
-// Of a run without a replay, one small picture.
+// Pictures of a run without a replay.
 constexpr PictureLimits kFewPictures{.count = 1, .longest_side = 320, .quality = 75};
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -54,7 +54,7 @@ Json run_json(const StudyData& study, const StudyRun& run) {
   return json;
 }
 
-/// How metrics are shown, for those that any run has.
+/// Returns how metrics are shown, for those that any run has.
 Json metric_list(const StudyData& study) {
   std::set<std::string> keys;
   for (const StudyRun& run : study.runs)
@@ -96,7 +96,7 @@ std::vector<std::size_t> runs_to_replay(const StudyData& study, int most) {
     const StudyRun& run = study.runs[i];
     if (!run.failed) cells[{run.scene, run.settings}].push_back(i);
   }
-  // Unknown errors are the same to the sorting, which must not see NaN.
+  // Unknown errors count as 0, as sorting must not see NaN.
   const auto error = [&](std::size_t i) {
     const double value = study.runs[i].number(kError);
     return std::isfinite(value) ? value : 0;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kLargestExact = 40;
 
-/// Ranks from 1 of each value, doubled so that mean ranks of ties are whole numbers.
+/// Returns the rank of each value from 1, doubled so that mean ranks of ties are integers.
 std::vector<std::size_t> doubled_ranks(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -31,7 +31,8 @@ std::vector<std::size_t> doubled_ranks(const std::vector<double>& values) {
   return ranks;
 }
 
-/// Two-sided p of an observed sum, given how many of the equally likely outcomes have each sum.
+/// Returns the two-sided p of an observed sum. `counts` says how many of the equally likely
+/// outcomes have each sum.
 double two_sided(const std::vector<double>& counts, std::size_t observed) {
   const double total = std::accumulate(counts.begin(), counts.end(), 0.0);
   const auto split = counts.begin() + static_cast<std::ptrdiff_t>(observed);
@@ -46,7 +47,7 @@ double normal_two_sided(double distance, double variance) {
   return std::min(1.0, 2 * boost::math::cdf(complement(boost::math::normal(), z)));
 }
 
-/// Over all choices of signs, the number of times that the positive ranks have each sum.
+/// Counts, over all choices of signs, how often the positive ranks have each sum.
 std::vector<double> sign_counts(const std::vector<std::size_t>& ranks) {
   std::vector<double> counts{1};
   for (const std::size_t rank : ranks) {
@@ -60,7 +61,7 @@ std::vector<double> sign_counts(const std::vector<std::size_t>& ranks) {
   return counts;
 }
 
-/// Over all choices of `chosen` of the ranks, the number of times that they have each sum.
+/// Counts, over all choices of `chosen` of the ranks, how often they have each sum.
 std::vector<double> subset_counts(const std::vector<std::size_t>& ranks, std::size_t chosen) {
   const std::size_t most = std::accumulate(ranks.begin(), ranks.end(), std::size_t{0});
   std::vector<std::vector<double>> counts(chosen + 1, std::vector<double>(most + 1));
@@ -112,7 +113,7 @@ double rank_sum_test(std::span<const double> a, std::span<const double> b) {
   const std::size_t sum = std::accumulate(
       ranks.begin(), ranks.begin() + static_cast<std::ptrdiff_t>(a.size()), std::size_t{0});
   if (values.size() <= kLargestExact) return two_sided(subset_counts(ranks, a.size()), sum);
-  // The variance of a sum drawn without replacement, which accounts for ties by itself.
+  // The variance of a sum drawn without replacement accounts for ties by itself.
   const auto n = static_cast<double>(values.size());
   const double center = (n + 1) / 2;
   double squares = 0;

@@ -13,7 +13,7 @@ namespace hypotrack {
 /// One setting that a study varies.
 struct StudyAxis {
   std::string key;                       ///< as in the study's grid: `optimizer.particles`
-  std::string label = {};                ///< for people: `particles`
+  std::string label = {};                ///< short form for people: `particles`
   std::vector<std::string> values = {};  ///< in the grid's order
   bool numeric = false;                  ///< all values are numbers
 };
@@ -30,13 +30,13 @@ struct PlotRequest {
   std::string title = {}, x_label = {}, y_label = {};
 };
 
-/// How the share of frames below an error grows with the error.
+/// The share of frames below an error, as a function of the error.
 struct SuccessCurve {
   std::vector<double> threshold_mm;
   std::vector<double> share;
 };
 
-/// One run: its place in the study and what it came to.
+/// One run: its place in the study and its result.
 struct HYPOTRACK_API StudyRun {
   std::string id;
   std::filesystem::path directory;
@@ -51,13 +51,13 @@ struct HYPOTRACK_API StudyRun {
   std::vector<std::pair<std::string, double>> landmarks_mm;  ///< mean error per landmark
   SuccessCurve success;
 
-  /// A metric or timing by its name; NaN if the run has none.
+  /// Returns a metric or timing by its name; NaN if the run has none.
   double number(const std::string& name) const;
-  /// The run's value on an axis; the scene's name for `scene`, the seed for `seed`.
+  /// Returns the run's value on an axis; the scene's name for `scene`, the seed for `seed`.
   std::string on_axis(std::string_view key) const;
 };
 
-/// What a report is about: a study, or a single run as a study of one.
+/// The subject of a report: a study, or a single run as a study of one.
 struct HYPOTRACK_API StudyData {
   bool is_study = false;
   std::string title;
@@ -67,27 +67,27 @@ struct HYPOTRACK_API StudyData {
   std::vector<PlotRequest> plots;
   std::string table_per;       ///< axis with a table for each value; empty: one for all
   std::vector<StudyRun> runs;  ///< by scene, then axis by axis, then seed
-  std::size_t planned = 0;     ///< runs of the complete study
+  std::size_t planned = 0;     ///< number of runs of the complete study
 
   const StudyAxis* axis(std::string_view key) const;
-  /// Label of an axis, `scene` or `seed`.
+  /// Returns the label of an axis, `scene` or `seed`.
   std::string axis_label(std::string_view key) const;
-  /// Label of a value: scenes have one of their own.
+  /// Returns the label of a value, which differs from the value for scenes.
   std::string value_label(std::string_view key, const std::string& value) const;
-  /// Whether the values on an axis are numbers; `seed` is such an axis.
+  /// Returns whether the values on an axis are numbers; `seed` is such an axis.
   bool is_numeric(std::string_view key) const;
-  /// Values on an axis (or `scene`, `seed`) in the study's order.
+  /// Returns the values on an axis (or `scene`, `seed`) in the study's order.
   std::vector<std::string> values_of(std::string_view key) const;
 };
 
 /// Reads a study folder (study.yaml, runs/*) or a run folder (track.csv, run.yaml). Throws
-/// DataError if `directory` is neither or a file in it is damaged, ConfigError on a study.yaml that
-/// cannot be read.
+/// DataError if `directory` is neither or a file in it is damaged, ConfigError on an unreadable
+/// study.yaml.
 HYPOTRACK_API StudyData read_study(const std::filesystem::path& directory);
 
-/// Numbers in one form, so that 0.10 and 0.1 are the same value; other texts as they are.
+/// Returns numbers in one form, so that 0.10 and 0.1 are the same value; other texts unchanged.
 HYPOTRACK_API std::string canonical_value(const std::string& text);
-/// Whether a text is a finite number, and which.
+/// Parses a text as a finite number. Returns false if it is not one.
 bool parse_number(std::string_view text, double& number);
 
 }  // namespace hypotrack

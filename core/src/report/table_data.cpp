@@ -23,8 +23,8 @@ struct Cell {
   int failed = 0;
 };
 
-/// The cells of a scene in the order of the runs; those with one value of the axis that the study
-/// has tables for each value of, if that is given.
+/// Returns the cells of a scene in the order of the runs. With `value`, only those with this value
+/// of the axis that has a table per value.
 std::vector<Cell> cells_of(const StudyData& study, const std::string& scene,
                            const std::string& value = {}) {
   std::vector<Cell> cells;
@@ -69,7 +69,7 @@ Json column_json(const MetricInfo& metric) {
   return {{"key", metric.key}, {"label", metric.label_with_unit()}, {"digits", metric.digits}};
 }
 
-/// Says what the marks mean, and where no mark could mean anything.
+/// Explains the marks, and warns if the seeds are too few to separate anything.
 std::string note_on_tests(std::size_t seeds, std::size_t comparisons, const std::string& among) {
   if (comparisons == 0 || seeds == 0) return "";
   std::string note = fmt::format(
@@ -87,7 +87,7 @@ std::string note_on_tests(std::size_t seeds, std::size_t comparisons, const std:
   return note;
 }
 
-/// Columns that any run has a number for.
+/// Returns the columns for which any run has a number.
 std::vector<MetricInfo> columns_of(const StudyData& study) {
   std::vector<MetricInfo> columns;
   for (const std::string& key : table_metrics()) {
@@ -118,7 +118,7 @@ std::size_t most_seeds(const std::vector<Cell>& cells) {
   return most;
 }
 
-/// A scene's name as a part of a file's name.
+/// Returns a scene's name in a form for file names.
 std::string file_name_of(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
@@ -153,13 +153,13 @@ Json scene_table(const StudyData& study, std::size_t index, const std::string& v
   return table;
 }
 
-/// The runs of every scene that share settings.
+/// The runs of every scene with the same settings.
 struct SharedSettings {
   std::vector<std::string> settings;
   std::vector<Runs> runs;  ///< one per scene
 };
 
-/// The settings of all scenes, in the order of the runs.
+/// Returns the settings of all scenes, in the order of the runs.
 std::vector<SharedSettings> shared_settings(const StudyData& study) {
   std::vector<SharedSettings> all;
   for (std::size_t s = 0; s < study.scenes.size(); ++s)
@@ -175,7 +175,7 @@ std::vector<SharedSettings> shared_settings(const StudyData& study) {
   return all;
 }
 
-/// The scenes side by side: a row per setting that more than one scene has.
+/// Makes the table of scenes: a row per setting that more than one scene has.
 Json scenes_table(const StudyData& study) {
   const MetricInfo metric = metric_info("mean_error_mm");
   Json table{{"id", "table-scenes"}, {"title", "Scenes compared: " + metric.label_with_unit()}};
@@ -216,7 +216,7 @@ Json table_data(const StudyData& study) {
     Json table = scenes_table(study);
     if (!table["rows"].empty()) tables.push_back(std::move(table));
   }
-  std::vector<std::string> parts{""};  // of a scene, each with a table
+  std::vector<std::string> parts{""};  // values of a scene with a table each
   if (study.axis(study.table_per)) parts = study.values_of(study.table_per);
   for (std::size_t i = 0; i < study.scenes.size(); ++i)
     for (const std::string& part : parts) {

@@ -16,7 +16,7 @@ std::string cell(const Json& value) {
   return csv_cell(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
-/// Speed is left out: it differs from time to time, and the tables of a study should not.
+/// Leaves out speed: it differs between runs of the same study, and tables should not.
 bool is_repeatable(const Json& column) { return column["key"] != "fps"; }
 
 std::string table_csv(const Json& table) {

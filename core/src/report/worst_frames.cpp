@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The frame number of `worst_000123.jpg`, -1 for other names.
+/// Returns the frame number of `worst_000123.jpg`, -1 for other names.
 int frame_of(const std::string& name) {
   constexpr std::string_view kBefore = "worst_", kAfter = ".jpg";
   if (!name.starts_with(kBefore) || !name.ends_with(kAfter)) return -1;

@@ -7,15 +7,15 @@
 
 namespace hypotrack {
 
-/// How much of a run's pictures goes into the page.
+/// Limits on a run's pictures in the page.
 struct PictureLimits {
   int count = 3;
   int longest_side = 640;  ///< pixels; larger pictures are scaled down
   int quality = 80;        ///< of the JPEG, 0 to 100
 };
 
-/// The overlays worst_<frame>.jpg of a run folder, by frame: [{frame, src: "data:image/jpeg..."}].
-/// Throws DataError on a file that is no picture.
+/// Returns the pictures worst_<frame>.jpg of a run folder, by frame: [{frame, src:
+/// "data:image/jpeg..."}]. Throws DataError on a file that is no picture.
 HYPOTRACK_API nlohmann::ordered_json worst_frames(const std::filesystem::path& run,
                                                   const PictureLimits& limits);
 

@@ -14,10 +14,11 @@ namespace {
 using Points = Eigen::Matrix3Xd;
 
 constexpr int kMostStrips = 5;
-constexpr double kAddsOne = 0.15;  // 1.85 times as wide as its capsule is room for two
+constexpr double kAddsOne = 0.15;  // 1.85 times the width of a capsule is room for two
 constexpr Eigen::Index kLeastVertices = 4;
 constexpr double kFilled = 0.95;     // share of its bounding box that makes a mesh a box
-constexpr double kSticksOut = 0.85;  // of the radius: how near the surface a sphere's centre may be
+constexpr double kSticksOut = 0.85;  // least distance of an end's centre from the surface, as a
+                                     // share of the radius
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -25,7 +26,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-/// Vertices that each bone holds most, in the frame of the bind pose.
+/// Returns for each bone the vertices of which it has the largest weight, at the bind pose.
 std::vector<Points> points_of_bones(const ModelData& data) {
   std::vector<std::vector<Eigen::Index>> held(data.bones.size());
   for (Eigen::Index v = 0; v < data.mesh.vertices.cols(); ++v) {
@@ -44,20 +45,20 @@ void store(const Eigen::Vector3d& vector, float* out) {
   Eigen::Vector3f::Map(out) = vector.cast<float>();
 }
 
-/// Extent of points along the axes of a frame.
+/// Bounding box of points along the axes of a frame.
 struct Block {
   Eigen::Vector3d low, high;
   double width() const { return high.y() - low.y(); }
 };
 
-/// The middle line of a block of a model: as far from the surface as can be.
+/// Medial line of a block of a model: as far from the surface as possible.
 struct Line {
   Eigen::Vector3d middle;
   Eigen::Vector3d half;  // from the middle to where the block ends
   double radius;         // median distance from the surface, without the ends
 };
 
-/// Directions of largest spread, the largest first, as columns; `along` is the first if it is
+/// Returns the principal axes, largest spread first, as columns. `along` replaces the first if
 /// given.
 Eigen::Matrix3d spread_axes(const Points& points, const std::optional<Eigen::Vector3d>& along) {
   Points centred = points.colwise() - points.rowwise().mean();
@@ -68,7 +69,7 @@ Eigen::Matrix3d spread_axes(const Points& points, const std::optional<Eigen::Vec
   return axes;
 }
 
-/// From a bone's joint to the next, if there is one next.
+/// Returns the direction from a bone's joint to the next; nothing unless exactly one bone follows.
 std::optional<Eigen::Vector3d> direction_of(const ModelData& data, std::size_t bone,
                                             const std::vector<Eigen::Isometry3d>& bind) {
   constexpr double kShortest = 1e-3;  // metres
@@ -83,8 +84,8 @@ std::optional<Eigen::Vector3d> direction_of(const ModelData& data, std::size_t b
   return direction;
 }
 
-/// Fills the part of a model that one bone holds with capsules. Works in a frame whose x axis is
-/// theirs and whose y axis is the wider one across.
+/// Fills the part of a model that belongs to one bone with capsules. The frame's x axis is along
+/// the capsules, its y axis is the wider one across.
 class CapsuleFit {
  public:
   CapsuleFit(const Surface& surface, const Points& bone, const Eigen::Matrix3d& axes)
@@ -106,7 +107,7 @@ class CapsuleFit {
  private:
   double distance(const Eigen::Vector3d& point) const { return surface_.distance(axes_ * point); }
 
-  /// The block of the points from one y to another; none if those are too few.
+  /// Returns the block of the points between two y; none if they are too few.
   std::optional<Block> between(double from, double to) const {
     std::vector<Eigen::Index> inside;
     for (Eigen::Index i = 0; i < points_.cols(); ++i) {
@@ -142,11 +143,12 @@ class CapsuleFit {
     return line;
   }
 
-  /// The point of a block's cross section that is farthest from the surface, by steps that shrink.
-  /// Where many are as far (in a palm), the one in the middle.
+  /// Finds the point of a block's cross section that is farthest from the surface, by shrinking
+  /// steps. Of equally far points, as in a palm, it prefers the middle.
   Eigen::Vector3d innermost(const Block& block, double along) const {
     constexpr int kRounds = 10;
-    constexpr double kPull = 0.1;  // metres of distance that a metre from the middle must gain
+    constexpr double kPull = 0.1;  // distance in metres that a move of a metre from the middle must
+                                   // gain
     Eigen::Vector3d middle = (block.low + block.high) / 2;
     middle.x() = block.low.x() + along * (block.high.x() - block.low.x());
     const auto merit = [&](const Eigen::Vector3d& point) {
@@ -155,7 +157,7 @@ class CapsuleFit {
     Eigen::Vector3d best = middle, step = (block.high - block.low) / 4;
     double highest = merit(best);
     for (int round = 0; round < kRounds; ++round, step *= 0.7) {
-      const Eigen::Vector3d from = best;  // the best of four moves, not the first
+      const Eigen::Vector3d from = best;  // take the best of four moves, not the first
       for (const Eigen::Vector3d& move :
            {Eigen::Vector3d(0, step.y(), 0), Eigen::Vector3d(0, -step.y(), 0),
             Eigen::Vector3d(0, 0, step.z()), Eigen::Vector3d(0, 0, -step.z())}) {
@@ -169,8 +171,8 @@ class CapsuleFit {
     return best;
   }
 
-  /// Where a capsule ends, in half lines from the middle towards `side`: as far out as a sphere
-  /// about its end stays within the surface.
+  /// Returns where a capsule ends towards `side`, in half lines from the middle: the farthest place
+  /// at which a sphere stays within the surface.
   double end_of(const Line& line, double side) const {
     constexpr int kSteps = 20;
     for (int i = kSteps; i > 0; --i) {

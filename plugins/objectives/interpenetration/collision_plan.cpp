@@ -10,7 +10,7 @@
 namespace hypotrack::interpenetration {
 namespace {
 
-/// Bones that cannot move against each other, and whether two such groups meet in a joint.
+/// Groups of bones that cannot move against each other, and which groups meet in a joint.
 class RigidGroups {
  public:
   explicit RigidGroups(const Skeleton& skeleton) {
@@ -24,7 +24,7 @@ class RigidGroups {
     }
   }
 
-  /// Whether two bones are of one group, or of two that meet.
+  /// Returns whether two bones are of one group, or of two that meet.
   bool are_neighbours(std::int32_t a, std::int32_t b) const {
     return of(a) == of(b) || above_[index(a)] == of(b) || above_[index(b)] == of(a);
   }
@@ -33,8 +33,8 @@ class RigidGroups {
   static std::size_t index(std::int32_t bone) { return static_cast<std::size_t>(bone); }
   std::int32_t of(std::int32_t bone) const { return of_bone_[index(bone)]; }
 
-  std::vector<std::int32_t> of_bone_;  // the group's first bone
-  std::vector<std::int32_t> above_;    // of every bone: the group above its own, or -1
+  std::vector<std::int32_t> of_bone_;  // first bone of each bone's group
+  std::vector<std::int32_t> above_;    // parent group of each bone's group, or -1
 };
 
 std::vector<Shape> shapes_of(const Scene& scene, const std::string& where) {

@@ -9,15 +9,15 @@
 
 namespace hypotrack::interpenetration {
 
-/// What may collide in a scene: all shapes of different models; within a model those of bones that
-/// no joint connects, as far as they are deeper in each other than at rest. Bones that do not move
-/// against each other (a palm's) count as one.
+/// The pairs of shapes in a scene that may collide. These are all pairs from different models, and
+/// within a model those of bones that no joint connects. A pair within a model may be as deep in
+/// each other as at rest. Bones that do not move against each other (a palm's) count as one.
 struct CollisionPlan {
-  /// `tolerance` in metres: depth that every pair may have. Throws ConfigError, naming `where`, if
-  /// a model poses itself: then its bones do not say where it is.
+  /// `tolerance`, in metres, is the depth that every pair may have. Throws ConfigError, naming
+  /// `where`, if a model poses itself: its bones then do not say where it is.
   CollisionPlan(const Scene& scene, double tolerance, bool within_models, const std::string& where);
 
-  /// Points into this object.
+  /// Returns a view that points into this object.
   CollisionTerm term() const;
 
   Skeleton skeleton;

@@ -5,14 +5,14 @@
 
 #include "hypotrack/skeleton_pose.hpp"
 
-/// Solids that stand for parts of models, and how deep two of them go into each other. Metres,
+/// Solids that approximate parts of models, and the penetration depth of two of them. Metres,
 /// single precision; the same source for the CPU and the GPU.
 namespace hypotrack::interpenetration {
 
-/// A capsule (all points within `radius` of the segment centre +- half) or a box (half its edges,
-/// along the bone's axes), in the frame of a bone.
+/// A capsule or a box, in the frame of a bone. A capsule has all points within `radius` of the
+/// segment centre +- half. A box has half its edges in `half`, along the bone's axes.
 struct Shape {
-  std::int32_t bone;  ///< of the scene's
+  std::int32_t bone;  ///< index among the scene's bones
   std::int32_t is_box;
   float center[3];
   float half[3];
@@ -22,8 +22,8 @@ struct Shape {
 /// A shape in the world.
 struct PosedShape {
   float center[3];
-  float half[3];  ///< of a capsule: turned; of a box: as it is
-  float reach;    ///< no point is farther from the centre
+  float half[3];  ///< of a capsule: rotated to the world; of a box: along its axes
+  float reach;    ///< radius of a sphere about the centre that contains it
   float radius;
   const float* axes;  ///< of a box: world_from_bone, 3x4 row by row
 };
@@ -49,7 +49,7 @@ HYPOTRACK_PIXEL PosedShape posed(const Shape& shape, const Placement& world_from
   return out;
 }
 
-/// Whether spheres around the two come within `slack` of touching less than they may.
+/// Returns whether the bounding spheres overlap by more than `slack`.
 HYPOTRACK_PIXEL bool may_collide(const PosedShape& a, const PosedShape& b, float slack) {
   const float d[3] = {a.center[0] - b.center[0], a.center[1] - b.center[1],
                       a.center[2] - b.center[2]};
@@ -57,8 +57,8 @@ HYPOTRACK_PIXEL bool may_collide(const PosedShape& a, const PosedShape& b, float
   return reach > 0 && dot(d, d) < reach * reach;  // false with NaN
 }
 
-/// How deep two capsules go into each other: the sum of the radii minus the distance of the
-/// segments (C. Ericson, Real-Time Collision Detection, 5.1.9). Negative where they are apart.
+/// Returns the penetration depth of two capsules: the sum of the radii minus the distance of the
+/// segments (C. Ericson, Real-Time Collision Detection, 5.1.9). Negative if they are apart.
 HYPOTRACK_PIXEL float capsules_depth(const PosedShape& p, const PosedShape& q) {
   const float r[3] = {p.center[0] - q.center[0], p.center[1] - q.center[1],
                       p.center[2] - q.center[2]};
@@ -81,7 +81,8 @@ HYPOTRACK_PIXEL float capsules_depth(const PosedShape& p, const PosedShape& q) {
   return p.radius + q.radius - std::sqrt(dot(d, d));
 }
 
-/// Distance of a point (in the box's frame) from the box's surface, negative inside.
+/// Returns the signed distance of a point (in the box's frame) from the box's surface, negative
+/// inside.
 HYPOTRACK_PIXEL float box_distance(const float* point, const float* half) {
   float outside = 0, inside = -half[0] - half[1] - half[2];
   for (int i = 0; i < 3; ++i) {
@@ -93,16 +94,16 @@ HYPOTRACK_PIXEL float box_distance(const float* point, const float* half) {
   return std::sqrt(outside) + pixel::min(inside, 0.0f);
 }
 
-/// A vector of the world along a box's axes.
+/// Transforms a vector of the world to a box's axes.
 HYPOTRACK_PIXEL void to_box(const PosedShape& box, const float* world, float* out) {
   for (int i = 0; i < 3; ++i) {
     out[i] = box.axes[i] * world[0] + box.axes[4 + i] * world[1] + box.axes[8 + i] * world[2];
   }
 }
 
-/// How deep a capsule goes into a box: its radius minus the least distance that a point of its
-/// segment has from the surface. That distance is a convex function along the segment, so golden
-/// sections find its minimum.
+/// Returns the penetration depth of a capsule in a box: its radius minus the least signed distance
+/// of its segment from the surface. That distance is convex along the segment, so a golden-section
+/// search finds the minimum.
 HYPOTRACK_PIXEL float capsule_box_depth(const PosedShape& capsule, const PosedShape& box) {
   const float d[3] = {capsule.center[0] - box.center[0], capsule.center[1] - box.center[1],
                       capsule.center[2] - box.center[2]};
@@ -133,8 +134,8 @@ HYPOTRACK_PIXEL float capsule_box_depth(const PosedShape& capsule, const PosedSh
   return capsule.radius - pixel::min(at_a, at_b);
 }
 
-/// How deep two boxes go into each other: by the axis among their faces' and edges' directions that
-/// separates them best. Where they are apart it is negative, by no more than their distance.
+/// Returns the penetration depth of two boxes along the best separating axis, among face normals
+/// and cross products of edges. Negative if they are apart, by no more than their distance.
 HYPOTRACK_PIXEL float boxes_depth(const PosedShape& p, const PosedShape& q) {
   const float d[3] = {q.center[0] - p.center[0], q.center[1] - p.center[1],
                       q.center[2] - p.center[2]};
@@ -161,7 +162,7 @@ HYPOTRACK_PIXEL float boxes_depth(const PosedShape& p, const PosedShape& q) {
     for (int k = 0; k < 3; ++k) {
       const int k1 = (k + 1) % 3, k2 = (k + 2) % 3;
       const float length = std::sqrt(pixel::max(1 - turn[i][k] * turn[i][k], 0.0f));
-      if (length < 1e-3f) continue;  // parallel: the faces have said it
+      if (length < 1e-3f) continue;  // parallel: the faces cover it
       const float extents =
           p.half[i1] * std::fabs(turn[i2][k]) + p.half[i2] * std::fabs(turn[i1][k]) +
           q.half[k1] * std::fabs(turn[i][k2]) + q.half[k2] * std::fabs(turn[i][k1]);

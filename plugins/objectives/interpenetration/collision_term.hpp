@@ -7,14 +7,13 @@
 
 namespace hypotrack::interpenetration {
 
-/// Two shapes that must not go into each other by more than `slack` metres. Capsules come before
-/// boxes.
+/// Two shapes that may penetrate each other by `slack` metres. Capsules come before boxes.
 struct Pair {
   std::int32_t first, second;
   float slack;
 };
 
-/// What may collide in a scene, in host or device memory.
+/// The shapes and pairs of a scene, in host or device memory.
 struct CollisionTerm {
   SkeletonLayout skeleton;
   std::int32_t shape_count;
@@ -22,7 +21,7 @@ struct CollisionTerm {
   const Shape* shapes;
   const Pair* pairs;
 
-  /// Floats that a team works in, aligned to 8 bytes.
+  /// Returns the number of scratch floats of a team. The memory must be aligned to 8 bytes.
   HYPOTRACK_PIXEL int scratch_floats() const {
     return static_cast<int>((sizeof(Placement) * static_cast<unsigned>(skeleton.bone_count) +
                              sizeof(PosedShape) * static_cast<unsigned>(shape_count)) /
@@ -43,7 +42,7 @@ struct CollisionTerm {
     return shapes_in_world;
   }
 
-  /// How much deeper a pair is in each other than it may be, in millimetres; 0 if it is not.
+  /// Returns by how much a pair exceeds its slack, in millimetres; 0 if it does not.
   HYPOTRACK_PIXEL float excess(const PosedShape* in_world, const Pair& pair) const {
     const PosedShape &a = in_world[pair.first], &b = in_world[pair.second];
     if (!may_collide(a, b, pair.slack)) return 0;
@@ -56,7 +55,8 @@ struct CollisionTerm {
 
   HYPOTRACK_PIXEL std::int64_t residual_count() const { return pair_count; }
 
-  /// Sum of the squared excesses of all pairs, mm^2; they are the residuals. `state` is normalised.
+  /// Returns the sum of the squared excesses of all pairs, in mm^2. The excesses are the residuals.
+  /// `state` must be normalised.
   template <class Team, class Put>
   HYPOTRACK_PIXEL double cost_and_residuals(const double* state, int /*dimension*/,
                                             const Team& team, float* scratch,

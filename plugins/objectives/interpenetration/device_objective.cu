@@ -6,7 +6,7 @@
 namespace hypotrack::interpenetration {
 namespace {
 
-/// Takes the plan to the GPU with the first frame.
+/// Uploads the plan to the GPU with the first frame.
 class OnDevice final : public cuda::StateObjective<CollisionTerm> {
  public:
   explicit OnDevice(const CollisionTerm& host) : StateObjective(host), host_(host) {}

@@ -7,9 +7,9 @@
 namespace hypotrack::interpenetration {
 namespace {
 
-/// Memory of the calling thread, so that a hypothesis costs no allocation.
+/// Returns scratch memory of the calling thread, so that a hypothesis costs no allocation.
 float* scratch_of(const CollisionTerm& term) {
-  thread_local std::vector<double> scratch;  // aligned for what holds pointers
+  thread_local std::vector<double> scratch;  // doubles, as the memory holds pointers
   const auto doubles = (static_cast<std::size_t>(term.scratch_floats()) + 1) / 2;
   if (scratch.size() < doubles) scratch.resize(doubles);
   return reinterpret_cast<float*>(scratch.data());

@@ -26,14 +26,14 @@ struct InterpenetrationParams {
   }
 };
 
-/// Keeps fingers, hands and objects from passing through each other. Every bone of every model is
-/// filled with capsules, a rigid box with a box (bone_shapes.hpp); the cost is the sum of squared
-/// depths (mm^2) over all pairs of shapes, where
+/// Keeps fingers, hands and objects from passing through each other. Capsules fill every bone of
+/// every model; a box fills a rigid box (bone_shapes.hpp). The cost is the sum of squared depths
+/// (mm^2) over all pairs of shapes, where
 ///
-///   depth = max(0, penetration - tolerance - penetration at rest),
+///   depth = max(0, penetration - tolerance - penetration at rest).
 ///
-/// the last only for pairs within a model, so that the rest pose costs nothing. The depths are its
-/// residuals, one per pair. Looks at the state only and costs no rendering.
+/// The last term is only for pairs within a model, so that the rest pose costs nothing. The depths
+/// are the residuals, one per pair. Looks at the state only and needs no rendering.
 class Interpenetration : public Objective, public ResidualTerm {
  public:
   /// `where` is the place of the parameters in messages. Throws ConfigError where CollisionPlan

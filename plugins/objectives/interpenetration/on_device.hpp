@@ -7,11 +7,11 @@
 
 namespace hypotrack::interpenetration {
 
-/// The term on the GPU, null in a build without CUDA; what the term points to on the host outlives
+/// Makes the term on the GPU; null in a build without CUDA. The host memory of `term` must outlive
 /// it.
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term);
 
-/// What `plugins info` shows: "residuals", and what the GPU has of it in a build with CUDA.
+/// Returns the capabilities for `plugins info`: "residuals", and the GPU's in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::interpenetration

@@ -15,7 +15,8 @@ double distance_from_segment(const Eigen::Vector3d& point, const Eigen::Vector3d
   return (point - a - t * along).norm();
 }
 
-/// The foot of the perpendicular where it lies in the triangle, otherwise the nearest edge.
+/// Returns the distance to the plane if the foot lies in the triangle, otherwise to the nearest
+/// edge.
 double distance_from_triangle(const Eigen::Vector3d& point, const Eigen::Matrix3d& corners) {
   const Eigen::Vector3d a = corners.col(0), b = corners.col(1), c = corners.col(2);
   const Eigen::Vector3d normal = (b - a).cross(c - a);
@@ -52,7 +53,7 @@ double Surface::distance(const Eigen::Vector3d& point) const {
 }
 
 double Surface::volume() const {
-  double sum = 0;  // of tetrahedra from the origin, six times
+  double sum = 0;  // six times the volumes of tetrahedra from the origin
   for (const Triangle& triangle : triangles_) sum += triangle.corners.determinant();
   return std::abs(sum) / 6;
 }

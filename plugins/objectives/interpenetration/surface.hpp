@@ -12,9 +12,9 @@ class Surface {
  public:
   explicit Surface(const Mesh& mesh);
 
-  /// From a point to the nearest point of the surface, metres; from inside as from outside.
+  /// Returns the unsigned distance of a point from the surface, in metres.
   double distance(const Eigen::Vector3d& point) const;
-  /// What a closed surface encloses, cubic metres.
+  /// Returns the volume that a closed surface encloses, in cubic metres.
   double volume() const;
 
  private:

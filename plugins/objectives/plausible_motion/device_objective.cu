@@ -7,7 +7,7 @@
 namespace hypotrack::plausible_motion {
 namespace {
 
-/// Takes the residuals of every frame to the GPU.
+/// Uploads the residuals of every frame to the GPU.
 class OnDevice final : public cuda::StateObjective<MotionTerm> {
  public:
   explicit OnDevice(TermOfFrame term_of_frame)

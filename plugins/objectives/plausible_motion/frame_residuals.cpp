@@ -12,7 +12,7 @@ LinearResidual residual(std::size_t index, double sigma) {
   return {{i, i}, {1 / sigma, 0}, 0};
 }
 
-/// Where the parameter of that name is; its end where there is none.
+/// Returns the index of the parameter with a name; the size if there is none.
 std::size_t find(const std::vector<Parameter>& parameters, const std::string& name) {
   const auto found = std::ranges::find(parameters, name, &Parameter::name);
   return static_cast<std::size_t>(found - parameters.begin());
@@ -21,7 +21,7 @@ std::size_t find(const std::vector<Parameter>& parameters, const std::string& na
 constexpr std::string_view kThumb = "thumb";
 constexpr std::string_view kSideBySide[] = {"index", "middle", "ring", "little"};
 
-/// Where the joints of a thumb are in a relaxed hand.
+/// Angles of a thumb's joints in a relaxed hand.
 struct ThumbJoint {
   std::string_view name;
   double rest;

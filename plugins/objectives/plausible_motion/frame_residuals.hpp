@@ -11,25 +11,26 @@
 
 namespace hypotrack::plausible_motion {
 
-/// Makes the residuals of a scene's frames: first one per joint angle, then two per finger, one per
-/// pair of fingers side by side, one per abduction and one per joint of a thumb.
+/// Makes the residuals of a scene's frames. First comes one per joint angle, then two per finger,
+/// one per pair of fingers side by side, one per abduction and one per joint of a thumb.
 class FrameResiduals {
  public:
-  /// A model has fingers where it has parameters NAME_flexion_1, _2 and _3; the joints of a thumb
-  /// do not move together.
+  /// A model has fingers if it has parameters NAME_flexion_1, _2 and _3. The joints of a thumb are
+  /// not coupled.
   FrameResiduals(const PlausibleMotionParams& params, const Scene& scene);
 
-  /// The term of a frame: in hindsight joint angles are free to differ from where its search
-  /// started. Points into this object, until the next call.
+  /// Returns the term of a frame, which points into this object until the next call. In fixed-lag
+  /// smoothing (Observation::in_hindsight) the residuals of joint motion are 0.
   MotionTerm of(const Observation& observation);
 
  private:
-  /// A residual for every finger with both joints: one flexion should be a share of the other.
+  /// Adds a residual per finger that has both joints: one flexion should be `share` times the
+  /// other.
   void couple(const std::vector<Parameter>& parameters, std::string_view joint,
               std::string_view before, double share, double sigma);
-  /// A residual for every two fingers side by side: their knuckles should be bent alike.
+  /// Adds a residual per pair of fingers side by side: their knuckles should bend alike.
   void couple_neighbors(const Scene& scene, double sigma);
-  /// A residual for every parameter of a finger or thumb of that name: it should be at `rest`.
+  /// Adds a residual per parameter of that name, of fingers or of thumbs: it should be at `rest`.
   void hold(const std::vector<Parameter>& parameters, bool of_thumb, std::string_view joint,
             double rest, double sigma);
 

@@ -4,11 +4,11 @@
 
 #include "hypotrack/skeleton_pose.hpp"
 
-/// The same source for the CPU and the GPU.
+/// Cost and residuals of plausible motion; the same source for the CPU and the GPU.
 namespace hypotrack::plausible_motion {
 
-/// A linear function of a state that should be 0: factor[0] * state[index[0]] +
-/// factor[1] * state[index[1]] - offset.
+/// A linear function of a state that should be 0: factor[0] * state[index[0]] + factor[1] *
+/// state[index[1]] - offset.
 struct LinearResidual {
   std::int32_t index[2];
   double factor[2];

@@ -9,7 +9,7 @@
 
 namespace hypotrack::plausible_motion {
 
-/// Keeps fingers that no camera sees plausible. The cost is
+/// Prior that keeps fingers plausible which no camera sees. The cost is
 ///
 ///   sum over joint angles a         ((a - a_start) / motion_sigma)^2
 /// + sum over fingers but the thumb  ((last - coupling * middle) / coupling_sigma)^2
@@ -18,14 +18,15 @@ namespace hypotrack::plausible_motion {
 /// + sum over fingers side by side   ((knuckle - that of the other) / neighbor_sigma)^2
 /// + sum over joints of thumbs       ((angle - that of a relaxed hand) / thumb_sigma)^2
 ///
-/// where a_start is the angle where the frame's search starts (Observation::start), and `knuckle`,
-/// `middle` and `last` are the flexions of a finger's joints: tendons bend the last by about two
-/// thirds of the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based human
-/// grasping, 1991), and a finger that opens or closes mostly does so as a whole and with those
-/// beside it. A thumb, and a finger sideways, are pulled to where they mostly are. Positions and
-/// rotations of models are free. In hindsight, which has its own prior of motion, the first sum is
-/// left out: what was found a frame before is not what hindsight makes of it. What is squared are
-/// its residuals. Looks at the state only and costs no rendering.
+/// a_start is the angle at which the frame's search starts (Observation::start). `knuckle`,
+/// `middle` and `last` are the flexions of a finger's joints. Tendons bend the last joint by about
+/// two thirds of the middle one (H. Rijpkema, M. Girard, Computer animation of knowledge-based
+/// human grasping, 1991). A finger mostly opens or closes as a whole, together with those beside
+/// it. Thumbs and abductions are pulled to their usual angles. Positions and rotations of models
+/// are free.
+///
+/// Fixed-lag smoothing has its own motion prior, so the first sum is left out there. The residuals
+/// are the squared terms. Looks at the state only and needs no rendering.
 class PlausibleMotion : public Objective, public ResidualTerm {
  public:
   using Params = PlausibleMotionParams;

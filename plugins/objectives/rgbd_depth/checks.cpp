@@ -9,7 +9,7 @@
 namespace hypotrack::rgbd_depth {
 namespace {
 
-/// What one view has.
+/// The images that a view has.
 struct Has {
   bool depth, mask, color;
 };
@@ -35,7 +35,7 @@ void check_images(const TileView& view, std::size_t index, Foreground foreground
                   observation.frame, index, what));
 }
 
-/// has(i): what view i has.
+/// Checks all views; has(i) returns the images of view i.
 template <class HasOf>
 void check_views(const Observation& observation, Foreground foreground, const HasOf& has) {
   const std::size_t count = observation.views.size();

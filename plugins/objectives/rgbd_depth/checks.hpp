@@ -11,10 +11,12 @@ struct DeviceObservation;
 
 namespace hypotrack::rgbd_depth {
 
-/// Throws DataError unless a view has depth, and every view that has some also has what
-/// `foreground` needs, and images of its tile's size and of the right type.
+/// Throws DataError unless the views fit the objective. At least one view must have depth. Every
+/// view with depth must have what `foreground` needs, in images of its tile's size and of the right
+/// type.
 void check(const Observation& observation, Foreground foreground);
-/// The same for a frame on the device, whose images cannot be of another size or type.
+/// Checks a frame on the device, whose images always have the right size and type. Throws DataError
+/// as above.
 void check(const cuda::DeviceObservation& observation, Foreground foreground);
 
 }  // namespace hypotrack::rgbd_depth

@@ -21,25 +21,26 @@ struct DepthAgreement {
   Mask beyond;   ///< r_m but not o_s
 };
 
-/// How a covered pixel agrees with what was observed there (observed.hpp).
+/// Compares a covered pixel with the observation there (observed.hpp).
 template <class F>
 HYPOTRACK_PIXEL DepthAgreement<F> depth_agreement(F inverse_depth, F observed, F d_max, F d_match) {
   using pixel::abs;
   using pixel::max;
-  // The values for "not measured" are so far away that nothing is near them.
+  // The values for "not measured" are farther from every depth than d_max and d_match.
   const F difference = abs(observed - F(1.0f) / inverse_depth);
   return {max(d_max - difference, F(0.0f)), difference <= d_match || observed == F(kUnmeasured),
           observed == F(kBackground)};
 }
 
-/// How far a covered pixel is from what was observed there, -1 .. 1: (r_d - o_d) / d_M where
-/// foreground was measured, 1 on background, 0 where nothing is known.
+/// Returns the signed difference of a covered pixel from the observation, -1 .. 1. It is (r_d -
+/// o_d) / d_M, clamped, where foreground was measured, 1 on background, and 0 where nothing is
+/// known.
 template <class F>
 HYPOTRACK_PIXEL F depth_residual(F inverse_depth, F observed, F d_max) {
   using pixel::max;
   using pixel::min;
   using pixel::select;
-  // kBackground is so far before everything drawn that it is 1.
+  // kBackground is so far in front of everything drawn that the value is 1.
   const F off = min(max((F(1.0f) / inverse_depth - observed) / d_max, F(-1.0f)), F(1.0f));
   return select(observed == F(kUnmeasured) || observed == F(kOutside), F(0.0f), off);
 }

@@ -9,7 +9,7 @@
 namespace hypotrack::rgbd_depth {
 namespace {
 
-/// z in a camera of every vertex. Of skinning only what gives z: this runs once per frame.
+/// Computes the z of every vertex in a camera. Skins only z, as this runs once per frame.
 Eigen::VectorXf skinned_depths(const ModelData& data, std::span<const double> parameters,
                                const Eigen::Isometry3d& camera_from_world) {
   const std::vector<Eigen::Isometry3d> bones = world_from_bones(data, parameters);

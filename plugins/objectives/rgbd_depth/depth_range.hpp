@@ -7,7 +7,8 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// The depths that the posed scene has for a camera, widened by `margin` metres at both ends.
+/// Returns the range of the posed scene's depths in a camera, widened by `margin` metres at both
+/// ends.
 DepthRange depth_range(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera,
                        double margin);
 

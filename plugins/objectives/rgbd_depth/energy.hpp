@@ -19,12 +19,13 @@ struct Weights {
   double lambda_k;
 };
 
-inline constexpr double kCentimetresPerMetre = 100;  // the papers' unit of depth: lambda's
+inline constexpr double kCentimetresPerMetre = 100;  // unit of depth in the papers, and so of
+                                                     // lambda
 
-/// E of RgbdDepth.
+/// Computes E of RgbdDepth.
 HYPOTRACK_PIXEL double energy(const Totals& t, double crossing, const Weights& weights) {
   constexpr double kEpsilon = 1e-6;
-  // Every pixel that may differ is charged d_M; closeness is what agreement gives back.
+  // Every pixel that may differ costs d_M; closeness is subtracted where depths agree.
   const double charged = t.measured + t.beyond;
   const double difference = kCentimetresPerMetre * (weights.d_max * charged - t.closeness);
   const double covered_or_foreground = t.foreground + t.beyond;

@@ -7,9 +7,10 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// The pairs index and middle, middle and ring, ring and little finger of every model with
-/// parameters of the names index_abduction, middle_abduction, ring_abduction, little_abduction:
-/// angles that grow towards the thumb, on a right hand and on its mirror image. The thumb has none.
+/// Returns the adjacent fingers of every model: index and middle, middle and ring, ring and little
+/// finger. Finds them by the parameters index_abduction, middle_abduction, ring_abduction and
+/// little_abduction. These angles grow towards the thumb, on a right hand and on its mirror image.
+/// The thumb has no pair.
 std::vector<FingerPair> adjacent_fingers(const Scene& scene);
 
 }  // namespace hypotrack::rgbd_depth

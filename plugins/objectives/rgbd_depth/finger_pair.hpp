@@ -4,15 +4,15 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// Where a state has the abductions of two fingers that are neighbours.
+/// Indices of the abductions of two adjacent fingers in a state.
 struct FingerPair {
   int first;   ///< of the finger on the thumb's side
   int second;  ///< of the one on the little finger's side
   bool operator==(const FingerPair&) const = default;
 };
 
-/// kc = sum over the pairs of -min(phi, 0), radians, with phi the difference of their abductions:
-/// how far fingers have moved into their neighbours.
+/// Computes kc, how far fingers have moved into their neighbours: the sum over pairs of -min(phi,
+/// 0), in radians. phi is the difference of the pair's abductions.
 template <class Number>
 HYPOTRACK_PIXEL double finger_crossing(const FingerPair* pairs, int count, const Number* state) {
   double sum = 0;

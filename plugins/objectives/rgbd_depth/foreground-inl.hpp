@@ -3,10 +3,10 @@
 #include "hypotrack/pixel.hpp"
 #include "observed.hpp"
 
-/// How one pixel is told to be foreground, for the CPU and for CUDA.
+/// Foreground of one pixel, for the CPU and for CUDA.
 namespace hypotrack::rgbd_depth {
 
-/// What tells foreground in one view.
+/// How foreground is decided in one view.
 enum class Rule { mask, depth, skin };
 
 /// Depths z along a camera's axis, metres.
@@ -15,10 +15,10 @@ struct DepthRange {
   float farthest = 0;
 };
 
-/// Skin by its chrominance: 133 <= Cr <= 173 and 77 <= Cb <= 127 of 8-bit YCrCb (D. Chai, K. N.
-/// Ngan, "Face segmentation using skin-color map in videophone applications", IEEE Trans. Circuits
-/// and Systems for Video Technology 9(4), 1999). YCrCb of ITU-R BT.601 in 14-bit fixed point, the
-/// numbers of OpenCV's cvtColor.
+/// Returns whether a colour is skin by its chrominance: 133 <= Cr <= 173 and 77 <= Cb <= 127 of
+/// 8-bit YCrCb (D. Chai, K. N. Ngan, "Face segmentation using skin-color map in videophone
+/// applications", IEEE Trans. Circuits and Systems for Video Technology 9(4), 1999). YCrCb is that
+/// of ITU-R BT.601 in 14-bit fixed point, with the numbers of OpenCV's cvtColor.
 HYPOTRACK_PIXEL bool is_skin(int blue, int green, int red) {
   constexpr int kBits = 14, kHalf = 1 << (kBits - 1), kMiddle = 128 << kBits;
   const int y = (1868 * blue + 9617 * green + 4899 * red + kHalf) >> kBits;
@@ -43,7 +43,7 @@ HYPOTRACK_PIXEL bool is_foreground(const ViewedPixel& pixel, Rule rule, const De
   return (within || !measured) && is_skin(pixel.blue, pixel.green, pixel.red);
 }
 
-/// What was observed there, as one number (observed.hpp).
+/// Returns the observation at a pixel as one number (observed.hpp).
 HYPOTRACK_PIXEL float observed_at(const ViewedPixel& pixel, Rule rule, const DepthRange& range) {
   if (!pixel.valid) return kOutside;
   if (!is_foreground(pixel, rule, range)) return kBackground;

@@ -3,7 +3,7 @@
 namespace hypotrack::rgbd_depth {
 namespace {
 
-/// A row of the images that a rule looks at; null for the others, of which nothing is known.
+/// A row of the images that a rule uses; null for the others.
 struct ViewRow {
   const std::uint8_t* valid;
   const std::uint8_t* mask;

@@ -6,8 +6,8 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// What a pixel adds to the objective near the observation: with F observed foreground pixels, one
-/// that disagrees adds about d_M / F to D and 1 / (2 F) to S.
+/// Cost of a pixel near the observation. With F observed foreground pixels, one that disagrees adds
+/// about d_M / F to D and 1 / (2 F) to S.
 struct PixelPrices {
   float wrong = 0;   ///< covered by mistake, missed or d_M off: 100 d_M / F + lambda / (2 F)
   float hidden = 0;  ///< missed where the sensor had a hole: lambda / (2 F)
@@ -19,15 +19,15 @@ HYPOTRACK_PIXEL PixelPrices pixel_prices(float foreground, const Weights& weight
   return {static_cast<float>(kCentimetresPerMetre * weights.d_max) * share + hidden, hidden};
 }
 
-/// The residual of a pixel that a hypothesis does not cover: sqrt(wrong) where foreground was
-/// measured, sqrt(hidden) where it was not, 0 elsewhere.
+/// Returns the residual of an uncovered pixel: sqrt(wrong) where foreground was measured,
+/// sqrt(hidden) where it was not, 0 elsewhere.
 HYPOTRACK_PIXEL float uncovered_residual(float observed, const PixelPrices& prices) {
   if (observed > 0) return pixel::sqrt(prices.wrong);
   return observed == kUnmeasured ? pixel::sqrt(prices.hidden) : 0.0f;
 }
 
-/// The residual of a pair of fingers that are `crossing` radians too far over each other; its
-/// square is E's term at 0.1.
+/// Returns the residual of a pair of fingers that cross by `crossing` radians. Its square equals
+/// the term of E at 0.1 radians.
 HYPOTRACK_PIXEL float crossing_residual(double crossing, const Weights& weights) {
   constexpr double kEqualAt = 0.1;
   return pixel::sqrt(static_cast<float>(weights.lambda_k / kEqualAt)) *

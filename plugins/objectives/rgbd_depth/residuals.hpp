@@ -8,11 +8,11 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// uncovered_residual() of every pixel.
+/// Returns uncovered_residual() of every pixel.
 PixelPlane<float> uncovered_residuals(const PixelPlane<float>& observed, const PixelPrices& prices);
 
 /// Writes the residual of every pixel of the tile, rows without gaps: sqrt(wrong) depth_residual()
-/// where it is covered, `uncovered` elsewhere. SIMD, as compare(). Distances in metres.
+/// where it is covered, `uncovered` elsewhere. SIMD, as compare(). Distances are in metres.
 void write_residuals(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
                      const PixelPrices& prices, const PixelPlane<float>& uncovered,
                      std::span<float> residuals);

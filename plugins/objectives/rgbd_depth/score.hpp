@@ -14,13 +14,13 @@ struct Agreement {
   std::int64_t beyond = 0;   ///< number with r_m but not o_s
 };
 
-/// Walks over the covered pixels of a tile. `observed` (observed.hpp) has the tile's size. SIMD,
-/// for the best instruction set that this machine (or hwy::SetSupportedTargetsForTest) offers;
-/// they differ by rounding only. Distances in metres.
+/// Sums the agreement over the covered pixels of a tile. `observed` (observed.hpp) has the tile's
+/// size. Uses the best SIMD instruction set of this machine (or hwy::SetSupportedTargetsForTest);
+/// they differ by rounding only. Distances are in metres.
 Agreement compare(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
                   float d_match);
 
-/// The instruction sets that compare() is compiled for, as Highway's bits.
+/// Returns the instruction sets that compare() is compiled for, as Highway's bits.
 std::int64_t compiled_targets();
 
 }  // namespace hypotrack::rgbd_depth

@@ -24,7 +24,7 @@ const char* what_is_missing(Foreground foreground) {
   return "";
 }
 
-/// The rules of all views; rule(i) is that of view i.
+/// Checks the rules of all views; rule(i) returns that of view i.
 template <class RuleOf>
 void check_any(const Observation& observation, Foreground foreground, const RuleOf& rule) {
   const std::size_t count = observation.views.size();

@@ -9,10 +9,11 @@ struct DeviceObservation;
 
 namespace hypotrack::skin {
 
-/// Throws DataError unless a view has what tells foreground, and images that have their tile's size
-/// and type.
+/// Throws DataError unless a view has the images that decide foreground, and all images have their
+/// tile's size and type.
 void check(const Observation& observation, Foreground foreground);
-/// The same for a frame on the device, whose images cannot be of another size or type.
+/// Checks a frame on the device, whose images always have the right size and type. Throws DataError
+/// as above.
 void check(const cuda::DeviceObservation& observation, Foreground foreground);
 
 }  // namespace hypotrack::skin

@@ -6,11 +6,11 @@
 
 namespace hypotrack::skin {
 
-/// Colours fall into kLevels^3 bins.
+/// Levels per channel; colours are quantised into kLevels^3 bins.
 inline constexpr int kLevels = 32;
 inline constexpr std::size_t kBins = std::size_t{kLevels} * kLevels * kLevels;
 
-/// The bin of an 8-bit colour.
+/// Returns the bin of an 8-bit colour.
 HYPOTRACK_PIXEL int bin_of(int blue, int green, int red) {
   constexpr int kWidth = 256 / kLevels;
   return (blue / kWidth * kLevels + green / kWidth) * kLevels + red / kWidth;

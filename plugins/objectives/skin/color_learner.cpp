@@ -9,17 +9,17 @@
 namespace hypotrack::skin {
 namespace {
 
-constexpr double kBeside = 0.08;  // metres from the silhouette in which background counts
+constexpr double kBeside = 0.08;  // metres from the silhouette within which background counts
 
-/// What a place says of a pixel.
+/// Foreground prior of pixels by their place.
 struct PlaceModel {
-  cv::Mat1f prior;   ///< how likely it is foreground; negative where the image is invalid
-  cv::Mat1f weight;  ///< how much it counts as background
+  cv::Mat1f prior;   ///< foreground probability; negative where the image is invalid
+  cv::Mat1f weight;  ///< weight as background
 };
 
-/// The prior is 1/2 on the silhouette's edge and rises to its inside over as many pixels as the
-/// pose may be wrong by. Background counts beside the silhouette: of a sleeve, which goes on there,
-/// as large a share lies beside the hand as under the model's wrist.
+/// Computes the prior: 1/2 on the silhouette's edge, 1 or 0 at the distance of the pose error.
+/// Background counts near the silhouette only. Of a sleeve below the wrist, an equal share then
+/// lies beside the hand and under the model's wrist.
 PlaceModel model_places(const cv::Mat1b& silhouette, const cv::Mat1b& valid, double pose_error,
                         double beside) {
   cv::Mat1f inside, outside;
@@ -33,14 +33,14 @@ PlaceModel model_places(const cv::Mat1b& silhouette, const cv::Mat1b& valid, dou
   return out;
 }
 
-/// Pixels per metre at the middle of the scene.
+/// Returns the pixels per metre at the middle of the scene.
 double scale_at(const Observation& observation, const TileCamera& camera) {
   const DepthRange range = depth_range(observation, camera, 0);
   const float middle = std::max((range.nearest + range.farthest) / 2, 0.01f);
   return camera.fx / double{middle};
 }
 
-/// Whether the image shows so much of the models that their colours can be told.
+/// Returns whether the image shows enough of the models to learn their colours.
 bool shows(const cv::Mat1b& silhouette, const cv::Mat1b& valid) {
   constexpr double kLeastShare = 0.1;
   const int shown = cv::countNonZero(silhouette & valid);

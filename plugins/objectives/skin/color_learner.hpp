@@ -9,28 +9,28 @@
 
 namespace hypotrack::skin {
 
-/// Learns one view's colours on the first settings.learn_frames frames that show the models: those
-/// inside the silhouette of the scene as it is posed in observation.start, against those outside,
-/// give or take settings.pose_error (ColorModel::add()). What it learns where the start is a guess
-/// (observation.start_is_guess) counts for less. Each guess begins anew, and so does the first
-/// observation after one.
+/// Learns one view's foreground colours from the first settings.learn_frames frames that show the
+/// models. Compares colours inside the silhouette of the scene, posed in observation.start, with
+/// those outside, allowing for settings.pose_error (ColorModel::add()). Frames whose start is a
+/// guess (observation.start_is_guess) count less. Each guess restarts the learning, and so does the
+/// first observation after one.
 class ColorLearner {
  public:
   explicit ColorLearner(const Settings& settings) : settings_(settings) {}
 
-  /// Whether it may have something to learn from this frame (observation.frame): the same frame
-  /// again teaches nothing new.
+  /// Returns whether this frame (observation.frame) may teach something. The same frame again does
+  /// not.
   bool wants(const Observation& observation) const {
     if (from_guess_ || observation.start_is_guess) return true;
     return learned_ < settings_.learn_frames && last_seen_ != observation.frame;
   }
-  /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Of the observation's images
-  /// none is looked at. A frame with less than a tenth of the silhouette in the image teaches
-  /// nothing; before any other, every colour is as likely foreground as not.
+  /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Does not use the
+  /// observation's images. A frame with less than a tenth of the silhouette in the image teaches
+  /// nothing; if it is the first, every colour gets P = 0.5.
   void learn(const Observation& observation, const TileCamera& camera, const cv::Mat3b& color,
              const cv::Mat1b& valid);
 
-  /// P of every bin (bin_of()); empty before the first frame.
+  /// Returns P of every bin (bin_of()); empty before the first frame.
   const std::vector<float>& probabilities() const { return probabilities_; }
 
  private:

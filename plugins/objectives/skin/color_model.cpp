@@ -5,7 +5,7 @@
 namespace hypotrack::skin {
 namespace {
 
-/// Sums over bins next to each other along one axis, with weights 1, 2, 1.
+/// Smooths counts along one axis of the bins with weights 1, 2, 1.
 std::vector<double> spread_along(const std::vector<double>& counts, std::size_t stride) {
   std::vector<double> out(kBins);
   for (std::size_t i = 0; i < kBins; ++i) {
@@ -17,7 +17,7 @@ std::vector<double> spread_along(const std::vector<double>& counts, std::size_t 
   return out;
 }
 
-/// Frequencies of colours: counts, spread, divided by their sum.
+/// Returns the frequencies of colours: smoothed counts divided by their sum.
 std::vector<double> frequencies(std::vector<double> out) {
   for (const std::size_t stride :
        {std::size_t{1}, std::size_t{kLevels}, std::size_t{kLevels} * kLevels}) {
@@ -28,10 +28,10 @@ std::vector<double> frequencies(std::vector<double> out) {
   return out;
 }
 
-/// P of every bin.
+/// Returns P of every bin.
 std::vector<double> ratios(const std::vector<double>& foreground,
                            const std::vector<double>& background) {
-  // A colour as rare as one in a million pixels says nothing either way.
+  // Frequency of a colour, one in a million pixels, that says nothing.
   constexpr double kUnseen = 1e-6;
   std::vector<double> f = frequencies(foreground);
   const std::vector<double> b = frequencies(background);
@@ -64,7 +64,7 @@ std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
 }  // namespace
 
 void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight) {
-  constexpr int kRounds = 12;  // it settles within a few
+  constexpr int kRounds = 12;  // it converges within a few
   const std::vector<Seen> pixels = seen_pixels(color, prior, weight);
   Counts foreground, background;
   std::vector<double> ratio(kBins, 0.5);

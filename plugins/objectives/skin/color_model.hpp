@@ -7,21 +7,19 @@
 
 namespace hypotrack::skin {
 
-/// How likely a colour is foreground: P = f / (f + b), f and b its frequencies among the foreground
-/// and the background pixels seen so far (Jones and Rehg, "Statistical color models with
-/// application to skin detection", IJCV 2002, with equal priors). Counts are spread over
-/// neighbouring bins, as noise spreads colours, so that few pixels suffice; a colour that was never
-/// seen is background for all that is known: P near 0.
+/// Estimates how likely a colour is foreground: P = f / (f + b), with f and b its frequencies among
+/// the foreground and background pixels so far (Jones and Rehg, "Statistical color models with
+/// application to skin detection", IJCV 2002, equal priors). Counts are smoothed over neighbouring
+/// bins, so that few pixels suffice. A colour never seen counts as background: P is near 0.
 class ColorModel {
  public:
-  /// Learns from an image (8-bit BGR). `prior` (32-bit float, its size) says how likely each pixel
-  /// is foreground by its place alone; negative: the pixel does not count. `weight` (likewise) is
-  /// how much it counts as background. Places and colours are weighed against each other by
-  /// expectation maximisation, so that a prior may be wrong about many pixels as long as it is
-  /// right about most of a colour's.
+  /// Learns from an image (8-bit BGR). `prior` (32-bit float, the image's size) is the foreground
+  /// probability of each pixel by its place alone; negative: ignore the pixel. `weight` (likewise)
+  /// is its weight as background. Expectation maximisation combines places and colours. So a prior
+  /// may be wrong about many pixels, if it is right about most pixels of a colour.
   void add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight);
 
-  /// P of every bin.
+  /// Returns P of every bin.
   std::vector<float> probabilities() const;
 
  private:

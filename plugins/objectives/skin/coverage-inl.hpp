@@ -12,14 +12,14 @@
 HYPOTRACK_PIXEL_BEGIN();
 namespace hypotrack::skin::HYPOTRACK_TARGET {
 
-/// What covering a pixel changes: spill (1 - P) instead of P. `foreground` is P, `background` 1 -
-/// P, or 0 and 0 where nobody looked.
+/// Returns the change of cost by covering a pixel: spill (1 - P) instead of P. `foreground` is P,
+/// `background` is 1 - P; both are 0 at invalid pixels.
 template <class F>
 HYPOTRACK_PIXEL F change_if_covered(F foreground, F background, F spill) {
   return spill * background - foreground;
 }
 
-/// What is squared at a covered pixel: the root of what it costs, share spill (1 - P).
+/// Returns the residual of a covered pixel: the root of its cost, share spill (1 - P).
 template <class F>
 HYPOTRACK_PIXEL F covered_residual(F background, F spill, F share) {
   using pixel::sqrt;

@@ -5,7 +5,7 @@
 
 namespace hypotrack::skin {
 
-/// The depths that the scene has for a camera as it is posed in observation.start, widened by
+/// Returns the range of the scene's depths in a camera, posed in observation.start and widened by
 /// `margin` metres at both ends.
 DepthRange depth_range(const Observation& observation, const TileCamera& camera, double margin);
 

@@ -6,7 +6,7 @@
 namespace hypotrack::skin {
 namespace {
 
-/// Fills in P, pixel by pixel: probability(x, y).
+/// Fills in P from a function of the pixel, probability(x, y).
 template <class Probability>
 ViewForeground fill(const TileView& view, Probability probability) {
   ViewForeground out;

@@ -10,14 +10,14 @@
 
 namespace hypotrack::skin {
 
-/// How likely each pixel of one view is foreground.
+/// Foreground probability of each pixel of one view.
 struct ViewForeground {
   /// P (low) and 1 - P (high) as 16-bit fractions; both 0 where the pixel is invalid.
   PixelPlane<std::uint32_t> pixels;
-  double sum = 0;  ///< of P: what a hypothesis costs that covers nothing
+  double sum = 0;  ///< sum of P: the cost of a hypothesis that covers nothing
 };
 
-/// Tells foreground in one view, frame after frame.
+/// Estimates the foreground of one view, frame after frame.
 class ForegroundTeller {
  public:
   explicit ForegroundTeller(const Settings& settings) : settings_(settings), colors_(settings) {}

@@ -8,12 +8,13 @@
 
 namespace hypotrack::skin {
 
-/// sqrt(share P) of every pixel: the residuals of a hypothesis that covers nothing. `foreground` is
-/// ViewForeground::pixels.
+/// Returns sqrt(share P) of every pixel: the residuals of a hypothesis that covers nothing.
+/// `foreground` is ViewForeground::pixels.
 PixelPlane<float> uncovered_residuals(const PixelPlane<std::uint32_t>& foreground, float share);
 
 /// Writes the residual of every pixel of the tile, rows without gaps: sqrt(share spill (1 - P))
-/// where it is covered, `uncovered` elsewhere. Returns what sum_covered() does. SIMD, as that.
+/// where it is covered, `uncovered` elsewhere. Returns the result of sum_covered(). SIMD, as
+/// sum_covered().
 double write_residuals(const PixelPlane<std::uint32_t>& foreground, const DepthTile& tile,
                        float spill, float share, const PixelPlane<float>& uncovered,
                        std::span<float> residuals);

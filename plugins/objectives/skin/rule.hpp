@@ -8,10 +8,10 @@ struct DeviceTile;
 
 namespace hypotrack::skin {
 
-/// What tells foreground in a view, for the CPU and for CUDA.
+/// How foreground is decided in a view, on the CPU and with CUDA.
 enum class Rule { none, color, mask, depth };
 
-/// The rule for a view; `none` where it lacks what the rule needs.
+/// Returns the rule for a view; `none` if it lacks the images that the rule needs.
 Rule rule_of(Foreground foreground, bool has_color, bool has_mask, bool has_depth);
 Rule rule_of(Foreground foreground, const cuda::DeviceTile& tile);
 

@@ -9,9 +9,9 @@ namespace {
 
 constexpr int kShift = 4;  // fractional bits of fillConvexPoly's coordinates
 constexpr float kNearest = 0.01f;
-constexpr float kFarthest = 1e5f;  // in pixels: beyond, they would not fit
+constexpr float kFarthest = 1e5f;  // in pixels; larger coordinates would overflow
 
-/// Pixel of a vertex in a tile, in fillConvexPoly's units; false where there is none.
+/// Projects a vertex into a tile, in fillConvexPoly's units. Returns false if that is impossible.
 bool project(const TileCamera& camera, const Eigen::Vector3f& p, cv::Point& pixel) {
   if (!(p.z() > kNearest)) return false;
   const float x = static_cast<float>(camera.fx) * p.x() / p.z() + static_cast<float>(camera.cx);

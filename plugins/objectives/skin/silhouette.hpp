@@ -6,7 +6,7 @@
 
 namespace hypotrack::skin {
 
-/// The pixels of a tile that a scene covers in a state: 255, others 0.
+/// Draws the silhouette of a scene in a state into a tile: 255 inside, 0 outside.
 cv::Mat1b silhouette(const Scene& scene, const Eigen::VectorXd& state, const TileCamera& camera);
 
 }  // namespace hypotrack::skin

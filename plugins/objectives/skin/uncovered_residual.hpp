@@ -4,7 +4,7 @@
 
 namespace hypotrack::skin {
 
-/// What is squared at a pixel that is not covered: the root of what it costs, share P.
+/// Returns the residual of an uncovered pixel: the root of its cost, share P.
 HYPOTRACK_PIXEL float uncovered_residual(float foreground, float share) {
   return pixel::sqrt(share * foreground);
 }

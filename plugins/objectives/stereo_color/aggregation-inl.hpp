@@ -7,8 +7,9 @@
 
 namespace hypotrack::stereo_color {
 
-/// The score of one direction, from the sum of the similarities of pixels seen in both views, their
-/// number, and the number of pixels rendered. Without any pixel it is 0.
+/// Returns the score of one direction. `sum` is over the similarities of pixels seen in both views,
+/// `seen` is their number, `rendered` is the number of pixels rendered. Returns 0 without any
+/// pixel.
 HYPOTRACK_PIXEL double aggregate(Aggregation aggregation, double sum, double seen,
                                  double rendered) {
   double n = 1.0;

@@ -8,9 +8,9 @@ struct Observation;
 
 namespace hypotrack::stereo_color {
 
-/// The beta of a frame: that of the settings or, where beta_by_difference says so and the frame
-/// knows how its views differ, beta_by_difference / color_difference within beta_min .. beta_max,
-/// stepped().
+/// Returns the beta of a frame. It is settings.beta unless beta_by_difference is set and the frame
+/// knows the difference of its views. Then it is beta_by_difference / color_difference, stepped()
+/// and clamped to beta_min .. beta_max.
 double beta_of(const Settings& settings, const Observation& observation);
 
 }  // namespace hypotrack::stereo_color

@@ -9,10 +9,11 @@ struct DeviceObservation;
 
 namespace hypotrack::stereo_color {
 
-/// Throws DataError unless there are two views with colour, of tiles of 2x2 pixels or more, and
-/// images that have their tile's size and type.
+/// Throws DataError unless there are two views with colour, in tiles of 2x2 pixels or more, and
+/// images of their tile's size and type.
 void check(const Observation& observation);
-/// The same for a frame on the device, whose images cannot be of another size or type.
+/// Checks a frame on the device, whose images always have the right size and type. Throws DataError
+/// as above.
 void check(const cuda::DeviceObservation& observation);
 
 }  // namespace hypotrack::stereo_color

@@ -7,7 +7,8 @@
 #include "hypotrack/bgr.hpp"
 #include "hypotrack/pixel.hpp"
 
-/// Colours of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines them.
+/// Colour spaces of one pixel, for the CPU and for CUDA: channels in 0..1 as features.hpp defines
+/// them.
 namespace hypotrack::stereo_color {
 
 struct Channels {
@@ -19,8 +20,8 @@ HYPOTRACK_PIXEL Channels rgb_channels(Bgr p) {
           static_cast<float>(p.b) / 255.0f};
 }
 
-/// With only this share of what all channels have in common, as a highlight has: their mean, about
-/// one half. 1 leaves colours as they are, bit by bit.
+/// Scales the mean of the channels, about one half, by `share`: highlights change all channels
+/// alike. A share of 1 leaves colours unchanged, bit by bit.
 HYPOTRACK_PIXEL Channels with_gray_share(const Channels& c, float share) {
   const float taken = (1.0f - share) * ((c.c0 + c.c1 + c.c2) * (1.0f / 3.0f) - 0.5f);
   return {c.c0 - taken, c.c1 - taken, c.c2 - taken};
@@ -31,7 +32,7 @@ struct Hsv {
   float h, s, v;
 };
 
-/// As OpenCV's COLOR_BGR2HSV defines it for 32-bit float.
+/// Converts as OpenCV's COLOR_BGR2HSV does for 32-bit float.
 HYPOTRACK_PIXEL Hsv to_hsv(const Channels& rgb) {
   constexpr float kEpsilon = 1.1920929e-7f;
   const float v = pixel::max(pixel::max(rgb.c0, rgb.c1), rgb.c2);
@@ -54,15 +55,16 @@ HYPOTRACK_PIXEL Channels on_cone(const Hsv& p) {
   return {0.5f + radius * std::cos(angle), 0.5f + radius * std::sin(angle), p.v};
 }
 
-/// L in 0..100, a and b about -128..127.
+/// Scales L (0..100), a and b (about -128..127) to channels in 0..1.
 HYPOTRACK_PIXEL Channels lab_channels(float l, float a, float b) {
   return {l / 100.0f, (a + 128.0f) / 255.0f, (b + 128.0f) / 255.0f};
 }
 
-/// OpenCV's COLOR_BGR2Lab for 32-bit float interpolates between kLabNodes^3 colours, in 16ths of
-/// the way from one to the next: up to 2e-3 of the range beside the CIE's equations. So does
-/// to_lab(), with the same numbers: LabNode is the Lab of (r, g, b) / (kLabNodes - 1), at
-/// (r * kLabNodes + g) * kLabNodes + b, in units of 100 / 2^14 and 256 / 2^14 (from -128 on).
+/// Table of Lab colours for to_lab(). OpenCV's COLOR_BGR2Lab for 32-bit float interpolates between
+/// kLabNodes^3 colours, in 16ths of their distance, up to 2e-3 of the range off the CIE's
+/// equations. to_lab() does the same with the same numbers. LabNode is the Lab of (r, g, b) /
+/// (kLabNodes - 1), at (r * kLabNodes + g) * kLabNodes + b, in units of 100 / 2^14 and 256 / 2^14
+/// (from -128 on).
 inline constexpr int kLabNodes = 33;
 inline constexpr int kLabNodeCount = kLabNodes * kLabNodes * kLabNodes;
 inline constexpr float kLabUnit = 1.0f / 16384.0f;
@@ -70,7 +72,7 @@ struct alignas(8) LabNode {
   std::int16_t l, a, b, unused;
 };
 
-/// Where an 8-bit value lies between two nodes.
+/// Position of an 8-bit value between two nodes.
 struct LabStep {
   int node, sixteenths;
 };
@@ -82,13 +84,13 @@ HYPOTRACK_PIXEL LabStep lab_step(std::uint8_t value) {
 
 HYPOTRACK_PIXEL Channels to_lab(Bgr p, const LabNode* nodes) {
   const LabStep r = lab_step(p.r), g = lab_step(p.g), b = lab_step(p.b);
-  int sum_l = 2048, sum_a = 2048, sum_b = 2048;  // half of 16^3: rounds
+  int sum_l = 2048, sum_a = 2048, sum_b = 2048;  // half of 16^3, to round
   for (int corner = 0; corner < 8; ++corner) {
     const int dr = corner >> 2, dg = corner >> 1 & 1, db = corner & 1;
     const int weight = (dr ? r.sixteenths : 16 - r.sixteenths) *
                        (dg ? g.sixteenths : 16 - g.sixteenths) *
                        (db ? b.sixteenths : 16 - b.sixteenths);
-    if (weight == 0) continue;  // also keeps the index of the last node's neighbour inside
+    if (weight == 0) continue;  // also keeps the last index within the table
     const LabNode node = nodes[((r.node + dr) * kLabNodes + g.node + dg) * kLabNodes + b.node + db];
     sum_l += weight * node.l;
     sum_a += weight * node.a;

@@ -18,15 +18,15 @@ struct ColorSample {
   F channel_0, channel_1, channel_2, weight;
 };
 
-/// How alike colours are, by their distance.
+/// Parameters of the similarity of colours as a function of their distance.
 template <class F>
 struct Likeness {
   F beta, charge;
   bool gaussian;
 };
 
-/// s = min(C_l, C_r) (exp(-x) - charge), x = beta ||I_l - I_r|| or its square: colour consistency
-/// of a surface point seen in both views.
+/// Computes the colour consistency of a surface point seen in both views: s = min(C_l, C_r)
+/// (exp(-x) - charge), x = beta ||I_l - I_r|| or its square.
 template <class F>
 HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSample<F>& right,
                                     const Likeness<F>& likeness) {
@@ -43,7 +43,8 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   return min(left.weight, right.weight) * (exp(F(0.0f) - x) - likeness.charge);
 }
 
-/// What is squared: sqrt(share (C - s)) of a pixel of weight C, s being 0 unless both views see it.
+/// Returns the residual of a pixel of weight C: sqrt(share (C - s)), with s = 0 unless both views
+/// see it.
 template <class F>
 HYPOTRACK_PIXEL F color_residual(F weight, F consistency, F share) {
   using pixel::max;
@@ -52,7 +53,7 @@ HYPOTRACK_PIXEL F color_residual(F weight, F consistency, F share) {
   return sqrt(share * max(weight - consistency, F(0.0f)));
 }
 
-/// a + (b - a) t in every channel.
+/// Interpolates every channel: a + (b - a) t.
 template <class F>
 HYPOTRACK_PIXEL ColorSample<F> blend(const ColorSample<F>& a, const ColorSample<F>& b, F t) {
   using pixel::mul_add;

@@ -10,7 +10,7 @@
 #include "features.hpp"
 #include "hypotrack/stereo_pixels-inl.hpp"
 
-/// Colours and weights of the pixels of a walk, in both views.
+/// Looks up colours and weights of the pixels of a walk, in both views.
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_color::HWY_NAMESPACE {
 
@@ -35,14 +35,14 @@ HYPOTRACK_PIXEL ColorSample<Lanes> sample_at(const Features& features, const Ste
   return unpack(p.at(features.channels_01, x, y), p.at(features.channel_2_weight, x, y));
 }
 
-/// Interpolated between two pixels of a row.
+/// Interpolates between two pixels of a row.
 HYPOTRACK_PIXEL ColorSample<Lanes> blend_row(const Features& features, const StereoPixels& p,
                                              const BilinearLanes& b, IntLanes row) {
   return blend(sample_at(features, p, b.x0, row), sample_at(features, p, b.x0 + int_lanes(1), row),
                b.fx);
 }
 
-/// Any value where not seen.
+/// Samples the other view; the result is arbitrary where not seen.
 template <bool kBilinear>
 HYPOTRACK_PIXEL ColorSample<Lanes> sample_there(const Features& features, const StereoPixels& p) {
   if constexpr (!kBilinear) return sample_at(features, p, p.column, p.row);

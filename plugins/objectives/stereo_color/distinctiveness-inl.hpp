@@ -4,8 +4,8 @@
 
 #include "hypotrack/pixel.hpp"
 
-/// The arithmetic of the distinctiveness map, one pixel at a time, for the CPU and for CUDA.
-/// Without fused multiply-adds both give the same bits, up to atan and exp.
+/// Arithmetic of the distinctiveness map, one pixel at a time, for the CPU and for CUDA. Without
+/// fused multiply-adds both give the same bits, up to atan and exp.
 namespace hypotrack::stereo_color {
 
 // Keeps the logarithm finite where the image is flat.
@@ -15,7 +15,7 @@ HYPOTRACK_PIXEL float central_difference(float before, float after) {
   return 0.5f * (after - before);
 }
 
-/// Three neighbours of each of three rows.
+/// Sums three neighbours of each of three rows.
 HYPOTRACK_PIXEL float sum_3x3(const float* a, const float* b, const float* c) {
   return (a[0] + a[1] + a[2]) + (b[0] + b[1] + b[2]) + (c[0] + c[1] + c[2]);
 }
@@ -25,7 +25,7 @@ struct Curvature {
   float major, minor;
 };
 
-/// From the sums of gx gx, gx gy and gy gy.
+/// Computes the eigenvalues from the sums of gx gx, gx gy and gy gy.
 HYPOTRACK_PIXEL Curvature curvature(float xx, float xy, float yy) {
   const float mean = 0.5f * (xx + yy);
   const float half = 0.5f * (xx - yy);
@@ -33,8 +33,8 @@ HYPOTRACK_PIXEL Curvature curvature(float xx, float xy, float yy) {
   return {mean + radius, pixel::max(mean - radius, 0.0f)};  // rounding can make it negative
 }
 
-/// exp(d) and tan(a). They order the pixels as d and a do, so the medians are found on them and the
-/// sigmoid of d needs neither logarithm nor exponential:
+/// Texture of a pixel as norm = exp(d) and ratio = tan(a). They order the pixels as d and a do, so
+/// medians can be found on them. The sigmoid of d then needs neither logarithm nor exponential:
 ///   1 / (1 + exp(m - d)) = exp(d) / (exp(d) + exp(m)).
 struct Texture {
   float norm, ratio;
@@ -50,7 +50,7 @@ struct Middle {
   float low, high;
 };
 
-/// exp(m_d) and m_a.
+/// Medians as exp(m_d) and m_a.
 struct Medians {
   float exp_d, a;
 };
@@ -60,7 +60,7 @@ HYPOTRACK_PIXEL Medians medians(const Middle& norm, const Middle& ratio) {
           0.5f * (std::atan(ratio.low) + std::atan(ratio.high))};
 }
 
-/// c = d_s a_s, 0 below w_t.
+/// Computes c = d_s a_s, 0 below w_t.
 HYPOTRACK_PIXEL float distinctiveness(const Texture& t, const Medians& m, float w_t) {
   const float d_s = t.norm / (t.norm + m.exp_d);
   const float a_s = 1.0f / (1.0f + std::exp(m.a - std::atan(t.ratio)));

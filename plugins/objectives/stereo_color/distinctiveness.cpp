@@ -39,10 +39,12 @@ struct Products {
   }
 };
 
-// The bucket of a non-negative float: exponent and three bits of mantissa, in the order of values.
+// Returns the bucket of a non-negative float, its exponent and three bits of mantissa. Buckets have
+// the order of values.
 std::size_t bucket(float value) { return std::bit_cast<std::uint32_t>(value) >> 20; }
 
-// The middle one or two of non-negative values. Exact; buckets only leave few values to look at.
+// Returns the middle one or two of non-negative values. It is exact; buckets only reduce the values
+// to sort.
 Middle middle(const std::vector<float>& values) {
   std::array<std::size_t, 2048> counts{};
   for (const float v : values) ++counts[bucket(v)];

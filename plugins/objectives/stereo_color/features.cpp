@@ -14,7 +14,7 @@ namespace {
 Bgr to_bgr(const cv::Vec3b& p) { return {p[0], p[1], p[2]}; }
 cv::Vec3f to_vec(const Channels& c) { return {c.c0, c.c1, c.c2}; }
 
-// The tile in a colour space, 32-bit float, channels in 0..1.
+// Converts the tile to a colour space, 32-bit float, channels in 0..1.
 cv::Mat3f convert(const cv::Mat3b& bgr, const Params& params) {
   const ColorSpace space = params.color_space;
   cv::Mat3f out(bgr.size());

@@ -6,7 +6,7 @@
 
 namespace hypotrack::stereo_color {
 
-/// The table for to_lab(), asked from OpenCV.
+/// Returns the table for to_lab(), computed by OpenCV.
 std::vector<LabNode> lab_nodes();
 
 }  // namespace hypotrack::stereo_color

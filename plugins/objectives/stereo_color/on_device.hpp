@@ -12,11 +12,11 @@ class DeviceObjective;
 
 namespace hypotrack::stereo_color {
 
-/// The objective on the GPU; null in a build without CUDA. Touches no device before it prepares a
-/// frame.
+/// Makes the objective on the GPU; null in a build without CUDA. Does not touch the device before
+/// it prepares a frame.
 std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
 
-/// What `plugins info` shows: "residuals", and what the GPU has of it in a build with CUDA.
+/// Returns the capabilities for `plugins info`: "residuals", and the GPU's in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::stereo_color

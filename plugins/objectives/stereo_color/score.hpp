@@ -15,20 +15,20 @@ struct Similarity {
   std::int64_t rendered = 0;  ///< number of covered pixels, seen or occluded
 };
 
-/// One view of a prepared frame and how a hypothesis looks in it.
+/// One view of a prepared frame, and a hypothesis drawn into it.
 struct ScoredView {
   const Features& features;
   const DepthTile& tile;
 };
 
-/// Walks over the covered pixels of `here`. SIMD, for the best instruction set that this machine
-/// (or hwy::SetSupportedTargetsForTest) offers. Instruction sets differ by rounding only; where
-/// that moves a point across the border of two pixels (1 in 1e4 or fewer), the neighbour is looked
-/// up.
+/// Sums the similarities over the covered pixels of `here`. Uses the best SIMD instruction set of
+/// this machine (or hwy::SetSupportedTargetsForTest). Instruction sets differ by rounding only.
+/// Where rounding moves a point across the border of two pixels (1 in 1e4 or fewer), the neighbour
+/// is looked up.
 Similarity measure(const ScoredView& here, const ScoredView& there, const StereoMap& map,
                    const Params& params);
 
-/// The instruction sets that measure() is compiled for, as Highway's bits.
+/// Returns the instruction sets that measure() is compiled for, as Highway's bits.
 std::int64_t compiled_targets();
 
 }  // namespace hypotrack::stereo_color

@@ -18,33 +18,33 @@ namespace hypotrack::stereo_color {
 /// Distinctiveness, once per frame and view (the paper's measure after Harris and Stephens). With
 /// l1 >= l2 the eigenvalues of the auto-correlation matrix of the grey image's gradients, summed
 /// over 3x3 pixels:
-///   d = log sqrt(l1^2 + l2^2)            how strong the texture is
-///   a = atan2(l2, l1), 0 .. pi/4         how cornered it is: 0 along an edge
+///   d = log sqrt(l1^2 + l2^2)            strength of the texture
+///   a = atan2(l2, l1), 0 .. pi/4         cornerness: 0 along an edge
 ///   d_s = 1 / (1 + exp(m_d - d)), a_s = 1 / (1 + exp(m_a - a)), m the medians over the tile
 ///   C = d_s a_s, or 0 where that is below w_t
 /// Score of a hypothesis, over the pixels of the left view that it covers and whose surface point
 /// the right view sees too (within r of the depth rendered there):
 ///   s = min(C_l, C_r) exp(-beta ||I_l - I_r||),   S = sum of s,   cost = -S
 ///
-/// Readings of ours where the paper leaves room: the natural logarithm, of the norm + 1e-12 (flat
-/// areas); colours in 0..1 with the Euclidean norm; medians over all pixels of the tile that lie
-/// inside the image, background included; gradients by central differences (their scale drops out
-/// with the medians); the right view is read at the nearest pixel. Beyond the paper: the other
-/// values of color_space, aggregation, direction, lookup, distinctiveness, falloff, and a charge:
+/// Choices where the paper leaves room: the natural logarithm, of the norm + 1e-12 (flat areas);
+/// colours in 0..1 with the Euclidean norm; medians over all pixels of the tile inside the image,
+/// background included; gradients by central differences (their scale cancels with the medians);
+/// the right view read at the nearest pixel. Extensions: the other values of color_space,
+/// aggregation, direction, lookup, distinctiveness and falloff; a beta that follows the noise of
+/// the pictures (beta.hpp); a charge:
 ///   s = min(C_l, C_r) (exp(-x) - charge),   x = beta ||I_l - I_r||, or its square (gaussian)
-/// so that covering what is less alike than the charge, background mostly, costs; a beta that
-/// follows the noise of the pictures (beta.hpp); and a gray_weight g, with which
+/// so that covering pixels less alike than the charge, mostly background, costs; a gray_weight g:
 ///   ||I_l - I_r||^2 = |d|^2 - (1 - g^2) (d_R + d_G + d_B)^2 / 3,   d = I_l - I_r
-/// because highlights, which lie elsewhere for each camera, have the light's colour: Shafer, "Using
-/// color to separate reflection components", Color Research and Application 1985.
+/// because highlights have the light's colour and lie elsewhere for each camera (Shafer, "Using
+/// color to separate reflection components", Color Research and Application 1985).
 ///
-/// A hypothesis that no pixel sees in both views costs 0, without a charge the worst cost there is.
+/// A hypothesis without a pixel that both views see costs 0, without a charge the worst cost.
 ///
-/// With the aggregation `sum` the cost is a sum of squares, up to a constant of the frame: every
-/// pixel of the left tile, covered or not, has the residual sqrt(C - s), where s is 0 unless both
-/// views see its surface (and negative where the charge is more than the similarity). So a
-/// silhouette that does not reach a distinctive pixel is felt at that pixel. With `both` directions
-/// each pixel of either tile has the residual sqrt((C - s) / 2).
+/// With the aggregation `sum` the cost is a sum of squares, up to a constant of the frame. Every
+/// pixel of the left tile, covered or not, has the residual sqrt(C - s). s is 0 unless both views
+/// see its surface, and negative where the charge exceeds the similarity. So a silhouette that
+/// misses a distinctive pixel has a residual at that pixel. With `both` directions each pixel of
+/// either tile has the residual sqrt((C - s) / 2).
 class StereoColor : public Objective, public ResidualTerm {
  public:
   using Params = stereo_color::Params;
@@ -52,22 +52,22 @@ class StereoColor : public Objective, public ResidualTerm {
   explicit StereoColor(const Params& params);
 
   ImageUse image_use() const override;
-  /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
-  /// that do not have their tile's size and type.
+  /// Uses the first two views. Throws DataError if there are fewer, on tiles under 2x2 pixels, and
+  /// on images without their tile's size and type.
   void prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
 
-  /// This, or null if the aggregation makes a mean of the sum.
+  /// Returns this, or null if the aggregation divides the sum.
   const ResidualTerm* residual_term() const override;
   std::int64_t residual_count() const override;
-  /// Throws DataError as cost().
+  /// Throws DataError as cost() does.
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
   bool has_slopes() const override { return true; }
   std::span<const int> pixel_views() const override;
-  /// Throws DataError as cost().
+  /// Throws DataError as cost() does.
   void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
                     std::span<float> slopes) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
@@ -76,9 +76,9 @@ class StereoColor : public Objective, public ResidualTerm {
  private:
   void check_tiles(const RenderedHypothesis& hypothesis) const;
   double score(const Similarity& similarity) const;
-  double cost_of(double scores) const;  ///< the sum of those of the directions that are used
-  bool uses(std::size_t from) const;    ///< whether pixels of this view are summed up
-  float share() const;                  ///< of each of the directions that are
+  double cost_of(double scores) const;  ///< of the sum of the used directions' scores
+  bool uses(std::size_t from) const;    ///< whether pixels of this view are summed
+  float share() const;                  ///< weight of each used direction
 
   Params params_;
   Params of_frame_;  // with the frame's beta

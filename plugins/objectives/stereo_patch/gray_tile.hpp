@@ -5,8 +5,8 @@
 
 namespace hypotrack::stereo_patch {
 
-/// Grey in 0..1 of a tile with `margin` columns before and behind each row; NaN where invalid and
-/// in the margins, so that every sum over such a pixel is NaN.
+/// Converts a tile to grey in 0..1, with `margin` columns before and behind each row. Invalid
+/// pixels and margins are NaN, so that every sum over such a pixel is NaN.
 PixelPlane<float> gray_tile(const TileView& view, int margin);
 
 }  // namespace hypotrack::stereo_patch

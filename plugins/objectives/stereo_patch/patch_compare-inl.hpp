@@ -13,22 +13,21 @@
 #include "hypotrack/view_pixels.hpp"
 #include "patch_similarity-inl.hpp"
 
-/// Ways to compare the patch around a pixel of the first view with that of the same pixel of the
-/// second view as a plane shows it. Both planes of grey have the same size, NaN where there is
-/// none.
+/// Comparisons of the patch around a pixel of the first view with that of the same pixel of the
+/// second view, warped by a plane. Both planes of grey have the same size, NaN outside.
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_patch::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes
 
-/// Sums over the columns of a band of rows, in turn to be summed over neighbouring columns.
+/// Sums over the columns of a band of rows, for sums over neighbouring columns.
 class ColumnSums {
  public:
   explicit ColumnSums(int width) : sums_(static_cast<std::size_t>(width) + 2 * kLanes) {}
   HYPOTRACK_PIXEL void set(int x, Lanes value) {
     hn::StoreU(value.v, FloatTag(), sums_.data() + x);
   }
-  /// Sum over the columns x - radius .. x + radius.
+  /// Returns the sum over the columns x - radius .. x + radius.
   HYPOTRACK_PIXEL Lanes around(int x, int radius) const {
     const float* from = sums_.data() + x - radius;
     Lanes sum = load(from);
@@ -40,9 +39,9 @@ class ColumnSums {
   std::vector<float> sums_;
 };
 
-/// Zero-mean normalised cross-correlation. Sums of products over a patch are sums over its columns,
-/// which neighbours share; they are added up anew for every row, because a sum that runs on would
-/// never get rid of a NaN.
+/// Zero-mean normalised cross-correlation. Sums over a patch are sums over its columns, which
+/// neighbours share. They are recomputed for every row, because a running sum would never lose a
+/// NaN.
 class ZnccComparer {
  public:
   ZnccComparer(const PixelPlane<float>& left, int radius, float floor)
@@ -106,9 +105,9 @@ class ZnccComparer {
   ColumnSums b_, bb_, ab_;
 };
 
-/// Census: z = 1 - 2 d, d the share of a patch's pixels that are darker than its middle in one view
-/// but not in the other (R. Zabih, J. Woodfill, "Non-parametric local transforms for computing
-/// visual correspondence", ECCV 1994: the Hamming distance of their census transforms).
+/// Census: z = 1 - 2 d. d is the share of a patch's pixels that are darker than its centre in only
+/// one view (R. Zabih, J. Woodfill, "Non-parametric local transforms for computing visual
+/// correspondence", ECCV 1994: the Hamming distance of their census transforms).
 class CensusComparer {
  public:
   CensusComparer(const PixelPlane<float>& left, int radius) : left_(left), radius_(radius) {}

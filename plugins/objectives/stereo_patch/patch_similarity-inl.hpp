@@ -12,7 +12,7 @@
 HYPOTRACK_PIXEL_BEGIN();
 namespace hypotrack::stereo_patch::HYPOTRACK_TARGET {
 
-/// Mean and variance (with the floor added) of a patch.
+/// Mean and variance (plus the floor) of a patch.
 template <class F>
 struct Moments {
   F mean, variance;
@@ -24,14 +24,16 @@ HYPOTRACK_PIXEL Moments<F> moments(F mean, F mean_of_square, F floor) {
   return {mean, max(mean_of_square - mean * mean, F(0.0f)) + floor};
 }
 
-/// z = cov(a, b) / sqrt((var a + e)(var b + e)): correlation of two patches, with a variance floor.
+/// Computes the correlation of two patches with a variance floor e: z = cov(a, b) / sqrt((var a +
+/// e)(var b + e)).
 template <class F>
 HYPOTRACK_PIXEL F correlation(F mean_of_product, const Moments<F>& a, const Moments<F>& b) {
   using pixel::sqrt;
   return (mean_of_product - a.mean * b.mean) / sqrt(a.variance * b.variance);
 }
 
-/// s = exp(-sharpness (1 - z)), and 0 where z is NaN: where a patch reaches out of an image.
+/// Computes s = exp(-sharpness (1 - z)). It is 0 where z is NaN, as where a patch extends beyond an
+/// image.
 template <class F>
 HYPOTRACK_PIXEL F similarity(F z, F sharpness) {
   using pixel::exp;
@@ -41,13 +43,13 @@ HYPOTRACK_PIXEL F similarity(F z, F sharpness) {
   return select(z >= F(-2.0f), s, F(0.0f));
 }
 
-/// Where an inverse depth lies between the planes: the one before it and how far to the next.
+/// Position of an inverse depth between the planes: the one before it and the fraction to the next.
 template <class F>
 struct PlaneShare {
   F before, share;
 };
 
-/// `position` = (inverse depth - first) / step. Meaningful where between_planes() says so.
+/// Splits `position` = (inverse depth - first) / step. Meaningful only if between_planes().
 template <class F>
 HYPOTRACK_PIXEL PlaneShare<F> plane_share(F position, F last) {
   using pixel::floor;
@@ -57,8 +59,8 @@ HYPOTRACK_PIXEL PlaneShare<F> plane_share(F position, F last) {
   return {before, position - before};
 }
 
-/// What is squared: sqrt(weight - s) of a pixel, s being 0 unless both views see it between the
-/// planes. `weight` and `s` are times what the pixel counts.
+/// Returns the residual of a pixel: sqrt(weight - s), with s = 0 unless both views see it between
+/// the planes. `weight` and `s` include the pixel's weight.
 template <class F>
 HYPOTRACK_PIXEL F patch_residual(F weight, F similarity) {
   using pixel::max;
@@ -66,7 +68,7 @@ HYPOTRACK_PIXEL F patch_residual(F weight, F similarity) {
   return sqrt(max(weight - similarity, F(0.0f)));
 }
 
-/// Whether a position lies on or between the first plane (0) and the last.
+/// Returns whether a position lies from the first plane (0) to the last.
 template <class F>
 HYPOTRACK_PIXEL auto between_planes(F position, F last) {
   return position >= F(0.0f) && position <= last;

@@ -10,17 +10,18 @@
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "volume_kernel.hpp"
 
-/// The second view as a plane in space, parallel to the first view's tile, shows it there.
+/// Warps the second view to the first by a plane in space that is parallel to the first view's
+/// tile.
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::stereo_patch::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes
 
-/// A rectified pair: each row is shifted by a fraction of pixels.
+/// Warps a row of a rectified pair: shifts it by a fraction of pixels.
 HYPOTRACK_PIXEL void shift_row(const VolumeJob& job, float offset, int y, PixelPlane<float>& out) {
   const float whole = std::floor(offset);
   const auto margin = static_cast<float>(job.margin);
-  // Beyond the margins there is nothing either, and the margins hold NaN.
+  // Clamp the shift: beyond the image there are only the margins' NaNs.
   const int shift = static_cast<int>(std::min(std::max(whole, -margin), margin - 1));
   const Lanes share(offset - whole);
   const float* from = job.right.row(y) + job.margin + shift;
@@ -31,7 +32,7 @@ HYPOTRACK_PIXEL void shift_row(const VolumeJob& job, float offset, int y, PixelP
   }
 }
 
-/// Any two cameras: every pixel is looked up where it lands, between four others.
+/// Warps a row for any two cameras: looks up every pixel by bilinear interpolation.
 HYPOTRACK_PIXEL void look_up_row(const VolumeJob& job, float inverse_depth, int y,
                                  PixelPlane<float>& out) {
   const Lanes right(static_cast<float>(job.map.width - 1));
@@ -60,7 +61,8 @@ HYPOTRACK_PIXEL void look_up_row(const VolumeJob& job, float inverse_depth, int 
   }
 }
 
-/// `out` has the first view's size; NaN where the plane does not show a valid pixel.
+/// Warps the view. `out` has the first view's size; NaN where the plane does not show a valid
+/// pixel.
 HYPOTRACK_PIXEL void warp(const VolumeJob& job, float inverse_depth, PixelPlane<float>& out) {
   const int rows = std::min(out.height(), job.right.height());
   for (int y = 0; y < out.height(); ++y) {

@@ -16,7 +16,7 @@ struct Depths {
 };
 
 Depths depths_of(const Observation& observation, double margin) {
-  constexpr double kNearest = 0.01;  // nearer than this nothing is drawn
+  constexpr double kNearest = 0.01;  // nothing nearer is drawn
   const Eigen::Isometry3f camera = observation.views[0].camera.camera_from_world.cast<float>();
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
   for (const Scene::Item& item : observation.scene->items()) {
@@ -31,7 +31,7 @@ Depths depths_of(const Observation& observation, double margin) {
   return {nearest, std::max(farthest, nearest + margin)};
 }
 
-/// How far a pixel's counterpart moves over a range of inverse depths, pixels.
+/// Returns by how many pixels a pixel's counterpart moves over a range of inverse depths.
 double motion(const StereoMap& map, float x, float y, float w0, float w1) {
   const auto at = [&](float w) {
     return map.rectified ? scalar::map_pixel<true>(map, x, y, w)

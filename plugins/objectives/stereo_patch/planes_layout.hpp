@@ -2,8 +2,8 @@
 
 namespace hypotrack::stereo_patch {
 
-/// The depths that are compared: inverse depths first + k step of the reference view, 0 <= k <
-/// count. In a rectified pair they are equidistant in disparity.
+/// Planes of the sweep: inverse depths first + k step of the reference view, 0 <= k < count. In a
+/// rectified pair they are equidistant in disparity.
 struct Planes {
   float first = 0;  ///< 1/m
   float step = 0;   ///< 1/m

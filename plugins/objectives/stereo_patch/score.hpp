@@ -8,13 +8,13 @@
 
 namespace hypotrack::stereo_patch {
 
-/// Sum of the similarities of the pixels of `left` that are covered and seen in `right`, too
-/// (within `tolerance` metres). SIMD, for the best instruction set that this machine (or
-/// hwy::SetSupportedTargetsForTest) offers; they differ by rounding only.
+/// Sums the similarities of the pixels of `left` that are covered and also seen in `right` (within
+/// `tolerance` metres). Uses the best SIMD instruction set of this machine (or
+/// hwy::SetSupportedTargetsForTest); they differ by rounding only.
 double sum_similarity(const Volume& volume, const DepthTile& left, const DepthTile& right,
                       const StereoMap& map, float tolerance);
 
-/// The instruction sets that sum_similarity() is compiled for, as Highway's bits.
+/// Returns the instruction sets that sum_similarity() is compiled for, as Highway's bits.
 std::int64_t score_targets();
 
 }  // namespace hypotrack::stereo_patch

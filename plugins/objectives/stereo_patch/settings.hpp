@@ -13,7 +13,7 @@ struct Settings {
   double range = 100e-3;          ///< m
   double step = 0.5;              ///< pixels of the tile
   double r = 3e-3;                ///< m
-  double full_at_difference = 0;  ///< of colours in 0..1; 0: always in full
+  double full_at_difference = 0;  ///< of colours in 0..1; 0: full weight always
   bool use_mask = true;
 };
 

@@ -8,9 +8,10 @@ struct Observation;
 
 namespace hypotrack::stereo_patch {
 
-/// What a pixel counts in a frame, in 0..1: 1 or, where full_at_difference says so and the frame
-/// knows how its views differ, (color_difference / full_at_difference)^2 up to 1, stepped(). The
-/// square: what colours say of a pose is worth as much as the inverse of their noise's variance.
+/// Returns the weight of a pixel in a frame, in 0..1. It is 1 unless full_at_difference is set and
+/// the frame knows the difference of its views. Then it is (color_difference /
+/// full_at_difference)^2, stepped() and at most 1. The square is used because colours count by the
+/// inverse of their noise's variance.
 double share_of(const Settings& settings, const Observation& observation);
 
 }  // namespace hypotrack::stereo_patch

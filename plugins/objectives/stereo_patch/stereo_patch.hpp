@@ -9,10 +9,10 @@
 
 namespace hypotrack::stereo_patch {
 
-/// Patch consistency of a hypothesis in a stereo pair: as stereo_color, but what is compared are
-/// patches of grey around the two pixels that see a surface point, by a measure that neither
-/// brightness nor contrast of one view against the other changes. A uniform surface, which a
-/// comparison of colours finds consistent wherever it is put, has next to no score.
+/// Patch consistency of a hypothesis in a stereo pair. Like stereo_color, but compares patches of
+/// grey around the two pixels that see a surface point. The measure is invariant to brightness and
+/// contrast of one view against the other. A uniform surface, which is consistent in colour
+/// wherever it is put, scores almost nothing.
 ///
 ///   z = cov(a, b) / sqrt((var a + e)(var b + e))     patches a (left) and b (right), e the floor
 ///   s = exp(-sharpness (1 - z))
@@ -20,19 +20,19 @@ namespace hypotrack::stereo_patch {
 ///       point the right view sees too (within r of the depth rendered there),   cost = -S
 ///
 /// (or z by census: patch_compare-inl.hpp). Patches are compared as if every surface were parallel
-/// to the left view's image plane. So they can be compared before there is a hypothesis: `prepare`
-/// fills a volume with s of every pixel at a range of depths (volume.hpp), and scoring a pixel is
-/// one lookup, interpolated in depth. In a rectified pair the volume is one over disparities; other
-/// pairs are resampled by the general projection.
+/// to the left view's image plane. So the comparison needs no hypothesis: `prepare` fills a volume
+/// with s of every pixel at a range of depths (volume.hpp). Scoring a pixel is one lookup,
+/// interpolated in depth. In a rectified pair the volume is over disparities; other pairs are
+/// resampled by the general projection.
 ///
-/// With full_at_difference s is times what a pixel counts in the frame, c in 0..1 (share.hpp);
+/// With full_at_difference, s is multiplied by a weight c in 0..1 of the frame (share.hpp);
 /// otherwise c is 1.
 ///
-/// A hypothesis that no pixel sees in both views costs 0, the worst cost there is.
+/// A hypothesis without a pixel that both views see costs 0, the worst cost.
 ///
-/// The cost is a sum of squares, up to a constant of the frame: every pixel of the left tile within
-/// the image and the mask, covered or not, has the residual sqrt(c - s), where s is 0 unless both
-/// views see its surface.
+/// The cost is a sum of squares, up to a constant of the frame. Every pixel of the left tile within
+/// the image and the mask, covered or not, has the residual sqrt(c - s). s is 0 unless both views
+/// see its surface.
 class StereoPatch : public Objective, public ResidualTerm {
  public:
   using Params = stereo_patch::Params;
@@ -40,8 +40,8 @@ class StereoPatch : public Objective, public ResidualTerm {
   explicit StereoPatch(const Params& params);
 
   ImageUse image_use() const override;
-  /// Uses the first two views. Throws DataError on fewer, on tiles under 2x2 pixels, and on images
-  /// that do not have their tile's size and type.
+  /// Uses the first two views. Throws DataError if there are fewer, on tiles under 2x2 pixels, and
+  /// on images without their tile's size and type.
   void prepare(const Observation& observation) override;
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
@@ -49,14 +49,14 @@ class StereoPatch : public Objective, public ResidualTerm {
 
   const ResidualTerm* residual_term() const override { return this; }
   std::int64_t residual_count() const override;
-  /// Both throw DataError as cost().
+  /// Both throw DataError as cost() does.
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
   bool has_slopes() const override { return true; }
   std::span<const int> pixel_views() const override;
-  /// Throws DataError as cost().
+  /// Throws DataError as cost() does.
   void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
                     std::span<float> slopes) const override;
 

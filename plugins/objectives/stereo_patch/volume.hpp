@@ -12,16 +12,16 @@
 
 namespace hypotrack::stereo_patch {
 
-/// Similarity of the patches around every pixel of the reference view and its counterparts at the
-/// depths of the planes: what makes scoring one lookup per pixel. A word holds the similarity at a
-/// plane (low half) and at the next (high half) as 16-bit fractions. Order: row, plane, column.
+/// Similarities of the patches around every pixel of the reference view and its counterparts at the
+/// planes' depths, so that scoring is one lookup per pixel. A word holds the similarity at a plane
+/// (low half) and at the next (high half) as 16-bit fractions. Order: row, plane, column.
 struct Volume {
   Planes planes;
   int width = 0, height = 0;
-  /// What a pixel counts: 0 outside of the image and of the mask, otherwise share_of() the frame.
-  /// Its similarities are times this.
+  /// Weight of each pixel: 0 outside the image or the mask, otherwise share_of() the frame.
+  /// Multiplies its similarities.
   PixelPlane<float> weight;
-  PixelPlane<float> uncovered;  ///< residuals of pixels that nothing covers: the root of weight
+  PixelPlane<float> uncovered;  ///< residuals of uncovered pixels: the root of weight
   std::vector<std::uint32_t> words;
 
   std::size_t row_stride() const {
@@ -32,12 +32,11 @@ struct Volume {
   }
 };
 
-/// Fills a volume for the first two views of a frame (checked: observation_checks.hpp). The second
-/// view is resampled (bilinear) as every plane, parallel to the first tile's, would show it there,
-/// then compared patch by patch. A patch that reaches out of a tile or onto invalid pixels has
-/// similarity 0, and so do pixels outside the first view's mask, if `use_mask`. SIMD, for the best
-/// instruction set that this machine (or hwy::SetSupportedTargetsForTest) offers; they differ by
-/// rounding only.
+/// Fills a volume for the first two views of a frame (checked: observation_checks.hpp). Warps the
+/// second view by every plane parallel to the first tile (bilinear), then compares patch by patch.
+/// The similarity is 0 for patches that extend beyond a tile or onto invalid pixels and, with
+/// `use_mask`, for pixels outside the first view's mask. Uses the best SIMD instruction set of this
+/// machine (or hwy::SetSupportedTargetsForTest); they differ by rounding only.
 void make_volume(const Observation& observation, const Settings& settings, Volume& volume);
 
 }  // namespace hypotrack::stereo_patch

@@ -16,8 +16,8 @@ namespace hypotrack::stereo_patch::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes
 
-/// A row of one plane into the volume: the low halves of its words and the high halves of those of
-/// the plane before.
+/// Writes a row of one plane into the volume: the low halves of its words, and the high halves of
+/// those of the plane before.
 class RowWriter {
  public:
   HYPOTRACK_PIXEL RowWriter(Volume& volume, int plane, int y)
@@ -25,7 +25,7 @@ class RowWriter {
               static_cast<std::ptrdiff_t>(plane) * volume.width),
         before_(plane > 0 ? here_ - volume.width : nullptr) {}
 
-  /// `count` similarities from column x on.
+  /// Writes `count` similarities from column x on.
   HYPOTRACK_PIXEL void write(int x, int count, Lanes similarity) const {
     const UintTag tag;
     const auto mask = hn::RebindMask(tag, first_lanes(count).m);
@@ -42,7 +42,7 @@ class RowWriter {
   std::uint32_t* before_;
 };
 
-/// All rows of one plane, from the second view as that plane shows it.
+/// Fills all rows of one plane, from the second view warped by that plane.
 template <class Comparer>
 void fill_plane(const Settings& settings, const PixelPlane<float>& warped, int plane,
                 Comparer& comparer, Volume& volume) {

@@ -8,19 +8,19 @@
 
 namespace hypotrack::stereo_patch {
 
-/// What the filling of a volume reads.
+/// Input of the filling of a volume.
 struct VolumeJob {
-  StereoMap map;            ///< from the first view into the second
+  StereoMap map;            ///< from the first view to the second
   PixelPlane<float> left;   ///< gray_tile() of the first view, no margin
-  PixelPlane<float> right;  ///< of the second view
+  PixelPlane<float> right;  ///< gray_tile() of the second view
   int margin;               ///< of `right`
 };
 
-/// Fills volume.words, which have the size that planes, width and height ask for, and whose other
-/// members are set.
+/// Fills volume.words. They must have the size for planes, width and height, and all other members
+/// must be set.
 void fill_volume(const VolumeJob& job, const Settings& settings, Volume& volume);
 
-/// The instruction sets that fill_volume() is compiled for, as Highway's bits.
+/// Returns the instruction sets that fill_volume() is compiled for, as Highway's bits.
 std::int64_t volume_targets();
 
 }  // namespace hypotrack::stereo_patch

@@ -15,7 +15,7 @@ namespace hypotrack::stereo_patch::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
 
-/// Looks similarities up between the planes of a volume.
+/// Looks up similarities between the planes of a volume.
 class VolumeLookup {
  public:
   explicit VolumeLookup(const Volume& volume)
@@ -24,25 +24,25 @@ class VolumeLookup {
         planes_per_unit_(1.0f / volume.planes.step),
         last_(static_cast<float>(volume.planes.count - 1)) {}
 
-  /// Pixels that both views see, at a depth between the planes.
+  /// Returns the pixels that both views see at a depth between the planes.
   HYPOTRACK_PIXEL LaneMask counting(const StereoPixels& p) const {
     return p.seen && between_planes(position(p), last_);
   }
 
-  /// Similarity where `counts`, any value elsewhere.
+  /// Returns the similarity where `counts`, arbitrary values elsewhere.
   HYPOTRACK_PIXEL Lanes similarity(const StereoPixels& p, LaneMask counts) const {
     return similarity_at(position(p), p, counts);
   }
 
-  /// Similarity of the surface that is `planes` planes nearer, where `counts`: at the first or last
-  /// plane if it were beyond.
+  /// Returns the similarity of a surface that is `planes` planes nearer, where `counts`. Clamps to
+  /// the first and last plane.
   HYPOTRACK_PIXEL Lanes similarity_beside(const StereoPixels& p, LaneMask counts,
                                           float planes) const {
     const Lanes there = position(p) + Lanes(planes);
     return similarity_at(min(max(there, Lanes(0.0f)), last_), p, counts);
   }
 
-  /// Planes per 1/m.
+  /// Returns the number of planes per 1/m.
   HYPOTRACK_PIXEL Lanes density() const { return planes_per_unit_; }
 
  private:

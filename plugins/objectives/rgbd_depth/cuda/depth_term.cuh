@@ -9,7 +9,7 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// The objective's part for one pixel and for one hypothesis (pixel_objective.cuh).
+/// The objective's functions per pixel and per hypothesis (pixel_objective.cuh).
 struct DepthTerm {
   static constexpr bool kStereo = false;
   static constexpr bool kVisitsUncovered = false;

@@ -10,19 +10,19 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// What a frame observed, in device memory that stays where it is until a larger frame comes.
+/// A frame's observed depths in device memory, which does not move until a larger frame comes.
 class DeviceFrame {
  public:
   explicit DeviceFrame(const Settings& settings) : settings_(settings) {}
 
-  /// Enqueues what makes it of a frame that has been checked (checks.hpp).
+  /// Enqueues the computation for a frame that was checked (checks.hpp).
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
-  /// Device memory: per pixel what observed.hpp says; null for a view without depth.
+  /// Returns device memory: observed.hpp per pixel; null for a view without depth.
   const float* observed(int view) const { return views_[static_cast<std::size_t>(view)]; }
-  /// Device memory: of all views together.
+  /// Returns device memory: the counts over all views.
   const Counts* counts() const { return counts_.data(); }
-  /// Device memory: the scene's neighbouring fingers.
+  /// Returns device memory: the scene's adjacent fingers.
   const FingerPair* fingers() const { return fingers_.data(); }
   int finger_count() const { return static_cast<int>(known_fingers_.size()); }
 

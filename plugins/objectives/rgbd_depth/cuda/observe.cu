@@ -18,7 +18,7 @@ __device__ ViewedPixel viewed(const cuda::TileLayout& tile, int i) {
           static_cast<int>(word >> 16 & 0xff)};
 }
 
-/// A row of blocks per view.
+/// Separates foreground and background, with a row of blocks per view.
 __global__ void __launch_bounds__(kThreads) observe(const __grid_constant__ ObserveJob job) {
   const ViewJob& view = job.views[blockIdx.y];
   const int i = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);
@@ -31,7 +31,7 @@ __global__ void __launch_bounds__(kThreads) observe(const __grid_constant__ Obse
   const int foreground_count = __syncthreads_count(measured || observed == kUnmeasured);
   const int measured_count = __syncthreads_count(measured);
   if (threadIdx.x > 0) return;
-  // Integers: their sum does not depend on the order of blocks.
+  // Integer sums do not depend on the order of blocks.
   atomicAdd(&job.counts->foreground, static_cast<std::uint32_t>(foreground_count));
   atomicAdd(&job.counts->measured, static_cast<std::uint32_t>(measured_count));
 }

@@ -8,13 +8,13 @@
 
 namespace hypotrack::rgbd_depth {
 
-/// Pixels of all views with depth, in device memory.
+/// Pixel counts over all views with depth, in device memory.
 struct Counts {
-  std::uint32_t foreground;  ///< with o_s: measured or not
-  std::uint32_t measured;    ///< of those, with a depth
+  std::uint32_t foreground;  ///< with o_s, measured or not
+  std::uint32_t measured;    ///< with o_s and a depth
 };
 
-/// What is to be done for one view with depth.
+/// The computation for one view with depth.
 struct ViewJob {
   cuda::TileLayout tile;
   Rule rule;
@@ -28,7 +28,7 @@ struct ObserveJob {
   Counts* counts;  ///< of all views together
 };
 
-/// Enqueues the telling of foreground from background: the numbers of observe().
+/// Enqueues the separation of foreground and background, with the results of observe().
 void enqueue_observe(const ObserveJob& job, cuda::Stream stream);
 
 }  // namespace hypotrack::rgbd_depth

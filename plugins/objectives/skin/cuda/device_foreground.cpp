@@ -8,7 +8,7 @@
 namespace hypotrack::skin {
 namespace {
 
-/// A tile's colours and which of its pixels are valid.
+/// A tile's colours and valid pixels, in host memory.
 struct FetchedTile {
   cv::Mat3b color;
   cv::Mat1b valid;

@@ -11,20 +11,20 @@
 
 namespace hypotrack::skin {
 
-/// How likely each pixel of a frame is foreground, in device memory that stays where it is until a
+/// Foreground probability of each pixel of a frame, in device memory that does not move until a
 /// larger frame comes.
 class DeviceForeground {
  public:
   explicit DeviceForeground(const Settings& settings);
   ~DeviceForeground();
 
-  /// Enqueues what tells it. A frame that colours are learned from is fetched, which waits for the
-  /// stream. Throws DataError as Skin::prepare().
+  /// Enqueues the computation. Downloads a frame from which colours are learned, which waits for
+  /// the stream. Throws DataError as Skin::prepare() does.
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
-  /// Device memory: ViewForeground::pixels; null for a view that is not looked at.
+  /// Returns device memory: ViewForeground::pixels; null for an unused view.
   const std::uint32_t* pixels(int view) const { return pixels_[static_cast<std::size_t>(view)]; }
-  /// Device memory: the sum of their low halves, over all views.
+  /// Returns device memory: the sum of the pixels' low halves over all views.
   const unsigned long long* sum() const { return sum_.data(); }
 
  private:

@@ -26,7 +26,7 @@ __device__ float probability(const ViewJob& view, int i, std::uint32_t pixel) {
   }
 }
 
-/// A row of blocks per view.
+/// Separates foreground and background, with a row of blocks per view.
 __global__ void __launch_bounds__(kThreads) foreground(const __grid_constant__ ForegroundJob job) {
   const ViewJob& view = job.views[blockIdx.y];
   const int i = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);
@@ -39,7 +39,7 @@ __global__ void __launch_bounds__(kThreads) foreground(const __grid_constant__ F
     }
     view.pixels[i] = word;
   }
-  // Integers, below 2^24 in a warp: their sum does not depend on the order of blocks.
+  // Integer sums, below 2^24 in a warp, do not depend on the order of blocks.
   const float sum = cuda::warp_sum(static_cast<float>(word & 0xFFFF));
   if (threadIdx.x % cuda::kWarp == 0 && sum > 0) {
     atomicAdd(job.sum, static_cast<unsigned long long>(sum));

@@ -8,7 +8,7 @@
 
 namespace hypotrack::skin {
 
-/// What is to be done for one view that is looked at; everything is in device memory.
+/// The computation for one used view; all pointers are to device memory.
 struct ViewJob {
   cuda::TileLayout tile;
   Rule rule;
@@ -23,7 +23,8 @@ struct ForegroundJob {
   unsigned long long* sum;  ///< of the low halves of all views' pixels
 };
 
-/// Enqueues the telling of foreground from background: the numbers of ForegroundTeller::tell().
+/// Enqueues the separation of foreground and background, with the results of
+/// ForegroundTeller::tell().
 void enqueue_foreground(const ForegroundJob& job, cuda::Stream stream);
 
 }  // namespace hypotrack::skin

@@ -8,18 +8,17 @@
 
 namespace hypotrack::skin {
 
-/// The objective's part for one pixel and for one hypothesis (hypotrack/cuda/pixel_objective.cuh).
+/// The objective's functions per pixel and per hypothesis (hypotrack/cuda/pixel_objective.cuh).
 struct SkinTerm {
   static constexpr bool kStereo = false;
   static constexpr bool kVisitsUncovered = false;
   static constexpr int kSums = 1;  ///< of change_if_covered()
 
-  const std::uint32_t* foreground[cuda::kMaxViews];  ///< null for views that are not looked at
-  const unsigned long long*
-      uncovered;               ///< what a hypothesis costs that covers nothing, in 1 / 65535
-  int width[cuda::kMaxViews];  ///< of the tiles
-  int view_bits;               ///< bit v: view v is looked at
-  int view_count;              ///< of these
+  const std::uint32_t* foreground[cuda::kMaxViews];  ///< null for unused views
+  const unsigned long long* uncovered;  ///< cost of a hypothesis that covers nothing, in 1 / 65535
+  int width[cuda::kMaxViews];           ///< of the tiles
+  int view_bits;                        ///< bit v: view v is used
+  int view_count;                       ///< number of used views
   float spill;
 
   static constexpr float kUnit = 1.0f / 65535.0f;

@@ -36,7 +36,7 @@ struct ColorTerm {
   __device__ float pixel(const cuda::StereoPixel& p, const Texels& texels,
                          float (&sums)[kSums]) const {
     constexpr int kFirst = kBoth ? 3 * kReference : 0;
-    // Before it is known to be needed: no waiting.
+    // Load before it is known to be needed, so that nothing waits for it.
     const Texel here = texels.template at<kReference>(p.x, p.y);
     sums[kFirst + 2] += 1.0f;
     if (!p.seen) return residual(here, 0.0f);
@@ -71,7 +71,7 @@ struct ColorTerm {
     if constexpr (kBilinear) {
       return scalar::color_consistency(sample(here), blended(there, p), likeness);
     } else {
-      // Only differences of colours count, so that both may keep what biased() adds.
+      // Only differences of colours count, so both may keep the bias.
       return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), likeness);
     }
   }
@@ -81,14 +81,14 @@ struct ColorTerm {
     return {exact_low_half(t.channels_01), exact_high_half(t.channels_01),
             exact_low_half(t.channel_2_weight), exact_high_half(t.channel_2_weight) * kUnit};
   }
-  /// The same, every channel with kHalfBias added.
+  /// Samples with kHalfBias added to every channel.
   __device__ __forceinline__ static Sample biased(const Texel& t) {
     using cuda::biased_high_half, cuda::biased_low_half;
     return {biased_low_half(t.channels_01), biased_high_half(t.channels_01),
             biased_low_half(t.channel_2_weight), cuda::exact_high_half(t.channel_2_weight) * kUnit};
   }
 
-  /// Between the pixels around p.u, p.v.
+  /// Interpolates between the pixels around p.u, p.v.
   template <class There>
   __device__ __forceinline__ static Sample blended(const There& there, const cuda::StereoPixel& p) {
     const float x0 = corner(p.u, p.width), fx = share(p.u, x0);
@@ -101,7 +101,7 @@ struct ColorTerm {
     const int y = static_cast<int>(y0);
     return scalar::blend(row(y), row(y + 1), share(p.v, y0));
   }
-  // The neighbours before a position and the share of those after it, clamped to the tile.
+  // Pixel before a position, and share of the one after it, clamped to the tile.
   __device__ static float corner(float at, int size) {
     return pixel::min(pixel::max(floorf(at), 0.0f), static_cast<float>(size - 2));
   }

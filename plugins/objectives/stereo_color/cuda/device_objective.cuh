@@ -10,7 +10,7 @@
 
 namespace hypotrack::stereo_color {
 
-/// The objective on the device; the templates are compiled in one source per lookup.
+/// The objective on the device. The templates are instantiated in one source file per lookup.
 template <bool kBilinear, bool kBoth>
 class DeviceStereoColor final : public cuda::PixelObjective<ColorTerm<kBilinear, kBoth>> {
  public:

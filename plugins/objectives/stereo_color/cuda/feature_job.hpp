@@ -7,12 +7,12 @@
 #include "hypotrack/cuda/device_objective.hpp"
 #include "settings.hpp"
 
-/// The three kernels that turn two tiles into features, and what passes between them:
-///   textures   pixels -> norm and ratio of every pixel, and how many lie in each bucket of values
+/// The three kernels that turn two tiles into features, and their intermediate data:
+///   textures   pixels -> norm and ratio of every pixel, and a histogram of each over buckets
 ///   middles    -> the middle values of the valid pixels
 ///   features   -> channels and weight
-/// Each takes both views in one launch. The sources are compiled without fused multiply-adds, so
-/// that everything up to the middle values has the CPU's bits.
+/// Each kernel takes both views in one launch. The sources are compiled without fused
+/// multiply-adds, so that everything up to the middle values has the CPU's bits.
 namespace hypotrack::stereo_color {
 
 /// Three channels and the weight of a pixel as 16-bit fractions (pack_unorm16).
@@ -20,8 +20,8 @@ struct alignas(8) PackedFeatures {
   std::uint32_t channels_01, channel_2_weight;
 };
 
-/// The bits of a norm or ratio, which order as their values do; kNoKey, above all of them, for an
-/// invalid pixel.
+/// The bits of a norm or ratio, which have the order of their values. kNoKey, above all of them,
+/// marks an invalid pixel.
 using Key = std::uint32_t;
 inline constexpr Key kNoKey = 0x7FFFFFFFu;
 /// A key's bucket is its upper bits: exponent and three bits of mantissa.
@@ -43,8 +43,8 @@ struct FeatureJob {
   ViewJob views[2];
   ColorSpace color_space;
   float gray_weight;      ///< if color_space is rgb
-  std::int32_t weighted;  ///< by distinctiveness; otherwise all 1, and the first two kernels do
-                          ///< not run
+  std::int32_t weighted;  ///< by distinctiveness; otherwise all weights are 1, and the first two
+                          ///< kernels do not run
   float w_t;
   const LabNode* lab_nodes;  ///< if color_space is lab
 
@@ -58,7 +58,7 @@ struct FeatureJob {
   }
 };
 
-/// With `overlap` the kernels start early (hypotrack/cuda/runtime.cuh).
+/// Enqueues a kernel. With `overlap` it may start early (hypotrack/cuda/runtime.cuh).
 void enqueue_textures(const FeatureJob& job, cuda::Stream stream, bool overlap);
 void enqueue_middles(const FeatureJob& job, cuda::Stream stream, bool overlap);
 void enqueue_features(const FeatureJob& job, cuda::Stream stream, bool overlap);

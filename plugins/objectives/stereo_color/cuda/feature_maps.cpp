@@ -8,7 +8,7 @@
 namespace hypotrack::stereo_color {
 namespace {
 
-// Whether kernels can start early on the current device.
+// Returns whether kernels can start early on the current device.
 bool can_overlap() {
   int device = 0, major = 0;
   cuda::check(cudaGetDevice(&device), "asking for the device");
@@ -40,7 +40,7 @@ ViewJob FeatureMaps::view_job(const cuda::DeviceTile& tile, int view) {
   View& v = views_[view];
   const auto pixels =
       static_cast<std::size_t>(tile.layout.width) * static_cast<std::size_t>(tile.layout.height);
-  const std::size_t plane = (pixels + 3) / 4 * 4;  // keeps the second one aligned
+  const std::size_t plane = (pixels + 3) / 4 * 4;  // keeps the second plane aligned
   v.keys.reserve(kQuantities * plane);
   v.features.reserve(pixels);
   ViewJob job{};

@@ -6,18 +6,19 @@
 
 namespace hypotrack::stereo_color {
 
-/// The features of both views of a frame in device memory: the numbers of make_features(), one
+/// The features of both views of a frame in device memory: the results of make_features(), one
 /// 8-byte word per pixel.
 class FeatureMaps {
  public:
   explicit FeatureMaps(const Settings& settings) : settings_(settings) {}
 
-  /// Enqueues what makes them of the first two tiles, which have been checked (checks.hpp).
+  /// Enqueues the computation for the first two tiles, which must have been checked (checks.hpp).
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
-  /// Device memory: of view 0 or 1, row by row without gaps. The same until a larger tile comes.
+  /// Returns device memory: the features of view 0 or 1, row by row without gaps. The address
+  /// changes only when a larger tile comes.
   const PackedFeatures* of_view(int view) const { return views_[view].features.data(); }
-  /// Device memory: the middle norms and the middle ratios of view 0, then those of view 1.
+  /// Returns device memory: the middle norms and ratios of view 0, then those of view 1.
   const Middle* middles() const { return middles_.data(); }
 
  private:

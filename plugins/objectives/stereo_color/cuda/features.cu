@@ -30,8 +30,8 @@ __device__ float weight(const FeatureJob& job, const ViewJob& view, int i, std::
   return distinctiveness(t, medians(view.middles[0], view.middles[1]), job.w_t);
 }
 
-// The pixels may be read while the kernel of the middles, which waited for the first kernel's end,
-// is still running; what it makes may not.
+// May read the pixels while the kernel `middles` still runs, which itself waited for the end of the
+// first kernel. The results of `middles` need a wait.
 __global__ void __launch_bounds__(kThreads) features(const __grid_constant__ FeatureJob job) {
   const ViewJob& view = job.views[blockIdx.y];
   const int i = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);

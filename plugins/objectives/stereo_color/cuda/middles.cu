@@ -2,8 +2,8 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 
-// The middle of many numbers by their digits: the bucket that holds it is known from the counts,
-// then two digits of ten bits are found among the bucket's keys.
+// Radix selection of the middle of many numbers. The histogram gives the bucket that holds it. Two
+// passes over digits of ten bits find it among the bucket's keys.
 namespace hypotrack::stereo_color {
 namespace {
 
@@ -12,10 +12,10 @@ constexpr int kWarps = kThreads / cuda::kWarp;
 static_assert(kWarps == cuda::kWarp);
 constexpr int kDigitBits = kBucketShift / 2;
 constexpr int kDigits = 1 << kDigitBits;
-constexpr int kCapacity = 8192;  // keys in shared memory; of a larger bucket none are
+constexpr int kCapacity = 8192;  // keys in shared memory; a larger bucket stays in global memory
 constexpr int kBatch = 4;        // vectors of four keys that a thread has under way
 
-/// The bin that the key of a rank lies in.
+/// The bin that contains the key of a rank.
 struct Place {
   std::uint32_t bin, rank, count;  ///< rank: among the bin's keys; count: of them
 };
@@ -26,7 +26,7 @@ struct Search {
   std::uint32_t candidate_count;
   std::uint32_t warp_totals[kWarps];
   Place place;
-  int above;  ///< the least key above the lower middle
+  int above;  ///< least key above the lower middle
 };
 
 __device__ std::uint32_t lane() { return threadIdx.x % cuda::kWarp; }
@@ -39,7 +39,7 @@ __device__ std::uint32_t warp_inclusive_sum(std::uint32_t x) {
   return x;
 }
 
-/// Where a thread's kEach bins lie among all.
+/// A thread's kEach bins, and the number of keys before them.
 template <int kEach>
 struct BinSums {
   std::uint32_t counts[kEach];
@@ -67,7 +67,7 @@ __device__ BinSums<kEach> sum_bins(Search& s) {
   return out;
 }
 
-/// `rank` is below sums.total.
+/// Finds the bin of a rank, which must be below sums.total.
 template <int kEach>
 __device__ Place find(Search& s, const BinSums<kEach>& sums, std::uint32_t rank) {
   std::uint32_t before = sums.before;
@@ -81,7 +81,7 @@ __device__ Place find(Search& s, const BinSums<kEach>& sums, std::uint32_t rank)
   return s.place;
 }
 
-/// Takes the bucket counts and leaves zeros for the next frame.
+/// Loads the bucket counts and clears them for the next frame.
 __device__ void take_counts(Search& s, std::uint32_t* counts) {
   auto* from = reinterpret_cast<uint2*>(counts) + threadIdx.x;
   reinterpret_cast<uint2*>(s.bins)[threadIdx.x] = *from;
@@ -95,8 +95,8 @@ __device__ uint4 load_keys(const Key* keys, int at, int size) {
   return {one(at), one(at + 1), one(at + 2), one(at + 3)};
 }
 
-/// Copies the bucket's keys, as long as there is room, and counts them. Returns the least key of
-/// the buckets above that this thread has met.
+/// Copies the bucket's keys to shared memory, up to its capacity, and counts them. Returns the
+/// least key of higher buckets that this thread has met.
 __device__ Key collect(Search& s, const Key* keys, int size, std::uint32_t bucket) {
   Key above = kNoKey;
   for (int first = 0; first < size; first += kThreads * kBatch * 4) {
@@ -143,7 +143,7 @@ __device__ void count_digits(Search& s, const Key* keys, int size, Key prefix, i
   __syncthreads();
 }
 
-/// The least of the keys above `low` and of all threads' `above`.
+/// Returns the least of the keys above `low` and of all threads' `above`.
 __device__ Key next_above(Search& s, const Key* keys, int size, Key low, Key above) {
   for (int i = static_cast<int>(threadIdx.x); i < size; i += kThreads) {
     if (keys[i] > low) above = min(above, keys[i]);
@@ -154,7 +154,7 @@ __device__ Key next_above(Search& s, const Key* keys, int size, Key low, Key abo
   return static_cast<Key>(s.above);
 }
 
-// One block per quantity and view.
+// Finds the middle values, with one block per quantity and view.
 __global__ void __launch_bounds__(kThreads) middles(const __grid_constant__ FeatureJob job) {
   __shared__ Search s;
   if (threadIdx.x == 0) {
@@ -162,7 +162,7 @@ __global__ void __launch_bounds__(kThreads) middles(const __grid_constant__ Feat
     s.above = static_cast<int>(kNoKey);
   }
   cuda::wait_for_previous();
-  cuda::let_next_start();  // not before: the next kernel relies on the first one having ended
+  cuda::let_next_start();  // not earlier: the next kernel relies on the end of the first one
   const ViewJob& view = job.views[blockIdx.y];
   take_counts(s, view.counts + blockIdx.x * kBuckets);
   const auto buckets = sum_bins<kBuckets / kThreads>(s);

@@ -11,7 +11,7 @@ constexpr int kHeight = 8;
 constexpr int kThreads = kWidth * kHeight;
 constexpr float kInvalid = -1.0f;
 
-// What lies around the block's pixels: grey values two pixels wide, products of gradients one.
+// Neighbourhood of the block's pixels: grey values two pixels wide, products of gradients one.
 struct Surroundings {
   float grey[kHeight + 4][kWidth + 4];
   float xx[kHeight + 2][kWidth + 2], xy[kHeight + 2][kWidth + 2], yy[kHeight + 2][kWidth + 2];

@@ -6,7 +6,7 @@
 
 namespace hypotrack::stereo_color {
 
-/// The colour of a pixel of a cuda::TileLayout.
+/// Returns the colour of a pixel of a cuda::TileLayout.
 __device__ __forceinline__ Bgr to_bgr(std::uint32_t pixel) {
   return {static_cast<std::uint8_t>(pixel), static_cast<std::uint8_t>(pixel >> 8),
           static_cast<std::uint8_t>(pixel >> 16)};

@@ -9,15 +9,15 @@
 
 namespace hypotrack::stereo_patch {
 
-/// A frame's volume in device memory that stays where it is until a larger one comes.
+/// A frame's volume in device memory, which does not move until a larger one comes.
 class DeviceVolume {
  public:
   explicit DeviceVolume(const Settings& settings) : settings_(settings) {}
 
-  /// Enqueues what fills it. Throws DataError as StereoPatch::prepare().
+  /// Enqueues the filling for a frame. Throws DataError as StereoPatch::prepare() does.
   void enqueue(const cuda::DeviceObservation& observation, cuda::Stream stream);
 
-  /// Device memory: Volume::words, and the planes they belong to.
+  /// Returns device memory: Volume::words. planes() returns their planes, also in device memory.
   const std::uint32_t* words() const { return words_.data(); }
   const Planes* planes() const { return planes_.data(); }
 

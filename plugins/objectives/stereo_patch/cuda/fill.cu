@@ -11,8 +11,8 @@ constexpr int kWidth = 32;
 constexpr int kHeight = 8;
 constexpr int kThreads = kWidth * kHeight;
 
-/// What lies around the block's pixels, in shared memory: both views `radius` pixels beyond them,
-/// then sums over columns of 2 radius + 1 pixels, a row of them for each of the block's.
+/// Neighbourhood of the block's pixels in shared memory. Holds both views, extended by `radius`
+/// pixels, then sums over columns of 2 radius + 1 pixels, a row of them for each row of the block.
 struct Surroundings {
   int radius, pitch, rows;
   float* here;
@@ -67,7 +67,7 @@ __device__ void sum_columns(const Surroundings& s) {
   }
 }
 
-/// z of the block's pixel (x, y) by cross-correlation.
+/// Computes z of the block's pixel (x, y) by cross-correlation.
 __device__ float zncc(const Surroundings& s, float floor, int x, int y) {
   const auto side = static_cast<float>(2 * s.radius + 1);
   const float share = 1.0f / (side * side);
@@ -81,7 +81,7 @@ __device__ float zncc(const Surroundings& s, float floor, int x, int y) {
                              scalar::moments(mean[2], mean[3], floor));
 }
 
-/// z of the block's pixel (x, y) by census (patch_compare-inl.hpp).
+/// Computes z of the block's pixel (x, y) by census (patch_compare-inl.hpp).
 __device__ float census(const Surroundings& s, int x, int y) {
   const int middle = (y + s.radius) * s.pitch + x + s.radius;
   const float a = s.here[middle], b = s.there[middle];
@@ -99,8 +99,8 @@ __device__ float census(const Surroundings& s, int x, int y) {
   return __fmaf_rn(static_cast<float>(different), -2.0f / (side * side - 1.0f), 1.0f) + nothing;
 }
 
-/// A row of one plane lies `width` words behind that of the plane before; a word's low half is its
-/// own plane's similarity, the high half the next one's.
+/// Writes a similarity into the volume. A row of a plane lies `width` words behind that of the
+/// plane before. A word's low half is the similarity at its plane, the high half that at the next.
 __device__ void write(const FillJob& job, int plane, int x, int y, float s) {
   const auto value = static_cast<std::uint16_t>(__float2uint_rn(s * 65535.0f));
   const int width = job.left.width;

@@ -16,10 +16,10 @@ struct PatchTerm {
   static constexpr float kUnit = 1.0f / 65535.0f;
 
   const std::uint32_t* words;   ///< Volume::words, device memory
-  const Planes* planes;         ///< device memory: another one in every frame
+  const Planes* planes;         ///< device memory: new values in every frame
   const std::uint32_t* pixels;  ///< of the first view's tile
-  std::uint32_t counting;       ///< flags of pixels that count
-  float share, root;            ///< what these count (share_of()), and its square root
+  std::uint32_t counting;       ///< flags that a pixel with weight must have
+  float share, root;            ///< weight of these pixels (share_of()), and its square root
   int width;                    ///< of that tile
   float tolerance;
 

@@ -5,8 +5,8 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 
-/// The two views as a plane in space, parallel to the first view's tile, shows them there. Grey in
-/// 0..1, NaN where there is none. Fused multiply-adds where the CPU's vectors have them.
+/// Grey values of the two views for a plane in space that is parallel to the first view's tile.
+/// Grey is in 0..1, NaN outside. Uses fused multiply-adds where the CPU's vectors have them.
 namespace hypotrack::stereo_patch {
 
 __device__ inline float nowhere() { return __int_as_float(0x7FFFFFFF); }
@@ -23,7 +23,8 @@ __device__ inline float between(float a, float b, float share) {
   return __fmaf_rn(b - a, share, a);
 }
 
-/// The second view at pixel (x, y) of the first, by the plane of inverse depth w (plane_warp-inl).
+/// Returns the second view at pixel (x, y) of the first, warped by the plane of inverse depth w
+/// (plane_warp-inl.hpp).
 __device__ inline float warped_at(const FillJob& job, float w, int x, int y) {
   if (x < 0 || y < 0 || x >= job.left.width || y >= job.left.height) return nowhere();
   const StereoMap& map = job.map;
