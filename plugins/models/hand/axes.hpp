@@ -15,10 +15,10 @@ struct BoneAngles {
 
 Eigen::Matrix3d rotation(const BoneAngles& angles);
 
-/// The inverse of rotation().
+/// Returns the angles of a rotation; inverse of rotation().
 BoneAngles angles_of(const Eigen::Matrix3d& r);
 
-/// The unit vector called x, -x, y, -y, z or -z; none for every other name.
+/// Returns the unit vector called x, -x, y, -y, z or -z; nothing for every other name.
 std::optional<Eigen::Vector3d> axis_by_name(const std::string& name);
 
 }  // namespace hypotrack

@@ -48,7 +48,7 @@ class Cutter {
     return vertices_[static_cast<std::size_t>(corner.vertex)].y() >= limit_;
   }
 
-  /// Sutherland and Hodgman's clipping of one triangle, then a fan.
+  /// Clips one triangle by the algorithm of Sutherland and Hodgman, then splits it into a fan.
   void clip(const Triangle& corners) {
     std::vector<Corner> polygon;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -63,8 +63,7 @@ class Cutter {
       triangles_.push_back({polygon[0], polygon[k - 1], polygon[k]});
     }
     if (polygon.size() < 3) return;
-    // The side along the plane runs from the corner where the surface leaves it to where it
-    // returns.
+    // The cut edge runs from the corner where the surface leaves the plane to where it returns.
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const Corner& here = polygon[k];
       const Corner& next = polygon[(k + 1) % polygon.size()];
@@ -100,7 +99,7 @@ class Cutter {
     return corner;
   }
 
-  /// Every loop of the rim becomes a fan about its mean.
+  /// Closes every loop of the rim by a fan about its mean.
   void close_holes() {
     while (!rim_.empty()) {
       std::vector<Corner> loop;
@@ -125,7 +124,7 @@ class Cutter {
     vertices_.push_back(p / static_cast<float>(loop.size()));
     indices_.push_back(Eigen::Vector4i(indices_[first]));
     weights_.push_back(Eigen::Vector4f(weights_[first]));
-    // The cap has the colour of one point of the rim: the texture has no inside.
+    // The cap has the colour of one point of the rim, as the texture has no inside.
     return {static_cast<int>(vertices_.size()) - 1, loop.front().uv};
   }
 
@@ -181,7 +180,7 @@ class Cutter {
   std::vector<Triangle> triangles_;
   std::map<std::pair<int, int>, int> cuts_;
   std::map<std::pair<int, int>, int> uv_cuts_;
-  std::map<int, Corner> rim_;  // vertex on the rim to the next one, as the cap runs
+  std::map<int, Corner> rim_;  // from a vertex of the rim to the next, in the direction of the cap
 };
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace hypotrack {
 
-/// Cuts everything with y < `limit` off a mesh and closes the holes with flat caps, so that it
-/// stays watertight. New vertices lie on the cut edges, with the influences of the end that is
+/// Removes everything with y < `limit` from a mesh and closes the holes with flat caps, so that it
+/// stays watertight. New vertices lie on the cut edges, with the bone influences of the end that is
 /// kept. Throws DataError, naming `where`, if nothing is left.
 void cut_below(Mesh& mesh, double limit, const std::string& where);
 

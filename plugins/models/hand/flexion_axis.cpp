@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double kSmallestBend = 2 * kDegree;
 
-/// The normal of the plane in which the finger is bent at the bind pose.
+/// Returns the normal of the plane in which the finger is bent at the bind pose.
 Vector3d bend_axis(const Rigging& r, std::size_t index, int parent, const Matrix3d& zero,
                    const Vector3d& y) {
   Vector3d axis;
@@ -38,14 +38,14 @@ Vector3d bend_axis(const Rigging& r, std::size_t index, int parent, const Matrix
   return axis.dot(zero.col(0)) < 0 ? Vector3d(-axis) : axis;
 }
 
-/// The parent's flexion axis, turned with the abduction only.
+/// Returns the parent's flexion axis, turned by the abduction only.
 Vector3d hand_axis(const Matrix3d& zero, const Vector3d& y) {
   const Vector3d d = zero.transpose() * y;
   const double abduction = std::atan2(d.x(), d.y());
   return zero * Vector3d(std::cos(abduction), -std::sin(abduction), 0);
 }
 
-/// An axis of the file bone that a bone begins at.
+/// Returns an axis of the file bone at which a bone begins.
 Vector3d joint_axis(const Rigging& r, const RigBone& bone, const std::string& name) {
   const auto local = axis_by_name(name);
   if (!local) {
@@ -60,7 +60,7 @@ Vector3d joint_axis(const Rigging& r, const RigBone& bone, const std::string& na
                     "hand` or `bend`",
                     bone.name, name));
   }
-  // A rotation axis mirrors the other way round: two of its components change sign.
+  // A mirrored rotation axis is a pseudovector: two of its components change sign.
   const Vector3d axis =
       r.rig.side == Side::left ? Vector3d(local->x(), -local->y(), -local->z()) : *local;
   return r.in.bones[r.file_bone(bone.joint, who(bone))].file_from_bone.linear() * axis;

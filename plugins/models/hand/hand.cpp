@@ -60,7 +60,7 @@ std::vector<std::string> ready_rigs() {
   return names;
 }
 
-/// A rig is a file, or the name of a ready one: no suffix, and no such file.
+/// Finds the rig: a file, or the name of an included rig, which has no suffix and is no file.
 std::filesystem::path find_rig(const HandParams& params, const ConfigNode& config) {
   if (params.rig.empty()) {
     if (params.mesh.empty()) return data_file("rigs/hypotrack_hand.yaml");

@@ -13,26 +13,29 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring", "little"};
 
-// Deviations among adults. Hand length varies by 5 % within either sex and by 7 % between their
-// means (C. C. Gordon et al., "1988 Anthropometric Survey of U.S. Army Personnel: Methods and
-// Summary Statistics", NATICK/TR-89/044); 7 % allows for a neutral hand that is not the mean one.
+// Standard deviations among adults. Hand length varies by 5 % within either sex and by 7 % between
+// their means (C. C. Gordon et al., "1988 Anthropometric Survey of U.S. Army Personnel: Methods and
+// Summary Statistics", NATICK/TR-89/044). 7 % allows for a neutral hand that is not the mean one.
 // Finger lengths vary by 6 to 8 %, the thumb's by 11 % (Chatzioglou, Pinar and Govsa, "Biometric
 // analysis hand parameters in young adults", Anat. Cell Biol. 57(2), 2024: 63.9 +- 4.1, 70.7 +-
-// 5.2, 65.5 +- 4.8, 53.3 +- 4.3 and 49.5 +- 5.5 mm); without what goes with the size of the hand, 5
-// % remains. The thumb's 11 % is taken to be mostly where it was measured from. Width has no source
-// of its own and is taken to vary as the lengths do. The bounds are at 4 to 5 deviations.
+// 5.2, 65.5 +- 4.8, 53.3 +- 4.3 and 49.5 +- 5.5 mm). Without the correlation with the size of the
+// hand, 5 % remain. The thumb's 11 % is assumed to come mostly from the point it was measured from.
+// Width has no source of its own and is assumed to vary as the lengths do. The bounds are at 4 to 5
+// deviations.
 constexpr double kSizeDeviation = 0.07, kFingerDeviation = 0.05;
 constexpr double kSmallest = 0.7, kLargest = 1.35;
 constexpr double kShortest = 0.75, kLongest = 1.3;
 
-/// The finger that a parameter turns, as an index into kFingers; their number for none.
+/// Returns the finger that a parameter turns, as an index into kFingers; their number if it is
+/// none.
 std::size_t finger_of(const std::string& parameter) {
   std::size_t f = 0;
   while (f < kFingers.size() && !parameter.starts_with(std::string(kFingers[f]) + '_')) ++f;
   return f;
 }
 
-/// A finger's bones are those that its angles turn and what hangs on them.
+/// Returns the stretches of the fingers' bones: those that their angles turn, and their
+/// descendants.
 std::vector<BoneStretch> stretches_of(const ModelData& hand, const HandShape& shape) {
   std::vector<const Parameter*> driver(hand.bones.size(), nullptr);
   for (const BoneRotation& r : hand.rotations) {

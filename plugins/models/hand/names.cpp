@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-/// Levenshtein's distance.
+/// Computes Levenshtein's distance.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

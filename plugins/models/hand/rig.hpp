@@ -99,7 +99,8 @@ namespace hypotrack {
 enum class Side { right, left };
 std::span<const std::string_view> enum_names(Side);
 
-/// Where the hand frame lies in the file: +X by an axis or two joints, +Y by an axis or a joint.
+/// The position of the hand frame in the file: +X by an axis or two joints, +Y by an axis or a
+/// joint.
 struct RigFrame {
   std::string origin;
   std::string x;
@@ -114,14 +115,14 @@ struct RigBone {
   std::string name;
   std::string parent;
   std::string joint;
-  std::vector<double> joint_at;  ///< units of the file
+  std::vector<double> joint_at;  ///< in units of the file
   std::string end;
-  std::vector<double> end_at;  ///< units of the file
+  std::vector<double> end_at;  ///< in units of the file
   std::vector<std::string> weights;
   std::string flexion_axis;
   double twist = 0;                                ///< radians
   Eigen::Vector3d zero = Eigen::Vector3d::Zero();  ///< abduction, twist, flexion; radians
-  std::string abduction;                           ///< parameter; empty: not driven
+  std::string abduction;                           ///< parameter; empty: none
   std::string flexion;
 
   void visit(ParamVisitor& v);
@@ -144,7 +145,7 @@ struct RigLandmark {
   void visit(ParamVisitor& v);
 };
 
-/// A rig file as it is written, unchecked against any mesh.
+/// The content of a rig file, unchecked against any mesh.
 struct Rig {
   Side side = Side::right;
   double scale = 1.0;
@@ -158,12 +159,12 @@ struct Rig {
   void visit(ParamVisitor& v);
 };
 
-/// Reads a rig file. Throws ConfigError on anything that the format does not know.
+/// Reads a rig file. Throws ConfigError on anything that the format does not have.
 Rig read_rig(const std::filesystem::path& file);
 
-/// The hand that a rig makes of a mesh (imported with the rig's scale): 27 parameters, 21
-/// landmarks. `where` names the rig in messages. Throws DataError on what does not fit: unknown,
-/// missing or doubly used bones and parameters, points that coincide.
+/// Makes a hand of 27 parameters and 21 landmarks from a mesh (imported with the rig's scale) and a
+/// rig. `where` names the rig in messages. Throws DataError if they do not fit: bones or parameters
+/// that are unknown, missing or used twice, or points that coincide.
 ModelData rig_hand(const ImportedMesh& imported, const Rig& rig, const std::string& where);
 
 }  // namespace hypotrack

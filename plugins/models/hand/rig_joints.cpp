@@ -16,7 +16,7 @@ Vector3d file_point(const Rigging& r, const std::vector<double>& point, const st
   return r.hand_from_file * p;
 }
 
-/// The one farthest from `joint` among the vertices that a bone of the rig mostly holds.
+/// Returns the vertex farthest from `joint` among those that mostly follow a bone of the rig.
 Vector3d farthest_vertex(const Rigging& r, int bone, const Vector3d& joint) {
   Vector3d farthest = joint;
   for (Eigen::Index v = 0; v < r.in.mesh.vertices.cols(); ++v) {

@@ -26,7 +26,7 @@ void check_all_assigned(const Rigging& r, const std::vector<int>& rig_of_file) {
   }
 }
 
-/// File bones become rig bones; those that went to the same one add up.
+/// Replaces file bones by rig bones; adds up the weights of those with the same rig bone.
 void reassign(Rigging& r, Eigen::Index v, const std::vector<int>& rig_of_file) {
   Eigen::Vector4i bones = Eigen::Vector4i::Zero();
   Eigen::Vector4f weights = Eigen::Vector4f::Zero();

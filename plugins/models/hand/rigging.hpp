@@ -11,14 +11,14 @@ namespace hypotrack {
 
 inline constexpr double kSameThing = 1e-4;  // metres: points closer than this give no direction
 
-/// A hand in the making. rig_hand() takes it through the steps below, one after the other; every
-/// step reads what those before it have written.
+/// A hand under construction. rig_hand() applies the steps below one after the other; each reads
+/// the results of those before it.
 struct Rigging {
   Rigging(ImportedMesh imported, const Rig& its_rig, const std::string& its_name);
 
   [[noreturn]] void fail(const std::string& what) const;
 
-  // Names become indices; `who` says in the message who gave an unknown name.
+  // Look up the index of a name; `who` says in the message who gave an unknown name.
   std::size_t file_bone(const std::string& name, const std::string& who) const;
   int rig_bone(const std::string& name, const std::string& who) const;
   int angle_index(const std::string& name, const std::string& who) const;
@@ -34,25 +34,25 @@ struct Rigging {
 
   Eigen::Isometry3d hand_from_file = Eigen::Isometry3d::Identity();
   ModelData data;
-  std::map<std::string, double> bind;  // parameter to what replaces its measured bind angle
-  std::map<std::string, int> driven;   // parameter to the bone that it turns
+  std::map<std::string, double> bind;  // replacement of a parameter's measured bind angle
+  std::map<std::string, int> driven;   // bone that a parameter turns
   std::vector<Eigen::Isometry3d> hand_from_bone;  // of the rig's bones, at the bind pose
   std::vector<Eigen::Vector3d> ends;              // hand frame, at the bind pose
 };
 
-/// How messages call a bone of the rig.
+/// Returns the name of a bone of the rig for messages.
 std::string who(const RigBone& bone);
 
-// --- The steps
+// --- Steps
 
-/// A left hand's file becomes a right hand's: everything after this is written for one.
+/// Mirrors a left hand's file to a right hand's; all later steps are for right hands.
 void mirror_in_file(ImportedMesh& imported);
 
-/// Moves vertices and file bones to the hand frame: `file_from_bone` is `hand_from_bone` from here
-/// on.
+/// Moves vertices and file bones to the hand frame. From here on `file_from_bone` is
+/// `hand_from_bone`.
 void move_to_hand_frame(Rigging& r);
 
-/// Gives the vertices to the bones of the rig.
+/// Assigns the vertices to the bones of the rig.
 void assign_weights(Rigging& r);
 
 /// Appends the 20 angles to the parameters, with the bounds, rest and bind values of the rig.
@@ -63,23 +63,24 @@ void add_bone(Rigging& r, std::size_t index);
 
 void add_landmarks(Rigging& r);
 
-// --- What add_bone() consists of
+// --- Parts of add_bone()
 
-/// Where a bone begins, hand frame.
+/// Returns where a bone begins, in the hand frame.
 Eigen::Vector3d joint_of(const Rigging& r, const RigBone& bone);
 
-/// Where a bone that begins at `joint` ends, hand frame.
+/// Returns where a bone that begins at `joint` ends, in the hand frame.
 Eigen::Vector3d end_of(const Rigging& r, std::size_t index, const Eigen::Vector3d& joint);
 
-/// The bone that a bone's angles are measured against: its parent, or what that is rigid with.
+/// Returns the bone against which a bone's angles are measured: its parent, or the moving bone with
+/// which that is rigid.
 int moving_parent(const Rigging& r, int parent);
 
-/// The axis, hand frame, that a bone bends about; not yet perpendicular to `y`, its direction.
-/// `zero` has the axes of its zero frame.
+/// Returns the axis about which a bone bends, in the hand frame. It is not yet perpendicular to
+/// `y`, the bone's direction. `zero` has the axes of its zero frame.
 Eigen::Vector3d flexion_axis(const Rigging& r, std::size_t index, int parent,
                              const Eigen::Matrix3d& zero, const Eigen::Vector3d& y);
 
-/// Lets the parameter `name` (none if empty) turn a bone about an axis in its frame; `measured` is
+/// Lets the parameter `name` (none if empty) turn a bone about an axis in its frame. `measured` is
 /// the angle at the bind pose.
 void drive(Rigging& r, std::size_t index, const std::string& name, const Eigen::Vector3d& axis,
            double measured);

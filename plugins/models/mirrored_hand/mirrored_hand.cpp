@@ -19,7 +19,7 @@ struct MirroredHandParams {
   }
 };
 
-/// What is mirrored, and how it is built.
+/// The hand to mirror, and its shape parameters.
 struct Original {
   std::unique_ptr<Model> model;
   std::vector<ShapeParameter> shape;

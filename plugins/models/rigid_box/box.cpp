@@ -5,7 +5,7 @@ namespace {
 
 /// Adds the face at one end of an axis.
 void add_face(Mesh& mesh, int axis, bool positive, const BoxLayout& layout) {
-  // Right and up as one looks at the face from outside; right x up points outwards.
+  // Right and up in a view of the face from outside; right x up points outwards.
   const int right = (axis + 1) % 3;
   const int up = (axis + 2) % 3;
   // Vertex number: bit 0 is the side of x, bit 1 of y, bit 2 of z.

@@ -6,9 +6,10 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kLongestEdge = 1024;  // pixels, for a box that is longer than twice its mean edge
+constexpr double kLongestEdge = 1024;  // pixels, for a box longer than twice its mean edge
 constexpr double kMeanEdge = 512;      // pixels
-constexpr double kMargin = 2;  // pixels that a face goes on for, so that filtering meets no other
+constexpr double kMargin = 2;  // pixels by which a face is extended, so that filtering does not
+                               // reach the next
 
 }  // namespace
 
@@ -31,7 +32,8 @@ BoxLayout layout_in_proportion(const Eigen::Vector3d& size) {
 }
 
 BoxLayout layout_of_pictures(const cv::Size& picture) {
-  constexpr double kRim = 0.002;  // of the picture stays unused, against filtering with the next
+  constexpr double kRim = 0.002;  // of the picture stays unused, so that filtering does not reach
+                                  // the next
   BoxLayout layout{cv::Size(3 * picture.width, 2 * picture.height), {}};
   for (int face = 0; face < 6; ++face) {
     layout.faces[static_cast<std::size_t>(face)] =

@@ -43,8 +43,8 @@ void draw_stroke(cv::Mat& face, double unit, cv::RNG& random) {
   cv::line(face, at, at + cv::Point(to), ink, thickness, cv::LINE_AA);
 }
 
-/// Shapes of many sizes, so that there is something to see near and far, then small lines of
-/// "print". Sizes and density are those of the whole box, whose mean edge has `edge` pixels.
+/// Draws shapes of many sizes, visible near and far, then small lines of "print". Sizes and density
+/// are those of the whole box, whose mean edge has `edge` pixels.
 void draw_face(cv::Mat& face, double edge, cv::RNG& random) {
   face.setTo(vivid(random));
   const double share = static_cast<double>(face.total()) / (edge * edge);
@@ -57,7 +57,7 @@ void draw_face(cv::Mat& face, double edge, cv::RNG& random) {
   for (int i = 0; i < strokes; ++i) draw_stroke(face, edge / 512, random);
 }
 
-/// A face and the margin around it.
+/// Returns a face with the margin around it.
 cv::Rect tile_of(const cv::Rect2d& face, const cv::Size& image) {
   constexpr double kMargin = 2;
   const cv::Point low(static_cast<int>(face.x - kMargin), static_cast<int>(face.y - kMargin));

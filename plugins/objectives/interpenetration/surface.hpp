@@ -21,7 +21,7 @@ class Surface {
   struct Triangle {
     Eigen::Matrix3d corners;  // columns
     Eigen::Vector3d center;
-    double radius;  // of a sphere about the centre that holds it
+    double radius;  // of the bounding sphere about the centre
   };
   std::vector<Triangle> triangles_;
 };

@@ -30,8 +30,8 @@ struct CmaEsParams {
 
 /// The covariance matrix adaptation evolution strategy (Hansen and Ostermeier 2001) of pagmo,
 /// `cmaes`, with its automatic learning rates. Its first mean is the start, which costs one
-/// evaluation; its first covariance is the square of `sigma` times the spread, narrower where a
-/// bound is nearer than the box. Points outside of both are moved onto them. Budget and batches are
+/// evaluation. Its first covariance is the square of `sigma` times the spread, less where a bound
+/// is nearer than the box. Points outside the bounds or the box are clamped. Budget and batches are
 /// those of search_in_generations().
 class CmaEs : public Optimizer {
  public:

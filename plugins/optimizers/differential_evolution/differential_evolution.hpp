@@ -9,8 +9,8 @@
 
 namespace hypotrack {
 
-/// Which points are combined, and whether neighbouring (exp) or any (bin) dimensions cross over.
-/// In pagmo's order.
+/// Which points are combined, and whether neighbouring (exp) or any (bin) dimensions cross over. In
+/// pagmo's order.
 enum class DifferentialVariant {
   best_1_exp,
   rand_1_exp,
@@ -53,8 +53,8 @@ struct DifferentialEvolutionParams {
 };
 
 /// Differential evolution (Storn and Price 1997) of pagmo, `de`. The initial population is the
-/// start and samples about it (start_points.hpp), within the bounds and the box. A dimension that
-/// leaves them is drawn anew within them. Budget and batches are those of search_in_generations().
+/// start and samples around it (start_points.hpp), within the bounds and the box. A dimension that
+/// leaves them is drawn again within them. Budget and batches are those of search_in_generations().
 class DifferentialEvolution : public Optimizer {
  public:
   explicit DifferentialEvolution(const DifferentialEvolutionParams& params) : params_(params) {}

@@ -16,7 +16,7 @@ namespace {
 
 using pagmo::vector_double;
 
-/// What a generation asks for, and the answers once they are known.
+/// The candidates of a generation, and their costs once they are known.
 struct Exchange {
   std::size_t size = 0;  ///< candidates of a generation
   std::vector<vector_double> asked;
@@ -24,13 +24,13 @@ struct Exchange {
   std::size_t answered = 0;
 };
 
-/// Ends a rehearsal: all candidates are known.
+/// Exception that ends a rehearsal when all candidates are known.
 struct Rehearsed {};
 
 /// pagmo's view of the search.
 struct OffsetProblem {
   Exchange* exchange = nullptr;
-  vector_double lower = {0}, upper = {1};  // pagmo makes one without a search, too
+  vector_double lower = {0}, upper = {1};  // pagmo also makes a problem without a search
 
   vector_double fitness(const vector_double& offsets) const {
     if (!exchange->answers.empty()) return {exchange->answers.at(exchange->answered++)};
@@ -43,7 +43,7 @@ struct OffsetProblem {
 
 vector_double to_pagmo(const Eigen::VectorXd& offsets) { return {offsets.begin(), offsets.end()}; }
 
-/// The candidates of the next generation; the algorithm stays as it is.
+/// Returns the candidates of the next generation, without changing the algorithm.
 std::vector<vector_double> rehearse(pagmo::algorithm algorithm, const pagmo::population& population,
                                     Exchange& exchange) {
   exchange.asked.clear();
@@ -55,7 +55,7 @@ std::vector<vector_double> rehearse(pagmo::algorithm algorithm, const pagmo::pop
   return std::exchange(exchange.asked, {});
 }
 
-/// Evaluates search points and keeps count.
+/// Evaluates search points and counts evaluations.
 class Evaluations {
  public:
   Evaluations(CostFunction& cost, const OffsetSpace& space, std::int64_t limit)
@@ -64,7 +64,7 @@ class Evaluations {
   std::int64_t left() const { return limit_ - best_.result().evaluations; }
   const OptimizerResult& best() const { return best_.result(); }
 
-  /// Finite costs of the first points, as many as the budget allows.
+  /// Returns finite costs of the first points, as many as the budget allows.
   std::vector<double> of_points(const Eigen::MatrixXd& points) {
     const auto count = std::min<std::int64_t>(points.cols(), left());
     Eigen::VectorXd costs(count);
@@ -90,7 +90,7 @@ class Evaluations {
   FiniteCosts finite_;
 };
 
-/// The first generation with its costs; false if the budget ended within it.
+/// Evaluates the first generation. Returns false if the budget ended within it.
 bool begin(const Population& from, const OffsetSpace& space, Evaluations& evaluations,
            pagmo::population& population) {
   const Eigen::VectorXd lower = space.lower(from.box), upper = space.upper(from.box);

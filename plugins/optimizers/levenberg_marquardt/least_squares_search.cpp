@@ -82,7 +82,8 @@ bool LeastSquaresSearch::linearize_by_slopes() {
   points_ = x_.replicate(1, x_.size() + 1);
   points_.rightCols(x_.size()).diagonal() += steps;
   equations_ = residual_cost_.linearize(points_, steps, params_.blur * fineness_);
-  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));  // it counts
+  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));  // the linearisation counts as an
+                                                               // evaluation
   const auto spread = region_.spread.asDiagonal();
   equations_.a = spread * equations_.a * spread;
   equations_.g = spread * equations_.g;
@@ -93,7 +94,7 @@ Eigen::VectorXd LeastSquaresSearch::step(double damping) const {
   const Eigen::Index d = x_.size();
   const Eigen::VectorXd diagonal = equations_.a.diagonal();
   const double firm = params_.mean_share * diagonal.mean();
-  // Numbers that stand at a bound and want to leave stay; so do those that nothing depends on.
+  // Dimensions stay if they are at a bound and want to leave, or if nothing depends on them.
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < d; ++i) {
     const bool held = (x_[i] <= region_.lower[i] && equations_.g[i] > 0) ||
@@ -141,7 +142,7 @@ void LeastSquaresSearch::leave_infeasible() {
 
 OptimizerResult LeastSquaresSearch::run() {
   evaluate_start();
-  const int patience = analytic_ ? 1 : 2;  // Jacobians by differences have two signs
+  const int patience = analytic_ ? 1 : 2;  // numerical Jacobians have two signs
   int failed = 0;
   for (int i = 0; params_.iterations == 0 || i < params_.iterations; ++i) {
     if (!may_go_on() || !linearize()) break;

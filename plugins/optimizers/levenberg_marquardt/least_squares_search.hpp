@@ -12,7 +12,7 @@ namespace hypotrack {
 /// One search of LevenbergMarquardt. It moves in units of the region's spread.
 class LeastSquaresSearch {
  public:
-  /// Everything given must outlive the search.
+  /// All arguments must outlive the search.
   LeastSquaresSearch(CostFunction& cost, ResidualCost& residuals, const SearchRegion& region,
                      const Budget& budget, const LevenbergMarquardtParams& params);
 
@@ -25,7 +25,7 @@ class LeastSquaresSearch {
   void evaluate_start();
   bool linearize();
   bool linearize_by_slopes();
-  /// Steps of a share of the spread, inwards at bounds; 0 where there is no room.
+  /// Returns steps of a share of the spread, inwards at bounds; 0 without room.
   Eigen::VectorXd differences(double share) const;
   bool try_steps();
   Eigen::VectorXd step(double damping) const;
@@ -40,12 +40,12 @@ class LeastSquaresSearch {
   const Deadline deadline_;
   BestSoFar best_;
 
-  Eigen::VectorXd x_;  ///< where it is
+  Eigen::VectorXd x_;  ///< current point
   double cost_at_x_ = 0;
   double sign_ = 1;  ///< of the differences
   const bool analytic_;
   const std::unique_ptr<ResidualDifferences> differences_;  ///< unless analytic_; moves with x_
-  double fineness_ = 1;  ///< of differences, or of the blur: shares of the first
+  double fineness_ = 1;  ///< of differences or blur, as a share of the first
   double damping_;
   NormalEquations equations_;  ///< at x, per spread
   double moved_ = 0;           ///< largest component of the last step, in spreads

@@ -13,16 +13,18 @@ namespace hypotrack {
 ///
 ///   (A + mu (diag(A) + mean_share mean(diag(A)) I)) dx = -J^T r,   A = J^T J
 ///
-/// J from ResidualCost::linearize where the cost has that; otherwise by forward differences (one
-/// evaluation per number), their sign alternating from Jacobian to Jacobian, inwards at bounds.
-/// With each Jacobian, `trials` steps of different mu are evaluated together; the one of lowest
-/// cost is taken if it is below the cost so far, and its mu is the middle of the next. If none is,
-/// more damped ones are tried; if neither they nor (of differences) a Jacobian of the other sign
-/// helps, differences or the blur of silhouettes are halved, so that what is coarse is found first
-/// and what is fine afterwards. Numbers at a bound that want to leave stay there, the others are
-/// solved for without them. No number moves farther than its spread in one step.
+/// J comes from ResidualCost::linearize() if the cost has it. Otherwise it comes from forward
+/// differences, one evaluation per dimension. Their sign alternates from Jacobian to Jacobian; at
+/// bounds they go inwards.
 ///
-/// It refines: what is many pixels off is beyond what residuals of pixels tell.
+/// With each Jacobian, `trials` steps of different mu are evaluated together. The step of lowest
+/// cost is taken if it improves, and its mu is the middle of the next trials. Otherwise steps with
+/// more damping are tried, then (numerically) a Jacobian of the other sign. If that fails, too, the
+/// differences or the blur of silhouettes are halved, so that the search goes from coarse to fine.
+/// Dimensions that want to cross a bound stay there; the others are solved without them. No
+/// dimension moves farther than its spread in one step.
+///
+/// It is a local refinement: pixel residuals do not guide it over errors of many pixels.
 class LevenbergMarquardt : public Optimizer {
  public:
   explicit LevenbergMarquardt(const LevenbergMarquardtParams& params) : params_(params) {}
@@ -30,8 +32,8 @@ class LevenbergMarquardt : public Optimizer {
   bool needs_residuals() const override { return true; }
   Linearization linearization() const override;
   std::int64_t default_evaluations() const override { return params_.evaluations; }
-  /// Throws ConfigError if the cost has no residuals. No step is made from where they are not
-  /// finite, which they should be wherever the cost is.
+  /// Searches the region. Throws ConfigError if the cost has no residuals. Makes no step from a
+  /// point whose residuals are not finite; they should be wherever the cost is.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
 

@@ -7,10 +7,10 @@
 
 namespace hypotrack {
 
-/// Where Jacobians come from.
+/// Method of computing Jacobians.
 enum class Jacobian {
-  automatic,  ///< analytic where the cost can be linearised, otherwise numerical
-  numerical,  ///< an evaluation per number
+  automatic,  ///< analytic if the cost can be linearised, otherwise numerical
+  numerical,  ///< an evaluation per dimension
   analytic,   ///< ResidualCost::linearize
 };
 std::span<const std::string_view> enum_names(Jacobian);

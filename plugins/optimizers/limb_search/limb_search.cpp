@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-/// A limb, and the best place for it among the samples.
+/// A limb, and its best place among the samples.
 struct Limb {
   const std::vector<int>* dimensions;
   Eigen::VectorXd point = {};  ///< of the whole scene
@@ -32,7 +32,7 @@ std::vector<Limb> limbs_of(const SearchRegion& region) {
   return limbs;
 }
 
-/// The region's start (column 0), and `samples` points for each limb, in which it is elsewhere.
+/// Returns the region's start (column 0), then `samples` points per limb with the limb elsewhere.
 Eigen::MatrixXd sampled(const SearchRegion& region, const std::vector<Limb>& limbs,
                         std::int64_t samples, std::uint64_t seed) {
   const auto count = static_cast<std::int64_t>(limbs.size()) * samples;
@@ -60,7 +60,8 @@ void take_best(std::vector<Limb>& limbs, const Eigen::MatrixXd& points,
   std::ranges::stable_sort(limbs, {}, &Limb::cost);
 }
 
-/// Where a limb's dimensions are free, from its sample, and the others are as in `best`.
+/// Returns a region that starts at the limb's sample and frees its dimensions; the others are fixed
+/// at `best`.
 SearchRegion region_of(const Limb& limb, const SearchRegion& region, const Eigen::VectorXd& best,
                        double spread) {
   SearchRegion own = region;

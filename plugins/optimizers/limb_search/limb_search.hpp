@@ -35,21 +35,20 @@ struct LimbSearchParams {
   }
 };
 
-/// Looks for each limb of the region (SearchGroup) anew while everything else stays: a finger that
-/// was hidden and comes into sight somewhere else is beyond what a search about the last solution
-/// finds, and yet it has few numbers.
+/// Searches each limb of the region (SearchGroup) again over its whole bounds while everything else
+/// stays. A finger that was hidden and reappears elsewhere is too far for a search around the last
+/// solution, but has few dimensions.
 ///
-/// The start and `samples` places of every limb, uniform within its bounds, are evaluated in one
-/// batch; where the budget does not reach that far, fewer of each. Then each limb is searched from
-/// its best sample, within its own dimensions, those of the lowest costs first, and later ones
-/// beside what was found before. Each gets an equal part of the evaluations and seconds that those
-/// before it left. A region without limbs of finite bounds is evaluated at its start only. Search k
-/// has seed_of_part(seed, k).
+/// Evaluates the start and `samples` places of every limb, uniform within its bounds, in one batch;
+/// fewer of each if the budget is too small. Then searches each limb from its best sample, in its
+/// own dimensions. The limb of lowest cost comes first; later limbs build on its result. Each gets
+/// an equal part of the evaluations and seconds that are left. A region without limbs of finite
+/// bounds is evaluated at its start only. Search k has seed_of_part(seed, k).
 ///
-/// A limb of which nothing is seen costs about the same wherever it is, and among many places one
-/// is always a little cheaper. With a `gain` a limb stays where it was unless moving it lowers the
-/// cost by more than that share of its magnitude; the answer is then the best of those moves and of
-/// the start, and may cost a little more than the best point evaluated.
+/// An invisible limb costs about the same everywhere, and among many places one is always a little
+/// cheaper. With a `gain` a limb moves only if that lowers the cost by more than this share of its
+/// magnitude. The result is then the best of those moves and the start, and may cost a little more
+/// than the best point evaluated.
 class LimbSearch : public Optimizer {
  public:
   LimbSearch(const LimbSearchParams& params, std::unique_ptr<Optimizer> optimizer)

@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-/// Indices of the lowest costs, the lowest first; on equal ones the earlier.
+/// Returns the indices of the lowest costs, lowest first; the earlier of equal ones.
 std::vector<Eigen::Index> lowest(const Eigen::VectorXd& costs, std::int64_t count) {
   std::vector<Eigen::Index> order(static_cast<std::size_t>(costs.size()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});

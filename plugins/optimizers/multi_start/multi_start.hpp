@@ -35,14 +35,14 @@ struct MultiStartParams {
   }
 };
 
-/// Several searches around the region, the best answer of which is kept. The start and samples
-/// about it are evaluated in one batch; the best of them are where the searches begin, the best one
-/// first. Each gets an equal part of the evaluations and seconds that the ones before it left (at
-/// least one evaluation, on where it begins). Search k has seed_of_part(seed, k). To refine the
-/// best one further, make this the first stage of a pipeline.
+/// Runs several searches around the region and keeps the best result. Evaluates the start and
+/// samples around it in one batch. The searches begin at the best of these, the best first. Each
+/// gets an equal part of the evaluations and seconds that are left (at least one evaluation, of its
+/// start). Search k has seed_of_part(seed, k). To refine the result, make this the first stage of a
+/// pipeline.
 class MultiStart : public Optimizer {
  public:
-  /// Throws ConfigError, naming `where`, with more starts than candidates.
+  /// Throws ConfigError, naming `where`, if there are more starts than candidates.
   MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
              const std::string& where = "multi_start");
 

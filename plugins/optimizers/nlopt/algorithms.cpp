@@ -36,7 +36,7 @@ struct Refused {
 constexpr std::string_view kNeedsDerivatives =
     "it needs derivatives, and the cost of a rendered hypothesis has none";
 
-// The first entry that matches counts.
+// The first matching entry counts.
 constexpr std::array kRefused = {
     Refused{
         "NEWUOA_BOUND",
@@ -61,7 +61,7 @@ constexpr std::array kRefused = {
     Refused{"SUBPLEX", "its licence is not free; SBPLX is the free implementation of the method"},
 };
 
-/// `NLOPT_LN_SBPLX` and `LN_SBPLX` are SBPLX.
+/// Removes prefixes, so that `NLOPT_LN_SBPLX` and `LN_SBPLX` mean SBPLX.
 std::string_view without_prefix(std::string_view name) {
   for (const std::string_view prefix : {"NLOPT_", "LN_", "LD_", "GN_", "GD_", "G_"}) {
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());

@@ -8,12 +8,12 @@
 
 namespace hypotrack {
 
-/// What must be known of an NLopt algorithm to run it on a frame.
+/// Properties of an NLopt algorithm that matter for a search.
 struct NloptAlgorithm {
   enum class Bounds {
-    any,      ///< keeps to bounds, infinite ones too
+    any,      ///< respects bounds, infinite ones too
     finite,   ///< a global search: needs a finite box
-    ignored,  ///< knows no bounds: its points are clamped before they are evaluated
+    ignored,  ///< has no bounds: its points are clamped before they are evaluated
   };
   enum class Population { none, crs, isres, esch, mlsl };
 
@@ -24,16 +24,16 @@ struct NloptAlgorithm {
   bool divides_boxes = false;  ///< DIRECT: memory grows with evaluations times dimension
 };
 
-/// The algorithm of a name. Throws ConfigError, beginning with `where`, that lists the allowed
-/// names and says why a known NLopt algorithm is refused.
+/// Returns the algorithm with a name. Throws ConfigError, beginning with `where`, which lists the
+/// allowed names and says why a known NLopt algorithm is refused.
 const NloptAlgorithm& find_algorithm(std::string_view name, const std::string& where);
 
-/// The local algorithm of a name, for the local searches of MLSL_LDS. Throws ConfigError.
+/// Returns the algorithm with a name for the local searches of MLSL_LDS. Throws ConfigError.
 const NloptAlgorithm& find_local_algorithm(std::string_view name, const std::string& where);
 
-/// A population that leaves a search of `evaluations` enough generations, where NLopt's own choice
-/// (280 for CRS2 and 560 for ISRES in 27 dimensions) would use the budget up before the search
-/// begins.
+/// Returns a population that leaves a search of `evaluations` enough generations. NLopt's own
+/// choice (280 for CRS2 and 560 for ISRES in 27 dimensions) would use up the budget before the
+/// search begins.
 unsigned automatic_population(NloptAlgorithm::Population rule, std::int64_t dimension,
                               std::int64_t evaluations);
 

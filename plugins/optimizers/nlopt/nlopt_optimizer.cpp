@@ -12,7 +12,7 @@ namespace hypotrack {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Boxes of DIRECT hold about 3 doubles per evaluation and dimension.
+// A box of DIRECT holds about 3 doubles per evaluation and dimension.
 constexpr std::int64_t kMaxDirectNumbers = std::int64_t{1} << 25;
 
 struct Destroy {
@@ -73,7 +73,7 @@ void Nlopt::run(ScaledProblem& problem) const {
       unbounded ? Eigen::VectorXd::Constant(n, kInfinity) : problem.upper(box);
 
   const NloptHandle opt = create(algorithm_->id, problem, lower, upper, params_);
-  // Algorithms size their memory by it; what stops them is the problem.
+  // Algorithms size their memory by it; the problem stops them.
   nlopt_set_maxeval(opt.get(), to_int(problem.remaining() + 2 * n + 2));
   if (algorithm_->population != NloptAlgorithm::Population::none) {
     nlopt_set_population(

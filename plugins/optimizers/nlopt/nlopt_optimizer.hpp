@@ -47,18 +47,17 @@ struct NloptParams {
   }
 };
 
-/// The derivative-free algorithms of NLopt (Steven G. Johnson, https://nlopt.readthedocs.io), one
-/// point at a time.
+/// Derivative-free algorithms of NLopt (Steven G. Johnson, https://nlopt.readthedocs.io), one point
+/// at a time.
 ///
 /// They search in offsets from the start in units of the region's spread, so that one step fits all
-/// dimensions. The start is evaluated first, also where the algorithm would begin elsewhere
-/// (DIRECT). Global algorithms search the box start +- box * spread within the bounds. PRAXIS knows
-/// no bounds: its points are clamped to them before they are evaluated, so the cost goes on
-/// unchanged beyond a bound. An infeasible (+inf) cost becomes a finite penalty worse than all that
-/// was seen.
+/// dimensions. The start is evaluated first, also if the algorithm begins elsewhere (DIRECT).
+/// Global algorithms search the box start +- box * spread within the bounds. PRAXIS has no bounds:
+/// its points are clamped before they are evaluated, so the cost is constant beyond a bound. An
+/// infeasible (+inf) cost becomes a finite penalty worse than all costs so far.
 ///
-/// The budget is kept here, not by NLopt, and the best point is the best of all evaluated ones. A
-/// search that ends before its budget (converged, flat objective) is a success.
+/// This class, not NLopt, keeps the budget and the best of all evaluated points. A search that ends
+/// before its budget (converged, flat objective) is a success.
 class Nlopt : public Optimizer {
  public:
   /// `where` is the place of the parameters in messages. Throws ConfigError on algorithms that are
@@ -66,8 +65,8 @@ class Nlopt : public Optimizer {
   explicit Nlopt(const NloptParams& params, const std::string& where = "nlopt");
 
   std::int64_t default_evaluations() const override { return params_.evaluations; }
-  /// Throws ConfigError where a DIRECT algorithm would need more than about 1 GiB, and where the
-  /// population of CRS2_LM does not exceed the number of dimensions.
+  /// Searches the region. Throws ConfigError if a DIRECT algorithm would need more than about 1
+  /// GiB, or if the population of CRS2_LM does not exceed the number of dimensions.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
 

@@ -7,8 +7,8 @@
 namespace hypotrack {
 namespace {
 
-// Calls of NLopt that cost no evaluation (the start again, an offset that is NaN) before it is
-// taken to be caught in a loop.
+// Calls of NLopt without an evaluation (the start again, an offset that is NaN) that count as an
+// endless loop.
 constexpr std::int64_t kMaxIdleCalls = 10000;
 
 }  // namespace
@@ -31,8 +31,7 @@ void ScaledProblem::evaluate_start() { start_value_ = evaluate(region_.start); }
 
 void ScaledProblem::stop() {
   stopped_ = true;
-  // ORIG_DIRECT_L of NLopt 2.7.1 crashes when told to stop by its first call; the second one tells
-  // it.
+  // ORIG_DIRECT_L of NLopt 2.7.1 crashes if its first call stops it; stop it in the second.
   if (calls_ > 1) nlopt_force_stop(opt_);
 }
 
@@ -42,7 +41,7 @@ double ScaledProblem::value(const double* offsets) {
   const bool broken = std::ranges::any_of(point_offsets, [](double u) { return std::isnan(u); });
   const bool start = std::ranges::all_of(point_offsets, [](double u) { return u == 0.0; });
   if (stopped_ || broken || start) {
-    // Some algorithms look at the stop flag late only; meanwhile their calls cost nothing.
+    // Some algorithms check the stop flag late; until then their calls cost nothing.
     if (stopped_ || ++idle_calls_ > kMaxIdleCalls) stop();
     return start ? start_value_ : std::max(FiniteCosts::kUnknown, finite_.worst() * 2);
   }

@@ -11,28 +11,28 @@
 
 namespace hypotrack {
 
-/// Stands between NLopt and a cost function. NLopt sees the dimensions that the bounds leave free,
-/// as offsets from the start in units of the region's spread; the start is the origin.
+/// Adapts a cost function to NLopt. NLopt sees the dimensions that the bounds leave free, as
+/// offsets from the start in units of the region's spread; the start is the origin.
 ///
-/// Whatever NLopt does, at most the budget's evaluations are made, all within the bounds, and the
-/// best of them is kept here. The first one is the start.
+/// Whatever NLopt does, this class evaluates at most the budget, within the bounds, and keeps the
+/// best point. The first evaluation is the start.
 class ScaledProblem {
  public:
-  /// Everything given must outlive the problem.
+  /// All arguments must outlive the problem.
   ScaledProblem(CostFunction& cost, const SearchRegion& region, const Budget& budget);
 
-  /// Number of free dimensions.
+  /// Returns the number of free dimensions.
   int dimension() const { return space_.dimension(); }
-  /// Evaluations that are left.
+  /// Returns the number of evaluations left.
   std::int64_t remaining() const { return limit_ - best_.result().evaluations; }
-  /// Bounds in NLopt's units, no further from the start than `box`; +-box may be infinite.
+  /// Returns bounds in NLopt's units, at most `box` from the start; +-box may be infinite.
   Eigen::VectorXd lower(double box) const { return space_.lower(box); }
   Eigen::VectorXd upper(double box) const { return space_.upper(box); }
 
   /// Evaluates the start. Throws what the cost throws.
   void evaluate_start();
-  /// An nlopt_func; `data` is the ScaledProblem. Never throws: an exception of the cost stops NLopt
-  /// and waits in rethrow().
+  /// Evaluates the cost as an nlopt_func; `data` is the ScaledProblem. Never throws: an exception
+  /// of the cost stops NLopt and waits for rethrow().
   static double callback(unsigned n, const double* offsets, double* gradient, void* data);
   /// The run to stop when the budget is used up.
   void attach(nlopt_opt opt) { opt_ = opt; }
@@ -56,7 +56,7 @@ class ScaledProblem {
   double start_value_ = 0;
   FiniteCosts finite_;
   std::int64_t calls_ = 0;       ///< of NLopt
-  std::int64_t idle_calls_ = 0;  ///< those that cost no evaluation
+  std::int64_t idle_calls_ = 0;  ///< calls without an evaluation
   bool stopped_ = false;
   std::exception_ptr error_;
 };

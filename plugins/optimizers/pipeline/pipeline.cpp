@@ -12,7 +12,7 @@
 namespace hypotrack {
 namespace {
 
-/// The region for a stage that begins at `start`.
+/// Returns the region for a stage that begins at `start`.
 SearchRegion region_of(const PipelineStage& stage, const SearchRegion& region,
                        const Eigen::VectorXd& start) {
   SearchRegion own = region;
@@ -73,7 +73,7 @@ std::string Pipeline::needs_device() const {
 
 std::string Pipeline::of_stage(std::size_t stage, std::string_view what) const {
   const std::string place = where_ + ": ";
-  if (what.starts_with(place)) what.remove_prefix(place.size());  // said once is enough
+  if (what.starts_with(place)) what.remove_prefix(place.size());  // do not repeat the place
   return place + "stage " + std::to_string(stage + 1) + " of " + std::to_string(stages_.size()) +
          ", " + stages_[stage].name + ": " + std::string(what);
 }

@@ -6,8 +6,8 @@
 
 namespace hypotrack {
 
-/// K = 2 / |2 - psi - sqrt(psi^2 - 4 psi)| with psi = cognitive + social (Clerc and Kennedy 2002).
-/// Throws ConfigError, naming `where`, unless psi > 4.
+/// Computes K = 2 / |2 - psi - sqrt(psi^2 - 4 psi)| with psi = cognitive + social (Clerc and
+/// Kennedy 2002). Throws ConfigError, naming `where`, unless psi > 4.
 Constriction make_constriction(double cognitive, double social, const std::string& where);
 
 }  // namespace hypotrack

@@ -6,10 +6,10 @@
 
 namespace hypotrack {
 
-/// The groups of a region that are limbs, numbered in their order.
+/// Numbers the groups of a region that are limbs, in their order.
 struct Limbs {
   int count = 0;
-  std::vector<int> of_dimension;  ///< -1 where a dimension is in none
+  std::vector<int> of_dimension;  ///< -1 for a dimension in no limb
 
   explicit Limbs(const SearchRegion& region)
       : of_dimension(static_cast<std::size_t>(region.start.size()), -1) {

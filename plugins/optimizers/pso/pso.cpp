@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-/// How particles move.
+/// Parameters of the particles' motion.
 struct Swarming {
   Constriction constriction;
   LimbReset reset;
@@ -19,7 +19,7 @@ struct Swarming {
   double sigma;
 };
 
-/// Positions, velocities and what each particle found, DxN.
+/// Positions, velocities and best positions of the particles, DxN.
 struct Swarm {
   Eigen::MatrixXd position;
   Eigen::MatrixXd velocity;
@@ -57,7 +57,7 @@ struct Swarm {
     }
   }
 
-  /// Takes in the costs of the first particles.
+  /// Updates the particles' best positions with the costs of the first particles.
   void remember(const Eigen::Ref<const Eigen::VectorXd>& costs) {
     for (Eigen::Index p = 0; p < costs.size(); ++p) {
       if (costs[p] < own_best_cost[p]) {

@@ -9,31 +9,31 @@
 namespace hypotrack {
 
 /// Particle swarm optimisation with constriction (Clerc and Kennedy, "The particle swarm:
-/// explosion, stability, and convergence in a multidimensional complex space", 2002) and the
+/// explosion, stability, and convergence in a multidimensional complex space", 2002) and the usual
 /// choices of model-based hand tracking:
-/// - the swarm's best is global and changes between generations only, so that a whole generation is
-///   one batch;
-/// - r1 and r2 are drawn per dimension;
-/// - particle 0 begins at `start` (the last solution), the others at normal samples about it with
-///   standard deviation sigma * spread; velocities begin at zero;
-/// - a position that leaves the bounds is truncated to them, and the velocity of that dimension
-///   becomes the step that was really made, so that particles do not keep pushing at a wall.
+/// - The swarm's best is global and changes between generations only, so that a whole generation is
+///   one batch.
+/// - r1 and r2 are drawn per dimension.
+/// - Particle 0 begins at `start` (the last solution), the others at normal samples around it with
+///   standard deviation sigma * spread. Velocities begin at zero.
+/// - A position that leaves the bounds is clamped. The velocity of that dimension becomes the step
+///   actually made, so that particles do not keep pushing against the bound.
 ///
-/// Beyond the paper, and off by default, for regions whose groups are known:
-/// - the initial particles move only a share of the groups fully (StartSpread), since a hand rarely
-///   moves all of its fingers at once;
-/// - every few generations a share of the particles gets one of its limbs anew (LimbReset).
+/// Extensions, off by default, for regions with groups:
+/// - The initial particles move only some of the groups fully (StartSpread), since a hand rarely
+///   moves all its fingers at once.
+/// - Every few generations some of the particles get one of their limbs replaced (LimbReset).
 ///
-/// The numbers r1, r2 (words 0 and 1 of uniform4) have RandomIndex{dimension, particle, generation,
-/// 0}, the initial ones are those of start_sample.hpp, those of a limb anew {dimension, particle,
-/// generation, 3} and {0, particle, generation, 4}. The initial generation is number 0.
+/// r1 and r2 are words 0 and 1 of uniform4 at RandomIndex{dimension, particle, generation, 0}.
+/// Initial samples use the indices of start_sample.hpp. A limb's replacement uses {dimension,
+/// particle, generation, 3} and {0, particle, generation, 4}. The initial generation is number 0.
 ///
-/// The budget decides how many generations there are; the last one evaluates the first particles
-/// only where the budget ends within it. `seconds` is looked at between generations.
+/// The budget determines the number of generations. If it ends within the last one, only the first
+/// particles are evaluated. `seconds` is checked between generations.
 class Pso : public Optimizer {
  public:
-  /// `where` is the place of the parameters in messages. Throws ConfigError unless
-  /// cognitive + social > 4.
+  /// `where` is the place of the parameters in messages. Throws ConfigError unless cognitive +
+  /// social > 4.
   explicit Pso(const PsoParams& params, const std::string& where = "pso");
 
   std::int64_t default_evaluations() const override;

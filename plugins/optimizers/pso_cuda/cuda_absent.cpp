@@ -22,7 +22,7 @@ std::string PsoCuda::needs_device() const { return {}; }
 
 OptimizerResult PsoCuda::minimize(CostFunction&, const SearchRegion&, const Budget&,
                                   std::uint64_t) {
-  return {};  // nobody has an object
+  return {};  // unreachable: the constructor throws
 }
 
 }  // namespace hypotrack

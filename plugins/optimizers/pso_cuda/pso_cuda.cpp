@@ -30,12 +30,12 @@ struct Schedule {
   std::int64_t count(std::int64_t generation) const {
     return std::min(particles, evaluations - generation * particles);
   }
-  /// Whether the last generation is as large as the others.
+  /// Returns whether the last generation is complete.
   bool whole() const { return evaluations % particles == 0; }
   bool operator==(const Schedule&) const = default;
 };
 
-/// What a captured search depends on.
+/// Everything that a captured search depends on.
 struct CapturedFor {
   const DeviceCost* cost;
   void* stream;
@@ -63,7 +63,7 @@ class Search {
   Stream stream() const { return stream_; }
   std::int64_t generations() const { return schedule_.generations(); }
 
-  /// Enqueues all of it, or the generations until `enough()` between two; returns their number.
+  /// Enqueues all generations, or until `enough()` returns true between two. Returns their number.
   template <class Enough>
   std::int64_t enqueue(int most_blocks, const Enough& enough) {
     cuda::enqueue_region(swarm_, stream_);
@@ -98,7 +98,7 @@ void wait_for(Stream stream) {
   cuda::check(cudaStreamSynchronize(cuda::native(stream)), "a search of pso_cuda");
 }
 
-/// Until the deadline, if there is one.
+/// Runs a search without a graph, until the deadline if there is one.
 std::int64_t run_directly(Search& search, const Deadline* deadline) {
   try {
     return search.enqueue(cuda::most_blocks(), [&] {
@@ -119,7 +119,7 @@ struct PsoCuda::OnDevice {
   cuda::SearchGraph graph;
   std::optional<CapturedFor> captured;
 
-  /// Enqueues the search as one kernel, if the cost has one for it.
+  /// Enqueues the search as one kernel. Returns false if that is impossible.
   bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
                       const cuda::Swarming& how, const StartSpread& start,
                       const SearchRegion& region, std::uint64_t seed) {

@@ -30,7 +30,7 @@ void SearchGraph::capture(Stream stream, const std::function<void()>& enqueue) {
     enqueue();
   } catch (...) {
     (void)cudaStreamEndCapture(native(stream), &captured.graph);
-    (void)cudaGetLastError();  // of a capture that was cut short
+    (void)cudaGetLastError();  // of an interrupted capture
     throw;
   }
   check(cudaStreamEndCapture(native(stream), &captured.graph), "capturing a search");

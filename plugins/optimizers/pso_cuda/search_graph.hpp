@@ -6,7 +6,7 @@
 
 namespace hypotrack::cuda {
 
-/// Work that was captured from a stream once and can be launched again and again.
+/// A CUDA graph that is captured from a stream once and launched many times.
 class SearchGraph {
  public:
   SearchGraph() = default;
@@ -14,12 +14,12 @@ class SearchGraph {
   SearchGraph(const SearchGraph&) = delete;
   SearchGraph& operator=(const SearchGraph&) = delete;
 
-  /// Captures what `enqueue` enqueues on the stream, without running it. What `enqueue` throws
-  /// passes through; the stream is then usable and the graph empty.
+  /// Captures the work that `enqueue` enqueues on the stream, without running it. Passes exceptions
+  /// of `enqueue` on; the stream is then usable and the graph empty.
   void capture(Stream stream, const std::function<void()>& enqueue);
-  /// Enqueues all of it.
+  /// Enqueues the captured work.
   void launch(Stream stream) const;
-  /// Forgets it.
+  /// Deletes the captured work.
   void reset();
 
  private:

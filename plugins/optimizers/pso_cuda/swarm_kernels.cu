@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kThreads = 256;
 constexpr int kAnswerThreads = 1024;
-constexpr int kBlocksPerMultiprocessor = 4;  // each looks at all costs: more would only read more
+constexpr int kBlocksPerMultiprocessor = 4;  // each reads all costs: more would only read more
 
 /// The frame's region in device memory.
 struct Region {
@@ -61,8 +61,8 @@ __device__ std::int64_t next_element(std::int64_t i) {
 /// The random numbers of an element's move.
 struct Draw {
   std::array<double, 4> uniform;
-  bool anew = false;  ///< it does not move, but is placed
-  double offset = 0;  ///< from the swarm's best, where it is
+  bool anew = false;  ///< the element is placed anew instead of moved
+  double offset = 0;  ///< from the swarm's best, if placed anew
 
   __device__ Draw(const Region& region, const Element& at, const Swarming& how,
                   std::uint32_t generation) {
@@ -84,8 +84,8 @@ __global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm)
   }
 }
 
-// The next kernel may start only after the wait: then every later one finds the region, also before
-// its own wait.
+// Lets the next kernel start only after the wait. So every later kernel finds the region, even
+// before its own wait.
 __global__ void __launch_bounds__(kThreads)
     initial(const SwarmLayout swarm, const Generation now, const StartSpread spread) {
   wait_for_previous();
@@ -113,7 +113,7 @@ __global__ void __launch_bounds__(kThreads)
   }
 }
 
-/// A particle's element and what it knows of itself.
+/// An element of a particle with its present and best position.
 struct Mover {
   Element at;
   double x, v, own_best, own_best_cost;
@@ -125,7 +125,7 @@ struct Mover {
         own_best(__ldcg(swarm.own_best + at.index)),
         own_best_cost(__ldcg(before.own_best_cost + at.particle)) {}
 
-  /// Takes in the cost of where it is.
+  /// Updates the element's best position with the cost of the present one.
   __device__ void remember(const SwarmLayout& swarm, const Generation& now, double cost) {
     const bool improved = cost < own_best_cost;
     if (improved) swarm.own_best[at.index] = own_best = x;
@@ -148,8 +148,8 @@ struct Best {
   const double* point;
   double cost;
 
-  /// For every thread of a block of kBlock; all of them call it. `known` is the best cost of the
-  /// generations before the last, `position` where the last one is.
+  /// Finds the best point; all threads of a block of kBlock must call it. `known` is the best cost
+  /// of the generations before the last. `position` has the positions of the last generation.
   template <int kBlock>
   static __device__ Best find(const SwarmLayout& swarm, const Generation& before, double known,
                               std::int32_t count, const double* position) {
@@ -159,12 +159,12 @@ struct Best {
   }
 };
 
-/// Small swarms' positions fit into a block's memory, so that the best is at hand once it is known.
+/// Positions that fit into a block's shared memory, so that the best is at hand once it is known.
 constexpr int kKept = 2048;
 
-// What the last move wrote is there before the wait: the evaluation between lets this kernel start
-// only after its own wait for that move (let_next_start()). It is there in the L2 cache, that is: a
-// multiprocessor's own may still hold what it read before. Only the costs are yet to come.
+// Reads the results of the last move before the wait. This is safe: the evaluation in between lets
+// this kernel start only after its own wait for that move (let_next_start()). The results are in
+// the L2 cache; a multiprocessor's L1 cache may hold older data. Only the costs need the wait.
 __global__ void __launch_bounds__(kThreads)
     move(const SwarmLayout swarm, const Generation before, const Generation now, const Swarming how,
          const std::uint32_t generation) {
@@ -172,7 +172,7 @@ __global__ void __launch_bounds__(kThreads)
   let_next_start();
   const std::int64_t elements = swarm.particles * swarm.dimension;
   const Region region(swarm);
-  // All threads take part in the search for the best, also those without an element.
+  // All threads search for the best, also those without an element.
   std::int64_t i = first_element();
   const Element first(swarm, i < elements ? i : 0);
   const Interval first_bounds = region.bounds(first.dimension);
@@ -235,8 +235,8 @@ int most_blocks() {
         "asking for the number of multiprocessors");
   cudaFuncAttributes attributes{};
   check(cudaFuncGetAttributes(&attributes, move), "loading the kernels of pso_cuda");
-  // The same split between shared memory and cache as the evaluation's, which wants most: a
-  // multiprocessor must be empty to change it, and neither kernel could start early.
+  // Use the evaluation's split between shared memory and cache, which prefers the most shared
+  // memory. A multiprocessor must be idle to change it, so neither kernel could start early.
   for (const void* kernel :
        {reinterpret_cast<const void*>(copy_region), reinterpret_cast<const void*>(initial),
         reinterpret_cast<const void*>(move), reinterpret_cast<const void*>(write_answer)}) {
@@ -248,7 +248,7 @@ int most_blocks() {
 }
 
 void enqueue_region(const SwarmLayout& swarm, Stream stream) {
-  // Waits for all that was enqueued before the search, so that nothing behind it has to.
+  // Waits for all work enqueued before the search, so that later kernels need not.
   launch(copy_region, 1, kThreads, 0, stream, false, swarm);
 }
 

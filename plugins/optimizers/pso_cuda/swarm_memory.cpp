@@ -37,7 +37,7 @@ SwarmLayout SwarmMemory::reserve(std::int64_t particles, std::int64_t dimension)
 
 SwarmSearch SwarmMemory::search(const SwarmLayout& swarm, std::int64_t generations,
                                 const SearchRegion& region, std::uint64_t seed) {
-  // Empty before and after every search: all bits set (bands.cuh).
+  // Free slots have all bits set, before and after every search (bands.cuh).
   if (slots_.reserve(static_cast<std::size_t>(3 * kSlotStride * swarm.particles))) {
     check(cudaMemset(slots_.data(), 0xFF, slots_.size() * sizeof(double)), "emptying memory");
     check(cudaDeviceSynchronize(), "emptying memory");
@@ -55,7 +55,8 @@ SwarmSearch SwarmMemory::search(const SwarmLayout& swarm, std::int64_t generatio
     search.dimensions[d] = {region.start[i],  region.lower[i], region.upper[i],
                             region.spread[i], groups[d],       limbs.of_dimension[d]};
   }
-  search.positions = swarm.velocity;  // and own_best behind it: the kernel keeps its own
+  search.positions = swarm.velocity;  // with own_best after it: both are unused, as the kernel
+                                      // keeps its own
   search.costs = slots_.data();
   search.answer = swarm.answer;
   return search;

@@ -12,15 +12,16 @@ namespace hypotrack::cuda {
 /// Memory of a swarm, on the device and page-locked on the host; never shrinks.
 class SwarmMemory {
  public:
-  /// Throws DeviceError if it is not to be had.
+  /// Reserves memory and returns its layout. Throws DeviceError if there is not enough.
   SwarmLayout reserve(std::int64_t particles, std::int64_t dimension);
-  /// The same swarm for a search in one kernel of `generations`, all of it but how it moves. Throws
-  /// DeviceError if memory is not to be had.
+  /// Prepares a search by a single kernel of `generations`, all but the parameters of motion.
+  /// Throws DeviceError if there is not enough memory.
   SwarmSearch search(const SwarmLayout& swarm, std::int64_t generations, const SearchRegion& region,
                      std::uint64_t seed);
-  /// Writes what the kernels of `swarm` read next; none of them may be running.
+  /// Writes the input of the next kernels of the swarm; none of them may be running.
   void write(const SearchRegion& region, std::uint64_t seed);
-  /// Cost and position that the kernels of a swarm in `dimension` dimensions wrote last.
+  /// Returns the cost and position that the kernels of a swarm in `dimension` dimensions wrote
+  /// last.
   OptimizerResult answer(std::int64_t dimension) const;
 
  private:

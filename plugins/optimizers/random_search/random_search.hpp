@@ -21,9 +21,9 @@ struct RandomSearchParams {
   }
 };
 
-/// The baseline that every optimizer must beat: the start, then normal samples about it with
-/// standard deviation sigma * spread, truncated at the bounds; the best is kept. Sample k is a
-/// swarm's initial particle k.
+/// Random search, the baseline that every optimizer must beat. Samples the start, then normal
+/// samples around it with standard deviation sigma * spread, clamped to the bounds, and keeps the
+/// best. Sample k is a swarm's initial particle k.
 class RandomSearch : public Optimizer {
  public:
   explicit RandomSearch(const RandomSearchParams& params) : params_(params) {}

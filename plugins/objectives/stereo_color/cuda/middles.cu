@@ -17,7 +17,7 @@ constexpr int kBatch = 4;        // vectors of four keys that a thread has under
 
 /// The bin that contains the key of a rank.
 struct Place {
-  std::uint32_t bin, rank, count;  ///< rank: among the bin's keys; count: of them
+  std::uint32_t bin, rank, count;  ///< rank among the bin's keys; count of its keys
 };
 
 struct Search {
