@@ -1,4 +1,4 @@
-// An objective that keeps its contract but for the fault of its device part that it is asked for.
+// An objective that keeps its contract except for a fault of its device part, named by a parameter.
 #include "broken_device.hpp"
 
 #include <array>

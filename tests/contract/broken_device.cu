@@ -9,7 +9,7 @@ using namespace cuda;
 
 struct Term {
   double offset;
-  unsigned* calls;  ///< makes every cost another one; null: does not
+  unsigned* calls;  ///< makes every cost different; null: does not
 
   __device__ double cost(const double* state, int dimension) const {
     const double sum = offset + SquaredLength().cost(state, dimension);

@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// The length of the state, squared.
+/// The squared length of the state.
 struct SquaredLength {
   HYPOTRACK_PIXEL double cost(const double* state, int dimension) const {
     double sum = 0;
@@ -16,7 +16,7 @@ struct SquaredLength {
   }
 };
 
-/// What is wrong with it on the device.
+/// Faults of the objective on the device.
 struct DeviceFaults {
   bool another_cost = false;
   bool never_repeats = false;

@@ -1,4 +1,4 @@
-// An objective that keeps its contract but for the fault it is asked for.
+// An objective that keeps its contract except for a fault, named by a parameter.
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -36,7 +36,7 @@ constexpr std::array<std::string_view, 11> kFaults = {"none",
                                                       "leaves_residuals_out"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
-/// Mean inverse depth, the more the better.
+/// Rewards inverse depth: the cost is its negative mean.
 class Broken final : public Objective, public ResidualTerm {
  public:
   struct Params {

@@ -1,4 +1,4 @@
-// An optimizer that keeps its contract but for the fault it is asked for.
+// An optimizer that keeps its contract except for a fault, named by a parameter.
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 10> kFaults = {"none",
                                                       "hardly_searches"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
-/// A (1+1) evolution strategy with the fifth-rule of success.
+/// A (1+1) evolution strategy with the 1/5 success rule.
 class Broken final : public Optimizer {
  public:
   struct Params {

@@ -1,4 +1,4 @@
-// A source of plain pictures that keeps its contract but for the fault it is asked for.
+// A source of plain pictures that keeps its contract except for a fault, named by a parameter.
 #include <array>
 #include <atomic>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The contract program must notice every way of breaking a contract, and name it.
+// Tests that the contract program notices every way of breaking a contract, and names it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -51,7 +51,7 @@ struct Case {
   std::string kind;
   std::string fault = "";
   std::string row = "";      ///< the row that fails
-  std::string message = "";  ///< what it says
+  std::string message = "";  ///< expected message
   std::string more = "";     ///< more parameters
 };
 

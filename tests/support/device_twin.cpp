@@ -12,7 +12,7 @@ namespace {
 using cuda::check;
 using cuda::native;
 
-/// Never the same twice, so that a graph cannot be mistaken for one of a twin at the same address.
+/// Returns a unique revision, so that a graph is not taken for one of a twin at the same address.
 std::uint64_t new_revision() {
   static std::atomic<std::uint64_t> last{0};
   return ++last;
@@ -66,7 +66,7 @@ struct DeviceTwin::Impl final : cuda::DeviceCost {
   cuda::Stream handle;
   std::uint64_t number = new_revision();
   cuda::PinnedBuffer<double> points, costs;
-  std::deque<Batch> batches;  ///< where they stay: graphs point to them
+  std::deque<Batch> batches;  ///< a deque, as graphs point to its elements
   std::function<void()> hook;
 };
 

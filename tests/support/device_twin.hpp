@@ -8,11 +8,11 @@
 
 namespace hypotrack::test {
 
-/// A cost function for optimizers that search on the GPU, of any other one: points are copied to
-/// the host on their way along the stream, evaluated there, and their costs copied back.
+/// Adapts any cost function for optimizers that search on the GPU. Copies points to the host on
+/// their way along the stream, evaluates them there, and copies their costs back.
 class DeviceTwin final : public CostFunction {
  public:
-  /// `host` outlives it and must not throw. Throws DeviceError where there is no GPU.
+  /// `host` must outlive the twin and not throw. Throws DeviceError without a GPU.
   explicit DeviceTwin(CostFunction& host);
   ~DeviceTwin() override;
 
@@ -21,9 +21,9 @@ class DeviceTwin final : public CostFunction {
                 Eigen::Ref<Eigen::VectorXd> costs) override;
   cuda::DeviceCost* device() override;
 
-  /// Called by every DeviceCost::enqueue() first; may throw.
+  /// Sets a function that every DeviceCost::enqueue() calls first; it may throw.
   void on_enqueue(std::function<void()> hook);
-  /// Makes revision() another one, so that captured graphs are no longer valid.
+  /// Changes revision(), so that captured graphs become invalid.
   void revise();
 
  private:

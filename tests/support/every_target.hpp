@@ -8,7 +8,7 @@
 
 namespace hypotrack::test {
 
-/// Whether an instruction set (Highway's bit) has a fused multiply-add.
+/// Returns whether an instruction set (Highway's bit) has a fused multiply-add.
 constexpr bool fuses_products_and_sums(std::int64_t target) {
 #if HWY_ARCH_X86
   return target <= HWY_AVX2;  // smaller ones are better
@@ -16,14 +16,14 @@ constexpr bool fuses_products_and_sums(std::int64_t target) {
   return target != HWY_SCALAR && target != HWY_EMU128;
 #endif
 }
-/// Whether the best one of this machine has.
+/// Returns whether the best instruction set of this machine has a fused multiply-add.
 inline bool fuses_products_and_sums() {
   const std::int64_t targets = hwy::SupportedTargets();
   return fuses_products_and_sums(targets & -targets);
 }
 
-/// Runs a body, which may take it, once per instruction set that this machine has and something is
-/// compiled for (Highway's bits). Its users link Highway.
+/// Runs a body once per instruction set (Highway's bit) that this machine has and `compiled`
+/// contains. The body may take the bit as its argument. Users must link Highway.
 template <class Body>
 void on_every_target(std::int64_t compiled, Body body) {
   int targets = 0;

@@ -6,7 +6,7 @@
 
 namespace hypotrack::test {
 
-/// The message of the E that `action` throws; a failed test if it throws none.
+/// Returns the message of the E that `action` throws; fails the test if it throws none.
 template <class E, class Action>
 std::string message_of(Action action) {
   try {

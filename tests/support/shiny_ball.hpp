@@ -13,7 +13,8 @@
 
 namespace hypotrack::test {
 
-/// A grey ball with waves on it, and a highlight, before a rectified pair of cameras 12 cm apart.
+/// A grey ball with waves on it, and a highlight, in front of a rectified pair of cameras 12 cm
+/// apart.
 struct ShinyBall {
   static constexpr double kRadius = 0.05, kFar = 0.5;  // metres
 
@@ -25,14 +26,14 @@ struct ShinyBall {
     tiles = std::make_unique<TileMaker>(scene, cameras, TileSettings{});
   }
 
-  /// The ball where the pictures show it.
+  /// Returns the state that the pictures show.
   Eigen::VectorXd state() const {
     Eigen::VectorXd out = scene.rest_state();
     out.head<3>() << 0.06, 0, kFar;
     return out;
   }
 
-  /// Pictures of it: a highlight of `strength`, 0 .. 255, of a light in a direction.
+  /// Draws pictures with a highlight of `strength`, 0 .. 255, by a light in a direction.
   Frame frame(double strength, const Eigen::Vector3d& light = {-0.4, -0.3, -1}) const {
     Frame out;
     out.views.resize(2);

@@ -11,7 +11,7 @@ namespace hypotrack::test {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kBlend = 0.006;  // half the length over which two bones share the skin, metres
+constexpr double kBlend = 0.006;  // half the length, in metres, over which two bones share the skin
 
 struct Finger {
   const char* name;

@@ -8,20 +8,20 @@
 
 namespace hypotrack::test {
 
-/// A right hand of six closed, overlapping capsules: 21 bones, 27 parameters (pose, then abduction
-/// and three flexions per finger from thumb to little), 21 landmarks, 1,500 vertices, 2,976
-/// triangles. Frame: origin at the wrist, +X to the thumb, +Y to the fingertips, +Z out of the
-/// palm. No texture.
+/// Makes a right hand of six closed, overlapping capsules without texture: 21 bones, 21 landmarks,
+/// 1,500 vertices, 2,976 triangles. It has 27 parameters: pose, then abduction and three flexions
+/// per finger from thumb to little. Frame: origin at the wrist, +X to the thumb, +Y to the
+/// fingertips, +Z out of the palm.
 ModelData make_test_hand();
 
-/// A box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
+/// Makes a box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
 ModelData make_test_box(const Eigen::Vector3d& size = {0.06, 0.04, 0.12});
 
-/// A rigid ball about the model's origin, of 32 x 64 faces.
+/// Makes a rigid ball about the model's origin, of 32 x 64 faces.
 ModelData make_test_ball(double radius);
 
-/// A state of the scene with angles uniform within their bounds, rotations uniform, and positions
-/// uniform within `radius` of `center` along each axis.
+/// Returns a state of the scene with angles uniform within their bounds, rotations uniform, and
+/// positions uniform within `radius` of `center` along each axis.
 Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
                              const Eigen::Vector3d& center = {0, 0, 0.5}, double radius = 0.05);
 

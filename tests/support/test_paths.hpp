@@ -12,13 +12,13 @@ namespace hypotrack::test {
 inline std::filesystem::path source_dir() { return HYPOTRACK_SOURCE_DIR; }
 inline std::filesystem::path build_dir() { return HYPOTRACK_BUILD_DIR; }
 
-/// The real recordings and meshes that some tests use; they lie beside a checkout and are no part
-/// of the project.
+/// Returns the folder of real recordings and meshes that some tests use. It lies beside a checkout
+/// and is not part of the project.
 inline std::filesystem::path shared_data() {
   return source_dir().parent_path() / "shared" / "data";
 }
 
-/// A folder that goes away with the object.
+/// A folder that is removed with the object.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
@@ -37,7 +37,7 @@ class TemporaryDirectory {
 
 }  // namespace hypotrack::test
 
-/// Skips the test, saying so, where the shared data does not lie beside the checkout.
+/// Skips the test with a message if the shared data does not lie beside the checkout.
 #define HYPOTRACK_NEEDS_SHARED_DATA()                                                      \
   if (!std::filesystem::exists(::hypotrack::test::shared_data()))                          \
   GTEST_SKIP() << "needs the shared data in " << ::hypotrack::test::shared_data().string() \

@@ -10,8 +10,9 @@
 
 namespace hypotrack::test {
 
-/// The residuals of a hypothesis. Expects that every one is written and nothing behind them, that
-/// write_residuals() and cost_and_residuals() write the same, and that the latter returns the cost.
+/// Returns the residuals of a hypothesis. Expects that every one is written and nothing behind
+/// them, that write_residuals() and cost_and_residuals() write the same, and that the latter
+/// returns the cost.
 inline std::vector<float> written_residuals(const Objective& objective,
                                             const RenderedHypothesis& hypothesis) {
   const ResidualTerm& term = *objective.residual_term();

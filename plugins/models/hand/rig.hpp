@@ -2,11 +2,11 @@
 
 // # The rig file
 //
-// A rig tells hypotrack what the bones of a skinned mesh file mean, so that the same 27 numbers
-// pose any hand. It is YAML, read strictly. Everything anatomical is said in the hand frame (right
+// A rig tells hypotrack the meaning of a skinned mesh file's bones, so that the same 27 parameters
+// pose any hand. It is YAML; unknown keys are errors. Anatomical data is in the hand frame (right
 // hand): origin at the wrist, +X radial (thumb side), +Y distal (to the fingertips), +Z palmar (out
-// of the palm). A left hand is the mirror image in x = 0; its rig says `side: left` and otherwise
-// the same.
+// of the palm). A left hand is the mirror image in x = 0. Its rig says `side: left` and is the same
+// otherwise.
 //
 //   side: right                   # of the hand in the file (default)
 //   scale: 1.0                    # metres per unit of the file (default)
@@ -37,38 +37,37 @@
 //
 // ## Bones
 //
-// A rig bone begins at its `joint` (a file bone's origin; `joint_at: [x, y, z]` in the file's own
-// units where the file has none) and points to its `end` (file bone or `end_at`; without either,
-// the farthest vertex among those it holds: the tip of a finger whose file has no tip bones). It
-// moves the vertices of the file bones in `weights` (default: its `joint`). The hierarchy is the
-// rig's, whatever the file's is. Every file bone that holds a vertex must be in exactly one
-// `weights` list: a bone that the tracker should not move (forearm, metacarpal, twist helper) joins
-// the list of the rig bone that it goes with.
+// A rig bone begins at its `joint`: a file bone's origin, or `joint_at: [x, y, z]` in the file's
+// units. It points to its `end`: a file bone, or `end_at`. Without either, the end is the farthest
+// vertex among those the bone moves: the tip of a finger whose file has no tip bones. It moves the
+// vertices of the file bones in `weights` (default: its `joint`). The hierarchy is the rig's,
+// whatever the file's is. Every file bone with vertices must be in exactly one `weights` list. A
+// bone that the tracker should not move (forearm, metacarpal, twist helper) joins the list of the
+// rig bone that it moves with.
 //
-// A bone's frame at the bind pose: +Y from joint to end, +X its flexion axis (made perpendicular to
-// +Y), +Z = X x Y, palmar. `flexion_axis`, for the whole rig or for one bone, says where X is from:
-// `x`, `-x`, `y`, `-y`, `z` or `-z`, that axis of the file bone `joint`; `hand` (the default), the
-// parent's X, without twist; `bend`, the axis about which the joint is already bent at the bind
-// pose.
-// `twist_deg` turns it further about +Y. The root bone has the axes of the hand frame.
+// A bone's frame at the bind pose has +Y from joint to end, +X along its flexion axis (made
+// perpendicular to +Y), and +Z = X x Y, palmar. `flexion_axis`, for the whole rig or for one bone,
+// defines X. `x`, `-x`, `y`, `-y`, `z` or `-z` is that axis of the file bone `joint`. `hand` (the
+// default) is the parent's X, without twist. `bend` is the axis about which the joint is already
+// bent at the bind pose. `twist_deg` turns X further about +Y. The root bone has the axes of the
+// hand frame.
 //
 // ## Angles
 //
-// The parent's frame sees a bone turned by  Z * R(abduction, twist, flexion)  with
-// R = rot(-z, abduction) rot(+y, twist) rot(+x, flexion): abduction positive towards the thumb
-// side, flexion towards the palm. Z is where the bone stands when all angles are zero: along its
-// parent, unless `zero_deg: [abduction, twist, flexion]` says otherwise, as for the first bone of
-// the thumb, which lies in the plane of the palm at 45 degrees, its pad turned 60 degrees towards
-// the fingers: [45, -60, 0] in every ready rig, so that states can be exchanged between hands.
-// `abduction` and `flexion` name the parameters that drive these angles; an angle that no parameter
-// drives keeps its value of the bind pose. A bone that no parameter drives at all is rigid with its
-// parent, and "the parent" above is then the nearest bone that moves, or the root: fingers on
-// splayed metacarpals are parallel at zero all the same.
+// In the parent's frame a bone is rotated by  Z * R(abduction, twist, flexion)  with R = rot(-z,
+// abduction) rot(+y, twist) rot(+x, flexion). Abduction is positive towards the thumb side, flexion
+// towards the palm. Z is the bone's rotation when all angles are zero: along its parent, unless
+// `zero_deg: [abduction, twist, flexion]` replaces it. The first bone of the thumb lies in the
+// plane of the palm at 45 degrees, its pad turned 60 degrees towards the fingers: [45, -60, 0] in
+// every included rig, so that states can be exchanged between hands. `abduction` and `flexion` name
+// the parameters that drive these angles. An angle without a parameter keeps its value of the bind
+// pose. A bone without any parameter is rigid with its parent, and "the parent" above is then the
+// nearest bone that moves, or the root. So fingers on splayed metacarpals are parallel at zero,
+// too.
 //
-// The bind pose's own angles are measured: they are those at which the bone stands in the file, so
-// zero is the flat, straight hand whatever pose the file was made in. A parameter's `bind_deg`
-// replaces the measurement where the geometry misleads (the bone then stands off by the
-// difference).
+// The angles of the bind pose are measured from the file, so zero is the flat, straight hand
+// whatever the file's pose is. A parameter's `bind_deg` replaces the measurement where the geometry
+// misleads (the bone then differs by the difference).
 //
 // ## Parameters and landmarks
 //
@@ -78,10 +77,10 @@
 // anatomical (hand_parameters.cpp cites the sources); `bounds_deg` and `rest_deg` replace them.
 //
 // 21 landmarks, in this order: wrist; thumb_cmc, thumb_mcp, thumb_ip, thumb_tip; then {index,
-// middle, ring, little} each with _mcp, _pip, _dip, _tip. By default: the origin, the joints of the
-// bones that the flexions drive, and the ends of the last ones. `landmarks` replaces any of them by
-// a point in a bone's frame (x radial, y distal, z palmar, from its joint): the place for where a
-// label set has its fingertips.
+// middle, ring, little} each with _mcp, _pip, _dip, _tip. By default they are the origin, the
+// joints of the bones that the flexions drive, and the ends of the last ones. `landmarks` replaces
+// any of them by a point in a bone's frame (x radial, y distal, z palmar, from its joint), for
+// example by the fingertips of a label set.
 
 #include <Eigen/Core>
 #include <filesystem>

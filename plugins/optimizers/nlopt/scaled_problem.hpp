@@ -34,7 +34,7 @@ class ScaledProblem {
   /// Evaluates the cost as an nlopt_func; `data` is the ScaledProblem. Never throws: an exception
   /// of the cost stops NLopt and waits for rethrow().
   static double callback(unsigned n, const double* offsets, double* gradient, void* data);
-  /// The run to stop when the budget is used up.
+  /// Sets the run to stop when the budget is used up.
   void attach(nlopt_opt opt) { opt_ = opt; }
   /// Throws the exception that a cost threw during the search, unchanged.
   void rethrow() const;

@@ -12,9 +12,9 @@
 namespace hypotrack::depth_from_stereo {
 namespace {
 
-/// Turns a stereo source into one camera with colour and depth: the depth that OpenCV's semi-global
-/// matching finds in the rectified pair. The camera is the first one of the pair, turned and
-/// without its lens, where it was in the world: truth and masks stay right.
+/// Turns a stereo source into one camera with colour and depth. OpenCV's semi-global matching finds
+/// the depth in the rectified pair. The camera is the first one of the pair, rotated and without
+/// its lens, at the same place in the world, so truth and masks stay right.
 class DepthFromStereo final : public Source {
  public:
   using Params = depth_from_stereo::Params;

@@ -11,7 +11,7 @@ namespace hypotrack::depth_from_stereo {
 namespace {
 
 constexpr int kCountStep = 16;     // StereoSGBM's numbers of disparities
-constexpr float kFixedPoint = 16;  // its disparities are in sixteenths of a pixel
+constexpr float kFixedPoint = 16;  // disparities of StereoSGBM are in sixteenths of a pixel
 constexpr int kContrastLimit = 63;
 
 int mode_of(Mode mode) {
@@ -58,7 +58,7 @@ Matcher::Matcher(const Params& params, const RectifiedPair& pair, const std::str
 }
 
 cv::Mat Matcher::depth(const cv::Mat& first, const cv::Mat& second) {
-  // StereoSGBM leaves out a margin as wide as the disparities reach; give it one.
+  // StereoSGBM leaves out a margin as wide as the largest disparity: add one.
   const int left = std::max(0, lowest_ + count_);
   const int right = std::max(0, -lowest_);
   cv::Mat a, b, disparity;

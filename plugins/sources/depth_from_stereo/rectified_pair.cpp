@@ -12,7 +12,7 @@ namespace hypotrack::depth_from_stereo {
 namespace {
 
 constexpr double kShortestBaseline = 1e-3;  // metres
-// Turning a camera farther than this leaves too little of its picture.
+// A larger rotation of a camera leaves too little of its picture.
 constexpr double kLargestTurn = 25 * 3.14159265358979323846 / 180;
 
 struct Rectification {
@@ -69,7 +69,7 @@ Rectification rectification_of(const Camera& a, const Camera& b) {
   return to;
 }
 
-/// For every pixel of a rectified image, where it lies in the camera's.
+/// Computes for every pixel of a rectified image its position in the camera's image.
 void make_map(const Camera& camera, const cv::Matx33d& turn, const cv::Matx34d& projection,
               cv::Size size, cv::Mat& x, cv::Mat& y) {
   if (is_fisheye(camera)) {
@@ -81,7 +81,7 @@ void make_map(const Camera& camera, const cv::Matx33d& turn, const cv::Matx34d& 
   }
 }
 
-/// A pinhole camera that stands where `camera` does.
+/// Returns a pinhole camera at the place of `camera`.
 Camera turned(const Camera& camera, const cv::Matx33d& turn, const cv::Matx34d& projection) {
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = turn.val[i];

@@ -69,7 +69,7 @@ struct Layer {
   std::filesystem::path pattern;
 };
 
-/// The layers that are given. Throws ConfigError, naming `where`, if they make no views.
+/// Returns the layers that are given. Throws ConfigError, naming `where`, if they make no views.
 std::vector<Layer> layers_of(const ImageSequenceParams& params, const std::string& where) {
   const bool second = !params.right.empty() || !params.right_depth.empty();
   if (params.left.empty() && params.left_depth.empty()) {
@@ -99,10 +99,10 @@ std::vector<Layer> layers_of(const ImageSequenceParams& params, const std::strin
   return layers;
 }
 
-/// Pictures on disk, one per view and frame: colour, depth or both. Tables of the answer
-/// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp; a row belongs
-/// to the image whose number in the file name is the row's frame (with * instead of a number: the
-/// position in the sorted list), unless `truth_offset` shifts it.
+/// Reads pictures from disk, one per view and frame: colour, depth or both. Truth tables
+/// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp. A row's frame
+/// is the number in the image's file name (with * instead of a number: the position in the sorted
+/// list), unless `truth_offset` shifts it.
 class ImageSequence : public Source {
  public:
   using Params = ImageSequenceParams;
@@ -185,8 +185,8 @@ class ImageSequence : public Source {
     }
   }
 
-  /// Compares the calibration with the first readable image of a layer. A recording of another
-  /// resolution is a mistake of the scene; a single frame of another size is damage.
+  /// Compares the calibration with the first readable image of a layer. Another resolution in the
+  /// whole recording is a mistake of the scene; a single frame of another size is damaged.
   void take_image_size(std::size_t layer) {
     if (layers_[layer].content == Content::mask) return;
     std::string first_problem;

@@ -19,7 +19,7 @@ constexpr int kLargestCount = 10'000'000;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A path with one %d in it, taken apart. The text never reaches printf.
+/// The parts of a path with one %d in it. The text never reaches printf.
 struct Numbered {
   std::string before;  ///< up to the number
   std::string after;
@@ -65,7 +65,7 @@ std::optional<Numbered> parse_numbered(const std::string& pattern) {
   return found;
 }
 
-/// Numbers for which a file exists.
+/// Returns the numbers for which a file exists.
 std::set<int> existing_numbers(const Numbered& numbered) {
   const std::size_t slash = numbered.before.rfind('/');
   const std::string folder =
@@ -92,7 +92,7 @@ std::set<int> existing_numbers(const Numbered& numbered) {
   return numbers;
 }
 
-/// `*` any text, `?` any character.
+/// Returns whether a name matches a pattern: `*` is any text, `?` any character.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
   while (n < name.size()) {
@@ -129,7 +129,7 @@ ImageList glob(const fs::path& pattern) {
   return files;
 }
 
-/// Where files of a numbered pattern are there, but with other numbers than it takes: what to do.
+/// Returns advice if files match a numbered pattern but for the form of the number.
 std::string other_numbers(const std::vector<Numbered>& views) {
   for (const Numbered& view : views) {
     const ImageList files = glob(view.before + "*" + view.after);
@@ -142,7 +142,7 @@ std::string other_numbers(const std::vector<Numbered>& views) {
   return {};
 }
 
-/// Throws DataError if a pattern of pictures finds the masks or depth images beside them, too.
+/// Throws DataError if a pattern of pictures also finds the masks or depth images beside them.
 void refuse_other_kinds(const fs::path& pattern, const ImageList& files) {
   for (const char* kind : {"mask", "depth"}) {
     const auto is_kind = [&](const fs::path& file) {

@@ -7,14 +7,14 @@
 
 namespace hypotrack {
 
-/// Which of a recording's images to take.
+/// Selection of a recording's images.
 struct Selection {
   std::optional<int> start;  ///< number (printf) or position (glob) of the first frame
   int step = 1;
   std::optional<int> count;
 };
 
-/// The images of one view: for every frame a path, which need not exist.
+/// The images of one view: a path for every frame, which need not exist.
 using ImageList = std::vector<std::filesystem::path>;
 
 /// The images of a recording.
@@ -23,7 +23,7 @@ struct Images {
   int first = 0;                 ///< number (printf) or position (glob) of the first frame
 };
 
-/// Turns patterns, one per view, into lists of equal length. A pattern is one of
+/// Expands patterns, one per view, to lists of equal length. A pattern is one of
 ///   left_%04d.png   a number per frame: %d, %5d or %05d, in a file or folder name. Numbers that no
 ///                   view has between the first and the last frame are gaps, and stay in the list
 ///   left_*.png      * and ? in the file name; sorted so that 9 comes before 10
@@ -32,7 +32,7 @@ struct Images {
 /// the numbers are so sparse that most frames would be gaps.
 Images find_images(const std::vector<std::filesystem::path>& patterns, const Selection& selection);
 
-/// Whether `a` sorts before `b`, runs of digits compared as numbers.
+/// Returns whether `a` sorts before `b`, with runs of digits compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);
 
 }  // namespace hypotrack

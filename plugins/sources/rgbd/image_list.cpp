@@ -35,7 +35,7 @@ std::string read_text(const std::filesystem::path& file) {
   if (text.find('\0') != std::string::npos) {
     throw DataError(name + ": is no text; expected a time and a file name per line");
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // what Windows begins UTF-8 with
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark of UTF-8
   return text;
 }
 
@@ -45,7 +45,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) + 1 - first);
 }
 
-/// For messages: no control characters, and not a whole binary file.
+/// Returns a line for messages, without control characters and not too long.
 std::string shown(std::string_view line) {
   std::string text(line.substr(0, 60));
   std::replace_if(

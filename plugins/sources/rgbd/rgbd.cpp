@@ -59,8 +59,8 @@ struct RgbdParams {
   }
 };
 
-/// Frames per second of a list: one over the median of the times between two images, which gaps do
-/// not move. A single image has none; 30 is as good as any.
+/// Returns the frames per second of a list: one over the median time between two images, which gaps
+/// do not change. A single image gets 30.
 double rate_of(const std::vector<TimedImage>& images) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < images.size(); ++i) {
@@ -72,12 +72,12 @@ double rate_of(const std::vector<TimedImage>& images) {
   return std::clamp(1 / *middle, 1e-3, 1e5);
 }
 
-/// Recordings of one colour and depth camera in the layout of the TUM RGB-D benchmark (Sturm,
+/// Reads recordings of one colour and depth camera in the layout of the TUM RGB-D benchmark (Sturm,
 /// Engelhard, Endres, Burgard and Cremers, "A benchmark for the evaluation of RGB-D SLAM systems",
-/// IROS 2012). A frame is a colour image; its depth image is the one nearest in time whose own
-/// nearest it is. A colour image without one is a frame with a problem. The camera's own motion
-/// (groundtruth.txt) is not read: the camera is the world. Rows of the truth tables belong to the
-/// position in the colour list.
+/// IROS 2012). A frame is a colour image; its depth image is the nearest in time, if each is the
+/// other's nearest. A colour image without one is a frame with a problem. The camera's own motion
+/// (groundtruth.txt) is not read: the camera is the world. Rows of the truth tables refer to
+/// positions in the colour list.
 class Rgbd final : public Source {
  public:
   using Params = RgbdParams;
@@ -136,7 +136,7 @@ class Rgbd final : public Source {
     return depth_[*partners_[i]].file;
   }
 
-  /// Fills the view in; says what is wrong with it.
+  /// Reads the view. Returns a description of the problem, if any.
   std::string read(std::size_t i, View& view) const {
     if (!partners_[i]) return unmatched(i);
     ReadImage color = read_color(color_[i].file);
@@ -174,8 +174,8 @@ class Rgbd final : public Source {
                     params_.max_difference, unmatched(next_)));
   }
 
-  /// Compares the calibration with the first readable image of a frame: another resolution is a
-  /// mistake of the scene, a single frame of another size is damage.
+  /// Compares the calibration with the first readable image of a frame. Another resolution in the
+  /// whole recording is a mistake of the scene; a single frame of another size is damaged.
   template <class FileOf, class Read>
   void take_image_size(const FileOf& file_of, const Read& read_image) {
     std::string first_problem;
@@ -192,7 +192,7 @@ class Rgbd final : public Source {
 
   Params params_;
   std::vector<TimedImage> color_, depth_;
-  std::vector<std::optional<std::size_t>> partners_;  ///< of every colour image, in depth_
+  std::vector<std::optional<std::size_t>> partners_;  ///< of every colour image: index in depth_
   std::size_t next_ = 0, end_ = 0;
   std::vector<Camera> cameras_;
   TruthTables truth_;

@@ -18,8 +18,8 @@
 namespace hypotrack::synthetic {
 namespace {
 
-/// The part of the plane z = distance that the cameras may see; lenses bend outwards, hence the
-/// margin.
+/// Returns the part of the plane z = distance that the cameras may see, with a margin for lens
+/// distortion.
 Eigen::AlignedBox2d seen_wall(const std::vector<Camera>& cameras, double distance) {
   constexpr double kMargin = 1.3, kSteepest = 0.05;
   Eigen::AlignedBox2d wall;
@@ -61,7 +61,7 @@ std::vector<Mesh> procedural_meshes(const BackgroundParams& params,
   return meshes;
 }
 
-/// The picture on the wall, cropped by the cameras' view rather than stretched.
+/// Puts the picture on the wall, cropped to the cameras' view rather than stretched.
 std::vector<Mesh> image_meshes(const BackgroundParams& params, Eigen::AlignedBox2d wall) {
   if (params.file.empty()) {
     throw ConfigError(
@@ -82,7 +82,7 @@ std::vector<Mesh> image_meshes(const BackgroundParams& params, Eigen::AlignedBox
   return {make_wall({center - half, center + half}, params.distance, image)};
 }
 
-/// Boards before the wall that are dark and flat: a switched-off screen, an open door.
+/// Adds dark, flat boards in front of the wall, like a switched-off screen or an open door.
 void add_dark_regions(const BackgroundParams& params, const Eigen::AlignedBox2d& wall,
                       std::vector<Mesh>& meshes) {
   cv::RNG random(static_cast<std::uint64_t>(params.seed) * 6961 + 29);

@@ -21,7 +21,7 @@ void check_frames(const FaultParams& fault, const ConfigNode& item) {
                   item.get("frames").where(), first, last));
 }
 
-/// A key that another kind than `kind` has no use for.
+/// Throws ConfigError if a key is given for another kind than `kind`.
 void check_use(const FaultParams& fault, const ConfigNode& item, const char* key, FaultKind kind) {
   if (fault.kind == kind || !item.get(key).defined()) return;
   const auto name = [](FaultKind k) { return enum_names(k)[static_cast<std::size_t>(k)]; };

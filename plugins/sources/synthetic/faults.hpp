@@ -19,7 +19,7 @@ enum class FaultKind {
   absent,     ///< models are not in the pictures
   exchanged,  ///< each camera's picture arrives as the other's
   black,      ///< all pictures are black, without foreground and depth
-  frozen,     ///< the picture of the frame before comes again and again
+  frozen,     ///< the previous picture is repeated
 };
 inline std::span<const std::string_view> enum_names(FaultKind) {
   static constexpr std::array<std::string_view, 4> kNames = {"absent", "exchanged", "black",
@@ -42,36 +42,36 @@ struct FaultParams {
   }
 };
 
-/// Spoils the pictures of chosen frames.
+/// Injects faults into the pictures of chosen frames.
 class Faults {
  public:
-  /// `node` is the list that `params` were read from. Throws ConfigError with file:line:column on
-  /// intervals that are none, on models and views that there are not or that a kind has no use for,
-  /// and where there are no two views of one size to exchange.
+  /// `node` is the list from which `params` were read. Throws ConfigError with file:line:column on
+  /// invalid intervals, on models and views that do not exist or do not apply to a kind, and on an
+  /// exchange without two views of one size.
   Faults(const std::vector<FaultParams>& params, const ConfigNode& node, const Scene& scene,
          const std::vector<Camera>& cameras);
 
   /// Makes all models absent from frame `first` to frame `last`.
   void add_absence(int first, int last);
 
-  /// For each model of the scene whether it is absent from a frame; empty if none is.
+  /// Returns for each model of the scene whether it is absent from a frame; empty if none is.
   std::vector<bool> absent(int frame) const;
 
-  /// Freezes, exchanges and blackens the views of a frame. Call it with all frames in their order.
+  /// Applies the faults to the views of a frame. Call it with all frames in their order.
   void apply(int frame, std::vector<View>& views);
 
  private:
   struct Fault {
     int first = 0, last = 0;
     FaultKind kind = FaultKind::absent;
-    std::optional<std::size_t> model, view;  ///< all without
+    std::optional<std::size_t> model, view;  ///< empty: all
   };
-  /// Whether a fault of a kind spoils a view (or, of the kind absent, a model) in a frame.
+  /// Returns whether a fault of a kind affects a view (or, for absent, a model) in a frame.
   bool holds(FaultKind kind, int frame, std::size_t part = 0) const;
 
   std::size_t models_;
   std::vector<Fault> faults_;
-  std::vector<View> kept_;  ///< the last pictures that were not frozen
+  std::vector<View> kept_;  ///< last pictures before those that are frozen
 };
 
 }  // namespace hypotrack::synthetic

@@ -19,7 +19,7 @@ constexpr int kSegments = 40;
 
 /// The ellipse around the proximal end of a hand's mesh, in the frame of the wrist's bone.
 struct Wrist {
-  double end = 0;  ///< y where the mesh ends
+  double end = 0;  ///< y of the mesh's end
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   Eigen::Vector2d radii = Eigen::Vector2d::Zero();  ///< x radial and z palmar
   cv::Scalar color;                                 ///< mean of the skin there, BGR
@@ -74,13 +74,13 @@ Wrist measure(const ModelData& hand, int wrist_bone) {
 
 double smooth_step(double t) { return t * t * (3 - 2 * t); }
 
-/// How an arm widens from the wrist to below the elbow, `t` from 0 to 1.
+/// Returns the ring of an arm that widens from the wrist to below the elbow, `t` from 0 to 1.
 Ring arm(double y, double t, double at_wrist, double wide, double thick) {
   const double s = smooth_step(std::min(1.0, t / 0.7));
   return {y, at_wrist + (wide - at_wrist) * s, at_wrist + (thick - at_wrist) * s};
 }
 
-/// Out of the hand's end, a little inside it at first.
+/// Returns the rings of a bare arm, which starts a little inside the hand's end.
 std::vector<Ring> bare_rings(double end, double length) {
   constexpr int kRings = 24;
   std::vector<Ring> rings = {{end + 0.008, 0.90, 0.90}, {end + 0.004, 0.98, 0.98}};
@@ -91,7 +91,7 @@ std::vector<Ring> bare_rings(double end, double length) {
   return rings;
 }
 
-/// A cuff around the wrist, then cloth with folds.
+/// Returns the rings of a sleeve: a cuff around the wrist, then cloth with folds.
 std::vector<Ring> sleeve_rings(double end, double length) {
   constexpr int kRings = 60;
   constexpr double kCuff = 0.012;
@@ -139,7 +139,7 @@ Mesh make_tube(const Wrist& wrist, const std::vector<Ring>& rings) {
       const int next = (s + 1) % kSegments;
       const int a = r * kSegments + s, b = r * kSegments + next;
       const int ua = r * (kSegments + 1) + s, ub = ua + 1;
-      if (r + 1 == count) {  // the end towards the elbow is closed
+      if (r + 1 == count) {  // close the end towards the elbow
         mesh.triangles.col(t) << a, b, count * kSegments;
         mesh.uv_triangles.col(t++) << ua, ub, count * (kSegments + 1);
         continue;
@@ -154,7 +154,7 @@ Mesh make_tube(const Wrist& wrist, const std::vector<Ring>& rings) {
   return mesh;
 }
 
-/// Skin or cloth: nearly one colour.
+/// Makes the texture of skin or cloth: nearly one colour.
 cv::Mat make_cover(const cv::Scalar& color, double contrast) {
   cv::RNG random(20171);
   cv::Mat fine(512, 256, CV_32FC1), coarse(64, 32, CV_32FC1), grown;

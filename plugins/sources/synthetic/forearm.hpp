@@ -31,9 +31,9 @@ struct ForearmParams {
   }
 };
 
-/// A tapered elliptic tube that goes on where a hand's mesh ends, in the frame of the bone at its
-/// wrist (hand axes: y distal). A rigid model; as wide as the mesh is there. Throws ConfigError
-/// unless `color` has no number or three.
+/// Makes a forearm: a tapered elliptic tube that continues a hand's mesh, in the frame of the bone
+/// at its wrist (hand axes: y distal). It is a rigid model, as wide as the mesh at its end. Throws
+/// ConfigError unless `color` has no number or three.
 ModelData make_forearm(const ModelData& hand, int wrist_bone, const ForearmParams& params);
 
 }  // namespace hypotrack::synthetic

@@ -90,7 +90,7 @@ std::vector<double> Gestures::parameters(const std::string& name, const ConfigNo
   std::vector<double> values;
   for (const Parameter& p : parameters) values.push_back(p.rest);
   if (!gesture.defined()) return values;
-  std::vector<std::string> said(parameters.size());  // the pattern that set an angle
+  std::vector<std::string> said(parameters.size());  // the pattern that set each angle
   for (const auto& [pattern, angle] : entries_of(gesture).entries) {
     bool used = false;
     for (std::size_t i = 0; i < parameters.size(); ++i) {

@@ -34,7 +34,7 @@ std::vector<LandmarkRow> read_rows(const JointFileParams& params, const Scene& s
   return rows;
 }
 
-/// Every known landmark as the weighted mean of itself around its frame.
+/// Smooths every known landmark by a weighted mean over the frames around it.
 std::vector<LandmarkRow> smoothed(const std::vector<LandmarkRow>& rows, double sigma) {
   if (sigma <= 0) return rows;
   std::vector<LandmarkRow> out = rows;
@@ -57,7 +57,7 @@ std::vector<LandmarkRow> smoothed(const std::vector<LandmarkRow>& rows, double s
   return out;
 }
 
-/// What the fits of one model amount to.
+/// Errors of one model's fits.
 struct Quality {
   int rows = 0;
   double sum = 0;    // of the rows' mean distances
@@ -75,7 +75,7 @@ struct Quality {
   }
 };
 
-/// Fits one model, whose landmarks begin at column `first`, and keys its motion.
+/// Fits one model, whose landmarks begin at column `first`, and adds keys to its motion.
 class ModelFit {
  public:
   ModelFit(const Scene& scene, std::size_t model, Eigen::Index first)
@@ -124,7 +124,7 @@ class ModelFit {
     return {last_.data(), static_cast<std::size_t>(last_.size())};
   }
 
-  /// From the row before, or from rest.
+  /// Fits a row from the row before, or from rest.
   LandmarkFit fit_row(const Eigen::Matrix3Xd& landmarks) const {
     if (last_.size() > 0) return fit_landmarks(*item_.model, landmarks, last(), {.prior = last()});
     const Eigen::VectorXd rest = scene_.rest_state();

@@ -11,7 +11,7 @@
 
 namespace hypotrack::synthetic {
 
-/// `joint_file:` a table of landmarks (tables.hpp) whose motion the models take on.
+/// `joint_file:` a table of landmarks (tables.hpp) whose motion the models follow.
 struct JointFileParams {
   std::filesystem::path file;
   LengthUnit units = LengthUnit::m;
@@ -35,10 +35,10 @@ struct JointFileParams {
   }
 };
 
-/// Fits the models to every row of the file (fit_landmarks, from the row before), and says on
-/// stderr how well. A row that knows less than half of a model's landmarks, or is missing, is
-/// passed over: the motion interpolates. Throws DataError, naming the file, where read_landmarks
-/// does and for a model of which no row knows enough.
+/// Fits the models to every row of the file (fit_landmarks(), from the row before), and reports the
+/// errors on stderr. Skips rows that are missing or know less than half of a model's landmarks: the
+/// motion interpolates. Throws DataError, naming the file, as read_landmarks() does, and if no row
+/// knows enough of a model.
 Script read_joint_file(const JointFileParams& params, const Scene& scene, double frame_rate);
 
 }  // namespace hypotrack::synthetic

@@ -61,7 +61,7 @@ class KeyframeReader {
     return keyframe.time ? *keyframe.time : *keyframe.frame / frame_rate_;
   }
 
-  /// Place of a model in the scene.
+  /// Returns the index of a model in the scene.
   std::size_t model(const std::string& name, const ConfigNode& where) const {
     std::vector<std::string> known;
     for (const Scene::Item& item : scene_.items()) {

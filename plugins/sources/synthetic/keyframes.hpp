@@ -11,10 +11,10 @@
 
 namespace hypotrack::synthetic {
 
-/// Numbers of the pose that every model's parameters begin with.
+/// Number of parameters of the pose with which every model's parameters begin.
 constexpr int kPoseLength = 7;
 
-/// What one keyframe says.
+/// The content of one keyframe.
 struct Keys {
   ConfigNode node;
   double time = 0;

@@ -6,15 +6,16 @@
 namespace hypotrack::synthetic {
 namespace {
 
-/// Slope at a key from the lengths and secant slopes of the segments before and after it: their
-/// weighted harmonic mean, or 0 where they disagree in sign.
+/// Returns the slope at a key, from the lengths and secant slopes of the segments before and after
+/// it: the weighted harmonic mean, or 0 if they differ in sign.
 double monotone_slope(double length_0, double secant_0, double length_1, double secant_1) {
   if (secant_0 * secant_1 <= 0) return 0;
   const double w0 = 2 * length_1 + length_0, w1 = length_1 + 2 * length_0;
   return (w0 + w1) / (w0 / secant_0 + w1 / secant_1);
 }
 
-/// Index of the key at or before a time that lies between the first and the last key.
+/// Returns the index of the key at or before a time, which must lie between the first and the last
+/// key.
 std::size_t segment_of(const std::vector<double>& times, double time) {
   const auto after = std::upper_bound(times.begin(), times.end() - 1, time);
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times.begin() - 1));
@@ -80,7 +81,7 @@ Eigen::Quaterniond RotationTrack::at(double time) const {
   const Eigen::Quaterniond &first = rotations_[i], &second = rotations_[i + 1];
   const Eigen::Vector3d a = velocity_at_key(i) * h / 3, c = velocity_at_key(i + 1) * h / 3;
   const Eigen::Vector3d b = log(exp(-a) * first.conjugate() * second * exp(-c));
-  const double r = 1 - s;  // the cumulative cubic Bernstein polynomials follow
+  const double r = 1 - s;  // for the cumulative cubic Bernstein polynomials below
   Eigen::Quaterniond q =
       first * exp((1 - r * r * r) * a) * exp((3 - 2 * s) * s * s * b) * exp(s * s * s * c);
   q.normalize();

@@ -8,12 +8,13 @@
 
 namespace hypotrack::synthetic {
 
-/// A number over time through keys: cubic Hermite with monotone slopes (Fritsch and Butland, "A
-/// method for constructing local monotone piecewise cubic interpolants", 1984), so it is C1, comes
-/// to rest at both ends, stays there, and never leaves the range of the two keys around it.
+/// Interpolates a number over time through keys by cubic Hermite splines with monotone slopes
+/// (Fritsch and Butland, "A method for constructing local monotone piecewise cubic interpolants",
+/// 1984). It is C1, at rest at both ends and beyond, and never leaves the range of the two keys
+/// around it.
 class NumberTrack {
  public:
-  /// Times must ascend.
+  /// Adds a key. Times must ascend.
   void add(double time, double value);
   bool empty() const { return times_.empty(); }
   double at(double time) const;
@@ -23,13 +24,13 @@ class NumberTrack {
   std::vector<double> values_;
 };
 
-/// A rotation over time through keys, C1 and at rest at both ends: cubic Bezier curves of unit
-/// quaternions (Kim, Kim and Shin, "A general construction scheme for unit quaternion curves with
-/// simple high order derivatives", 1995) with angular velocities chosen like NumberTrack's slopes,
-/// per axis of the body. Between two keys it takes the shorter way.
+/// Interpolates a rotation over time through keys, C1 and at rest at both ends. It uses cubic
+/// Bezier curves of unit quaternions (Kim, Kim and Shin, "A general construction scheme for unit
+/// quaternion curves with simple high order derivatives", 1995). Angular velocities are chosen like
+/// NumberTrack's slopes, per axis of the body. Between two keys it takes the shorter way.
 class RotationTrack {
  public:
-  /// Times must ascend; the quaternion must be of unit length.
+  /// Adds a key. Times must ascend; the quaternion must be of unit length.
   void add(double time, Eigen::Quaterniond rotation);
   bool empty() const { return times_.empty(); }
   Eigen::Quaterniond at(double time) const;
@@ -40,34 +41,34 @@ class RotationTrack {
   std::vector<Eigen::Quaterniond> rotations_;
 };
 
-/// Where a model is.
+/// Position and rotation of a model.
 struct Placement {
   Eigen::Vector3d position;  ///< metres
   Eigen::Quaterniond rotation;
 };
 
-/// The state of a scene over time. What no key names stays at its rest value.
+/// The state of a scene over time. Parameters without keys keep their rest values.
 class Motion {
  public:
   explicit Motion(const Scene& scene);
 
-  /// A position or an angle, by its place in the state.
+  /// Adds a key of a position or an angle, by its index in the state.
   void add_number(int parameter, double time, double value);
-  /// The rotation of a model, by its place in the scene.
+  /// Adds a key of the rotation of a model, by its index in the scene.
   void add_rotation(std::size_t model, double time, const Eigen::Quaterniond& rotation);
-  /// From one moment to another (infinite: for good) a model keeps its place relative to another
-  /// that holds it; then it is left where it is and moves on to its later keys from rest. Needs all
-  /// keys of the holder, which must not be held itself, and the held model's keys up to `from`;
-  /// those after `to` are added afterwards.
+  /// Lets a model keep its pose relative to a holder from one time to another (infinite: for good).
+  /// Then it stays where it is and moves on to its later keys from rest. Add all keys of the holder
+  /// before, which must not be held itself, and the held model's keys up to `from`; add those after
+  /// `to` afterwards.
   void add_hold(std::size_t held, std::size_t holder, double from, double to);
-  /// Whether a position or angle has a key.
+  /// Returns whether a position or angle has a key.
   bool has_number(int parameter) const;
 
-  /// Quaternions are of unit length and keep their sign from moment to moment.
+  /// Returns the state at a time. Quaternions are of unit length and keep their sign over time.
   Eigen::VectorXd state(double time) const;
 
  private:
-  /// A model between two holds.
+  /// A model's motion between two holds.
   struct Path {
     std::array<NumberTrack, 3> position;
     RotationTrack rotation;
@@ -77,7 +78,7 @@ class Motion {
     double from, to;
     Placement holder_from_held;
   };
-  /// A model's way: a path, a hold, a path, a hold, ... and a path.
+  /// A model's whole motion: a path, a hold, a path, a hold, ... and a path.
   struct Way {
     int offset = 0;  ///< of the model in the state
     std::vector<Path> paths;
@@ -89,7 +90,7 @@ class Motion {
 
   Eigen::VectorXd rest_;
   std::vector<Way> ways_;             // by model
-  std::vector<NumberTrack> numbers_;  // by parameter; a pose's are unused
+  std::vector<NumberTrack> numbers_;  // by parameter; those of poses are unused
 };
 
 }  // namespace hypotrack::synthetic

@@ -44,7 +44,7 @@ class RandomMotion {
     return poses_.random().uniform(static_cast<int>(frames[0]), static_cast<int>(frames[1]) + 1);
   }
 
-  /// A motion that shows everything in `count` frames from `first` on.
+  /// Draws a motion with everything in view in `count` frames from `first` on.
   Motion draw_stretch(int first, int count) {
     constexpr int kTries = 1000;
     for (int i = 0; i < kTries; ++i) {
@@ -57,7 +57,7 @@ class RandomMotion {
     poses_.fail();
   }
 
-  /// Postures from a moment before `begin`, so that the stretch begins within a movement.
+  /// Draws postures from a moment before `begin`, so that the stretch begins within a movement.
   Motion draw_motion(double begin, double length) {
     std::vector<Eigen::VectorXd> states = {poses_.draw(), poses_.draw()};
     std::vector<double> times = {0, time_between(states[0], states[1])};
@@ -75,7 +75,7 @@ class RandomMotion {
     return motion;
   }
 
-  /// Keys of everything but the poses of held models, which follow from `first` ones.
+  /// Adds keys of everything but the poses of held models, which follow from the first ones.
   void add_keys(Motion& motion, double time, const Eigen::VectorXd& state, bool first) const {
     for (std::size_t m = 0; m < scene_.items().size(); ++m) {
       const Scene::Item& item = scene_.items()[m];

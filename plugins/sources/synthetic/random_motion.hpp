@@ -91,10 +91,10 @@ struct RandomParams {
   }
 };
 
-/// Draws a motion through postures at random places within the box. In every frame all of the
-/// models are in all pictures. With an absence each stretch in view ends after so many frames; the
-/// next one begins anywhere, with another gesture. `node` is where `params` were read. Throws
-/// ConfigError with file:line:column, also if no such motion is found.
+/// Draws a motion through postures at random places within the box. In every frame all models are
+/// in all pictures. With an absence each stretch in view ends after so many frames; the next one
+/// begins anywhere, with another gesture. `node` is where `params` were read. Throws ConfigError
+/// with file:line:column, also if no such motion is found.
 Script draw_motion(const RandomParams& params, const ConfigNode& node, const Gestures& gestures,
                    const Scene& scene, const std::vector<Camera>& cameras, double frame_rate);
 

@@ -51,7 +51,7 @@ RandomPoses::RandomPoses(const RandomParams& params, const ConfigNode& node,
       random_(static_cast<std::uint64_t>(params.seed) * 7907 + 11) {
   read_gestures(gestures);
   read_holds();
-  for (int i = 0; i < 16; ++i) random_.next();  // seeds that are close begin alike
+  for (int i = 0; i < 16; ++i) random_.next();  // similar seeds begin alike
 }
 
 void RandomPoses::read_gestures(const Gestures& gestures) {
@@ -146,7 +146,8 @@ void RandomPoses::place_held(Eigen::VectorXd& state) const {
   }
 }
 
-/// A facing hand is rolled in the picture, palm or back, and then tilted.
+/// Draws a rotation. A facing hand is rolled in the picture, shows palm or back, and is then
+/// tilted.
 Eigen::Quaterniond RandomPoses::draw_rotation() {
   constexpr double kTurn = 2 * std::numbers::pi;
   if (params_.rotation == RandomRotation::any) {
@@ -171,7 +172,8 @@ bool RandomPoses::is_good(const Eigen::VectorXd& state) const {
                                           [&](const auto& item) { return is_seen(item, state); });
 }
 
-/// By the landmarks of a model with joints, with flesh around them, by all vertices of a rigid one.
+/// Returns whether all cameras see a model: landmarks with flesh around them if it has joints,
+/// otherwise all vertices.
 bool RandomPoses::is_seen(const Scene::Item& item, const Eigen::VectorXd& state) const {
   constexpr double kFlesh = 0.02;
   const std::span<const double> part = scene_.part(item, state);

@@ -13,10 +13,10 @@
 
 namespace hypotrack::synthetic {
 
-/// The rotation of a model in a state.
+/// Returns the rotation of a model in a state.
 Eigen::Quaterniond rotation_of(const Scene::Item& item, const Eigen::VectorXd& state);
 
-/// Draws states of a scene that all cameras see as a whole.
+/// Draws states of a scene that all cameras see completely.
 class RandomPoses {
  public:
   /// A model that another one holds.
@@ -25,14 +25,14 @@ class RandomPoses {
     Eigen::Isometry3d holder_from_model;
   };
 
-  /// All arguments must outlive it. Throws ConfigError with file:line:column.
+  /// All arguments must outlive the object. Throws ConfigError with file:line:column.
   RandomPoses(const RandomParams& params, const ConfigNode& node, const Gestures& gestures,
               const Scene& scene, const std::vector<Camera>& cameras);
 
-  /// A state that is good; every model with joints has another gesture than in the last one, if
+  /// Draws a good state. Every model with joints gets another gesture than in the last state, if
   /// there are two. Throws ConfigError if none is found.
   Eigen::VectorXd draw();
-  /// Whether all models lie in all pictures and those that are not held keep their distance.
+  /// Returns whether all models lie in all pictures and those not held keep their distance.
   bool is_good(const Eigen::VectorXd& state) const;
   /// Throws the ConfigError of a box without good states.
   [[noreturn]] void fail() const;
@@ -54,8 +54,8 @@ class RandomPoses {
   const ConfigNode& node_;
   const Scene& scene_;
   const std::vector<Camera>& cameras_;
-  std::vector<std::vector<std::vector<double>>> gestures_;  // by model: parameters of each
-  std::vector<std::size_t> last_;                           // by model: the gesture drawn
+  std::vector<std::vector<std::vector<double>>> gestures_;  // by model: parameters of each gesture
+  std::vector<std::size_t> last_;                           // by model: the gesture drawn last
   std::vector<Held> held_;
   cv::RNG random_;
 };

@@ -13,7 +13,7 @@
 namespace hypotrack::synthetic {
 namespace {
 
-/// A model's place: its hold, if any, and its pose keys from keyframe to keyframe.
+/// Reads a model's holds and its pose keys from keyframe to keyframe.
 class WayReader {
  public:
   WayReader(const Scene& scene, const std::vector<Keys>& all, Motion& motion)
@@ -79,7 +79,7 @@ class WayReader {
   const Scene& scene_;
   const std::vector<Keys>& all_;
   Motion& motion_;
-  const Keys* begun_ = nullptr;  // where the hold that lasts began
+  const Keys* begun_ = nullptr;  // keyframe at which the current hold began
 };
 
 void check_releases(const Scene& scene, const std::vector<Keys>& all) {

@@ -11,7 +11,7 @@
 namespace hypotrack::synthetic {
 
 struct Script {
-  /// A motion that takes the place of the one before it.
+  /// A motion that replaces the one before it.
   struct Jump {
     double from = 0;  ///< seconds
     Motion motion;
@@ -33,11 +33,10 @@ struct Script {
 ///     - {frame: 40, gesture: {hand: fist}, hold: {box: hand}}
 ///     - {frame: 80, release: [box]}
 ///
-/// `pose` is what read_pose() reads; `gesture` is one for all models with joints, or one per model.
-/// Position, rotation and every angle have their own keys: what a keyframe does not mention moves
-/// on from the keyframe before to the one after it that do. `hold` names models and who holds them:
-/// from then until their `release` they move rigidly with the holder (Motion::add_hold). Throws
-/// ConfigError with file:line:column.
+/// `pose` is as for read_pose(). `gesture` is one for all models with joints, or one per model.
+/// Position, rotation and every angle have their own keys: a keyframe does not affect what it does
+/// not mention. `hold` names models and their holders: until their `release` they move rigidly with
+/// the holder (Motion::add_hold()). Throws ConfigError with file:line:column.
 Script read_script(const ConfigNode& keyframes, const Gestures& gestures, const Scene& scene,
                    double frame_rate);
 

@@ -8,20 +8,21 @@
 
 namespace hypotrack::synthetic {
 
-/// What the cameras' electronics and optics do to a picture: blur, gain and offset, noise.
+/// Simulates the cameras' optics and electronics: blur, gain and offset, noise.
 class Sensor {
  public:
   /// Throws ConfigError, naming `where`, unless gain and offset have no number or one per camera.
   Sensor(const SensorParams& params, std::size_t cameras, const std::string& where);
 
-  /// Changes an 8-bit BGR image in place; the noise is a function of seed, frame and camera alone.
+  /// Changes an 8-bit BGR image in place. The noise depends on seed, frame and camera only.
   void apply(cv::Mat& image, int frame, std::size_t camera) const;
 
  private:
   void add_noise(cv::Mat& image, int frame, std::size_t camera) const;
 
   SensorParams params_;
-  std::vector<std::int8_t> noise_;  // samples to take stretches from: drawing each anew takes long
+  std::vector<std::int8_t> noise_;  // samples from which stretches are taken, as drawing each anew
+                                    // is slow
 };
 
 }  // namespace hypotrack::synthetic

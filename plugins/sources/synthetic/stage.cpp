@@ -17,7 +17,7 @@ namespace {
 
 using Models = std::vector<std::pair<std::string, std::shared_ptr<const Model>>>;
 
-/// The tracked models, or what is drawn for them.
+/// Returns the tracked models or their replacements.
 Models models_to_draw(const Scene& tracked, const ConfigNode& render_models,
                       PluginContext& context) {
   Models models;
@@ -37,7 +37,7 @@ Models models_to_draw(const Scene& tracked, const ConfigNode& render_models,
   return models;
 }
 
-/// The bone at a hand's wrist; nothing for a model that is no hand.
+/// Returns the bone at a hand's wrist; nothing for other models.
 std::optional<int> wrist_bone(const Model& model) {
   for (const Landmark& landmark : model.data().landmarks) {
     if (landmark.name == "wrist") return landmark.bone;

@@ -92,8 +92,8 @@ RenderStyle style_of(const LightParams& light) {
   return style;
 }
 
-/// Pictures of the scene's models, or of others that move alike, on a scripted motion, with the
-/// answer.
+/// Renders the scene's models, or replacements that move alike, on a scripted motion, with ground
+/// truth.
 class Synthetic final : public Source {
  public:
   using Params = SyntheticParams;

@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kPatience = 30;  // undecodable frames in a row before the rest is given up
+constexpr int kPatience = 30;  // undecodable frames in a row that end the video
 constexpr int kPromised = 3;   // frames at the end that a container may promise and not hold
 
 }  // namespace
@@ -32,7 +32,7 @@ VideoReader::VideoReader(const std::filesystem::path& file) : name_(file.string(
                     "that OpenCV's FFmpeg does not know?",
                     name_));
   }
-  // A calibration holds for the pixels as they are stored.
+  // A calibration holds for the pixels as stored: do not rotate.
   capture_.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
   const double rate = capture_.get(cv::CAP_PROP_FPS);
   frame_rate_ = std::isfinite(rate) && rate > 0 && rate < 1e5 ? rate : 0;
@@ -54,7 +54,7 @@ bool VideoReader::grab_and_retrieve(cv::Mat& frame) {
     if (!capture_.read(decoded) || decoded.empty()) return false;
     if (decoded.channels() == 1) cv::cvtColor(decoded, decoded, cv::COLOR_GRAY2BGR);
     if (decoded.type() != CV_8UC3) return false;
-    frame = decoded.clone();  // the decoder writes the next frame to the same memory
+    frame = decoded.clone();  // the decoder reuses its memory for the next frame
     return true;
   } catch (const cv::Exception&) {
     return false;

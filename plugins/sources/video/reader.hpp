@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// A video file, frame by frame.
+/// Reads a video file frame by frame.
 class VideoReader {
  public:
   /// Throws DataError if the file is missing or no video, or if its first frame cannot be decoded.
@@ -15,15 +15,15 @@ class VideoReader {
 
   int width() const { return width_; }
   int height() const { return height_; }
-  /// Frames per second as the file says; 0 if it does not.
+  /// Returns the file's frame rate in frames per second; 0 if unknown.
   double frame_rate() const { return frame_rate_; }
-  /// Number of frames as the file says; 0 if it does not.
+  /// Returns the file's number of frames; 0 if unknown.
   int frame_count() const { return frame_count_; }
 
   enum class Result { frame, damaged, end };
-  /// The next frame as 8-bit BGR. A frame that cannot be decoded is `damaged` while the file says
-  /// that more follow; the last few may be missing without complaint, because containers often
-  /// promise more frames than they hold.
+  /// Reads the next frame as 8-bit BGR. A frame that cannot be decoded is `damaged` while the file
+  /// promises more. The last few frames may be missing without complaint, because containers often
+  /// promise more than they hold.
   Result next(cv::Mat& frame);
 
  private:
@@ -31,7 +31,7 @@ class VideoReader {
 
   std::string name_;
   cv::VideoCapture capture_;
-  cv::Mat first_;  ///< decoded by the constructor, not yet given out
+  cv::Mat first_;  ///< decoded by the constructor, not yet returned
   int width_ = 0;
   int height_ = 0;
   double frame_rate_ = 0;

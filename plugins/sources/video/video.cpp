@@ -50,12 +50,12 @@ struct VideoParams {
   }
 };
 
-/// By how much the frame rates that two files say may differ: they are rounded, or means.
+/// Tolerated difference of the two files' frame rates, which are rounded or means.
 constexpr double kSameRate = 0.01;
 
-/// Two synchronous videos, or one with both views side by side. Ends when either ends. Tables of
-/// the answer (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp;
-/// their frames are those of the first video, unless `truth_offset` shifts them.
+/// Reads two synchronous videos, or one with both views side by side. Ends when either ends. Truth
+/// tables (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp. Their
+/// frames are those of the first video, unless `truth_offset` shifts them.
 class Video : public Source {
  public:
   using Params = VideoParams;
@@ -75,7 +75,7 @@ class Video : public Source {
       fit_image_size(cameras_[v], split_ ? reader.width() / 2 : reader.width(), reader.height(),
                      files_[split_ ? 0 : v].string());
     }
-    // Bring both videos to the first common frame that is wanted.
+    // Advance both videos to the first common frame that is wanted.
     first_ = std::max(params.start, -params.offset);
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
@@ -198,7 +198,7 @@ class Video : public Source {
   std::vector<VideoReader> readers_;
   std::vector<Camera> cameras_;
   TruthTables truth_;
-  int first_ = 0;  ///< frame of the first video that the source begins with
+  int first_ = 0;  ///< frame of the first video at which the source begins
   int index_ = 0;
 };
 

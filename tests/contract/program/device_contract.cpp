@@ -37,7 +37,7 @@ bool takes(Evaluator& evaluator, const Observation& observation) {
   }
 }
 
-/// Random states near where the observations look, one per column.
+/// Returns random states near where the observations look, one per column.
 Eigen::MatrixXd make_states(const Scene& scene) {
   std::mt19937_64 random(5);
   Eigen::MatrixXd states(scene.dimension(), kStates);
@@ -54,7 +54,7 @@ Eigen::VectorXd costs_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
   return costs;
 }
 
-/// The same, a batch for each.
+/// Returns the costs of states evaluated in batches of one.
 Eigen::VectorXd costs_one_by_one(Evaluator& evaluator, const Eigen::MatrixXd& states) {
   Eigen::VectorXd costs(states.cols());
   for (Eigen::Index i = 0; i < states.cols(); ++i) {

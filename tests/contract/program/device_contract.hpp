@@ -4,7 +4,8 @@
 
 namespace hypotrack::contract {
 
-/// Rows for an objective's device capability; skipped where it has none or the machine no GPU.
+/// Checks an objective's device capability; skipped if the objective has none or the machine no
+/// GPU.
 void check_on_device(Report& report, const Subject& subject);
 
 }  // namespace hypotrack::contract

@@ -31,7 +31,8 @@ cv::Mat noise_image(std::uint64_t seed, int shift) {
   return wide.colRange(shift, shift + kSize).clone();
 }
 
-/// Two cameras side by side with the tile about the scene; `toe_in` turns the right one (radians).
+/// Makes two cameras side by side, with tiles around the scene; `toe_in` turns the right one
+/// (radians).
 Observation make_pair(const Scene& scene, double toe_in) {
   Observation observation;
   observation.scene = &scene;
@@ -78,7 +79,7 @@ Observation without_valid_pixels(Observation observation) {
   return with_flat_colors(std::move(observation), 0);
 }
 
-/// Pixel x, y and inverse depth of every vertex.
+/// Returns pixel x, y and inverse depth of every vertex.
 Eigen::Matrix3Xd project_all(const TileCamera& camera, const Eigen::Matrix3Xd& vertices) {
   Eigen::Matrix3Xd pixels(3, vertices.cols());
   for (Eigen::Index i = 0; i < vertices.cols(); ++i) {
@@ -128,7 +129,7 @@ DrawnTiles draw(const Scene& scene, const Observation& observation, const Eigen:
   return tiles;
 }
 
-/// Tiles whose pixels are given by a function of view, x and y.
+/// Fills tiles by a function of view, x and y.
 template <class Function>
 DrawnTiles fill(const Observation& observation, const Function& inverse_depth) {
   DrawnTiles tiles(observation.views);
@@ -141,7 +142,7 @@ DrawnTiles fill(const Observation& observation, const Function& inverse_depth) {
   return tiles;
 }
 
-/// Depth of the scene at rest before a wall, with holes as sensors leave them.
+/// Returns the depth of the scene at rest in front of a wall, with holes as sensors leave them.
 cv::Mat measured_depth(const DepthTile& drawn, int view) {
   cv::Mat depth(kSize, kSize, CV_32F);
   for (int y = 0; y < kSize; ++y) {
@@ -223,7 +224,7 @@ std::vector<NamedObservation> make_observations(const Scene& scene) {
   Observation single = pair;
   single.views.resize(1);
   single.rectified = false;
-  const auto copied = [](Observation observation) {  // images of one's own
+  const auto copied = [](Observation observation) {  // deep copy of the images
     for (TileView& view : observation.views) {
       view.color = view.color.clone();
       view.valid = view.valid.clone();

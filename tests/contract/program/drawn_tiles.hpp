@@ -8,15 +8,15 @@
 
 namespace hypotrack::contract {
 
-/// What an objective may be given, with a name for messages.
+/// An observation for objectives, with a name for messages.
 struct NamedObservation {
   std::string name;
   Observation observation;
 };
 
-/// Observations of a scene about 0.5 m away: rectified pairs with and without foreground masks, a
-/// pair whose cameras turn towards each other, one view alone, and pairs of flat or invalid images;
-/// then views with depth, also without colour, with nothing measured, and with noise as depth.
+/// Makes observations of a scene about 0.5 m away: rectified pairs with and without foreground
+/// masks, a pair whose cameras toe in, one view alone, and pairs of flat or invalid images. Then
+/// views with depth, also without colour, with nothing measured, and with noise as depth.
 std::vector<NamedObservation> make_observations(const Scene& scene);
 
 /// Depth tiles with the memory they point into. Rows are wider than the tile.
@@ -37,15 +37,15 @@ class DrawnTiles {
   std::vector<DepthTile> tiles_;
 };
 
-/// A hypothesis and its depth: the scene drawn in a state, or something no scene looks like.
+/// A hypothesis and its depth: the scene drawn in a state, or depths of no possible scene.
 struct NamedHypothesis {
   std::string name;
   Eigen::VectorXd state;  ///< normalised
   DrawnTiles depth;
 };
 
-/// The scene drawn in several states by a plain rasteriser; then nothing covered, one view covered
-/// only, everything covered, and noise over many orders of magnitude.
+/// Draws the scene in several states by a plain rasteriser. Adds hypotheses with nothing covered,
+/// one view covered only, everything covered, and noise over many orders of magnitude.
 std::vector<NamedHypothesis> make_hypotheses(const Scene& scene, const Observation& observation);
 
 }  // namespace hypotrack::contract

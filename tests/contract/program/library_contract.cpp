@@ -11,7 +11,7 @@ namespace hypotrack::contract {
 namespace {
 
 const HypotrackPlugin& open_descriptor(const std::filesystem::path& library) {
-  // Never closed, as everywhere.
+  // Never closed, as in the program.
   void* handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   require(handle, "cannot be opened: " + std::string(handle ? "" : dlerror()));
   const auto entry = reinterpret_cast<const HypotrackPlugin* (*)()>(dlsym(handle, kPluginEntry));
@@ -56,7 +56,7 @@ void check_texts(const HypotrackPlugin& plugin) {
   require(plugin.create && plugin.describe, "has no factory or no description");
 }
 
-/// Keys at the outer level of a dump.
+/// Returns the keys at the outer level of a dump.
 std::vector<std::string> parameter_names(const std::string& dump) {
   auto keys = ConfigNode::parse(dump, "dump").keys();
   std::erase(keys, "type");

@@ -1,5 +1,5 @@
-// hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]: holds a plugin to the contract of its
-// kind, one row per promise. Exits 0 if no row failed, 1 if one did, 2 on a wrong command line.
+// hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]: tests a plugin against the contract of
+// its kind, one row per promise. Exits 0 if no row failed, 1 if one did, 2 on a wrong command line.
 #include <exception>
 #include <iostream>
 #include <map>

@@ -49,7 +49,7 @@ void check_size(const Model& model) {
               " metres across, expected between 0.002 and 10: is its file in another unit?");
 }
 
-/// Rest, the corners of all bounds, and random states.
+/// Returns the rest state, the corners of all bounds, and random states.
 std::vector<Eigen::VectorXd> typical_states(const Model& model) {
   std::vector<Eigen::VectorXd> states(3, rest(model));
   for (int i = 0; i < model.dimension(); ++i) {
@@ -72,7 +72,7 @@ void check_finite(const Model& model) {
             "posing changes the number of vertices or landmarks");
     require(posed.vertices.allFinite() && posed.landmarks.allFinite(),
             "a state within the bounds gives vertices or landmarks that are not finite");
-    // An arm's length and more beyond its own size: something is multiplied that should not be.
+    // So far beyond the model's size, something is multiplied that should not be.
     const Eigen::Vector3d position = state.head<3>();
     require((posed.vertices.colwise() - position).colwise().norm().maxCoeff() < 20,
             "a state within the bounds moves vertices by more than 20 metres");
@@ -206,7 +206,7 @@ void check_shapes(const Model& model) {
 }  // namespace
 
 void check_model(Report& report, const Subject& subject) {
-  // Making it validates its data: mesh, skeleton, weights, bounds, names.
+  // Making the model validates its data: mesh, skeleton, weights, bounds, names.
   if (!check_parameters<Model>(report, subject)) return;
   const auto model = subject.make<Model>();
   const ModelData& data = model->data();

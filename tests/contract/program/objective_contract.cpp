@@ -16,7 +16,7 @@ RenderedHypothesis as_drawn_for(const Objective& objective, const NamedHypothesi
   return rendered;
 }
 
-/// Costs of hypotheses, in the given order.
+/// Returns the costs of hypotheses, scored in the given order.
 std::vector<double> score(const Objective& objective,
                           const std::vector<NamedHypothesis>& hypotheses,
                           const std::vector<std::size_t>& order) {
@@ -27,7 +27,7 @@ std::vector<double> score(const Objective& objective,
   return costs;
 }
 
-/// An objective that has taken an observation in, and hypotheses drawn for it.
+/// An objective prepared with an observation, and hypotheses drawn for it.
 struct Setting {
   std::string name;
   Observation observation;
@@ -39,8 +39,8 @@ struct Setting {
   std::string at(std::size_t i) const { return hypotheses[i].name + ", " + name; }
 };
 
-/// Settings for all observations that the objective works with. What it refuses, it must refuse
-/// with a DataError.
+/// Makes settings for all observations that the objective accepts. It must refuse the others with a
+/// DataError.
 std::vector<Setting> make_settings(const Subject& subject) {
   std::vector<Setting> settings;
   std::string refusal;
@@ -63,7 +63,7 @@ std::vector<Setting> make_settings(const Subject& subject) {
   return settings;
 }
 
-// Settings move; what was prepared points to the observation inside.
+// Prepares again, because settings move and prepared objectives point to the observation inside.
 void prepare_again(std::vector<Setting>& settings) {
   for (Setting& setting : settings) setting.objective->prepare(setting.observation);
 }
@@ -119,7 +119,7 @@ void check_second_object(const Subject& subject, const Setting& setting) {
           setting.name + ": two objects give two costs");
 }
 
-/// Residuals of all hypotheses, one after the other, into memory that held `before`.
+/// Writes the residuals of all hypotheses, one after the other, into memory that held `before`.
 std::vector<float> residuals(const Setting& setting, float before) {
   const ResidualTerm& term = *setting.objective->residual_term();
   const std::int64_t count = term.residual_count();

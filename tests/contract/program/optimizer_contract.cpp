@@ -30,7 +30,7 @@ struct Run {
   }
 };
 
-/// Searches; for an optimizer that needs a device, with the same costs there.
+/// Searches; evaluates the same costs on the device if the optimizer needs one.
 OptimizerResult minimize(const Subject& subject, Optimizer& optimizer, RecordingCost& cost,
                          const SearchRegion& region, const Budget& budget, std::uint64_t seed) {
   if (!subject.needs_device) return optimizer.minimize(cost, region, budget, seed);
@@ -95,7 +95,8 @@ void check_all(const Run& run) {
   }
 }
 
-/// Searches of all sizes, from a rigid object's to two hands', with budgets down to one evaluation.
+/// Runs searches of all sizes, from a rigid object's to two hands', with budgets down to one
+/// evaluation.
 std::vector<Run> searches_of_all_sizes(const Subject& subject) {
   std::vector<Run> runs;
   for (const int dimension : {1, 7, 27, 54}) {
@@ -142,7 +143,7 @@ struct Special : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// On the device exceptions come from enqueuing; the search after that is a good one again.
+/// Checks that exceptions of enqueuing pass through, and that the search after them works.
 void check_exceptions_of_device(const Subject& subject) {
   const SearchRegion region = test::tracking_region(27);
   const auto smooth = test::sphere(region, test::hidden_target(region, 5));
@@ -217,7 +218,7 @@ void check_against_random_search(const Subject& subject) {
                                std::to_string(baseline));
 }
 
-/// Rows for an optimizer that needs a device. False if there is none to search on.
+/// Checks an optimizer that needs a device. Returns false if there is none to search on.
 bool check_device(Report& report, const Subject& subject) {
   report.row("a cost that is not on a device is refused", [&] {
     const SearchRegion region = test::tracking_region(7);

@@ -5,7 +5,7 @@
 namespace hypotrack::contract {
 namespace {
 
-/// Empty if the check passed; otherwise the status and the reason.
+/// Runs a check. Returns empty texts if it passed, otherwise the status and the reason.
 std::pair<std::string, std::string> run(const Report::Check& check) {
   try {
     check();

@@ -7,7 +7,7 @@
 
 namespace hypotrack::contract {
 
-/// A contract that was found broken: what was found, what was expected.
+/// Thrown by a check that found a contract broken: what was found, what was expected.
 class Violation : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,23 +17,24 @@ inline void require(bool holds, const std::string& message) {
   if (!holds) throw Violation(message);
 }
 
-/// A row that does not apply to this plugin, and why.
+/// Thrown by a check that does not apply to this plugin, with the reason.
 class Skipped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Prints one row per contract. The name is written out before the check runs, so that a plugin
-/// that crashes or hangs shows where.
+/// Prints one row per contract. Prints the name before the check runs, so that a plugin that
+/// crashes or hangs shows where.
 class Report {
  public:
   using Check = std::function<void()>;
 
-  /// A check passes by returning, fails by throwing anything, and is skipped by throwing Skipped.
+  /// Runs a check and prints its row. It passes by returning, fails by throwing anything, and is
+  /// skipped by throwing Skipped.
   void row(std::string_view name, const Check& check);
-  /// The last line; the program's exit status: 0 if no row failed.
+  /// Prints the last line and returns the program's exit status: 0 if no row failed.
   int finish() const;
-  /// Whether the last row passed.
+  /// Returns whether the last row passed.
   bool passed() const { return last_passed_; }
 
  private:

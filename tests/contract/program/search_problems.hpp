@@ -16,13 +16,13 @@
 
 namespace hypotrack::test {
 
-/// A cost, not negative, and residuals whose squares add up to it.
+/// A non-negative cost, and residuals whose squares sum to it.
 class Problem {
  public:
   using Residuals = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
   explicit Problem(Residuals residuals) : residuals_(std::move(residuals)) {}
-  /// From any function that gives costs: they have one residual, their square root.
+  /// Makes a problem from any cost; its only residual is the square root.
   template <class Cost>
   requires std::convertible_to < std::invoke_result_t<Cost&, const Eigen::VectorXd&>,
   double > Problem(Cost cost) : cost_(std::move(cost)) {}
@@ -40,7 +40,7 @@ class Problem {
   Residuals residuals_;
 };
 
-/// A cost function that writes down everything it is asked.
+/// A cost function that records all its evaluations.
 class RecordingCost final : public CostFunction, public ResidualCost {
  public:
   using Function = Problem;
@@ -71,7 +71,7 @@ class RecordingCost final : public CostFunction, public ResidualCost {
     }
   }
 
-  /// By differences: exact where residuals are linear.
+  /// Linearises by differences, which is exact for linear residuals.
   bool can_linearize() const override { return linearizes; }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& beside,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
@@ -96,7 +96,7 @@ class RecordingCost final : public CostFunction, public ResidualCost {
   Function function_;
 };
 
-/// A search region like a tracker's: three positions without bounds, four quaternion components
+/// Returns a search region like a tracker's: three unbounded positions, four quaternion components
 /// within -1 .. 1, the rest angles with the start anywhere within anatomical bounds. The first
 /// seven dimensions are a pose, every further four a limb.
 inline SearchRegion tracking_region(int dimension) {
@@ -129,7 +129,8 @@ inline SearchRegion tracking_region(int dimension) {
   return region;
 }
 
-/// Where the answer lies: about half a spread from the start in every dimension, within the bounds.
+/// Returns a minimum to find: about half a spread from the start in every dimension, within the
+/// bounds.
 inline Eigen::VectorXd hidden_target(const SearchRegion& region, std::uint64_t seed) {
   Eigen::VectorXd target = region.start;
   for (Eigen::Index d = 0; d < target.size(); ++d) {
@@ -138,13 +139,13 @@ inline Eigen::VectorXd hidden_target(const SearchRegion& region, std::uint64_t s
   return target.cwiseMax(region.lower).cwiseMin(region.upper);
 }
 
-/// Offsets from the target in spreads.
+/// Returns the offsets from the target in spreads.
 inline Eigen::VectorXd offsets(const SearchRegion& region, const Eigen::VectorXd& target,
                                const Eigen::VectorXd& point) {
   return (point - target).cwiseQuotient(region.spread);
 }
 
-/// Mean of squared offsets: 0 at the target, about 0.25 at the start.
+/// Returns the mean of squared offsets: 0 at the target, about 0.25 at the start.
 inline Problem sphere(SearchRegion region, Eigen::VectorXd target) {
   return Problem([region = std::move(region),
                   target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {
@@ -152,7 +153,7 @@ inline Problem sphere(SearchRegion region, Eigen::VectorXd target) {
   });
 }
 
-/// The sphere with axes stretched from 1 to 100 in the square.
+/// Returns the sphere with squared axes stretched from 1 to 100.
 inline Problem ellipsoid(SearchRegion region, Eigen::VectorXd target) {
   return Problem([region = std::move(region),
                   target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {
@@ -165,7 +166,7 @@ inline Problem ellipsoid(SearchRegion region, Eigen::VectorXd target) {
   });
 }
 
-/// Rosenbrock's valley, its minimum 0 at the target.
+/// Returns Rosenbrock's function with its minimum 0 at the target.
 inline Problem rosenbrock(SearchRegion region, Eigen::VectorXd target) {
   return Problem([region = std::move(region),
                   target = std::move(target)](const Eigen::VectorXd& point) -> Eigen::VectorXd {

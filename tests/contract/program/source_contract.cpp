@@ -7,7 +7,7 @@
 namespace hypotrack::contract {
 namespace {
 
-// Enough to see what a source does; a recording may be long.
+// Enough to judge a source; a recording may be long.
 constexpr int kFrames = 20;
 constexpr int kLongest = 500;
 
