@@ -9,9 +9,9 @@
 namespace hypotrack {
 
 /// Learns how likely a colour belongs to a model, from frames where the model's pose is surely
-/// right. P = f / (f + b), with f and b the frequencies of the colour on the model and beside it
-/// (Jones and Rehg, "Statistical color models with application to skin detection", IJCV 2002, equal
-/// priors).
+/// right. P = f / (f + b), with f and b the frequencies of the colour on the model and beside it.
+/// Source: Jones and Rehg, "Statistical color models with application to skin detection", IJCV
+/// 2002, equal priors.
 class HYPOTRACK_API ForegroundColors {
  public:
   /// Learns from samples of a model whose pose is surely right. Older frames fade.

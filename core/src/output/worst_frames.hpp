@@ -43,8 +43,8 @@ class HYPOTRACK_API WorstFrames {
   void write(RunDirectory& directory, Renderer& renderer, const Camera& camera) const;
 
  private:
-  /// A frame is near at most one other candidate on either side. So three times the count of
-  /// candidates always leaves enough.
+  /// Returns the number of candidates to keep. A frame is near at most one other candidate on
+  /// either side, so three times the count always leaves enough.
   std::size_t places() const { return 3 * static_cast<std::size_t>(count_); }
 
   int count_;

@@ -66,8 +66,8 @@ MetricInfo metric_info(const std::string& key) {
 }
 
 const std::vector<std::string>& table_metrics() {
-  // No best value is marked for the time to loss, which ignores runs that were never lost, nor for
-  // speed, which depends on the machine as much as on the method.
+  // No best value is marked for two of these. The time to loss ignores runs that were never lost.
+  // Speed depends on the machine as much as on the method.
   static const std::vector<std::string> columns{"mean_error_mm",
                                                 "median_error_mm",
                                                 "p95_error_mm",

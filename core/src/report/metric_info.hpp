@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// How a metric of a run is shown.
+/// Presentation of a metric of a run.
 struct MetricInfo {
   std::string key;    ///< as in metrics.json
   std::string label;  ///< `mean error`

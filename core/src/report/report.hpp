@@ -8,7 +8,7 @@
 
 namespace hypotrack {
 
-/// Whether a report comes with files of its plots.
+/// Choice of whether a report comes with files of its plots.
 enum class PlotFiles {
   if_possible,  ///< if the programs that draw them are installed
   required,     ///< OutputError if they are not

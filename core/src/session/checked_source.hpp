@@ -12,8 +12,8 @@
 
 namespace hypotrack {
 
-/// Wraps a plugin's source and checks what no other part checks: the presence of cameras, the frame
-/// rate, the order of frames and the sizes of the ground truth.
+/// Wraps a plugin's source and checks its promises that no other part checks: cameras, frame rate,
+/// order of frames and sizes of the ground truth.
 class CheckedSource final : public Source {
  public:
   /// Throws DataError, naming the plugin.

@@ -8,7 +8,7 @@
 
 namespace hypotrack::study {
 
-/// How the processes of a study are started.
+/// Settings for starting the processes of a study.
 struct Launch {
   std::filesystem::path program;                   ///< `hypotrack`
   std::vector<std::filesystem::path> plugin_path;  ///< absolute

@@ -21,7 +21,7 @@ struct Command {
   int inherit = -1;                 ///< file descriptor that stays open in it
 };
 
-/// How a program ended.
+/// The end of a program.
 struct Ended {
   std::size_t key = 0;  ///< key given to start()
   int exit_code = 0;

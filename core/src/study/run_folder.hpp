@@ -11,7 +11,7 @@
 
 namespace hypotrack::study {
 
-/// How a run ended that left no results.
+/// The failure of a run that left no results.
 struct RunFailure {
   std::string message;
   int exit_code = 0;  ///< 128 + signal if a signal ended it, as in shells

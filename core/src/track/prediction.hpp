@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// How much of the last motion a prediction extrapolates.
+/// Share of the last motion that a prediction extrapolates.
 enum class Prediction {
   none,      ///< searches start from the last solution, as in the paper
   constant,  ///< a fixed share

@@ -69,7 +69,7 @@ class HYPOTRACK_API SearchSpace {
   SearchSpace(const Scene& scene, const SearchSettings& settings,
               const std::vector<bool>& moving = {});
 
-  /// Length of a search point.
+  /// Returns the length of a search point.
   int dimension() const { return dimension_; }
   /// Returns whether search points have rotation vectors in place of quaternions.
   bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }

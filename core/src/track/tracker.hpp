@@ -80,7 +80,7 @@ class HYPOTRACK_API Tracker {
     Status status = Status::missing;
     double kept_time = 0;   ///< time at which it was surely right last
     int confirmations = 0;  ///< frames left in which alternative poses are searched
-    /// Its motion at kept_time, per second, a difference of tangent.hpp; empty: unknown.
+    /// Motion at kept_time, per second, a difference of tangent.hpp; empty: unknown.
     Eigen::VectorXd velocity = {};
 
     /// Returns whether searches continue from its last state.

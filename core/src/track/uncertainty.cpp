@@ -46,8 +46,8 @@ Eigen::VectorXd prior_width(const Scene& scene, const UncertaintySettings& setti
   return width;
 }
 
-/// States on both sides of one, a pair of columns per dimension of the tangent space, and the
-/// widths of these differences, which are less than two steps at a limit.
+/// States on both sides of one, a pair of columns per dimension of the tangent space. `width` has
+/// the widths of these differences, which are less than two steps at a limit.
 struct Neighbours {
   Neighbours(const Scene& scene, const Eigen::VectorXd& state, const Eigen::VectorXd& steps)
       : states(state.size(), 2 * steps.size()), width(steps.size()) {

@@ -96,8 +96,8 @@ ModelData make_object(const RigidMeshParams& params) {
   return rigid_model(std::move(imported.mesh), std::move(landmarks));
 }
 
-/// Shape parameters of an object: its scale only. Objects have no anthropometry, and a file's scale
-/// may be off by a tenth.
+/// Returns the shape parameters of an object: its scale only. Objects have no anthropometry, and a
+/// file's scale may be wrong by a tenth.
 const std::vector<ShapeParameter>& size_parameters() {
   static const std::vector<ShapeParameter> parameters = {{"scale", 1, 1, 0.5, 2, 0.1}};
   return parameters;

@@ -6,7 +6,7 @@
 /// Foreground of one pixel, for the CPU and for CUDA.
 namespace hypotrack::rgbd_depth {
 
-/// How foreground is decided in one view.
+/// Rule that decides foreground in one view.
 enum class Rule { mask, depth, skin };
 
 /// Depths z along a camera's axis, metres.

@@ -8,7 +8,7 @@ struct DeviceTile;
 
 namespace hypotrack::skin {
 
-/// How foreground is decided in a view, on the CPU and with CUDA.
+/// Rule that decides foreground in a view, on the CPU and with CUDA.
 enum class Rule { none, color, mask, depth };
 
 /// Returns the rule for a view; `none` if it lacks the images that the rule needs.

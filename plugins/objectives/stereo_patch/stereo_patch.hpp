@@ -49,7 +49,7 @@ class StereoPatch : public Objective, public ResidualTerm {
 
   const ResidualTerm* residual_term() const override { return this; }
   std::int64_t residual_count() const override;
-  /// Both throw DataError as cost() does.
+  /// Writes the residuals. Throws DataError as cost() does, like cost_and_residuals().
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,

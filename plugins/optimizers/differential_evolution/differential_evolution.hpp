@@ -9,8 +9,8 @@
 
 namespace hypotrack {
 
-/// Which points are combined, and whether neighbouring (exp) or any (bin) dimensions cross over. In
-/// pagmo's order.
+/// Mutation (the points that are combined) and crossover of neighbouring (exp) or any (bin)
+/// dimensions. In pagmo's order.
 enum class DifferentialVariant {
   best_1_exp,
   rand_1_exp,

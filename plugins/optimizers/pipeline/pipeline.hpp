@@ -19,7 +19,7 @@ enum class Moves {
 };
 std::span<const std::string_view> enum_names(Moves);
 
-/// Where a stage begins.
+/// Start of a stage.
 enum class StageStart {
   best,   ///< at the best point of the stages before it
   start,  ///< at the start of the whole search

@@ -15,7 +15,7 @@ namespace hypotrack::depth_from_stereo {
 class RectifiedPair {
  public:
   /// Throws DataError, naming `where`, unless there are two cameras with images of one size and
-  /// lenses of one kind, side by side rather than one above or in front of the other.
+  /// lenses of one kind. They must be side by side rather than one above or in front of the other.
   RectifiedPair(const std::vector<Camera>& cameras, const std::string& where);
 
   /// Returns the first camera, rotated and without its lens; its centre is unchanged.

@@ -21,7 +21,7 @@ Mesh make_wall(const Eigen::AlignedBox2d& box, double distance, cv::Mat texture)
   return mesh;
 }
 
-/// Every octave is half as coarse as the one before, and weaker.
+/// Makes every octave half as coarse as the one before, and weaker.
 cv::Mat make_pattern(cv::RNG& random, int size) {
   constexpr int kCoarsest = 4;
   constexpr double kFirst = 38, kDecay = 0.72, kTint = 0.4;
