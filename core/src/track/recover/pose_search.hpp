@@ -1,0 +1,84 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "tile/tiles.hpp"
+#include "track/frame_search.hpp"
+#include "track/recover/held.hpp"
+#include "track/recover/least_squares.hpp"
+#include "track/recover/place_finder.hpp"
+#include "track/recover/postures.hpp"
+#include "track/recover/recovery_settings.hpp"
+
+namespace hypotrack {
+
+/// A guess of a model's pose, and the distribution of hypotheses around it.
+struct PoseGuess {
+  Eigen::Vector3d center;  ///< of the model's landmarks, in the world, metres
+  Eigen::VectorXd pose;    ///< the model's parameters
+  double near_share = 0;   ///< share of the hypotheses near its rotation
+  double rotation = 0;     ///< standard deviation of their rotations, radians
+  /// Standard deviation of the hypotheses' centres, metres; twice that in depth.
+  double scatter = 0.012;
+  /// Centres for half of the hypotheses, instead of `center`; empty: none.
+  std::vector<Eigen::Vector3d> points = {};
+  double covered = 0.5;  ///< largest share of the model that others may hide
+};
+
+/// Numbers of hypotheses that a search of one place scores and refines.
+struct PoseEffort {
+  int hypotheses = 0;  ///< number scored
+  int refined = 0;     ///< number of the best refined by least squares
+  int improved = 0;    ///< number of the refined ones that are improved limb by limb
+};
+
+/// Searches all rotations and postures of one model of a scene at given places. Scores hypotheses
+/// in a coarse tile and refines the best by least squares.
+class PoseSearch {
+ public:
+  /// The scene must outlive the search.
+  PoseSearch(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras,
+             const RecoverySettings& settings);
+
+  /// Finds poses of the model in a frame around a place, best first. Their costs are comparable
+  /// with each other only. `base` is the scene's state. Models with `hidden` are not drawn, except
+  /// those held; the others keep their poses. The first pose counts the evaluations of all.
+  std::vector<Refined> find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+                            const std::vector<bool>& hidden, const std::vector<Held>& held,
+                            const PoseGuess& guess, const PoseEffort& effort, std::uint64_t seed);
+
+  /// Returns the state with the hidden models and the sought one moved behind the camera, where
+  /// nothing draws them.
+  Eigen::VectorXd without(const Eigen::VectorXd& base, const std::vector<bool>& hidden) const;
+
+  Postures& postures() { return postures_; }
+  /// Returns the centre of the model's landmarks in a state of the scene.
+  Eigen::Vector3d center(const Eigen::VectorXd& state) const;
+  /// Returns the root mean square distance of the rest pose's vertices from their mean, in metres.
+  double radius() const { return radius_; }
+
+ private:
+  /// Tries each limb straight, half bent and bent. Keeps a change if its refined cost is lower.
+  void improve_limbs(LeastSquares& least_squares, Evaluator& evaluator, Refined& pose) const;
+  Eigen::MatrixXd hypotheses(const PoseGuess& guess, int count, std::mt19937_64& random) const;
+  void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+               const Eigen::VectorXd& hypothesis);
+
+  const Scene& scene_;
+  const Scene::Item& item_;
+  std::size_t model_;
+  Scene single_;
+  TileMaker tiles_;
+  Postures postures_;
+  Eigen::Vector3d behind_;  ///< a point behind the first camera, which is not drawn
+  double radius_ = 0;
+};
+
+}  // namespace hypotrack

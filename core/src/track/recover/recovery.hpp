@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "track/frame_search.hpp"
+#include "track/judge/judge.hpp"
+#include "track/motion_limits.hpp"
+#include "track/recover/background_model.hpp"
+#include "track/recover/held.hpp"
+#include "track/recover/place_finder.hpp"
+#include "track/recover/pose_search.hpp"
+#include "track/recover/recovery_settings.hpp"
+#include "track/recover/searched_places.hpp"
+
+namespace hypotrack {
+
+/// The last known pose of a lost model.
+struct LastKnown {
+  Eigen::VectorXd state;  ///< of the scene; the other models have their present poses
+  double seconds = 0;     ///< time since then
+  /// State with a guess of its present pose; empty if there is none.
+  Eigen::VectorXd hint = {};
+  bool near_hint_only = false;  ///< searches around the hint only
+  /// The last state in which all models were surely tracked; empty: unknown.
+  Eigen::VectorXd before = {};
+};
+
+/// States that a recovery found at one place.
+struct Candidates {
+  std::vector<Eigen::VectorXd> states;  ///< of the whole scene, best first, without hopeless ones
+  std::int64_t evaluations = 0;
+};
+
+/// Searches whole pictures for a lost model: around its last place, and wherever both views show
+/// its colours.
+class HYPOTRACK_API Recovery {
+ public:
+  /// The search for one model in one frame.
+  struct Quest {
+    FrameSearch& search;
+    const Frame& frame;
+    Judge& judge;
+    std::size_t model;
+    LastKnown last;
+    std::vector<bool> hidden = {};     ///< models that are not in the scene now, and the lost one
+    std::vector<Held> held = {};       ///< hidden models that move with the lost one
+    std::vector<double> covered = {};  ///< share of each model that others hide
+    bool in_view = true;               ///< false: no picture shows colours of the lost model
+    std::vector<PoseGuess> guesses = {};  ///< poses to search around, likeliest first
+  };
+
+  /// The scene must outlive the recovery.
+  Recovery(const Scene& scene, const std::vector<Camera>& cameras,
+           const RecoverySettings& settings);
+
+  /// Finds places where a model may be, except places that were searched in vain and look the same.
+  /// Other models with `shown` keep their poses of `last`. Those with `held` move with the lost one
+  /// (held_by()). The rest are hidden. All arguments must outlive the quest.
+  Quest begin(FrameSearch& search, const Frame& frame, Judge& judge, LastKnown last,
+              std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
+              const MotionLimits& limits);
+
+  /// Finds up to `settings.searched` poses of the model, and of what it holds, at one of the
+  /// places.
+  Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+                  std::uint64_t seed);
+
+  /// Learns the postures of the models with `tracked`, which are surely right. Learns the
+  /// background if all are tracked.
+  void remember(const Frame& frame, const Eigen::VectorXd& state, const std::vector<bool>& tracked);
+
+ private:
+  std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
+                                 const MotionLimits& limits);
+  Places places(const Quest& quest) const;
+  /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
+  PoseGuess beside(const Quest& quest, std::size_t other) const;
+  void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
+  /// Returns whether a state hides models that are visible without the lost one.
+  static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
+                           const ColorMap& colors);
+
+  const Scene& scene_;
+  std::vector<Camera> cameras_;
+  RecoverySettings settings_;
+  std::vector<std::unique_ptr<PoseSearch>> searches_;
+  std::vector<PlaceFinder> finders_;
+  std::vector<SearchedPlaces> searched_;        ///< by model
+  std::vector<SearchedPlaces> searched_held_;   ///< for searches with what it holds
+  std::array<BackgroundModel, 2> backgrounds_;  ///< of the reduced pictures
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "track/color/color_samples.hpp"
+#include "track/color/highlights.hpp"
+#include "track/smooth/sight.hpp"
+
+namespace hypotrack {
+
+/// Removes highlights from the tiles of a window's frames. Learns them from all frames together: a
+/// pose that follows its own highlights contradicts frames with other poses.
+class HYPOTRACK_API TileHighlights {
+ public:
+  /// The scene must outlive it.
+  explicit TileHighlights(const Scene& scene) : sampler_(scene) {}
+
+  /// Relearns the highlights from tiles that still have them, and the scene's states in those
+  /// frames (one per tile set). The former strengths only decide which samples are outliers.
+  void learn(const std::vector<Sight>& sights, const std::vector<Moment>& moments);
+
+  /// Returns the tiles without highlights, for the scene in a normalised state.
+  Observation off(const Observation& tiles, const Eigen::VectorXd& state);
+
+ private:
+  ColorSampler sampler_;
+  std::vector<Highlights> views_;  // without the first
+};
+
+}  // namespace hypotrack

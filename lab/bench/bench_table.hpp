@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "lab/bench/bench_plan.hpp"
+#include "lab/bench/measure.hpp"
+
+namespace hypotrack::bench {
+
+/// A measurement with its round, case and way.
+struct Row {
+  int round = 1;
+  std::size_t case_index = 0;  ///< into Plan::cases
+  std::size_t way = 0;         ///< into Plan::ways
+  Measurement measurement;
+};
+
+/// Formats the median frame: `21.3 ms, 46.9 fps (50 frames)`, or why there is none.
+HYPOTRACK_API std::string in_words(const Measurement& measurement);
+
+/// Formats one round as a table for people, followed by the devices and the reasons for gaps.
+HYPOTRACK_API std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round);
+
+/// Throws ConfigError if write_rows() does not know the format of a file name.
+HYPOTRACK_API void check_format(const std::filesystem::path& file);
+
+/// Writes all rows as CSV or JSON, by the suffix of the name. Throws OutputError.
+HYPOTRACK_API void write_rows(const std::filesystem::path& file, const Plan& plan,
+                              const std::vector<Row>& rows);
+
+}  // namespace hypotrack::bench

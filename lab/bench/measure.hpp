@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/plugin.hpp"
+#include "lab/bench/bench_plan.hpp"
+#include "lab/bench/schedule.hpp"
+#include "output/metrics/metrics.hpp"
+
+namespace hypotrack::bench {
+
+enum class Outcome {
+  measured,
+  unavailable,  ///< this machine, build or scene does not support this way
+  failed,       ///< it failed while tracking
+};
+HYPOTRACK_API std::string_view to_string(Outcome outcome);
+
+/// Time, memory and accuracy of tracking a case in one way.
+struct Measurement {
+  Outcome outcome = Outcome::measured;
+  std::string message = {};  ///< reason if there are no numbers
+  std::string device = {};   ///< Tracker::backend()
+  int warm_up = 0;
+  std::vector<double> seconds = {};      ///< of every measured frame, from the frame to the result
+  std::vector<double> evaluations = {};  ///< of every measured frame
+  Metrics metrics = {};                  ///< of the measured frames
+  /// GPU memory in use since before the scene was opened, by any process; nothing without a GPU.
+  std::optional<double> device_mib = {};
+};
+
+/// Tracks frames in memory, one after the other. The first must have views. Moves their images to
+/// where a source would allocate them for this way. Calls `again` before every frame; it ends the
+/// work by returning false. Reports errors in the result and does not throw.
+HYPOTRACK_API Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
+                                  PluginLoader& plugins, const Limits& limits,
+                                  const std::function<bool()>& again);
+
+}  // namespace hypotrack::bench

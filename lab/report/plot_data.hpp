@@ -1,0 +1,24 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "lab/report/study_data.hpp"
+
+namespace hypotrack {
+
+/// Returns the plots of a study as plain data, which plots.js turns into Vega specifications: a
+/// list of objects
+///
+///   {id, kind, title, note, x: {label, values, numeric}, y: {label, ...}, color: {...} or null,
+///    facets: [{label, rows: [{x, y, color, mean, sd, n}, ...]}, ...]}
+///
+/// Each row is the mean over the runs with the same x, y and color. Without plots in the study it
+/// uses default_plots(). Throws DataError if a plot asks for something that does not exist.
+HYPOTRACK_API nlohmann::ordered_json plot_data(const StudyData& study);
+
+/// Returns the plots of a study that asks for none.
+HYPOTRACK_API std::vector<PlotRequest> default_plots(const StudyData& study);
+
+}  // namespace hypotrack

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "lab/study/launch.hpp"
+#include "lab/study/plan.hpp"
+#include "lab/study/study_folder.hpp"
+
+namespace hypotrack::study {
+
+/// Observer of the runs of a study, which can stop them.
+class HYPOTRACK_API Watcher {
+ public:
+  virtual ~Watcher();
+  /// Returns true to end the work. Called some hundred times per second.
+  virtual bool stop() = 0;
+  /// Called when a run is finished, by this or another process. `failure` is empty if it succeeded.
+  virtual void on_run(const PlannedRun& run, const std::string& failure) = 0;
+};
+
+/// Makes the given runs (indices into the plan), each in a separate process. Also waits for runs
+/// that other processes are making. Records failures in the folder. Returns false if the watcher,
+/// or somebody who interrupted a run, ended the work early; unfinished runs are then given up.
+/// Throws OutputError.
+HYPOTRACK_API bool execute(const StudyFolder& folder, const Plan& plan,
+                           const std::vector<std::size_t>& runs, const Launch& launch,
+                           Watcher& watcher);
+
+}  // namespace hypotrack::study

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "lab/study/plan.hpp"
+
+namespace hypotrack::study {
+
+/// Numbers by name, in the order of the file. Nothing: undefined, as the time to loss of a run that
+/// never lost.
+using Metrics = std::vector<std::pair<std::string, std::optional<double>>>;
+
+/// The result of a finished or failed run.
+struct RunResult {
+  const PlannedRun* run = nullptr;
+  bool ok = true;
+  std::string message;  ///< error message if it failed
+  Metrics metrics;      ///< reproducible numbers; empty if it failed
+  Metrics timing;       ///< fps, evaluations_per_second, seconds
+};
+
+/// Reads the finished runs of a plan from a study's folder. Cells are in the plan's order, seeds in
+/// the study's. Throws DataError.
+std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::path& runs);
+
+/// Mean and standard deviation of some numbers.
+struct Statistics {
+  std::size_t count = 0;
+  double mean = 0;
+  std::optional<double> sd;  ///< of a sample (divided by n - 1); nothing for fewer than two
+};
+HYPOTRACK_API Statistics statistics_of(const std::vector<double>& values);
+
+}  // namespace hypotrack::study

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hypotrack/export.hpp"
+#include "lab/study/file_lock.hpp"
+#include "lab/study/plan.hpp"
+
+namespace hypotrack::study {
+
+/// The failure of a run that left no results.
+struct RunFailure {
+  std::string message;
+  int exit_code = 0;  ///< 128 + signal if a signal ended it, as in shells
+};
+
+/// Cost of a run. It differs between runs of the same id, so it is kept apart from the results.
+struct RunCost {
+  double seconds = 0;
+  int threads = 0;
+};
+
+/// The working folder of a run, or a recording, that this process makes, and its lock. Moves to its
+/// final place when complete; removed otherwise.
+class HYPOTRACK_API RunFolder {
+ public:
+  /// `final` is the folder's final path.
+  RunFolder(FileLock lock, std::filesystem::path working, std::filesystem::path final);
+  RunFolder(RunFolder&& other) noexcept;
+  RunFolder& operator=(RunFolder&&) = delete;
+  ~RunFolder();
+
+  /// Returns the folder into which the run writes.
+  const std::filesystem::path& working() const { return working_; }
+  /// Returns the file for the run's stdout and stderr.
+  std::filesystem::path log() const { return working_ / "log.txt"; }
+  /// Returns the lock's descriptor, which the process that writes into working() must inherit.
+  int lock_descriptor() const { return lock_.descriptor(); }
+
+  /// Moves the folder to its final path, without the log. Throws OutputError.
+  void put_into_place();
+  /// Completes a successful run and moves it to its final path. Throws OutputError.
+  void finish(const Plan& plan, const PlannedRun& run, const RunCost& cost);
+  /// Replaces the run's results by a note of the failure, and moves it with the log to its final
+  /// path. Throws OutputError.
+  void fail(const Plan& plan, const PlannedRun& run, const RunFailure& failure);
+
+ private:
+  void rename();
+  FileLock lock_;
+  std::filesystem::path working_, final_;
+};
+
+/// Reads the failure of a run's folder; nothing if it did not fail. Throws DataError if the note is
+/// damaged.
+std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
+
+/// Returns the line of a log that says why a run failed, without the names of its folders.
+HYPOTRACK_API std::string failure_message(const std::filesystem::path& log, int exit_code,
+                                          int signal);
+
+}  // namespace hypotrack::study
