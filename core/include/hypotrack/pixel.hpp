@@ -7,8 +7,8 @@
 
 /// Operations for per-pixel functions. Such a function is written once, as a template over the lane
 /// type, and compiled for
-/// float   one pixel at a time: plain C++ and, under nvcc, device code;
-/// Lanes   a whole SIMD vector of pixels (hypotrack/simd-inl.hpp), once per instruction set.
+///   float   one pixel at a time: plain C++ and, under nvcc, device code;
+///   Lanes   a whole SIMD vector of pixels (hypotrack/simd-inl.hpp), once per instruction set.
 /// Both types have the same operations: + - * /, comparisons (which give a mask: bool or LaneMask),
 /// && || ! on masks, min, max, abs, sqrt, quick_sqrt, floor, round, exp, mul_add and select. Use
 /// `select(mask, a, b)` instead of branches. Masks do not short-circuit.

@@ -19,8 +19,7 @@ namespace hypotrack::cuda {
 ///
 ///   struct MyTerm {                                    // trivially copyable
 ///     static constexpr bool kStereo = true;            // true: pixels of a reference view with
-///                                                      // their match in the other; false: each
-///                                                      view
+///                                                      // their match in the other
 ///     static constexpr bool kVisitsUncovered = false;  // true: visit uncovered pixels as well
 ///     static constexpr int kSums = 2;
 ///     const float* feature;                            // device memory
@@ -32,8 +31,7 @@ namespace hypotrack::cuda {
 ///
 ///     // kStereo, with a lookup per pixel of the tiles. The block caches these texels and passes
 ///     // them to pixel() as `texels`. texels.template at<view>(x, y) is valid for pixels covered
-///     in
-///     // that view and their neighbours in x within its tile.
+///     // in that view and their neighbours in x within its tile.
 ///     using Texel = uint2;                             // 4, 8 or 16 bytes
 ///     __device__ const Texel* texels(int view) const;  // rows without gaps, aligned to 16 bytes
 ///     template <int kReference, class Texels>
@@ -48,17 +46,14 @@ namespace hypotrack::cuda {
 ///     __device__ double cost(const double (&sums)[kSums], const float* state) const;
 ///
 ///     // If the objective has residuals (ResidualTerm): one per pixel of the visited views.
-///     pixel()
-///     // then returns that of its pixel as a float. This is the residual of an uncovered pixel,
-///     the
-///     // i-th of the view's tile row by row. views() or directions() are then HYPOTRACK_PIXEL, for
-///     // the host as well.
+///     // pixel() then returns that of its pixel as a float. uncovered_residual() returns that of
+///     // an uncovered pixel, the i-th of the view's tile row by row. views() or directions() are
+///     // then HYPOTRACK_PIXEL, for the host as well.
 ///     __device__ float uncovered_residual(int view, int i) const;
 ///     // If the state has residuals; they follow those of the pixels:
 ///     HYPOTRACK_PIXEL int state_residual_count() const;
 ///     __device__ float state_residual(int i, const float* state) const;
 ///   };
-///
 ///
 /// A thread sums in single precision. The block joins its threads' sums in a fixed order in double
 /// precision, so that equal hypotheses have equal costs. A change of a Term's bytes forces captured
