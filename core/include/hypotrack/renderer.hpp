@@ -18,11 +18,10 @@ struct RenderStyle {
   double diffuse = 0.0;   ///< Lambert term of one distant light
   double specular = 0.0;  ///< Blinn-Phong term
   double shininess = 30.0;
-  Eigen::Vector3d light_direction{0.3, -0.5,
-                                  1.0};  ///< direction in which the light travels, world frame
-  bool textured = true;                  ///< false: a flat colour per model (overlays)
-  int samples = 4;                       ///< antialiasing of the colour image, samples per pixel
-  std::vector<bool> hidden{};            ///< for each model, true to leave it out; empty = draw all
+  Eigen::Vector3d light_direction{0.3, -0.5, 1.0};  ///< in which the light travels, world frame
+  bool textured = true;                             ///< false: a flat colour per model (overlays)
+  int samples = 4;             ///< antialiasing of the colour image, samples per pixel
+  std::vector<bool> hidden{};  ///< for each model, true to leave it out; empty = draw all
 };
 
 /// A rendered view with pixel (0, 0) at the top left.

@@ -34,8 +34,7 @@ struct LandmarkRow {
   int frame = 0;
   double time = 0;             ///< seconds; 0 without a time column
   Eigen::Matrix3Xd landmarks;  ///< 3xL, world, metres; NaN = unknown
-  std::vector<bool>
-      absent{};  ///< L, true where the model is absent and the column NaN; empty = none is
+  std::vector<bool> absent{};  ///< L, true where the model is absent (NaN); empty = none
 };
 
 /// Reads a table of states and normalises their quaternions. Other columns are ignored, so that a

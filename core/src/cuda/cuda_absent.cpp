@@ -1,4 +1,4 @@
-// Stands in for the GPU backend in a build without a CUDA toolkit.
+// Replaces the GPU backend in a build without a CUDA toolkit.
 #include "cuda/device.hpp"
 #include "cuda/egl_cuda_evaluation.hpp"
 #include "cuda/page_locked_images.hpp"

@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: the include below includes this file again.
+// Compiled once per instruction set: the include below includes this file again.
 
 #define HWY_TARGET_INCLUDE "evaluate/skin_kernel.cpp"
 #include <hypotrack/foreach_target-inl.hpp>
@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
 
-// Row of a 3x4 matrix times (x y z 1).
+// Returns a row of a 3x4 matrix times (x y z 1).
 HWY_INLINE Vec transform(const float* row, Vec x, Vec y, Vec z) {
   const Vec sum = hn::MulAdd(hn::Set(f, row[2]), z, hn::Set(f, row[3]));
   return hn::MulAdd(hn::Set(f, row[0]), x, hn::MulAdd(hn::Set(f, row[1]), y, sum));
@@ -40,7 +40,7 @@ void skin(const SkinBlocks& blocks, const float* bones, float* out_x, float* out
   }
 }
 
-// Beyond all coordinates that count.
+// A coordinate beyond all valid ones.
 constexpr float kBeyond = 2 * kGuard;
 
 HWY_INLINE Mask within_guard(Vec value) {

@@ -41,8 +41,8 @@ struct Material {
 };
 
 /// A texture embedded in the file: a compressed image, or `width` x `height` BGRA pixels.
-struct Texture {            ///< 0 = compressed
-  std::uint32_t width = 0;  ///< 0: compressed
+struct Texture {
+  std::uint32_t width = 0;  ///< 0 = compressed
   std::uint32_t height = 0;
   std::string bytes;
 };

@@ -64,8 +64,7 @@ std::vector<std::vector<int>> parameter_groups(const ModelData& data) {
     if (data.parameters[static_cast<std::size_t>(i)].kind != ParameterKind::angle) sets.join(0, i);
   }
   join_chains(data, joint_of_bones(data, sets), sets);
-  std::map<int, std::vector<int>>
-      by_leader;  // the pose's group is first, because parameter 0 leads it
+  std::map<int, std::vector<int>> by_leader;  // the pose is first: parameter 0 leads it
   for (int i = 0; i < static_cast<int>(data.parameters.size()); ++i) {
     by_leader[sets.of(i)].push_back(i);
   }

@@ -11,8 +11,8 @@
 namespace hypotrack {
 
 /// The state and landmarks of a scene; either may be unknown.
-struct ScenePose {             ///< size 0 = unknown
-  Eigen::VectorXd state;       ///< size 0: unknown
+struct ScenePose {
+  Eigen::VectorXd state;       ///< size 0 = unknown
   Eigen::Matrix3Xd landmarks;  ///< 3xL, world, metres; NaN columns are unknown
 };
 

@@ -55,8 +55,7 @@ template <class Real>
 __device__ __forceinline__ Quaternion<Real> unit_quaternion(Real w, Real x, Real y, Real z) {
   const Real scale = fmax(fmax(fabs(w), fabs(x)), fmax(fabs(y), fabs(z)));
   if (scale == Real(0)) return {Real(1), Real(0), Real(0), Real(0)};
-  if (!(scale > Real(1e-3) &&
-        scale < Real(1e3))) {  // the sum of squares might overflow or underflow
+  if (!(scale > Real(1e-3) && scale < Real(1e3))) {  // the squares' sum might leave the range
     w /= scale, x /= scale, y /= scale, z /= scale;
   }
   const Real inverse = inverse_norm(w, x, y, z);
