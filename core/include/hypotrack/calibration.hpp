@@ -75,10 +75,10 @@ struct CalibrationSettings {
 /// Loads the cameras of a calibration file. The first camera is the world unless the file gives it
 /// a pose (form 3). A camera's width and height are 0 if neither file nor settings give them;
 /// fit_image_size() then sets them.
-/// Throws DataError, naming file and line, on unreadable files, XML and JSON, missing matrices,
-/// wrong sizes, NaN, skewed or upside-down intrinsics, an R that is not a rotation, an unsupported
-/// number of distortion coefficients, and implausible baselines (such as millimetres read as
-/// metres).
+/// Throws DataError, naming file and line, on unreadable files, XML, JSON, missing matrices, wrong
+/// sizes and NaN. It also rejects skewed or upside-down intrinsics, an R that is not a rotation and
+/// unsupported numbers of distortion coefficients. Baselines must be plausible, which detects
+/// millimetres read as metres.
 HYPOTRACK_API std::vector<Camera> load_calibration(const CalibrationSettings& settings);
 
 /// Sets a camera's size to that of its images. Throws DataError, naming `where`, if the camera is

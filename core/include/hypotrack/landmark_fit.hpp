@@ -8,6 +8,7 @@
 
 namespace hypotrack {
 
+/// Settings of fit_landmarks().
 struct LandmarkFitSettings {
   /// Fits the model's scale as well, about its position.
   bool scale = false;

@@ -23,6 +23,7 @@ struct ImportedMesh {
   std::vector<ImportedBone> bones;  ///< empty for a rigid mesh, whose weights are 4x0
 };
 
+/// Options of import_mesh().
 struct MeshImportOptions {
   double scale = 1.0;                  ///< metres per unit of the file
   std::filesystem::path texture = {};  ///< replaces the texture that the file names

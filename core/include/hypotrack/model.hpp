@@ -24,6 +24,7 @@ struct Mesh {
   Eigen::Vector3f color{0.70f, 0.55f, 0.47f};  ///< RGB in [0, 1] where there is no texture
 };
 
+/// A bone of a skeleton, relative to its parent.
 struct Bone {
   std::string name;
   int parent = -1;  ///< index of an earlier bone; -1 for the root
@@ -81,15 +82,16 @@ struct ModelData {
   std::vector<Landmark> landmarks;
 };
 
-/// Throws DataError, naming `where`, if the data breaks a contract above. Examples are no faces,
-/// NaN, indices out of range, weights that do not sum to 1, parents after children, reversed
-/// bounds, or a model that does not begin with a pose.
+/// Throws DataError, naming `where`, if the data breaks a contract above. Examples are missing
+/// faces, NaN, indices out of range and weights that do not sum to 1. Others are parents after
+/// children, reversed bounds, and a model that does not begin with a pose.
 HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 
-/// Groups the parameters that move one part of a model together; returns their indices, the seven
-/// of the pose first. Each other group is a limb: a chain of jointed bones up to where the skeleton
-/// forks into several jointed ones (a finger, or an arm from shoulder to hand). A parameter that
-/// turns bones of several limbs joins them. A parameter that turns no bone is a group of its own.
+/// Groups the parameters that move one part of a model together and returns their indices. The
+/// first group is the pose's seven. Each other group is a limb, such as a finger, or an arm from
+/// shoulder to hand. A limb is a chain of jointed bones up to where the skeleton forks into several
+/// jointed ones. A parameter that turns bones of several limbs joins them. A parameter that turns
+/// no bone is a group of its own.
 HYPOTRACK_API std::vector<std::vector<int>> parameter_groups(const ModelData& data);
 
 /// A model that can be tracked: data that core's kinematics and skinning pose on CPU and GPU.

@@ -44,8 +44,8 @@ struct Observation {
   /// (search.second_look).
   bool start_is_guess = false;
   std::vector<TileView> views;
-  /// Two views whose cameras share rotation, fx, fy and cy: a point has the same y in both, and
-  /// x_left - x_right is a constant plus fx * baseline / z.
+  /// True for two views whose cameras share rotation, fx, fy and cy. A point then has the same y in
+  /// both views, and x_left - x_right is a constant plus fx * baseline / z.
   bool rectified = false;
   /// Median colour difference of the same surface between the first two views, at recent solutions
   /// and after photometric correction. It is mostly noise. Euclidean norm of RGB in 0..1; 0 =

@@ -15,8 +15,8 @@ namespace cuda {
 class DeviceCost;
 }
 
-/// The normal equations A dx = -g of the linearised least-squares problem |r + J dx|^2, with A =
-/// J^T J and g = J^T r.
+/// The normal equations A dx = -g of a linearised least-squares problem |r + J dx|^2. A = J^T J and
+/// g = J^T r.
 struct NormalEquations {
   Eigen::MatrixXd a;  ///< DxD
   Eigen::VectorXd g;  ///< D
@@ -124,13 +124,14 @@ struct Budget {
   double usual_cost = -std::numeric_limits<double>::infinity();
 };
 
+/// The answer of a search.
 struct OptimizerResult {
   Eigen::VectorXd point;  ///< the best point evaluated
   double cost = std::numeric_limits<double>::infinity();
   std::int64_t evaluations = 0;
 };
 
-/// How an optimizer uses ResidualCost::linearize(), which is computed on the CPU only.
+/// An optimizer's use of ResidualCost::linearize(), which is computed on the CPU only.
 enum class Linearization {
   unused,
   welcome,  ///< used if available

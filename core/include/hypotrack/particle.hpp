@@ -27,6 +27,7 @@ struct Constriction {
   bool operator==(const Constriction&) const = default;
 };
 
+/// Position and velocity of a particle in one dimension.
 struct Motion {
   double position;
   double velocity;

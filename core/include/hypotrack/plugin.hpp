@@ -71,7 +71,7 @@ class HYPOTRACK_API PluginLoader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a plugin's constructor may use besides its parameters: the scene, the loader and its node.
+/// Services for a plugin's constructor: the scene, other plugins, and the node of its parameters.
 class HYPOTRACK_API PluginContext {
  public:
   PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,

@@ -13,6 +13,7 @@
 HYPOTRACK_PIXEL_BEGIN();
 namespace hypotrack::HYPOTRACK_TARGET {
 
+/// A surface point in the other view.
 template <class F>
 struct Mapped {
   F u, v;           ///< pixels

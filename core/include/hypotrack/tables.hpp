@@ -24,12 +24,14 @@
 
 namespace hypotrack {
 
+/// A row of a table of states.
 struct StateRow {
   int frame = 0;
   double time = 0;        ///< seconds; 0 without a time column
   Eigen::VectorXd state;  ///< Scene::dimension() numbers
 };
 
+/// A row of a table of landmarks.
 struct LandmarkRow {
   int frame = 0;
   double time = 0;             ///< seconds; 0 without a time column
@@ -44,6 +46,7 @@ struct LandmarkRow {
 HYPOTRACK_API std::vector<StateRow> read_states(const std::filesystem::path& file,
                                                 const Scene& scene);
 
+/// Options of read_landmarks().
 struct LandmarkTableOptions {
   double metres_per_unit = 1;  ///< 1e-3 for a table in millimetres
   /// `name=landmark` assigns a column triple of the file to a landmark of the scene; `name=` drops

@@ -42,7 +42,7 @@ struct ObjectiveTerm {
   std::string name = {};  ///< for messages
 };
 
-/// How residuals are used.
+/// The use of residuals by an optimizer.
 struct ResidualUse {
   bool wanted = false;
   Linearization linearization = Linearization::unused;  ///< of the wanted residuals

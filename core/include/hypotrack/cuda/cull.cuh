@@ -26,6 +26,7 @@ __device__ __forceinline__ float most(float a, float b, float c) { return fmaxf(
 struct Span {
   int first, last;
 };
+/// Returns the pixels between the smallest and the largest of three coordinates.
 __device__ __forceinline__ Span pixel_span(float a, float b, float c, int size) {
   return {round_up(fmaxf(least(a, b, c), 0.0f)),
           round_down(fminf(most(a, b, c), exact_float(size - 1)))};
@@ -118,9 +119,9 @@ __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, i
   return longest < kPixelsPerThread ? Coverage::few : Coverage::many;
 }
 
-/// Lists the triangles, of `count`, that may cover pixels of the rows y0 <= y < y1 in a view or,
-/// with kPair, in either view of a pair. The first warp takes the last triangles and so never more
-/// than another warp, because one of its threads may arrive late.
+/// Lists the triangles that may cover rows y0 <= y < y1 of a view or, with kPair, of either view of
+/// a pair. `count` is the number of triangles. The first warp takes the last triangles and so never
+/// more than another warp, because one of its threads may arrive late.
 template <bool kPair, bool kShared>
 __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
                                      const Vertices<kShared>& vertices, int width, int width2,

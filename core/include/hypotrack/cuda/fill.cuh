@@ -64,6 +64,7 @@ struct Planes {
   }
 };
 
+/// Computes the planes of a triangle in a view `width` pixels wide.
 __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int first_row) {
   Planes p;
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
@@ -170,9 +171,9 @@ class FewRows {
   }
 
  private:
-  // shape_ packs, from bit 0: one bit per edge whose inner side is to the right; the second-view
-  // bit; the last column; the index of the triangle's first row among the warp's rows; and the
-  // number of its rows above the first drawn one.
+  // shape_ packs, from bit 0: one bit per edge whose inner side is to the right, the second-view
+  // bit and the last column. Then follow the index of the triangle's first row among the warp's
+  // rows, and the number of its rows above the first drawn one.
   static constexpr int kSecond = 3, kLast = 4, kBegin = 7, kSkipped = 16;
   static_assert(kPixelsPerThread <= 8 && kWarp * kPixelsPerThread < 1 << (kSkipped - kBegin));
 

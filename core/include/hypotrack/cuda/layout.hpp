@@ -19,6 +19,7 @@ struct Turn {
   std::int32_t parameter;  ///< index into the scene's state
 };
 
+/// A bone of a scene.
 struct BoneLayout {
   std::int32_t parent;  ///< index into the scene's bones; -1 = its model's pose
   std::int32_t model;
@@ -28,6 +29,7 @@ struct BoneLayout {
   float bone_from_model[12];   ///< at the bind pose
 };
 
+/// A model of a scene: its part of the state.
 struct ModelLayout {
   std::int32_t offset;  ///< index of its first parameter in the state
   std::int32_t dimension;
@@ -81,9 +83,10 @@ struct alignas(16) FrameLayout {
   float work_ends[kMostBands + 1];
 };
 
-/// Flags of a tile's pixel: blue | green << 8 | red << 16 | flags << 24.
+/// Flags of a tile's pixel, which is blue | green << 8 | red << 16 | flags << 24.
 inline constexpr std::uint32_t kValidFlag = 1u << 24;       ///< lies inside the source image
 inline constexpr std::uint32_t kForegroundFlag = 2u << 24;  ///< inside the mask, and valid
+/// The images of a tile on the device.
 struct TileLayout {
   std::int32_t width, height;
   const std::uint32_t* pixels;  ///< row by row without gaps

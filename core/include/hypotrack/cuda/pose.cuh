@@ -31,6 +31,7 @@ __device__ __forceinline__ Quaternion<Real> multiply(const Quaternion<Real>& a,
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
 
+/// Returns the unit quaternion of a rotation vector.
 template <class Real>
 __device__ __forceinline__ Quaternion<Real> rotation_exp(Real x, Real y, Real z) {
   const Real angle = sqrt(x * x + y * y + z * z);

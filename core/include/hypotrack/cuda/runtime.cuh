@@ -35,6 +35,7 @@ inline void check(cudaError_t status, const char* doing) {
   throw DeviceError(message);
 }
 
+/// Returns the CUDA stream of a Stream.
 inline cudaStream_t native(Stream stream) { return static_cast<cudaStream_t>(stream.handle); }
 
 /// Device memory for `size()` objects of T; it never shrinks.

@@ -11,6 +11,7 @@
 /// Per-pixel features that a Term reads from a pair's tiles: `texels.template at<view>(x, y)`.
 namespace hypotrack::cuda {
 
+/// A Term that reads a Texel per pixel.
 template <class Term>
 concept HasTexels = requires {
   typename Term::Texel;
