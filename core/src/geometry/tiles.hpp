@@ -56,8 +56,8 @@ class HYPOTRACK_API TileMaker {
   void leave_out(const std::vector<bool>& models);
 
   /// Returns the share of the models' vertices that every image shows, ignoring occlusion. Returns
-  /// 0 if any lies behind a camera, so that no tile exists. Call it from one thread at a time. For
-  /// the state of the last call of this or plan(), the result is cached.
+  /// 0 if any lies behind a camera, so that no tile exists. Call it from one thread at a time. The
+  /// last state's pose is cached, for this function and plan().
   double visible_share(const Eigen::VectorXd& state) const;
 
   /// Returns where the scene posed in `state` lies in the frame's masks. It is fast if the scene
