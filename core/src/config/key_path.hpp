@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "config/yaml_node.hpp"
+#include "hypotrack/export.hpp"
 
 namespace hypotrack::detail {
 
 /// Splits a path such as `models.0.type` into its steps.
-std::vector<std::string> split_path(std::string_view path);
+HYPOTRACK_API std::vector<std::string> split_path(std::string_view path);
 
 /// Returns a step as a list index, or nothing if it is not a number.
 std::optional<std::size_t> as_index(std::string_view step);

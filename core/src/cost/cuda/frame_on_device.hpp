@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cost/cuda/device.hpp"
+#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/tile_upload.hpp"
+#include "cost/evaluator.hpp"
+#include "hypotrack/cuda/runtime.cuh"
+
+namespace hypotrack::cuda {
+
+/// A frame on the GPU and the terms that score its hypotheses, all on one stream.
+class FrameOnDevice {
+ public:
+  /// All terms must have a device objective. Throws DeviceError if the GPU or the scene is
+  /// unusable.
+  FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                const EvaluateSettings& settings);
+  ~FrameOnDevice();
+  FrameOnDevice(const FrameOnDevice&) = delete;
+  FrameOnDevice& operator=(const FrameOnDevice&) = delete;
+
+  const Device& device() const { return device_; }
+  Stream stream() const { return device_.stream(); }
+  const std::vector<ObjectiveTerm>& terms() const { return terms_; }
+
+  /// Makes the GPU the calling thread's and waits for the previous frame's work. Its uploads may
+  /// still read staging memory if the frame was never searched or its search failed.
+  void finish();
+
+  /// Uploads a frame whose tiles are on the CPU; call finish() first.
+  void prepare(const Observation& observation);
+  /// Prepares a frame whose tiles are already on the GPU.
+  void prepare(const DeviceObservation& observation);
+
+  /// Allocates memory for batches of `count` hypotheses. If there is too little, throws
+  /// DeviceError, which says how many would fit.
+  void reserve(std::int64_t count);
+  /// Allocates memory for batches of `count` hypotheses, and calls `more` to allocate whatever else
+  /// such a batch needs.
+  void reserve(std::int64_t count, const std::function<void(std::int64_t)>& more);
+
+  /// Enqueues all terms for a batch; sets `batch.weight` and `batch.add`.
+  void enqueue(BatchLayout batch);
+  /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
+  /// `batch.weight`.
+  bool enqueue_search(BatchLayout batch, const SwarmSearch& search);
+  /// Enqueues all terms with their residuals: residual_count() per hypothesis, term after term,
+  /// each times the root of its weight. The terms must be a sum of squares (TermResiduals).
+  void enqueue(BatchLayout batch, float* residuals);
+  /// Enqueues all terms for hypotheses that are already drawn.
+  void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
+
+  /// Returns true if every term has residuals on the GPU.
+  bool has_residuals() const;
+  /// Returns the number of residuals per hypothesis of the prepared frame.
+  std::int64_t residual_count() const;
+  /// See Evaluator::pose_only_residuals().
+  std::vector<ResidualRows> pose_only_residuals() const;
+
+  /// Returns a number that grows whenever a term's revision() does.
+  std::uint64_t revision() const;
+
+ private:
+  template <class Enqueue>
+  void add_up(BatchLayout& batch, const Enqueue& enqueue);
+  void clear_costs_without_terms(const BatchLayout& batch);
+
+  Device device_;
+  DeviceScene scene_;
+  std::vector<ObjectiveTerm> terms_;
+  std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
+  TileUpload upload_;
+  DeviceObservation observation_;
+};
+
+}  // namespace hypotrack::cuda

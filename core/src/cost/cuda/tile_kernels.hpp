@@ -1,0 +1,20 @@
+#pragma once
+
+#include "cost/cuda/tile_pixels.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
+
+namespace hypotrack::cuda {
+
+/// Everything that the tile kernels of a frame read and write; pointers are to device memory.
+struct FrameCut {
+  ViewCut views[kMaxViews];
+  std::int32_t view_count;
+  FrameLayout layout;
+  FrameLayout* layout_to;  ///< address from which search kernels read the layout
+};
+
+/// Enqueues the resampling of all tiles and the copy of the layout. All uploads that the views
+/// point to must be enqueued before.
+void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream stream);
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/observation.hpp"
+#include "scene/posed_scene.hpp"
+
+namespace hypotrack::cuda {
+
+/// The type of FrameLayout::work_ends.
+using WorkEnds = std::array<float, kMostBands + 1>;
+
+/// Returns equal work for every row.
+HYPOTRACK_API WorkEnds even_work();
+
+/// Estimates the work per row of hypotheses like a posed scene in the first camera's tile, from a
+/// sample of its triangles. A row's work is its surface pixels, a constant per triangle, and half
+/// of the average row's pixels.
+WorkEnds work_of(const PosedScene& scene, const TileCamera& tile);
+
+}  // namespace hypotrack::cuda

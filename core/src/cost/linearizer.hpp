@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "cost/evaluator.hpp"
+#include "hypotrack/observation.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// Computes normal equations of the terms' residuals from one drawn hypothesis. PixelRows handles
+/// pixels; terms that need no rendering use differences. The result does not depend on the number
+/// of threads.
+class Linearizer {
+ public:
+  /// Returns true if every term (of a sum of squares) needs no rendering or has slopes.
+  static bool can_linearize(const std::vector<ObjectiveTerm>& terms);
+
+  /// The scene must outlive it. `threads` 0 means one per core.
+  Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads);
+  ~Linearizer();
+
+  /// Sets the cameras of a frame's tiles. The terms must be prepared for that frame.
+  void prepare(const Observation& observation);
+
+  /// Computes the normal equations as ResidualCost::linearize(), for normalised states.
+  NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
+                            double blur);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cost/raster_kernels.hpp"
+#include "hypotrack/export.hpp"
+#include "scene/scene_plan.hpp"
+
+namespace hypotrack {
+
+/// A hypothesis drawn in one view, with its projected vertices at D neighbouring points.
+struct DrawnView {
+  const ScenePlan* plan = nullptr;
+  const ViewProjection* view = nullptr;
+  const VisibleTriangles* visible = nullptr;
+  bool second = false;             ///< second view of a rectified pair
+  const float* tile = nullptr;     ///< inverse depth, `view->stride` x height
+  const float* records = nullptr;  ///< of the drawn vertices
+  /// D records with one parameter changed, and 1 / the change (0 = ignore).
+  const float* const* beside = nullptr;
+  const float* per_step = nullptr;
+  int dimension = 0;
+};
+
+/// Residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.
+struct PixelSlopes {
+  const float* residuals = nullptr;
+  const float* slopes = nullptr;
+  float blur = 1;  ///< pixels over which a crossing silhouette changes a residual
+};
+
+/// Accumulates J^T J and J^T r of pixel residuals, from slopes and the motion of the drawn surface.
+///
+/// Interior pixels: a pixel looks along a fixed ray. When the surface moves, its inverse depth w on
+/// the ray changes by dw = w' - grad w . p'. Here p' and w' are the motions of the surface point in
+/// the image and of its inverse depth. p', w' and w are linear within each triangle's image. The
+/// row of J is slope * dw.
+///
+/// Silhouettes: when a silhouette moves, pixels change between the surface and its background. Let
+/// p be the last pixel on the surface and q the first one beyond. Per pixel of outward motion, the
+/// sum of squares changes by r_p^2 - r_q^2. This is the boundary integral of a shape derivative;
+/// the staircase of pixel edges, each with the motion across it, has the same integral. A residual
+/// that changes from r_q to r_p over `blur` pixels has the row (r_p - r_q) / sqrt(blur) and the
+/// residual (r_p + r_q) / 2 sqrt(blur). They give the exact gradient and a curvature that decreases
+/// with the blur.
+class HYPOTRACK_API PixelRows {
+ public:
+  /// Begins a view. The data that `drawn` refers to must live until the last add(). `width` and
+  /// `height` of the tile come from the view.
+  void begin(const DrawnView& drawn);
+
+  /// Adds the rows of a term to the sums.
+  void add(const PixelSlopes& term);
+
+  /// Returns the number of columns of the sums: D + 1, rounded up to whole vectors.
+  std::size_t columns() const { return columns_; }
+  /// Returns J^T J, with r as the last column of J: columns() x columns() numbers, valid where row
+  /// <= column < D + 1.
+  const std::vector<float>& sums() const { return sums_; }
+
+ private:
+  DrawnView drawn_;
+  std::size_t columns_ = 0;
+  std::vector<float> sums_;
+  std::vector<std::uint8_t> taken_;  // per pixel: whether its triangle is known
+  std::vector<std::uint8_t> known_;  // per vertex: whether its motion is computed
+  AlignedFloats motion_;             // per vertex 3 x columns: of x, y and 1/z
+  std::size_t motion_size_ = 0;
+};
+
+}  // namespace hypotrack

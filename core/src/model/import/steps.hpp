@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hypotrack/mesh_io.hpp"
+#include "model/import/weld.hpp"
+#include "model/import/wire.hpp"
+
+// The steps of import_mesh() after the reader program has read the file, in their order.
+namespace hypotrack {
+
+struct MeshFile {
+  std::filesystem::path path;
+  MeshImportOptions options;
+  mesh_wire::Scene scene;
+
+  /// Throws a DataError that begins with the path.
+  [[noreturn]] void fail(const std::string& what) const;
+};
+
+/// All parts of a file concatenated, in metres, before vertices are welded.
+struct Soup {
+  Eigen::Matrix3Xf points;
+  Eigen::Matrix3Xi triangles;
+  std::vector<Eigen::Vector2f> uvs;                 // empty or one per point
+  std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
+};
+
+/// The result of welding a soup: its vertices and non-degenerate triangles.
+struct Welded {
+  std::vector<int> same;       // per point: index of its representative (weld_points())
+  std::vector<int> triangles;  // indices of the triangles with distinct corners and an area
+  std::vector<int> points;     // per vertex of the mesh: index of its point
+  std::vector<int> vertex;     // per representative point: index of its vertex, or -1
+};
+
+std::vector<ImportedBone> convert_bones(const MeshFile& file);
+
+/// Throws DataError on indices out of range, numbers that are not finite and negative weights.
+void check_part(const MeshFile& file, const mesh_wire::MeshPart& part);
+
+/// Checks every part and concatenates them.
+Soup join_parts(const MeshFile& file);
+
+/// Throws DataError unless bones move every vertex of a skinned part, with weights that sum to 1.
+/// The part begins at point `first`.
+void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, const Soup& soup,
+                       std::size_t first);
+
+/// Fills the mesh's vertices and triangles and returns how they relate to the soup.
+Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
+
+/// Fills the bone influences; a welded vertex has the mean of its copies' influences.
+void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
+
+/// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
+void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
+
+/// Fills texture or colour; removes the texture coordinates if there is no texture.
+void fill_appearance(const MeshFile& file, Mesh& mesh);
+
+}  // namespace hypotrack

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
+
+#include "camera/lens_map.hpp"
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/observation.hpp"
+#include "tile/color_map.hpp"
+
+namespace hypotrack {
+
+/// Antialiasing of a reduction: means over blocks x blocks image pixels, then samples x samples
+/// bilinear lookups per tile pixel.
+struct ReductionPlan {
+  int blocks = 1;
+  int samples = 1;
+};
+
+/// The parameters of a tile's resampling besides the tile's camera.
+struct CutPlan {
+  ReductionPlan reduction;
+  /// The part of the image that the lookups read, in whole blocks from the image's corner. Lookups
+  /// outside read its nearest pixel. Trailing pixels of the image that fill no block are excluded.
+  cv::Rect touched;
+  /// Map of the tile's colours; the identity from plan_cut().
+  ColorMap colors;
+  /// Brightness to add to every channel after `colors`, 0 .. 255 (32-bit float, tile size). Empty
+  /// from plan_cut(): adds nothing. Only Resampler::cut() applies it.
+  cv::Mat brightness;
+};
+
+/// Makes the lens map of a camera; `camera_from_ideal` is a rotation.
+HYPOTRACK_API LensMap make_lens_map(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
+HYPOTRACK_API TileIntrinsics intrinsics(const TileCamera& tile);
+
+/// Returns the image pixels per tile pixel at the tile's centre (square root of the area ratio).
+HYPOTRACK_API double scale_at_centre(const LensMap& map, const TileCamera& tile);
+
+/// Plans the antialiasing of a reduction. Up to 1.15 image pixels per tile pixel it is a plain
+/// bilinear lookup. Above, the lookups lie at most 1.15 image pixels (or blocks) apart, so that
+/// every image pixel counts.
+HYPOTRACK_API ReductionPlan plan_reduction(double scale);
+
+/// Plans a tile with `scale` image pixels per tile pixel. It samples only a few pixels of the tile,
+/// because lenses are smooth.
+HYPOTRACK_API CutPlan plan_cut(const LensMap& map, const TileCamera& tile, cv::Size image,
+                               double scale);
+
+}  // namespace hypotrack

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/observation.hpp"
+#include "tile/cut_plan.hpp"
+
+namespace hypotrack {
+
+/// Image positions of all pixels of a tile and a margin of one pixel.
+struct ImageMap {
+  cv::Mat x, y;  ///< 32-bit float, (size + 2)^2; far outside where the camera cannot see
+};
+
+/// Adds a brightness per pixel (32-bit float) to an image (8-bit BGR). An empty `by` adds nothing.
+HYPOTRACK_API cv::Mat brightened(const cv::Mat& color, const cv::Mat& by);
+
+/// Resamples tiles from one camera's images: lens, rotation, crop and scale in one lookup.
+class HYPOTRACK_API Resampler {
+ public:
+  Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
+
+  const LensMap& lens() const { return lens_; }
+  cv::Size image_size() const { return image_; }
+
+  /// Returns the map of a tile; it uses only the intrinsics of the tile camera.
+  ImageMap map(const TileCamera& tile) const;
+
+  /// Resamples a tile's validity and the colour, mask and depth that the view has. `view` has the
+  /// camera's size. Colour outside the image repeats its border, so that no edge appears there.
+  /// Depth comes from the nearest pixel, along the tile's optical axis, and is 0 outside.
+  TileView cut(const View& view, const TileCamera& tile, const CutPlan& plan) const;
+
+ private:
+  LensMap lens_;
+  cv::Size image_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/observation.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/scene.hpp"
+#include "scene/posed_scene.hpp"
+#include "tile/on_foreground.hpp"
+#include "tile/resample.hpp"
+
+namespace hypotrack {
+
+/// Parameters of a scene's `tile:` section.
+struct TileSettings {
+  int size = 128;
+  double padding = 0.2;
+  void visit(ParamVisitor& v) {
+    v("size", size, {.help = "pixels along one side of a view's tile", .min = 16, .max = 1024});
+    v("padding", padding,
+      {.help = "margin around the last solution, each side, as a share of its size",
+       .min = 0,
+       .max = 2});
+  }
+};
+
+/// Everything that resampling a frame's tiles needs besides its pixels.
+struct TilePlan {
+  Observation header;         ///< the observation without images
+  std::vector<CutPlan> cuts;  ///< one per view
+};
+
+/// Crops the region around a hypothesis from every view of a frame. One resampling step undistorts
+/// it, scales it to a square tile and rectifies nearly parallel pairs.
+class HYPOTRACK_API TileMaker {
+ public:
+  /// The scene must outlive the tile maker.
+  TileMaker(const Scene& scene, std::vector<Camera> cameras, const TileSettings& settings);
+  ~TileMaker();
+  TileMaker(const TileMaker&) = delete;
+  TileMaker& operator=(const TileMaker&) = delete;
+
+  /// Returns true if the pair is parallel enough to be rectified.
+  bool rectifies() const;
+
+  /// Returns one resampler per camera.
+  std::span<const Resampler> resamplers() const;
+
+  /// Excludes models from tiles and shares from now on: one flag per model, not all set.
+  void leave_out(const std::vector<bool>& models);
+
+  /// Returns the share of the models' vertices that every image shows, ignoring occlusion. Returns
+  /// 0 if any lies behind a camera, so that no tile exists. Call it from one thread at a time. The
+  /// last state's pose is cached, for this function and plan().
+  double visible_share(const Eigen::VectorXd& state) const;
+
+  /// Returns where the scene posed in `state` lies in the frame's masks. It is fast if the scene
+  /// covers much of the foreground.
+  OnForeground on_foreground(const Frame& frame, const Eigen::VectorXd& state) const;
+
+  /// Returns the scene posed in `state`, cached for the last state. Call it from one thread at a
+  /// time.
+  const PosedScene& posed(const Eigen::VectorXd& state) const;
+
+  /// Plans the tiles around the scene posed in `state`, without reading pixels. Call it from one
+  /// thread at a time. Throws DataError if the frame's views do not match the cameras in number or
+  /// size, or if the posed scene lies at or behind a camera.
+  TilePlan plan(const Frame& frame, const Eigen::VectorXd& state) const;
+
+  /// Resamples the tiles of a frame by its plan.
+  Observation cut(const Frame& frame, const TilePlan& plan) const;
+
+  /// Plans and resamples the tiles of a frame.
+  Observation make(const Frame& frame, const Eigen::VectorXd& state) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack
