@@ -6,12 +6,12 @@
 
 namespace hypotrack {
 
-/// An 8-bit pixel, for the CPU and for CUDA.
+/// An 8-bit BGR pixel for CPU and CUDA code.
 struct Bgr {
   std::uint8_t b, g, r;
 };
 
-/// Luma of ITU-R BT.601, 0 .. 1.
+/// Returns the ITU-R BT.601 luma of a pixel, 0 to 1.
 HYPOTRACK_PIXEL float gray_level(Bgr p) {
   return (0.299f * static_cast<float>(p.r) + 0.587f * static_cast<float>(p.g) +
           0.114f * static_cast<float>(p.b)) /

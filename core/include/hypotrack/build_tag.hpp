@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <opencv2/core/version.hpp>
 
-// Everything that must agree between core and a plugin before C++ objects may cross: compiler ABI,
-// standard, string ABI, Eigen and its alignment, OpenCV, sanitizers.
+// The build tag names all that core and a plugin must share before C++ objects may cross: C++
+// standard, compiler ABI, string ABI, Eigen and its alignment, OpenCV and sanitizer.
 #define HYPOTRACK_TAG_(x) #x
 #define HYPOTRACK_TAG(x) HYPOTRACK_TAG_(x)
 

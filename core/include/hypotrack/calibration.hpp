@@ -18,14 +18,14 @@ enum class LengthUnit { m, cm, mm };
 HYPOTRACK_API std::span<const std::string_view> enum_names(LengthUnit);
 HYPOTRACK_API std::span<const std::string_view> enum_names(DistortionModel);
 
-/// `calibration:` of a source: OpenCV YAML in one of three forms. Matrices are OpenCV's
-/// (`!!opencv-matrix`) or plain lists of numbers.
+/// Parameters of a source's `calibration:` section, which names an OpenCV YAML file of one of three
+/// forms. Matrices are OpenCV's (`!!opencv-matrix`) or plain lists of numbers.
 ///
-/// 1. As OpenCV's stereo_calib writes it, in one file or two: M1 D1 M2 D2 and R T with
+/// 1. Stereo, as OpenCV's stereo_calib writes it, in one file or two: M1 D1 M2 D2 and R T with
 ///    p_second = R p_first + T. (K1/K2 or cameraMatrix1/2 for M, distCoeffs1/2 for D are fine.)
 /// 2. One camera, as OpenCV's calibration program writes it: camera_matrix,
 ///    distortion_coefficients.
-/// 3. Any number of cameras, the project's own form:
+/// 3. Any number of cameras, in hypotrack's own form:
 ///
 ///      %YAML:1.0
 ///      ---
@@ -72,16 +72,17 @@ struct CalibrationSettings {
   }
 };
 
-/// The cameras of a calibration; the first is the world unless the file gives it a pose (form 3).
-/// A camera's width and height are 0 where neither file nor settings say; fit_image_size fills them
-/// in. Throws DataError, naming file and line, on unreadable files, XML and JSON, missing matrices,
-/// wrong sizes, NaN, skewed or upside-down intrinsics, an R that is no rotation or mirrored,
-/// unsupported numbers of distortion coefficients, and implausible baselines (a file in millimetres
-/// read as metres).
+/// Loads the cameras of a calibration file. The first camera is the world unless the file gives it
+/// a pose (form 3). A camera's width and height are 0 if neither file nor settings give them;
+/// fit_image_size() then sets them.
+/// Throws DataError, naming file and line, on unreadable files, XML, JSON, missing matrices, wrong
+/// sizes and NaN. It also rejects skewed or upside-down intrinsics, an R that is not a rotation and
+/// unsupported numbers of distortion coefficients. Baselines must be plausible, which detects
+/// millimetres read as metres.
 HYPOTRACK_API std::vector<Camera> load_calibration(const CalibrationSettings& settings);
 
-/// Gives a camera the size of its images, or throws DataError, naming `where`, if it is calibrated
-/// for another size.
+/// Sets a camera's size to that of its images. Throws DataError, naming `where`, if the camera is
+/// calibrated for another size.
 HYPOTRACK_API void fit_image_size(Camera& camera, int width, int height, std::string_view where);
 
 }  // namespace hypotrack

@@ -9,15 +9,15 @@
 
 namespace hypotrack {
 
-/// Lens distortion with the meaning and the coefficient order of OpenCV.
+/// Lens distortion model, with OpenCV's equations and coefficient order.
 enum class DistortionModel {
   none,     ///< pinhole
   brown,    ///< k1 k2 p1 p2 [k3 [k4 k5 k6]]: 4, 5 or 8 coefficients
   fisheye,  ///< k1 k2 k3 k4: cv::fisheye
 };
 
-/// A calibrated camera. Pixel centres are at integers (the top-left pixel covers
-/// [-0.5, 0.5] x [-0.5, 0.5]); axes are OpenCV's: x right, y down, z forward; lengths are metres.
+/// A calibrated camera with OpenCV's axes: x right, y down, z forward. Lengths are metres. Pixel
+/// centres are at integers: the top-left pixel covers [-0.5, 0.5] x [-0.5, 0.5].
 struct Camera {
   int width = 0;
   int height = 0;
@@ -30,12 +30,13 @@ struct Camera {
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
 };
 
-/// Pixel of a point in world coordinates, lens distortion included; NaN at or behind the camera.
+/// Projects a world point to a pixel, lens distortion included. Returns NaN for points at or behind
+/// the camera.
 HYPOTRACK_API Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world);
 
-/// Throws DataError, naming `where`, unless sizes and focal lengths are positive, everything is
-/// finite, the number of coefficients fits the model and the rotation is orthonormal with
-/// determinant +1 within 1e-4.
+/// Throws DataError, naming `where`, if a camera is invalid. Sizes and focal lengths must be
+/// positive, all numbers finite, and the number of coefficients must fit the model. The rotation
+/// must be orthonormal with determinant +1, within 1e-4.
 HYPOTRACK_API void validate(const Camera& camera, std::string_view where);
 
 }  // namespace hypotrack

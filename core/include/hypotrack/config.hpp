@@ -17,74 +17,77 @@ namespace detail {
 struct YamlNode;
 }
 
-/// A read-only node of a YAML file that remembers where it was written. Cheap to copy. Plugins that
-/// describe their parameters with a `visit` (params.hpp) rarely need it; it carries nested plugins.
+/// A read-only YAML node that remembers where it was written. Cheap to copy. Plugins describe their
+/// parameters with `visit` (params.hpp) and rarely need it, except to pass on a nested plugin.
 class HYPOTRACK_API ConfigNode {
  public:
-  /// An undefined node: neither map, list nor scalar.
+  /// Creates an undefined node: no map, list or scalar.
   ConfigNode();
 
-  /// Reads a YAML file. Throws ConfigError on unreadable files, broken YAML, duplicate keys,
-  /// aliases, tags, several documents, files over 8 MiB or a million values and nesting over 64
-  /// levels. An empty file is an empty map.
+  /// Reads a YAML file; an empty file is an empty map. Throws ConfigError on unreadable files,
+  /// broken YAML, duplicate keys, aliases, tags and several documents. The limits are 8 MiB, a
+  /// million values and 64 levels of nesting.
   static ConfigNode load(const std::filesystem::path& file);
 
-  /// Reads a scene: the same, and a text `@FILE.yaml` is what the scene FILE has at the same place,
-  /// `@FILE.yaml#key.path` what it has there. Overrides are `key.path=value` (list items by index:
-  /// `models.0.type=hand`); the value is YAML and relative paths in it are relative to the working
-  /// directory. Absent keys on the way are created, and so is the item after a list's last one.
-  /// Throws ConfigError also on overrides that do not parse and on parts that are not there.
+  /// Reads a scene file, replaces its references to other scenes and applies the overrides.
+  /// `@FILE.yaml` stands for the value at the same path in the scene FILE, `@FILE.yaml#key.path`
+  /// for the value at that path.
+  /// An override is `key.path=value`, with list items by index: `models.0.type=hand`. The value is
+  /// YAML; its relative paths refer to the working directory. Absent keys on the way are created,
+  /// and so is the item after a list's last one.
+  /// Throws ConfigError as load() does, and on overrides that do not parse or references that do
+  /// not exist.
   static ConfigNode load_scene(const std::filesystem::path& file,
                                std::span<const std::string> overrides = {});
 
-  /// Reads a text as load() reads a file; `name` takes the place of the file name in messages, and
-  /// `directory` is what relative paths refer to (the working directory if empty).
+  /// Parses YAML text under the rules of load(). `name` replaces the file name in messages.
+  /// Relative paths refer to `directory`, or to the working directory if it is empty.
   static ConfigNode parse(std::string_view text, std::string name,
                           std::filesystem::path directory = {});
 
   bool defined() const;
   bool is_map() const;
   bool is_list() const;
-  /// A value without further structure; `null` is one, too.
+  /// Returns true for a value without structure, `null` included.
   bool is_scalar() const;
-  /// `null`, `~` or nothing at all after a key.
+  /// Returns true for `null`, `~` or a key without a value.
   bool is_null() const;
 
-  /// Number of entries of a map or list, otherwise 0.
+  /// Returns the number of entries of a map or list, otherwise 0.
   std::size_t size() const;
-  /// Keys of a map, in the order of the file.
+  /// Returns the keys of a map in the order of the file.
   std::vector<std::string> keys() const;
-  /// The value under a key; undefined if this is no map or has no such key. An undefined node still
-  /// says where() its parent is and what its path() would be.
+  /// Returns the value of a key, or an undefined node if this is not a map or lacks the key. An
+  /// undefined node still knows its path(), and its where() is that of its parent.
   ConfigNode get(std::string_view key) const;
-  /// Item of a list; undefined if there is none.
+  /// Returns an item of a list, or an undefined node if there is none.
   ConfigNode at(std::size_t index) const;
-  /// Text of a scalar.
+  /// Returns the text of a scalar.
   const std::string& scalar() const;
-  /// Whether a scalar was written without quotes and so may be read as number, bool or null.
+  /// Returns true for a scalar without quotes, which may be read as a number, bool or null.
   bool is_plain() const;
 
-  /// Where the node was written: `scene.yaml:12:5` (line and column from 1, as editors count), or
-  /// the override it comes from: `--set models.0.type=hand`.
+  /// Returns where the node was written: `scene.yaml:12:5` (line and column from 1), or the
+  /// override it comes from: `--set models.0.type=hand`.
   std::string where() const;
-  /// Where a key of this map was written; where() if there is no such key.
+  /// Returns where a key of this map was written, or where() if there is no such key.
   std::string where_key(std::string_view key) const;
-  /// The keys that lead here from the root, `models.0.type`; empty at the root.
+  /// Returns the keys that lead here from the root, `models.0.type`; empty at the root.
   std::string path() const;
-  /// The same value as if it were at another path: a default for a key that a document lacks.
+  /// Returns this node at another path, for example as the default of a key that a document lacks.
   ConfigNode placed_at(std::string path) const;
-  /// The folder that relative paths in this node refer to.
+  /// Returns the folder that relative paths in this node refer to.
   const std::filesystem::path& directory() const;
-  /// The node as YAML text, without comments: block style, lists of scalars on one line. Reading it
-  /// gives the same node again.
+  /// Writes the node as YAML without comments: block style, lists of scalars on one line. Reading
+  /// the text gives an equal node.
   std::string to_yaml() const;
 
  private:
   explicit ConfigNode(std::shared_ptr<const detail::YamlNode> node);
   ConfigNode missing(std::string_view step) const;
 
-  std::shared_ptr<const detail::YamlNode> node_;  ///< keeps the whole document alive
-  std::optional<std::string> missing_;  ///< path below `node_` of a node that is not there
+  std::shared_ptr<const detail::YamlNode> node_;  ///< owns the whole document
+  std::optional<std::string> missing_;            ///< path of an absent node below `node_`
 };
 
 }  // namespace hypotrack

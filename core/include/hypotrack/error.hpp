@@ -7,8 +7,8 @@
 
 namespace hypotrack {
 
-/// Base of everything hypotrack throws on purpose. The message is complete: where, what was found,
-/// what was expected, what to do. The program prints it as it is and exits non-zero.
+/// Base of all exceptions that hypotrack throws. The message is complete: where, what was found,
+/// what was expected, what to do. The program prints it and exits non-zero.
 class HYPOTRACK_API Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message);
@@ -17,28 +17,28 @@ class HYPOTRACK_API Error : public std::runtime_error {
   ~Error() override;
 };
 
-/// A scene, a parameter or a command line that cannot be used.
+/// An invalid scene, parameter or command line.
 class HYPOTRACK_API ConfigError : public Error {
  public:
   using Error::Error;
   ~ConfigError() override;
 };
 
-/// An image, video, mesh, rig, calibration or table that cannot be used.
+/// An unusable image, video, mesh, rig, calibration or table.
 class HYPOTRACK_API DataError : public Error {
  public:
   using Error::Error;
   ~DataError() override;
 };
 
-/// A plugin that is missing, does not fit this build, or breaks its contract.
+/// A plugin that is missing, does not fit this build or breaks its contract.
 class HYPOTRACK_API PluginError : public Error {
  public:
   using Error::Error;
   ~PluginError() override;
 };
 
-/// A GPU or an OpenGL context that is missing or failed.
+/// A missing or failed GPU or OpenGL context.
 class HYPOTRACK_API DeviceError : public Error {
  public:
   using Error::Error;

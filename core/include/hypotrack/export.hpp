@@ -1,4 +1,4 @@
 #pragma once
 
-/// Marks what libhypotrack.so offers to plugins and programs; everything else stays hidden.
+/// Exports a symbol from libhypotrack.so to plugins and programs; all others stay hidden.
 #define HYPOTRACK_API __attribute__((visibility("default")))

@@ -8,36 +8,39 @@
 
 namespace hypotrack {
 
+/// Settings of fit_landmarks().
 struct LandmarkFitSettings {
-  /// Fits the model's size, too: as if everything but its position were `scale` times larger.
+  /// Fits the model's scale as well, about its position.
   bool scale = false;
-  /// Parameters whose angles are near where none is determined, a pose shortly before for example;
-  /// empty: the model's rest.
+  /// Parameter vector whose angles are the prior, for example a recent pose. Empty: the model's
+  /// rest.
   std::span<const double> prior{};
   int iterations = 100;
 };
 
-/// A pose that brings a model's landmarks onto given ones.
+/// A fitted pose and its distances from the given landmarks.
 struct LandmarkFit {
-  Eigen::VectorXd parameters;  ///< of the model, within its bounds; quaternion of unit length
+  Eigen::VectorXd parameters;  ///< within the model's bounds; unit quaternion
   double scale = 1;
-  double mean_distance = 0;  ///< metres, over the landmarks that are known
+  double mean_distance = 0;  ///< metres, over the known landmarks
   double max_distance = 0;
 };
 
-/// Damped least squares (Levenberg-Marquardt) over the known columns of `landmarks` (3xL, world,
-/// metres; a column with a NaN is unknown) from `start`, which may be some centimetres and tens of
-/// degrees off; angles are kept within their bounds. Beside the mean squared distance a radian away
-/// from the prior costs as much as 0.5 mm, so that angles that no landmark determines stay near it.
-/// Deterministic. Throws DataError if fewer than three landmarks are known or the number of columns
-/// is not the model's number of landmarks.
+/// Fits a model's parameters to landmark positions by damped least squares (Levenberg-Marquardt).
+/// `landmarks` is 3xL, world, metres; a column with a NaN is unknown. `start` may be some
+/// centimetres and tens of degrees off. Angles stay within their bounds.
+/// The cost is the mean squared distance plus a prior: an angle one radian from the prior costs as
+/// much as 0.5 mm. Angles that no landmark determines so stay near it. Deterministic.
+/// Throws DataError if fewer than three landmarks are known or `landmarks` has another number of
+/// columns than the model has landmarks.
 HYPOTRACK_API LandmarkFit fit_landmarks(const Model& model, const Eigen::Matrix3Xd& landmarks,
                                         std::span<const double> start,
                                         const LandmarkFitSettings& settings = {});
 
-/// `start` moved and turned as one rigid body so that its landmarks come nearest to the known ones
-/// (Umeyama, "Least-squares estimation of transformation parameters between two point patterns",
-/// 1991): a start for fit_landmarks where none is known. Throws where it does.
+/// Moves and turns the model of `start` rigidly so that its landmarks fit the known ones best. Use
+/// it as a start for fit_landmarks() if no better one is known. Throws as fit_landmarks() does.
+/// Source: Umeyama, "Least-squares estimation of transformation parameters between two point
+/// patterns", 1991.
 HYPOTRACK_API Eigen::VectorXd align_to_landmarks(const Model& model,
                                                  const Eigen::Matrix3Xd& landmarks,
                                                  std::span<const double> start);

@@ -10,28 +10,30 @@
 
 namespace hypotrack {
 
-/// A bone as the file has it: its node, parent node and transform at the bind pose.
+/// A bone of a mesh file with its transform at the bind pose.
 struct ImportedBone {
   std::string name;
   std::string parent;  ///< name of the nearest ancestor that is a bone; empty at the root
   Eigen::Isometry3d file_from_bone = Eigen::Isometry3d::Identity();  ///< bind pose, no scale
 };
 
-/// What a mesh file holds, in the file's own frame times `scale`.
+/// The mesh and bones of a file, in the file's axes, lengths multiplied by `scale`.
 struct ImportedMesh {
-  Mesh mesh;  ///< all meshes of the file joined, welded by position; bone_indices refer to `bones`
-  std::vector<ImportedBone> bones;  ///< empty for a rigid mesh (weights are then 4x0)
+  Mesh mesh;  ///< all meshes of the file, welded by position; bone_indices refer to `bones`
+  std::vector<ImportedBone> bones;  ///< empty for a rigid mesh, whose weights are 4x0
 };
 
+/// Options of import_mesh().
 struct MeshImportOptions {
   double scale = 1.0;                  ///< metres per unit of the file
-  std::filesystem::path texture = {};  ///< image to use instead of the one that the file names
+  std::filesystem::path texture = {};  ///< replaces the texture that the file names
 };
 
-/// Reads OBJ, PLY, STL, glTF or GLB. The import runs in a child process with a time limit, so that
-/// a damaged file cannot take the program down. Throws DataError on other formats, files over 256
-/// MiB, unreadable or damaged files, no faces, NaN vertices or weights, indices out of range,
-/// vertices of a skinned mesh that no bone holds.
+/// Imports an OBJ, PLY, STL, glTF or GLB file. A child process with a time limit reads the file, so
+/// that a damaged file cannot crash the program.
+/// Throws DataError on other formats, files over 256 MiB, unreadable or damaged files, meshes
+/// without faces, NaN vertices or weights, indices out of range, and skinned meshes with a vertex
+/// that no bone moves.
 HYPOTRACK_API ImportedMesh import_mesh(const std::filesystem::path& file,
                                        const MeshImportOptions& options = {});
 

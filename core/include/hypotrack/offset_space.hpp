@@ -11,26 +11,25 @@
 
 namespace hypotrack {
 
-// What an optimizer of a library needs around it: one unit for all dimensions, and costs that it
-// can do arithmetic with.
+// Adapters for optimizers of third-party libraries: equal units in all dimensions and finite costs.
 
-/// The dimensions that the bounds of a region leave free, as offsets from the start in units of the
-/// spread; the start is the origin.
+/// Search points as offsets from the start, in units of the spread, over the dimensions whose
+/// bounds are not equal. The start is the origin.
 class OffsetSpace {
  public:
-  /// The region must outlive it.
+  /// The region must outlive this object.
   explicit OffsetSpace(const SearchRegion& region) : region_(region) {
     for (Eigen::Index d = 0; d < region.start.size(); ++d) {
       if (region.lower[d] < region.upper[d]) free_.push_back(d);
     }
   }
 
-  /// Number of free dimensions.
+  /// Returns the number of free dimensions.
   int dimension() const { return static_cast<int>(free_.size()); }
-  /// The bounds, no further from the start than `box`; +-box may be infinite.
+  /// Returns the bounds as offsets, at most `box` from the start; `box` may be infinite.
   Eigen::VectorXd lower(double box) const { return offsets(region_.lower).cwiseMax(-box); }
   Eigen::VectorXd upper(double box) const { return offsets(region_.upper).cwiseMin(box); }
-  /// The search point of offsets, moved within the bounds.
+  /// Returns the search point at these offsets, clamped to the bounds.
   Eigen::VectorXd point(std::span<const double> offsets) const {
     Eigen::VectorXd point = region_.start;
     for (std::size_t i = 0; i < free_.size(); ++i) {
@@ -38,7 +37,7 @@ class OffsetSpace {
     }
     return within_bounds(point, region_);
   }
-  /// Offsets of a search point.
+  /// Returns the offsets of a search point.
   Eigen::VectorXd offsets(const Eigen::Ref<const Eigen::VectorXd>& point) const {
     Eigen::VectorXd offsets(dimension());
     for (int i = 0; i < dimension(); ++i) {
@@ -53,11 +52,11 @@ class OffsetSpace {
   std::vector<Eigen::Index> free_;
 };
 
-/// Puts finite penalties in the place of infinite costs: clearly worse than anything seen, in the
-/// scale of what was seen, so that models which an algorithm fits to its points stay usable.
+/// Replaces infinite costs by finite penalties above all costs seen so far. The penalty scales with
+/// those costs, so that the models which an algorithm fits to its points stay usable.
 class FiniteCosts {
  public:
-  /// The penalty before any finite cost is known.
+  /// The penalty while no finite cost is known.
   static constexpr double kUnknown = 1e10;
 
   double of(double cost) {
@@ -69,7 +68,7 @@ class FiniteCosts {
     worst_ = std::max(worst_, cost);
     return cost;
   }
-  /// The highest finite cost; -infinity before the first.
+  /// Returns the highest finite cost; -infinity before the first.
   double worst() const { return worst_; }
 
  private:

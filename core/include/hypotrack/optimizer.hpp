@@ -15,14 +15,16 @@ namespace cuda {
 class DeviceCost;
 }
 
-/// The normal equations of a linearised sum of squares, |r + J dx|^2: A = J^T J, g = J^T r.
+/// The normal equations A dx = -g of a linearised least-squares problem |r + J dx|^2. A = J^T J and
+/// g = J^T r.
 struct NormalEquations {
   Eigen::MatrixXd a;  ///< DxD
   Eigen::VectorXd g;  ///< D
 };
 
-/// Jacobians by differences of residuals that stay where they are computed: in GPU memory where a
-/// scene is evaluated there. It remembers the residuals of one point, at which it linearises.
+/// Normal equations from differences of residuals. The residuals stay where they are computed, in
+/// GPU memory for a scene evaluated there. The object keeps the residuals of one point, at which it
+/// linearises.
 class HYPOTRACK_API ResidualDifferences {
  public:
   ResidualDifferences() = default;
@@ -30,110 +32,114 @@ class HYPOTRACK_API ResidualDifferences {
   ResidualDifferences(const ResidualDifferences&) = delete;
   ResidualDifferences& operator=(const ResidualDifferences&) = delete;
 
-  /// The costs (N) of N points (DxN), each counted as one evaluation, as from
-  /// ResidualCost::evaluate().
+  /// Computes the costs (N) of N points (DxN); each point counts as one evaluation.
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
-  /// Takes residuals r of the i-th point of the last batch, whichever function that was given to.
+  /// Makes the i-th point of the last batch (of either function) the point of linearisation, with
+  /// residuals r.
   virtual void move_to(Eigen::Index i) = 0;
-  /// Costs (D) of D points (DxD), each counted as one evaluation, and from their residuals r_i the
-  /// normal equations for the J whose i-th column is (r_i - r) * scale[i]. That column is 0 where
-  /// scale[i] is 0 or the point's cost is infinite.
+  /// Computes the normal equations from the residuals r_i of D points (DxD), and the points' costs
+  /// (D). Column i of J is (r_i - r) * scale[i]. It is 0 if scale[i] is 0 or the cost is infinite.
+  /// Each point counts as one evaluation.
   virtual NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                            const Eigen::Ref<const Eigen::VectorXd>& scale,
                                            Eigen::Ref<Eigen::VectorXd> costs) = 0;
 };
 
-/// A cost function that is a sum of squares, seen square by square.
+/// A cost function that is a sum of squares, given by its residuals.
 class HYPOTRACK_API ResidualCost {
  public:
   virtual ~ResidualCost();
-  /// Number M of residuals of every point; the same during a search.
+  /// Returns the number M of residuals per point; constant during a search.
   virtual Eigen::Index count() const = 0;
-  /// Residuals (MxN) and costs (N) of N points (DxN), each counted as one evaluation. The costs are
-  /// those of CostFunction::evaluate(): they say which point is better. The sum of a point's
-  /// squared residuals is its cost plus a constant, or a stand-in for it where a cost is no sum of
-  /// squares. Residuals are finite where the cost is. Batches are evaluated in parallel.
+  /// Computes the residuals (MxN) and costs (N) of N points (DxN); each point counts as one
+  /// evaluation. The costs are those of CostFunction::evaluate() and decide which point is better.
+  /// A point's sum of squares is its cost plus a constant, or a substitute if the cost is not a sum
+  /// of squares. Residuals are finite if the cost is. Batches are evaluated in parallel.
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::MatrixXf> residuals,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
 
-  /// The same without handing residuals out, for a search by numerical Jacobians. One at a time,
-  /// outlived by this cost. The default keeps what evaluate() gives.
+  /// Creates an object that computes numerical normal equations without copying residuals out. At
+  /// most one may exist at a time, and this cost must outlive it. The default stores the results of
+  /// evaluate().
   virtual std::unique_ptr<ResidualDifferences> differences();
 
-  /// Whether linearize() is there.
+  /// Returns true if linearize() is available.
   virtual bool can_linearize() const { return false; }
-  /// The normal equations at points.col(0) without evaluating what lies beside it: points.col(1 +
-  /// i) is a point off by steps[i] in dimension i, for which surfaces are posed and not drawn.
-  /// Columns of J are per unit of a point; those of steps 0 are 0. `blur`: a silhouette that passes
-  /// a pixel changes its residual over this many pixels of the way. Counts as one evaluation.
+  /// Computes the normal equations at points.col(0), the only point that is drawn; counts as one
+  /// evaluation. points.col(1 + i) differs from it by steps[i] in dimension i; its surfaces are
+  /// posed only.
+  /// Columns of J are derivatives per unit of the search point, 0 where the step is 0. `blur`: the
+  /// residual of a pixel changes over this many pixels of motion of a silhouette that crosses it.
   virtual NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                     const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
 };
 
-/// What an optimizer minimises. One search point is a column of D numbers; what they mean (and how
-/// rotations are parametrised) is the region's business, not the optimizer's.
+/// The cost that an optimizer minimises. A search point is a column of D numbers. The search region
+/// defines their meaning, including how rotations are parametrised.
 class HYPOTRACK_API CostFunction {
  public:
   virtual ~CostFunction();
-  /// Length D of a search point.
+  /// Returns the length D of a search point.
   virtual int dimension() const = 0;
-  /// Costs (N) of N points (DxN). +infinity is infeasible; never NaN. Batches are evaluated in
-  /// parallel: hand over as many points at once as the method allows.
+  /// Computes the costs (N) of N points (DxN); +infinity is infeasible, never NaN. Batches are
+  /// evaluated in parallel, so pass as many points at once as the method allows.
   virtual void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                         Eigen::Ref<Eigen::VectorXd> costs) = 0;
-  /// The same costs for searches that stay on the GPU (hypotrack/cuda/device_cost.hpp); null if the
-  /// scene is not evaluated there.
+  /// Returns these costs for searches that stay on the GPU (hypotrack/cuda/device_cost.hpp). Null
+  /// if the scene is not evaluated on a GPU.
   virtual cuda::DeviceCost* device() { return nullptr; }
-  /// The same costs with their residuals; null if they have none. Lives as long as this one.
+  /// Returns these costs with their residuals, or null if they have none. This cost owns the
+  /// result.
   virtual ResidualCost* residuals() { return nullptr; }
 };
 
-/// Dimensions of a search point that move one part of the scene.
+/// The dimensions of a search point that move one part of the scene.
 struct SearchGroup {
   enum class Kind {
-    pose,  ///< where a model is and how it is turned
-    limb,  ///< a chain of joints, say a finger
+    pose,  ///< position and rotation of a model
+    limb,  ///< a chain of joints, such as a finger
   };
   Kind kind = Kind::limb;
   std::vector<int> dimensions;
 };
 
-/// Where to look. All vectors have length D.
+/// The start, bounds and spread of a search. All vectors have length D.
 struct SearchRegion {
   Eigen::VectorXd start;  ///< the prior's mean, within the bounds
   Eigen::VectorXd lower;  ///< hard bounds (anatomy); may be infinite
   Eigen::VectorXd upper;
-  Eigen::VectorXd spread;  ///< how far the answer may plausibly be from `start`, each side; > 0
-  /// Every dimension is in one of them. Empty: nobody knows what belongs together.
+  Eigen::VectorXd spread;  ///< plausible distance of the answer from `start`, to each side; > 0
+  /// A partition of the dimensions into groups. Empty: unknown.
   std::vector<SearchGroup> groups = {};
 };
 
-/// What a search may cost. Evaluations count single points, not batches.
+/// The limits of a search. Evaluations count single points, not batches.
 struct Budget {
   std::int64_t evaluations = 0;
   double seconds = std::numeric_limits<double>::infinity();
-  /// What recent searches lead to expect of a good answer's cost: what only searches gone wrong
-  /// need may be left out at or below it. -infinity where nothing is known.
+  /// Expected cost of a good answer, from recent searches. At or below it, an optimizer may skip
+  /// steps that only rescue failed searches. -infinity = unknown.
   double usual_cost = -std::numeric_limits<double>::infinity();
 };
 
+/// The answer of a search.
 struct OptimizerResult {
   Eigen::VectorXd point;  ///< the best point evaluated
   double cost = std::numeric_limits<double>::infinity();
   std::int64_t evaluations = 0;
 };
 
-/// What an optimizer wants of ResidualCost::linearize(), which is computed on the CPU only.
+/// An optimizer's use of ResidualCost::linearize(), which is computed on the CPU only.
 enum class Linearization {
   unused,
-  welcome,  ///< taken where it is there
+  welcome,  ///< used if available
   needed,
 };
 
-/// Looks for the point of lowest cost. Equal input, seed and machine give the equal answer (unless
-/// the budget is in seconds).
+/// Searches for the point of lowest cost. Equal input, seed and machine give the equal answer,
+/// unless the budget is in seconds.
 class HYPOTRACK_API Optimizer {
  public:
   Optimizer() = default;
@@ -141,22 +147,24 @@ class HYPOTRACK_API Optimizer {
   Optimizer(const Optimizer&) = delete;
   Optimizer& operator=(const Optimizer&) = delete;
 
-  /// Whether it minimises only costs with residuals(). A scene with it is refused at once if one of
-  /// its terms has none.
+  /// Returns true if the optimizer minimises only costs with residuals(). A scene with a term
+  /// without residuals is then refused at set-up.
   virtual bool needs_residuals() const { return false; }
-  /// Of optimizers that need residuals. It decides where `evaluate.backend: auto` evaluates.
+  /// Returns how an optimizer that needs residuals uses linearize(). `evaluate.backend: auto`
+  /// chooses the backend by it.
   virtual Linearization linearization() const { return Linearization::unused; }
 
-  /// Of an optimizer that searches only costs with a device(): what to tell of a scene that is not
-  /// evaluated on a GPU, and what to write instead. Such a scene is refused with it at once. Empty
-  /// for all others; those that make other optimizers pass on what these say.
+  /// Returns the error message for a scene that is not evaluated on a GPU; empty if the optimizer
+  /// does not need a device() cost. The message says what to use instead; the scene is refused at
+  /// set-up. An optimizer that wraps others forwards their messages.
   virtual std::string needs_device() const { return {}; }
 
-  /// The budget its own parameters imply, for scenes that name none.
+  /// Returns the evaluation budget that the optimizer's parameters imply, for scenes that give
+  /// none.
   virtual std::int64_t default_evaluations() const = 0;
 
-  /// Never evaluates more than the budget, evaluates `start` first, stays within the bounds and
-  /// returns the best point it evaluated. Exceptions of `cost` pass through unchanged.
+  /// Minimises `cost` and returns the best point evaluated. Never exceeds the budget, evaluates
+  /// `start` first and stays within the bounds. Exceptions of `cost` pass through unchanged.
   virtual OptimizerResult minimize(CostFunction& cost, const SearchRegion& region,
                                    const Budget& budget, std::uint64_t seed) = 0;
 };

@@ -22,8 +22,8 @@ namespace hypotrack {
 inline constexpr double kMillimetre = 1e-3;
 inline constexpr double kDegree = std::numbers::pi / 180.0;
 
-/// What a parameter means. `min` and `max` are in the unit of the YAML file and inclusive; the
-/// value in the struct is the YAML value times `to_si` (so `range_deg` is stored in radians).
+/// Description of a parameter. `min` and `max` are inclusive and in the unit of the YAML file. The
+/// value in the struct is the YAML value times `to_si`: `range_deg` is stored in radians.
 struct ParamInfo {
   std::string_view help;
   double min = -std::numeric_limits<double>::infinity();
@@ -35,8 +35,8 @@ struct ParamInfo {
 
 class ParamVisitor;
 
-/// A struct of parameters: one `visit` names every member, and everything else (parsing, errors,
-/// help, the dump that repeats a run) follows from it.
+/// A struct whose `visit` names every parameter. Parsing, errors, help and the dump that makes a
+/// run repeatable follow from it.
 ///
 ///   struct PsoParams {
 ///     int particles = 64;
@@ -49,18 +49,18 @@ concept ParamStruct = requires(T& t, ParamVisitor& v) {
   t.visit(v);
 };
 
-/// An enumeration that a parameter may hold: `enum_names(T)`, found by argument-dependent lookup,
-/// returns the YAML word of every enumerator 0, 1, 2, ...
+/// An enumeration that a parameter may hold. `enum_names(T)`, found by argument-dependent lookup,
+/// returns the YAML words of enumerators 0, 1, 2, ...
 template <class T>
 concept ParamEnum = std::is_enum_v<T> && requires(T t) {
   { enum_names(t) } -> std::convertible_to<std::span<const std::string_view>>;
 };
 
-/// Visits the parameters of a struct: a reader, a help writer or a dump. Allowed types: bool,
-/// integers, double, std::string, std::filesystem::path (relative paths are resolved against the
-/// file they are written in), ParamEnum, fixed-size Eigen vectors of double, std::vector of double
-/// or std::string, nested ParamStruct, std::vector of ParamStruct, std::optional of any scalar type
-/// above (absent key: empty), and ConfigNode (taken as it is: a nested plugin).
+/// Visitor of the parameters of a struct: a reader, a help writer or a dump.
+/// Allowed types: bool, integers, double, std::string, std::filesystem::path (relative to the file
+/// that it is written in), ParamEnum, fixed-size Eigen vectors of double, std::vector of double or
+/// std::string, nested ParamStruct, std::vector of ParamStruct, std::optional of any scalar type
+/// above (empty if the key is absent), and ConfigNode (unread, for a nested plugin).
 class HYPOTRACK_API ParamVisitor {
  public:
   virtual ~ParamVisitor();
@@ -69,7 +69,7 @@ class HYPOTRACK_API ParamVisitor {
   void operator()(std::string_view key, T& value, const ParamInfo& info);
 
  protected:
-  // Scalars. A visitor that reads replaces `value`; one that writes leaves it alone.
+  // Scalars: a reader replaces `value`, a writer leaves it unchanged.
   virtual void on_bool(std::string_view key, bool& value, const ParamInfo& info) = 0;
   virtual void on_int(std::string_view key, std::int64_t& value, std::int64_t lowest,
                       std::int64_t highest, const ParamInfo& info) = 0;
@@ -85,24 +85,25 @@ class HYPOTRACK_API ParamVisitor {
   virtual void on_strings(std::string_view key, std::vector<std::string>& value,
                           const ParamInfo& info) = 0;
   virtual void on_config(std::string_view key, ConfigNode& value, const ParamInfo& info) = 0;
-  // Nested maps and lists of maps. enter_* says whether (and how many) items are to be visited.
+  // Nested maps and lists of maps: enter_section() returns whether to visit the map, enter_list()
+  // the number of items to visit.
   virtual bool enter_section(std::string_view key, const ParamInfo& info) = 0;
   virtual void leave_section() = 0;
   virtual std::size_t enter_list(std::string_view key, std::size_t size, const ParamInfo& info) = 0;
-  /// Whether the item starts from its struct's defaults (a reader does not mix list items with
-  /// those of a default list).
+  /// Returns true if the item starts from its struct's defaults. A reader does so, because it does
+  /// not merge list items with those of a default list.
   virtual bool enter_item(std::size_t index) = 0;
   virtual void leave_item() = 0;
   virtual void leave_list() = 0;
-  // Optional scalars: whether the value is to be visited (a reader: the key is there; a dump: it
-  // has a value; help: always).
+  // Optional scalars: returns whether to visit the value. A reader visits it if the key is present,
+  // a dump if it has a value, help always.
   virtual bool enter_optional(std::string_view key, bool has_value, const ParamInfo& info) = 0;
 };
 
-/// Reads a struct strictly: unknown, duplicate and missing keys, wrong types and values out of
-/// range throw ConfigError with `file:line:column`, what was found, what is allowed and the nearest
-/// name. Keys in `also_allowed` belong to somebody else (`type`, `name`, `weight`) and are passed
-/// over.
+/// Reads a struct of parameters strictly. Unknown, duplicate and missing keys, wrong types and
+/// values out of range throw ConfigError with `file:line:column`, what was found, what is allowed
+/// and the nearest name. Keys in `also_allowed` (`type`, `name`, `weight`) are skipped, because
+/// another reader handles them.
 class HYPOTRACK_API ParamReader {
  public:
   explicit ParamReader(ConfigNode node, std::vector<std::string> also_allowed = {});
@@ -124,12 +125,12 @@ class HYPOTRACK_API ParamReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Type-erased `visit` of one struct of parameters.
+/// Type-erased `visit` of a struct of parameters.
 using ParamVisit = void (*)(void* params, ParamVisitor& visitor);
 
-/// Every parameter with its value, as YAML text that ParamReader reads back to the same values.
+/// Writes every parameter and its value as YAML; ParamReader reads it back to equal values.
 HYPOTRACK_API std::string dump_params(void* params, ParamVisit visit);
-/// One line per parameter: key, type, default, unit, range and help.
+/// Describes each parameter in one line: key, type, default, unit, range and help.
 HYPOTRACK_API std::string describe_params(void* params, ParamVisit visit);
 
 template <ParamStruct P>
@@ -154,7 +155,7 @@ template <class T>
 inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
-/// Eigen's types have a `visit`, too, and are no structs of parameters.
+/// True for Eigen types, which also have a `visit` but are not structs of parameters.
 template <class T>
 inline constexpr bool is_eigen = requires {
   T::SizeAtCompileTime;

@@ -5,17 +5,17 @@
 #include <cstdint>
 #include <cstring>
 
-/// The vocabulary of per-pixel functions. Such a function is written once, as a template over the
-/// type of a lane, and compiled for
+/// Operations for per-pixel functions. Such a function is written once, as a template over the lane
+/// type, and compiled for
 ///   float   one pixel at a time: plain C++ and, under nvcc, device code;
 ///   Lanes   a whole SIMD vector of pixels (hypotrack/simd-inl.hpp), once per instruction set.
-/// The vocabulary is the same for both: + - * /, comparisons (they yield a mask: bool or LaneMask),
-/// && || ! on masks, and min, max, abs, sqrt, quick_sqrt, floor, round, exp, mul_add and select.
-/// There are no branches on lanes: say `select(mask, a, b)`. Masks do not short-circuit.
+/// Both types have the same operations: + - * /, comparisons (which give a mask: bool or LaneMask),
+/// && || ! on masks, min, max, abs, sqrt, quick_sqrt, floor, round, exp, mul_add and select. Use
+/// `select(mask, a, b)` instead of branches. Masks do not short-circuit.
 ///
-/// A header with per-pixel functions looks like this (my_term-inl.hpp). In sources that use
-/// Highway's foreach_target (simd-inl.hpp) it is compiled for vectors, once per instruction set;
-/// in all others, CUDA's among them, for float.
+/// The example below is a header with a per-pixel function (my_term-inl.hpp). Sources that use
+/// Highway's foreach_target (simd-inl.hpp) compile it for vectors, once per instruction set. All
+/// others, CUDA included, compile it for float.
 ///
 ///   #if defined(MY_TERM_INL_HPP_) == defined(HWY_TARGET_TOGGLE)  // once per instruction set
 ///   #ifdef MY_TERM_INL_HPP_
@@ -36,9 +36,9 @@
 ///   HYPOTRACK_PIXEL_END();
 ///   #endif
 ///
-/// This header knows neither Eigen nor OpenCV nor Highway, so that CUDA code can include it.
+/// This header includes neither Eigen, OpenCV nor Highway, so that CUDA code can include it.
 
-/// Before every per-pixel function.
+/// Precedes every per-pixel function.
 #if defined(__CUDACC__)
 #include "hypotrack/cuda/instructions.cuh"
 #define HYPOTRACK_PIXEL __host__ __device__ __forceinline__
@@ -46,8 +46,8 @@
 #define HYPOTRACK_PIXEL inline __attribute__((always_inline))
 #endif
 
-/// Around per-pixel functions, and the namespace they live in. simd-inl.hpp redefines the three, so
-/// that each instruction set gets its own copy of the functions.
+/// Enclose per-pixel functions and name their namespace. simd-inl.hpp redefines the three macros,
+/// so that each instruction set has its own functions.
 #ifndef HYPOTRACK_TARGET
 #define HYPOTRACK_TARGET scalar
 #define HYPOTRACK_PIXEL_BEGIN() static_assert(true, "")
@@ -56,11 +56,10 @@
 
 namespace hypotrack {
 
-/// How a pixel of one view, with the inverse depth rendered there, lands in another. With
-/// p = (x, y, 1) and w = 1/z:
+/// Maps a pixel of one view with its inverse depth to another view. With p = (x, y, 1) and w = 1/z:
 ///   q = a2 . p + b2 w,   u = (a0 . p + b0 w) / q,   v = (a1 . p + b1 w) / q,   1/z_other = w / q
-/// where A = K_to R K_from^-1 and b = K_to t for to_from = (R, t). For a rectified pair R = 1 and
-/// t = (t_x, 0, 0), so that q = 1, v = y, u = x + a[0][2] + b0 w: linear in 1/z, same row.
+/// where A = K_to R K_from^-1 and b = K_to t for to_from = (R, t). For a rectified pair R = 1 and t
+/// = (t_x, 0, 0), so that q = 1, v = y and u = x + a[0][2] + b0 w: linear in 1/z, same row.
 struct StereoMap {
   float a[3][3];
   float b[3];
@@ -71,10 +70,10 @@ struct StereoMap {
 
 namespace pixel {
 
-// exp(x) = 2^n exp(r), n = round(x / ln 2), |r| <= ln 2 / 2, exp(r) by its Taylor polynomial of
-// degree 6 with the last coefficient adjusted to the interval: relative error below 3e-7. All lane
-// types share these numbers and the order of operations, so they agree up to rounding; GPUs have a
-// 2^x of their own, as exact.
+// exp(x) = 2^n exp(r) with n = round(x / ln 2) and |r| <= ln 2 / 2. exp(r) is its Taylor polynomial
+// of degree 6 with the last coefficient fitted to the interval: relative error below 3e-7. All lane
+// types use the same constants and order of operations, so they agree up to rounding. GPUs use
+// their own 2^x, which is as accurate.
 inline constexpr float kExpLowest = -80.0f;  // below, exp() is exp(-80) = 1.8e-35
 inline constexpr float kExpHighest = 88.0f;
 inline constexpr float kLog2E = 1.44269504f;
@@ -90,7 +89,7 @@ HYPOTRACK_PIXEL float min(float a, float b) { return b < a ? b : a; }
 HYPOTRACK_PIXEL float max(float a, float b) { return a < b ? b : a; }
 HYPOTRACK_PIXEL float abs(float a) { return std::fabs(a); }
 HYPOTRACK_PIXEL float sqrt(float a) { return std::sqrt(a); }
-/// The root within 3e-7 relative; of subnormal numbers it may be 0.
+/// Returns the square root within 3e-7 relative; may return 0 for subnormal numbers.
 HYPOTRACK_PIXEL float quick_sqrt(float a) {
 #if defined(__CUDA_ARCH__)
   return cuda::approximate_sqrt(a);
@@ -99,7 +98,7 @@ HYPOTRACK_PIXEL float quick_sqrt(float a) {
 #endif
 }
 HYPOTRACK_PIXEL float floor(float a) { return std::floor(a); }
-/// a * b + c; one rounding on a GPU and where vectors have it, else one or two.
+/// Returns a * b + c, rounded once on a GPU and on CPUs with vector FMA, else once or twice.
 HYPOTRACK_PIXEL float mul_add(float a, float b, float c) {
 #if defined(__CUDA_ARCH__)
   return fmaf(a, b, c);
@@ -108,14 +107,14 @@ HYPOTRACK_PIXEL float mul_add(float a, float b, float c) {
 #endif
 }
 HYPOTRACK_PIXEL float select(bool mask, float yes, float no) { return mask ? yes : no; }
-/// The nearest integer, ties to even.
+/// Returns the nearest integer, ties to even.
 HYPOTRACK_PIXEL float round(float a) { return std::nearbyint(a); }
 
-/// e^x within 5e-7 relative for -80 <= x <= 88; outside, the value at the nearer end.
+/// Returns e^x within 5e-7 relative for -80 <= x <= 88; clamps x to that range.
 HYPOTRACK_PIXEL float exp(float x) {
   x = min(max(x, kExpLowest), kExpHighest);
 #if defined(__CUDA_ARCH__)
-  // 2^(high + low) with the device's own 2^high; high is rounded, low what that left over.
+  // 2^(high + low) with the device's own 2^high; low is the rounding error of high.
   constexpr float kLn2 = 0.693147181f, kLog2ERest = 1.92596299e-8f;
   const float high = x * kLog2E;
   const float low = fmaf(x, kLog2ERest, fmaf(x, kLog2E, -high));
@@ -141,7 +140,7 @@ HYPOTRACK_PIXEL float exp(float x) {
 
 #endif  // HYPOTRACK_PIXEL_HPP_
 
-// A SIMD source: what follows belongs to its current instruction set.
+// In a SIMD source, the code below this include belongs to its current instruction set.
 #ifdef HWY_TARGET_INCLUDE
 #include "hypotrack/simd-inl.hpp"
 #endif

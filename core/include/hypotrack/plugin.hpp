@@ -24,7 +24,7 @@ namespace hypotrack {
 
 class PluginContext;
 
-/// The name of a plugin kind in YAML keys, file names and messages.
+/// Name of a plugin kind in YAML keys, file names and messages.
 template <class T>
 inline constexpr std::string_view kPluginKind = {};
 template <>
@@ -39,13 +39,13 @@ inline constexpr std::string_view kPluginKind<Source> = "source";
 template <class T>
 concept PluginInterface = !kPluginKind<T>.empty();
 
-/// Opens plugin libraries and makes objects from YAML: `type: pso` in an optimizer's place is
+/// Opens plugin libraries and makes objects from YAML. An optimizer with `type: pso` comes from
 /// `libhypotrack_optimizer_pso.so` on the search path. A library is opened when first named and
 /// never closed.
 class HYPOTRACK_API PluginLoader {
  public:
-  /// Search order: `extra`, then HYPOTRACK_PLUGIN_PATH, then the folders this build or installation
-  /// put its own plugins in. Never the working directory.
+  /// Searches `extra`, then HYPOTRACK_PLUGIN_PATH, then the plugin folder of this build or
+  /// installation; never the working directory.
   explicit PluginLoader(std::vector<std::filesystem::path> extra = {});
   ~PluginLoader();
   PluginLoader(const PluginLoader&) = delete;
@@ -53,9 +53,9 @@ class HYPOTRACK_API PluginLoader {
 
   const std::vector<std::filesystem::path>& search_path() const;
 
-  /// Makes the object that `config` (a map with a `type`) describes. `also_allowed` are keys of the
-  /// map that the caller reads itself. If `resolved` is given, it gets the YAML text of all
-  /// parameters with their values, `type` first. Throws ConfigError or PluginError.
+  /// Makes the object that `config` (a map with a `type`) describes. The caller reads the keys
+  /// `also_allowed` itself. `resolved`, if given, receives all parameters with their values as
+  /// YAML, `type` first. Throws ConfigError or PluginError.
   template <PluginInterface T>
   std::unique_ptr<T> make(const ConfigNode& config, const Scene* scene = nullptr,
                           std::vector<std::string> also_allowed = {},
@@ -71,13 +71,13 @@ class HYPOTRACK_API PluginLoader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What a plugin's constructor may ask for besides its parameters.
+/// Services for a plugin's constructor: the scene, other plugins, and the node of its parameters.
 class HYPOTRACK_API PluginContext {
  public:
   PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
                 std::vector<std::string> also_allowed);
 
-  /// Reads the parameters strictly and records them for the run's protocol.
+  /// Reads the parameters strictly and records their values for the run's protocol.
   template <ParamStruct P>
   P read() {
     P params = ParamReader(config_, also_allowed_).template read<P>();
@@ -85,10 +85,10 @@ class HYPOTRACK_API PluginContext {
     return params;
   }
 
-  /// The models being tracked. Throws PluginError in a model plugin, which has no scene yet.
+  /// Returns the tracked models. Throws PluginError in a model plugin, which has no scene yet.
   const Scene& scene() const;
   /// Makes another plugin from a nested map (a mirrored model, a wrapped source). Its parameters
-  /// join the record at their place.
+  /// join the record in their place.
   template <PluginInterface T>
   std::unique_ptr<T> make(const ConfigNode& config) {
     std::string resolved;
@@ -96,7 +96,7 @@ class HYPOTRACK_API PluginContext {
     record_nested(config, resolved);
     return object;
   }
-  /// The node that the parameters were read from, for error messages: config().where().
+  /// Returns the node of the parameters, for error messages: config().where().
   const ConfigNode& config() const { return config_; }
   const std::string& resolved() const { return resolved_; }
 
@@ -110,14 +110,15 @@ class HYPOTRACK_API PluginContext {
   std::string resolved_;
 };
 
-/// Folder of the files that come with hypotrack (the default hand, rigs): HYPOTRACK_DATA_PATH, the
-/// installation or the build tree.
+/// Returns the path of a file that comes with hypotrack (the default hand, rigs). Looks in
+/// HYPOTRACK_DATA_PATH if it is set, else in the installation or build tree. Throws DataError if
+/// the file does not exist.
 HYPOTRACK_API std::filesystem::path data_file(const std::filesystem::path& relative);
 
 inline constexpr std::uint32_t kAbiVersion = 13;
 
-/// The C face of a plugin library. Nothing else is looked at before magic, sizes, version and tag
-/// have been compared, so all of it must stay plain C and only ever grow at the end.
+/// The C interface of a plugin library. The loader compares magic, size, version and tag before it
+/// reads anything else. So the struct must stay plain C and may only grow at the end.
 struct HypotrackPlugin {
   char magic[16];  ///< kPluginMagic
   std::uint32_t struct_size;
@@ -128,10 +129,9 @@ struct HypotrackPlugin {
   const char* version;
   const char* summary;
   const char* licence;
-  /// Space-separated, may be empty. `device`: an objective that has an on_device(). `needs_device`:
-  /// an optimizer of costs that have a device(). `residuals`: an objective that has a
-  /// residual_term(). `device_residuals`: its on_device() has_residuals(). `needs_residuals`: an
-  /// optimizer of costs that have residuals().
+  /// Space-separated, may be empty. Objectives: `device` (has on_device()), `residuals` (has
+  /// residual_term()), `device_residuals` (on_device() has_residuals()). Optimizers: `needs_device`
+  /// (needs a cost with device()), `needs_residuals` (needs a cost with residuals()).
   const char* capabilities;
   void* (*create)(PluginContext&);
   std::string (*describe)();  ///< help text of the parameters
@@ -165,10 +165,10 @@ using source = Source;
 #define HYPOTRACK_STRINGIZE_(x) #x
 #define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
 
-/// Makes a class a plugin. Kind, name, version and licence come from hypotrack_add_plugin() in
-/// CMake. The class derives from Model, Objective, Optimizer or Source, has a nested ParamStruct
-/// `Params`, and is constructible from (const Params&) or (const Params&, PluginContext&). Once per
-/// library.
+/// Makes a class the plugin of its library; use it once per library. The class derives from Model,
+/// Objective, Optimizer or Source and has a nested ParamStruct `Params`. It is constructible from
+/// (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in CMake gives kind,
+/// name, version and licence.
 #define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                          \
   extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*         \
   hypotrack_plugin() {                                                                          \

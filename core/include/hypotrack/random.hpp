@@ -9,12 +9,12 @@
 
 namespace hypotrack {
 
-// Random numbers that are a function of (seed, index) and of nothing else: no state, so that
-// threads and GPU blocks draw the same numbers in any order. Plain arithmetic: a CUDA kernel can
-// include this file (constexpr functions: compile with --expt-relaxed-constexpr).
+// Counter-based random numbers: pure functions of (seed, index). Threads and GPU blocks draw the
+// same numbers in any order. A CUDA kernel can include this file (constexpr functions: compile with
+// --expt-relaxed-constexpr).
 
-/// Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3"
-/// (SC 2011): a block of four 32-bit words for a counter and a key.
+/// Returns a block of four random 32-bit words for a counter and a key: Philox4x32-10 of Salmon,
+/// Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3" (SC 2011).
 constexpr std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key) {
   for (int round = 0; round < 10; ++round) {
@@ -28,16 +28,16 @@ constexpr std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c
   return counter;
 }
 
-/// Which number of a population search: the Philox counter, in this order.
+/// Index of a random number in a population search: the Philox counter, in this order.
 struct RandomIndex {
   std::uint32_t dimension = 0;
   std::uint32_t particle = 0;
   std::uint32_t generation = 0;
-  std::uint32_t stream = 0;  ///< what it is for, where one index needs several blocks
+  std::uint32_t stream = 0;  ///< purpose, if one index needs several blocks
 };
 
-/// Four independent uniform numbers in the open interval (0, 1), exact in double precision:
-/// (word + 1/2) / 2^32. The key is the seed, low word first.
+/// Returns four independent uniform numbers in the open interval (0, 1): (word + 1/2) / 2^32, exact
+/// in double precision. The key is the seed, low word first.
 constexpr std::array<double, 4> uniform4(std::uint64_t seed, const RandomIndex& index) {
   const std::array<std::uint32_t, 4> words =
       philox4x32({index.dimension, index.particle, index.generation, index.stream},
@@ -47,8 +47,9 @@ constexpr std::array<double, 4> uniform4(std::uint64_t seed, const RandomIndex& 
   return numbers;
 }
 
-/// A standard normal number by Box and Muller from the block's first two uniform numbers; at most
-/// 6.8 in magnitude. Another libm (a GPU's) agrees up to the rounding of log and cos.
+/// Returns a standard normal number by the Box-Muller transform of a block's first two uniform
+/// numbers; at most 6.8 in magnitude. Another libm (a GPU's) agrees up to the rounding of log and
+/// cos.
 HYPOTRACK_PIXEL double normal(std::uint64_t seed, const RandomIndex& index) {
   const std::array<double, 4> u = uniform4(seed, index);
   return std::sqrt(-2.0 * std::log(u[0])) * std::cos(2.0 * std::numbers::pi * u[1]);

@@ -12,27 +12,27 @@
 
 namespace hypotrack {
 
-/// How a picture is lit and composed.
+/// Lighting and composition of a picture.
 struct RenderStyle {
-  double ambient = 1.0;   ///< share of the surface colour that needs no light
+  double ambient = 1.0;   ///< share of the surface colour without light
   double diffuse = 0.0;   ///< Lambert term of one distant light
   double specular = 0.0;  ///< Blinn-Phong term
   double shininess = 30.0;
   Eigen::Vector3d light_direction{0.3, -0.5, 1.0};  ///< in which the light travels, world frame
   bool textured = true;                             ///< false: a flat colour per model (overlays)
   int samples = 4;             ///< antialiasing of the colour image, samples per pixel
-  std::vector<bool> hidden{};  ///< for each model, whether it is left out; empty: all are drawn
+  std::vector<bool> hidden{};  ///< for each model, true to leave it out; empty = draw all
 };
 
-/// A rendered view. Pixel (0, 0) is top left.
+/// A rendered view with pixel (0, 0) at the top left.
 struct RenderedView {
   cv::Mat color;  ///< 8-bit BGR, antialiased against `background` (or black)
-  cv::Mat depth;  ///< 32-bit float z in metres, 0: nothing there; one sample at the pixel centre
-  cv::Mat label;  ///< 8-bit: 0 nothing, otherwise 1 + index of the model in the scene
+  cv::Mat depth;  ///< 32-bit float z in metres, one sample at the pixel centre; 0 = nothing
+  cv::Mat label;  ///< 8-bit: 0 = nothing, else 1 + index of the model in the scene
 };
 
-/// Draws a scene with OpenGL on a surfaceless EGL context: NVIDIA's driver where there is one,
-/// Mesa's software rasteriser otherwise. To be used from one thread at a time.
+/// Draws a scene with OpenGL on a surfaceless EGL context: NVIDIA's driver if present, else Mesa's
+/// software rasteriser. Use it from one thread at a time.
 class HYPOTRACK_API Renderer {
  public:
   /// The scene must outlive the renderer. Throws DeviceError if no context can be made.
@@ -42,11 +42,11 @@ class HYPOTRACK_API Renderer {
   Renderer& operator=(const Renderer&) = delete;
 
   /// Draws the scene in one state as a camera sees it, lens distortion included. `background` is
-  /// empty or of the camera's size.
+  /// empty or has the camera's size.
   RenderedView render(const Eigen::VectorXd& state, const Camera& camera, const RenderStyle& style,
                       const cv::Mat& background = {});
 
-  /// What OpenGL says of itself: vendor, renderer, version.
+  /// Returns OpenGL's vendor, renderer and version.
   std::string device() const;
 
  private:

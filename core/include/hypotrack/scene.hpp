@@ -11,37 +11,37 @@
 
 namespace hypotrack {
 
-/// The models being tracked and their joint state: the models' parameters one after the other (27
-/// for a hand, 34 for a hand with a rigid object, 54 for two hands).
+/// The tracked models and their joint state. The state is the models' parameters one after the
+/// other: 27 for a hand, 34 for a hand and a rigid object, 54 for two hands.
 class HYPOTRACK_API Scene {
  public:
   struct Item {
     std::string name;  ///< unique within the scene
     std::shared_ptr<const Model> model;
-    int offset = 0;  ///< of the model's first parameter in the state
+    int offset = 0;  ///< index of the model's first parameter in the state
   };
 
   /// Throws ConfigError on duplicate names or no model at all.
   explicit Scene(std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models);
 
   const std::vector<Item>& items() const { return items_; }
-  /// Length of the state vector.
+  /// Returns the length of the state vector.
   int dimension() const { return static_cast<int>(parameters_.size()); }
-  /// Parameters of all models in the order of the state, named `model.parameter`.
+  /// Returns the parameters of all models in the order of the state, named `model.parameter`.
   const std::vector<Parameter>& parameters() const { return parameters_; }
-  /// Landmarks of all models, named `model.landmark`.
+  /// Returns the landmark names of all models: `model.landmark`.
   const std::vector<std::string>& landmark_names() const { return landmark_names_; }
 
   Eigen::VectorXd rest_state() const;
-  /// The part of a state that belongs to one model.
+  /// Returns the part of a state that belongs to one model.
   std::span<const double> part(const Item& item, const Eigen::VectorXd& state) const;
-  /// World positions of all landmarks, 3xL, metres.
+  /// Returns the world positions of all landmarks, 3xL, metres.
   Eigen::Matrix3Xd landmarks(const Eigen::VectorXd& state) const;
-  /// Makes every quaternion of the state one of unit length (a zero one becomes the identity). The
-  /// one place where states are normalised.
+  /// Normalises every quaternion of a state; a zero one becomes the identity. Only this function
+  /// normalises states.
   void normalize(Eigen::Ref<Eigen::VectorXd> state) const;
-  /// Throws ConfigError, naming `where`, unless the state has the right length, is finite and its
-  /// angles are within bounds (by 1e-6).
+  /// Throws ConfigError, naming `where`, unless the state has the right length, is finite and has
+  /// its angles within bounds (tolerance 1e-6).
   void check(const Eigen::VectorXd& state, const std::string& where) const;
 
  private:

@@ -13,10 +13,10 @@
 
 namespace hypotrack {
 
-// What every optimizer needs around its algorithm.
+// Helpers for optimizers.
 
-/// For every dimension of a region the index of its group; empty where the region has no groups.
-/// Throws Error unless every dimension is in exactly one.
+/// Returns the group index of every dimension; empty if the region has no groups. Throws Error
+/// unless every dimension is in exactly one group.
 inline std::vector<int> group_of_dimension(const SearchRegion& region) {
   if (region.groups.empty()) return {};
   std::vector<int> group_of(static_cast<std::size_t>(region.start.size()), -1);
@@ -39,9 +39,9 @@ inline std::vector<int> group_of_dimension(const SearchRegion& region) {
   return group_of;
 }
 
-/// Throws Error unless the region has the cost's dimension, bounds the right way round, a finite
-/// start within them, positive spreads and groups (if any) that hold every dimension once, and the
-/// budget allows the start to be evaluated.
+/// Throws if a region or budget is invalid: Error for the region, ConfigError for a budget below
+/// one evaluation. The region needs the cost's dimension, a finite start within its bounds, and
+/// positive spreads. Its groups, if any, must hold every dimension once.
 inline void check_search(const CostFunction& cost, const SearchRegion& region,
                          const Budget& budget) {
   const Eigen::Index d = cost.dimension();
@@ -69,7 +69,7 @@ inline void check_search(const CostFunction& cost, const SearchRegion& region,
   }
 }
 
-/// A seed of its own for part `part` of a search: another optimizer that takes over, say.
+/// Derives an independent seed for part `part` of a search, such as another optimizer's.
 constexpr std::uint64_t seed_of_part(std::uint64_t seed, std::uint32_t part) {
   constexpr std::uint32_t kPartStream = 0xffffffffu;  // no population draws from it
   const auto words =
@@ -78,17 +78,17 @@ constexpr std::uint64_t seed_of_part(std::uint64_t seed, std::uint32_t part) {
   return (std::uint64_t{words[1]} << 32) | words[0];
 }
 
-/// The nearest point within the bounds.
+/// Clamps a point to the region's bounds.
 inline Eigen::VectorXd within_bounds(const Eigen::Ref<const Eigen::VectorXd>& point,
                                      const SearchRegion& region) {
   return point.cwiseMax(region.lower).cwiseMin(region.upper);
 }
 
-/// Remembers the best of all points evaluated and counts them. On equal costs the earlier one
-/// stays, so that a flat objective leaves the search at its start.
+/// Keeps the best of all points evaluated and counts them. Among equal costs the earliest point
+/// wins, so that a flat objective leaves the search at its start.
 class BestSoFar {
  public:
-  /// Takes in points (DxN, N >= 1) and their costs (N).
+  /// Adds points (DxN, N >= 1) with their costs (N).
   void update(const Eigen::Ref<const Eigen::MatrixXd>& points,
               const Eigen::Ref<const Eigen::VectorXd>& costs) {
     Eigen::Index best = 0;
@@ -105,12 +105,12 @@ class BestSoFar {
   OptimizerResult result_;
 };
 
-/// The wall-clock side of a budget, running from its construction.
+/// A wall-clock limit that starts at construction.
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
   bool passed() const { return left() <= 0; }
-  /// Seconds until it has passed.
+  /// Returns the remaining seconds; negative once passed.
   double left() const {
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
     return seconds_ - elapsed.count();

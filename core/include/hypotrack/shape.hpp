@@ -13,8 +13,8 @@
 
 namespace hypotrack {
 
-/// How a scene gives a model its shape. A model plugin visits it from its own parameters' `visit`
-/// (`shape.visit(v)`), so that its keys stand beside the others.
+/// The parameters by which a scene sets a model's shape. A model plugin visits them in its own
+/// `visit` (`shape.visit(v)`), so that their keys appear among its own.
 struct ShapeSettings {
   ConfigNode shape;
   std::filesystem::path shape_file;
@@ -30,20 +30,19 @@ struct ShapeSettings {
   }
 };
 
-/// The values of `parameters`, in their order: those of the file, replaced by those of `shape`, the
-/// neutral ones where neither names them. Throws ConfigError on unknown names and values out of
-/// bounds.
+/// Returns the values of `parameters`, in their order: from `shape`, else from `shape_file`, else
+/// neutral. Throws ConfigError on unknown names and values out of bounds.
 HYPOTRACK_API std::vector<double> read_shape(const ShapeSettings& settings,
                                              std::span<const ShapeParameter> parameters);
 
-/// The map that read_shape() reads, in YAML: a line for each parameter's value, rounded to
-/// 1/10000.
+/// Writes a YAML map for read_shape(): one line per parameter, values rounded to 1/10000.
 HYPOTRACK_API std::string shape_yaml(std::span<const ShapeParameter> parameters);
 
-/// How a bone is stretched in its own frame, with its flesh and what hangs on it.
+/// Stretch of a bone in its own frame, together with its vertices and children.
 struct BoneStretch {
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
-  /// Along y only what lies beyond the joint (y > 0) is: what is behind it belongs to the parent.
+  /// If true, y is stretched only beyond the joint (y > 0); what lies behind it belongs to the
+  /// parent.
   bool beyond_joint = false;
 
   Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
@@ -52,12 +51,12 @@ struct BoneStretch {
   }
 };
 
-/// Stretches the bones of a model, one entry for each: vertices move by their weights as when the
-/// bind pose is skinned, landmarks and the joints of children with their bone. Throws Error on
-/// another number of entries.
+/// Stretches the bones of a model; `stretches` has one entry per bone. Vertices move by their
+/// skinning weights; landmarks and child joints move with their bone. Throws Error on another
+/// number of entries.
 HYPOTRACK_API void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches);
 
-/// Makes everything about a model larger: `factor` times as far from its origin.
+/// Scales a model about its origin by `factor`.
 HYPOTRACK_API void scale_model(ModelData& data, double factor);
 
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 
 #include "hypotrack/pixel.hpp"
 
-// Per-pixel functions that follow in this translation unit belong to the current instruction set.
+// From here on, per-pixel functions of this translation unit belong to the current instruction set.
 #undef HYPOTRACK_TARGET
 #undef HYPOTRACK_PIXEL_BEGIN
 #undef HYPOTRACK_PIXEL_END
@@ -24,8 +24,9 @@
 #error "Lanes holds a vector as a member: include <hypotrack/foreach_target-inl.hpp> first"
 #endif
 
-/// SIMD vectors with the vocabulary of pixel.hpp. For sources that are compiled once for every
-/// instruction set, as my_term.cpp is (its folder has to be on the include path):
+/// SIMD vectors with the operations of pixel.hpp, for sources that are compiled once per
+/// instruction set. Such a source, my_term.cpp, looks like this (its folder must be on the include
+/// path):
 ///
 ///   #define HWY_TARGET_INCLUDE "my_term.cpp"  // is included again for every instruction set
 ///   #include <hypotrack/foreach_target-inl.hpp>
@@ -39,10 +40,10 @@
 ///   ...                                       // HWY_EXPORT, HWY_DYNAMIC_DISPATCH
 ///   #endif
 ///
-/// plugins/objectives/stereo_color/score.cpp is an example. Whoever includes this header links
-/// Highway (libhwy); nothing else of hypotrack asks for it. Give structs that hold Lanes a
-/// constructor of their own if they have default member values, and write HWY_ATTR on lambdas: the
-/// compiler does not carry the instruction set over to implicit functions.
+/// plugins/objectives/stereo_color/score.cpp is an example. A target that includes this header must
+/// link Highway (libhwy); no other public header needs it. The compiler does not apply the
+/// instruction set to implicit functions. So write HWY_ATTR on lambdas, and give structs that hold
+/// Lanes and have default member values a constructor.
 #ifndef HYPOTRACK_LANE_NUMBERS_
 #define HYPOTRACK_LANE_NUMBERS_
 namespace hypotrack::pixel {
@@ -64,7 +65,7 @@ using UintTag = hn::ScalableTag<std::uint32_t>;
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(FloatTag()));
 static_assert(kLanes <= 16);
 
-/// A yes or no per lane.
+/// One bool per lane.
 struct LaneMask {
   hn::Mask<FloatTag> m;
 };
@@ -73,9 +74,9 @@ HYPOTRACK_PIXEL LaneMask operator||(LaneMask a, LaneMask b) { return {hn::Or(a.m
 HYPOTRACK_PIXEL LaneMask operator!(LaneMask a) { return {hn::Not(a.m)}; }
 HYPOTRACK_PIXEL bool any(LaneMask a) { return !hn::AllFalse(FloatTag(), a.m); }
 HYPOTRACK_PIXEL bool all(LaneMask a) { return hn::AllTrue(FloatTag(), a.m); }
-/// Number of lanes that are set.
+/// Returns the number of set lanes.
 HYPOTRACK_PIXEL int count(LaneMask a) { return static_cast<int>(hn::CountTrue(FloatTag(), a.m)); }
-/// Index of the first lane that is set, -1 if none is.
+/// Returns the index of the first set lane; -1 if none is set.
 HYPOTRACK_PIXEL int first(LaneMask a) {
   return static_cast<int>(hn::FindFirstTrue(FloatTag(), a.m));
 }
@@ -111,7 +112,7 @@ HYPOTRACK_PIXEL Lanes select(LaneMask mask, Lanes yes, Lanes no) {
   return Lanes(hn::IfThenElse(mask.m, yes.v, no.v));
 }
 
-/// e^x per lane; see the scalar one.
+/// Returns e^x per lane; see pixel::exp for accuracy and range.
 HYPOTRACK_PIXEL Lanes exp(Lanes x) {
   using namespace pixel;  // the coefficients
   const IntTag int_tag;
@@ -129,14 +130,14 @@ HYPOTRACK_PIXEL Lanes exp(Lanes x) {
   return Lanes(hn::Mul(p, hn::BitCast(FloatTag(), scale)));
 }
 
-/// Sum of all lanes.
+/// Returns the sum of all lanes.
 HYPOTRACK_PIXEL float sum(Lanes a) { return hn::GetLane(hn::SumOfLanes(FloatTag(), a.v)); }
-/// start, start + 1, start + 2, ...
+/// Returns start, start + 1, start + 2, ...
 HYPOTRACK_PIXEL Lanes count_from(float start) {
   // Highway's Iota() is a loop over memory on some instruction sets.
   return Lanes(hn::Add(hn::Load(FloatTag(), pixel::kLaneNumbers), Lanes(start).v));
 }
-/// The first n lanes, n <= kLanes.
+/// Returns a mask of the first n lanes, n <= kLanes.
 HYPOTRACK_PIXEL LaneMask first_lanes(int n) {
   return {hn::Lt(hn::Load(FloatTag(), pixel::kLaneNumbers), Lanes(static_cast<float>(n)).v)};
 }
@@ -148,7 +149,7 @@ struct IntLanes {
 HYPOTRACK_PIXEL IntLanes operator+(IntLanes a, IntLanes b) { return {hn::Add(a.v, b.v)}; }
 HYPOTRACK_PIXEL IntLanes operator*(IntLanes a, IntLanes b) { return {hn::Mul(a.v, b.v)}; }
 HYPOTRACK_PIXEL IntLanes int_lanes(int x) { return {hn::Set(IntTag(), x)}; }
-/// The nearest integers, ties to even.
+/// Rounds to the nearest integers, ties to even.
 HYPOTRACK_PIXEL IntLanes to_int(Lanes a) { return {hn::NearestInt(a.v)}; }
 HYPOTRACK_PIXEL Lanes to_float(IntLanes a) { return Lanes(hn::ConvertTo(FloatTag(), a.v)); }
 
@@ -156,7 +157,7 @@ HYPOTRACK_PIXEL Lanes to_float(IntLanes a) { return Lanes(hn::ConvertTo(FloatTag
 struct WordLanes {
   hn::Vec<UintTag> v;
 };
-/// The lower and the upper 16 bits as numbers in 0 .. 1.
+/// Unpacks the lower or the upper 16 bits to numbers in 0 .. 1 (see pack_unorm16()).
 HYPOTRACK_PIXEL Lanes unorm16_low(WordLanes a) {
   const auto half = hn::And(a.v, hn::Set(UintTag(), 0xFFFFu));
   return Lanes(hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), half))) * Lanes(1.0f / 65535.0f);
@@ -166,17 +167,17 @@ HYPOTRACK_PIXEL Lanes unorm16_high(WordLanes a) {
   return Lanes(hn::ConvertTo(FloatTag(), hn::BitCast(IntTag(), half))) * Lanes(1.0f / 65535.0f);
 }
 
-/// Consecutive values, one per lane; kLanes of them must be readable.
+/// Loads consecutive values, one per lane; kLanes of them must be readable.
 HYPOTRACK_PIXEL Lanes load(const float* from) { return Lanes(hn::LoadU(FloatTag(), from)); }
 HYPOTRACK_PIXEL WordLanes load(const std::uint32_t* from) { return {hn::LoadU(UintTag(), from)}; }
-/// Writes the first n lanes, n <= kLanes.
+/// Stores the first n lanes, n <= kLanes.
 HYPOTRACK_PIXEL void store(Lanes a, int n, float* to) {
   if (HWY_LIKELY(n == kLanes)) return hn::StoreU(a.v, FloatTag(), to);
   HWY_ALIGN float copy[kLanes];
   hn::Store(a.v, FloatTag(), copy);
   for (int i = 0; i < n; ++i) to[i] = copy[i];
 }
-/// base[index] per lane.
+/// Loads base[index] per lane.
 HYPOTRACK_PIXEL Lanes gather(const float* base, IntLanes index) {
   return Lanes(hn::GatherIndex(FloatTag(), base, index.v));
 }
@@ -184,8 +185,8 @@ HYPOTRACK_PIXEL WordLanes gather(const std::uint32_t* base, IntLanes index) {
   return {hn::GatherIndex(UintTag(), base, index.v)};
 }
 
-/// A sum over many vectors: float lanes within a row, double over rows. Its value depends on the
-/// vector width by rounding only (about 1e-7 relative).
+/// A sum over many vectors: in float within a row, in double over rows. The vector width changes
+/// its value only by rounding (about 1e-7 relative).
 class LaneSum {
  public:
   // Not `= default`: an implicit constructor would not be compiled for the instruction set.

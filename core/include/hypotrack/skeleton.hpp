@@ -10,21 +10,21 @@
 
 namespace hypotrack {
 
-/// The bones of a scene's models, one model after the other, as plain numbers: what kernels and
-/// terms of the state pose. Models that pose themselves have the bones of their data, which do not
-/// say where their surface is.
+/// The bones of a scene's models, one model after the other, as plain data for kernels and state
+/// terms. A model that poses itself contributes the bones of its data, which do not determine its
+/// surface.
 struct HYPOTRACK_API Skeleton {
   explicit Skeleton(const Scene& scene);
-  /// Of a single model, whose parameters are the state.
+  /// Takes the bones of a single model; its parameters are the state.
   explicit Skeleton(const ModelData& data);
 
-  /// Points into this object.
+  /// Returns a view of this object, which must outlive it.
   SkeletonLayout layout() const;
 
   std::vector<cuda::ModelLayout> models;
   std::vector<cuda::BoneLayout> bones;
   std::vector<cuda::Turn> turns;
-  std::vector<std::int32_t> level;  ///< of every bone: 0 where there is no parent
+  std::vector<std::int32_t> level;  ///< depth of every bone in the hierarchy; 0 for a root
 
  private:
   void add(const ModelData& data, int offset);

@@ -6,21 +6,21 @@
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/pixel.hpp"
 
-/// Where a state puts the bones of a scene, for terms that look at the state only: the same source
-/// for the CPU and the GPU, in single precision.
+/// Single-precision bone transforms for terms that read only the state. CPU and GPU compile this
+/// source.
 namespace hypotrack {
 
-/// A Skeleton in host or device memory.
+/// Pointers to a Skeleton in host or device memory.
 struct SkeletonLayout {
   std::int32_t bone_count;
-  std::int32_t levels;        ///< of the deepest bone + 1
-  const std::int32_t* level;  ///< of every bone: 0 where there is no parent
+  std::int32_t levels;        ///< number of hierarchy levels: the deepest bone's + 1
+  const std::int32_t* level;  ///< depth of every bone in the hierarchy; 0 for a root
   const cuda::ModelLayout* models;
   const cuda::BoneLayout* bones;
   const cuda::Turn* turns;
 };
 
-/// One thread that does all the work: the CPU's side of cuda::StateObjective's warps.
+/// A team of one thread. The CPU passes it where cuda::StateObjective passes a warp.
 struct OneThread {
   HYPOTRACK_PIXEL int rank() const { return 0; }
   HYPOTRACK_PIXEL int size() const { return 1; }
@@ -28,17 +28,17 @@ struct OneThread {
   HYPOTRACK_PIXEL double sum(double value) const { return value; }
 };
 
-/// Takes the residuals of a term (cuda::StateObjective) that is asked for its cost only.
+/// Discards the residuals of a term (cuda::StateObjective) when only its cost is wanted.
 struct IgnoreResidual {
   HYPOTRACK_PIXEL void operator()(std::int64_t /*i*/, float /*residual*/) const {}
 };
 
-/// A 3x4 matrix, row by row: a rotation and a translation.
+/// A rigid transform as a 3x4 matrix (rotation, translation), row by row.
 struct Placement {
   float m[12];
 };
 
-/// a * b.
+/// Returns the product a * b.
 HYPOTRACK_PIXEL Placement compose(const Placement& a, const float* b) {
   Placement out;
   for (int r = 0; r < 3; ++r) {
@@ -51,7 +51,7 @@ HYPOTRACK_PIXEL Placement compose(const Placement& a, const float* b) {
   return out;
 }
 
-/// Turns the frame of a placement about a unit axis (Rodrigues' formula).
+/// Rotates the frame of a placement about a unit axis (Rodrigues' formula).
 HYPOTRACK_PIXEL void turn(Placement& placement, const float* axis, float angle) {
   const float s = std::sin(angle), c = std::cos(angle), d = 1.0f - c;
   const float x = axis[0], y = axis[1], z = axis[2];
@@ -64,7 +64,7 @@ HYPOTRACK_PIXEL void turn(Placement& placement, const float* axis, float angle) 
   }
 }
 
-/// world_from_model of a model's pose; the quaternion (w x y z behind the position) is normalised.
+/// Returns world_from_model of a normalised pose: position x y z, then quaternion w x y z.
 HYPOTRACK_PIXEL Placement place_model(const double* pose) {
   const auto w = static_cast<float>(pose[3]), x = static_cast<float>(pose[4]);
   const auto y = static_cast<float>(pose[5]), z = static_cast<float>(pose[6]);
@@ -74,7 +74,7 @@ HYPOTRACK_PIXEL Placement place_model(const double* pose) {
            2 * (y * z + w * x), 1 - 2 * (x * x + y * y), static_cast<float>(pose[2])}};
 }
 
-/// parent_from_bone of a bone, turned as the state says.
+/// Returns parent_from_bone of a bone, with the rotations of the state applied.
 HYPOTRACK_PIXEL Placement place_bone(const SkeletonLayout& skeleton, int bone,
                                      const double* state) {
   const cuda::BoneLayout& layout = skeleton.bones[bone];
@@ -87,8 +87,8 @@ HYPOTRACK_PIXEL Placement place_bone(const SkeletonLayout& skeleton, int bone,
   return local;
 }
 
-/// Writes world_from_bone of every bone for a normalised state. All threads of the team call it,
-/// and what any of them wrote is there for all afterwards.
+/// Writes world_from_bone of every bone for a normalised state. All threads of the team must call
+/// it; on return, each sees all results.
 template <class Team>
 HYPOTRACK_PIXEL void pose_bones(const SkeletonLayout& skeleton, const double* state,
                                 const Team& team, Placement* world_from_bone) {

@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// Yields calibrated frames until it ends.
+/// A source of calibrated frames, such as a recording or a live camera.
 class HYPOTRACK_API Source {
  public:
   Source() = default;
@@ -17,14 +17,14 @@ class HYPOTRACK_API Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  /// The calibrated cameras, in the order of a frame's views; the first is "left".
+  /// Returns the calibrated cameras, in the order of a frame's views; the first is "left".
   virtual const std::vector<Camera>& cameras() const = 0;
-  /// Frames per second of the recording.
+  /// Returns the recording's frames per second.
   virtual double frame_rate() const = 0;
-  /// Number of frames, where it is known beforehand.
+  /// Returns the number of frames, if known in advance.
   virtual std::optional<int> frame_count() const { return std::nullopt; }
-  /// The next frame, or nothing at the end. A damaged or missing frame is returned with `problem`
-  /// set and no views; it never throws for that.
+  /// Returns the next frame, or nothing at the end. A damaged or missing frame has `problem` set
+  /// and no views; it does not throw.
   virtual std::optional<Frame> next() = 0;
 };
 

@@ -10,7 +10,7 @@
 
 namespace hypotrack {
 
-/// Parameters of a population's first points, for the struct of an optimizer to take in.
+/// Parameters of a population's first points; an optimizer's parameter struct includes them.
 struct StartParams : StartSpread {
   void visit(ParamVisitor& v) {
     v("sigma", sigma,
@@ -28,7 +28,7 @@ struct StartParams : StartSpread {
   }
 };
 
-/// The index of every dimension's group; where the region has none each dimension is one.
+/// Returns the group index of every dimension; without groups, each dimension is its own group.
 inline std::vector<int> groups_or_dimensions(const SearchRegion& region) {
   std::vector<int> group_of = group_of_dimension(region);
   for (Eigen::Index d = 0; group_of.size() < static_cast<std::size_t>(region.start.size()); ++d) {
@@ -37,15 +37,15 @@ inline std::vector<int> groups_or_dimensions(const SearchRegion& region) {
   return group_of;
 }
 
-/// The first points of a population, numbered: 0 is the start, the others are normal samples about
-/// it within the bounds. Point k is a function of (region, spread, seed, k).
+/// The numbered first points of a population. Point 0 is the start; the others are normal samples
+/// about it, clamped to the bounds. Point k is a function of (region, spread, seed, k).
 class StartPoints {
  public:
-  /// The region must outlive it.
+  /// The region must outlive this object.
   StartPoints(const SearchRegion& region, const StartSpread& spread, std::uint64_t seed)
       : region_(region), spread_(spread), seed_(seed), group_of_(groups_or_dimensions(region)) {}
 
-  /// Points `first`, `first` + 1, ... (DxN).
+  /// Returns points `first` to `first + count - 1` (DxN).
   Eigen::MatrixXd points(std::int64_t first, std::int64_t count) const {
     Eigen::MatrixXd points = region_.start.replicate(1, count);
     for (std::int64_t i = first == 0 ? 1 : 0; i < count; ++i) {

@@ -5,28 +5,28 @@
 
 #include "hypotrack/random.hpp"
 
-// How a population lies about the start, one number at a time: plain arithmetic that a CUDA kernel
-// can include. start_points.hpp makes points of them.
+// Normal samples of a population about the start, one number at a time. A CUDA kernel can include
+// this file. start_points.hpp makes whole points.
 
 namespace hypotrack {
 
 inline constexpr std::uint32_t kStartStream = 1;
 inline constexpr std::uint32_t kGroupStream = 2;
 
-/// Bounds of a dimension of the search region.
+/// The bounds of one dimension of the search region.
 struct Interval {
   double lower;
   double upper;
 };
 
-/// How far the points of a population may lie from the start.
+/// The distribution of a population's first points about the start.
 struct StartSpread {
-  double sigma = 0.5;       ///< standard deviation in spreads
-  double group_share = 1;   ///< probability of a group to use all of it
-  double group_rest = 0.1;  ///< what the other groups use of it
+  double sigma = 0.5;       ///< standard deviation, in units of the region's spread
+  double group_share = 1;   ///< probability that a group uses all of sigma
+  double group_rest = 0.1;  ///< share of sigma that the other groups use
 
-  /// The standard deviation, in spreads, of a group's dimensions in point `number` >= 1. Draws
-  /// RandomIndex{group, number, 0, 2}.
+  /// Returns the standard deviation of a group's dimensions in point `number` >= 1, in units of the
+  /// spread. Draws RandomIndex{group, number, 0, 2}.
   HYPOTRACK_PIXEL double of_group(std::uint64_t seed, std::uint32_t group,
                                   std::uint32_t number) const {
     if (group_share >= 1) return sigma;
@@ -35,8 +35,8 @@ struct StartSpread {
   }
 };
 
-/// A dimension of point `number` >= 1: a normal sample about `start` within the bounds. Draws
-/// RandomIndex{dimension, number, 0, 1}.
+/// Returns one dimension of point `number` >= 1: a normal sample about `start`, clamped to the
+/// bounds. Draws RandomIndex{dimension, number, 0, 1}.
 HYPOTRACK_PIXEL double start_sample(double start, double standard_deviation, const Interval& bounds,
                                     std::uint64_t seed, std::uint32_t dimension,
                                     std::uint32_t number) {

@@ -4,9 +4,9 @@
 
 namespace hypotrack {
 
-/// The nearest power of 1.1 (`value` > 0): for settings that follow what recent frames have shown.
-/// In steps, costs of one frame and the next compare, and searches that were captured into a graph
-/// are rarely captured again.
+/// Rounds a setting that follows recent frames to the nearest power of 1.1; `value` > 0. A rounded
+/// setting rarely changes. So costs of successive frames stay comparable, and CUDA graphs of a
+/// search are rarely recaptured.
 inline double stepped(double value) {
   constexpr double kStep = 1.1;
   return std::pow(kStep, std::round(std::log(value) / std::log(kStep)));

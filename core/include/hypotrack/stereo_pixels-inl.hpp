@@ -11,8 +11,8 @@
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "hypotrack/view_pixels-inl.hpp"
 
-/// Walks over a stereo hypothesis a vector of pixels at a time. An objective brings its features
-/// (PixelPlane, made in `prepare`) and a functor:
+/// Walks over a stereo hypothesis, one vector of pixels at a time. An objective supplies its
+/// features (PixelPlane, made in `prepare`) and a functor:
 ///
 ///   struct MyTerm {
 ///     static constexpr bool kVisitsUncovered = false;  // not called where nothing is covered
@@ -28,9 +28,9 @@
 ///   MyTerm term{...};
 ///   for_each_stereo_pixel(left, right, map, 0.003f, covered_box(left), term);
 ///
-/// Pixels outside the covered box are uncovered. A term that needs them all walks whole_tile(left)
-/// with kVisitsUncovered, or, cheaper, sums its cost of "uncovered" over the whole tile in
-/// `prepare` and takes off that of the covered pixels here.
+/// Pixels outside the covered box are uncovered. A term that needs them can walk whole_tile(left)
+/// with kVisitsUncovered. It is cheaper to sum the cost of "uncovered" over the whole tile in
+/// `prepare` and subtract that of the covered pixels here.
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 
@@ -44,7 +44,7 @@ struct LanesOf<std::uint32_t> {
   using type = WordLanes;
 };
 
-// Picks row[window + offset] for offsets 0 <= offset < 2 * kLanes out of two registers.
+// Selects row[window + offset] for 0 <= offset < 2 * kLanes from two registers.
 template <class Tag>
 HYPOTRACK_PIXEL hn::Vec<Tag> pick(Tag tag, const hn::TFromD<Tag>* row, int window,
                                   hn::Vec<IntTag> offset) {
@@ -56,15 +56,15 @@ HYPOTRACK_PIXEL hn::Vec<Tag> pick(Tag tag, const hn::TFromD<Tag>* row, int windo
   return hn::IfThenElse(hn::RebindMask(tag, is_low), low, high);
 }
 
-// row[column] where active. Neighbours land near each other, so that their columns nearly always
-// lie within two vectors from `window` on: two loads and permutations, several times faster than a
-// gather. A negative window means: none.
+// Returns row[column] of active lanes. Neighbours map near each other: nearly always all columns
+// lie within two vectors from `window` on. Two loads and permutations are several times faster than
+// a gather. A negative window always gathers.
 template <class T>
 HYPOTRACK_PIXEL typename LanesOf<T>::type look_up(const T* row, IntLanes column, LaneMask active,
                                                   int window) {
   if constexpr (kLanes >= 8) {
     const auto offset = hn::Sub(column.v, hn::Set(IntTag(), window));
-    // Any bit above those of 2 * kLanes - 1 says: too far, or negative.
+    // A bit above those of 2 * kLanes - 1 marks an offset that is too large or negative.
     const auto far = hn::Ne(hn::And(offset, hn::Set(IntTag(), -2 * kLanes)), hn::Zero(IntTag()));
     const LaneMask outside = active && LaneMask{hn::RebindMask(FloatTag(), far)};
     if (HWY_LIKELY(window >= 0 && !any(outside))) {
@@ -76,40 +76,41 @@ HYPOTRACK_PIXEL typename LanesOf<T>::type look_up(const T* row, IntLanes column,
 }
 }  // namespace detail
 
-/// The four (or, in a rectified pair, two) pixels around a position and their weights.
+/// Top-left corner and weights of a bilinear interpolation. A rectified pair needs two of the four
+/// pixels.
 struct BilinearLanes {
   IntLanes x0, y0;
-  Lanes fx, fy;  ///< share of the right and the lower neighbours
+  Lanes fx, fy;  ///< weight of the right and the lower neighbours
 };
 
-/// kLanes neighbouring pixels of a row of the reference view ("here") and what they see in the
-/// other ("there").
+/// kLanes neighbouring pixels of a row of the reference view ("here") and their match in the other
+/// view ("there").
 struct StereoPixels {
-  int x, y;             ///< of the first lane; the lanes are x, x + 1, ...
-  int pixels;           ///< number of lanes in the walk's region, the first ones
+  int x, y;             ///< of the first lane; lane i is at x + i
+  int pixels;           ///< number of lanes inside the walk's region; they come first
   Lanes inverse_depth;  ///< here, 1/m; 0 where uncovered
-  // Each lane of the walk's region is exactly one of these; lanes beyond it are none.
+  // Each lane inside the region is in exactly one of these masks; lanes outside it are in none.
   LaneMask seen, occluded, uncovered;
-  Lanes u, v;            ///< where the surface point is there, pixels; any value where not seen
-  IntLanes column, row;  ///< the same, the nearest pixel; 0 where outside
-  int width, height;     ///< of the tile there
-  bool same_row;         ///< rectified: row == y
-  int window;            ///< internal: where look_up() finds its columns
+  Lanes u, v;            ///< position of the surface point there, pixels; arbitrary if not seen
+  IntLanes column, row;  ///< nearest pixel to (u, v); 0 if outside the tile there
+  int width, height;     ///< size of the tile there
+  bool same_row;         ///< true for a rectified pair: row == y
+  int window;            ///< internal: first column of look_up()'s two vectors
 
-  /// A feature here; any value beyond the region.
+  /// Returns a feature here; arbitrary outside the region.
   HYPOTRACK_PIXEL Lanes here(const PixelPlane<float>& plane) const {
     return load(plane.row(y) + x);
   }
   HYPOTRACK_PIXEL WordLanes here(const PixelPlane<std::uint32_t>& plane) const {
     return load(plane.row(y) + x);
   }
-  /// A feature there, at the nearest pixel; any value where not seen. The plane has the tile's
+  /// Returns a feature there, at the nearest pixel; arbitrary if not seen. The plane has the tile's
   /// size.
   template <class T>
   HYPOTRACK_PIXEL typename detail::LanesOf<T>::type nearest(const PixelPlane<T>& plane) const {
     return at(plane, column, row);
   }
-  /// A feature there, at some pixel within the tile per lane; any value where not seen.
+  /// Returns a feature there, at one pixel of the tile per lane; arbitrary if not seen.
   template <class T>
   HYPOTRACK_PIXEL typename detail::LanesOf<T>::type at(const PixelPlane<T>& plane, IntLanes px,
                                                        IntLanes py) const {
@@ -117,8 +118,8 @@ struct StereoPixels {
     const IntLanes index = py * int_lanes(width) + px;
     return detail::look_up(plane.row(0), index, seen, -1);
   }
-  /// Corners and weights for interpolating features at (u, v), clamped to the tile (which
-  /// has at least two rows and columns).
+  /// Returns corners and weights for bilinear interpolation at (u, v), clamped to the tile. The
+  /// tile has at least two rows and columns.
   HYPOTRACK_PIXEL BilinearLanes bilinear() const {
     const Lanes zero(0.0f), one(1.0f);
     const Lanes su = select(seen, u, zero), sv = select(seen, v, zero);
@@ -129,7 +130,7 @@ struct StereoPixels {
 };
 
 namespace detail {
-// The window for look_up(): two vectors around where the first of these pixels lands.
+// Returns look_up()'s window: two vectors around the position that lane `lane` maps to.
 HYPOTRACK_PIXEL int window_for(const StereoMap& map, const float* row, int x, int lane) {
   if (map.width < 2 * kLanes) return -1;
   const float w = row[x + lane];
@@ -193,8 +194,8 @@ HYPOTRACK_PIXEL void walk(const DepthTile& here, const DepthTile& there, const S
 }
 }  // namespace detail
 
-/// Calls functor.pixels() for the pixels of `region` of the reference tile `here` (see above).
-/// `map` is stereo_map(observation, here, there); a surface point counts as seen if the depth
+/// Calls functor.pixels() for the pixels of `region` of the reference tile `here`, as shown above.
+/// `map` is stereo_map(observation, here, there). A surface point counts as seen if the depth
 /// rendered there differs from its own by at most `tolerance` metres.
 template <class Functor>
 HYPOTRACK_PIXEL void for_each_stereo_pixel(const DepthTile& here, const DepthTile& there,

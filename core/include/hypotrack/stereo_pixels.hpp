@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// The map from the tile of view `from` into that of view `to`.
+/// Returns the map from the tile of view `from` into that of view `to`.
 inline StereoMap stereo_map(const Observation& observation, int from, int to) {
   const TileCamera& a = observation.views[static_cast<std::size_t>(from)].camera;
   const TileCamera& b = observation.views[static_cast<std::size_t>(to)].camera;

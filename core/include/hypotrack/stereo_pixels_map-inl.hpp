@@ -8,25 +8,26 @@
 
 #include "hypotrack/pixel.hpp"
 
-/// Where a pixel's surface point lands in the other view, and whether it is the surface seen there.
-/// Per-pixel functions for every lane type (pixel.hpp).
+/// Per-pixel functions that map a surface point to the other view and test whether it is visible
+/// there. They accept every lane type (pixel.hpp).
 HYPOTRACK_PIXEL_BEGIN();
 namespace hypotrack::HYPOTRACK_TARGET {
 
+/// A surface point in the other view.
 template <class F>
 struct Mapped {
   F u, v;           ///< pixels
-  F inverse_depth;  ///< of the same point, in the other view; negative or infinite behind it
+  F inverse_depth;  ///< of this point in the other view; negative or infinite behind its camera
 };
 
-/// a . (x, y, 1) + b w
+/// Returns a . (x, y, 1) + b w.
 template <class F>
 HYPOTRACK_PIXEL F affine(const float (&a)[3], float b, F x, F y, F w) {
   using pixel::mul_add;
   return mul_add(F(b), w, mul_add(F(a[0]), x, mul_add(F(a[1]), y, F(a[2]))));
 }
 
-/// The equations of StereoMap for pixel (x, y) with inverse depth w.
+/// Maps pixel (x, y) with inverse depth w by the equations of StereoMap.
 template <bool kRectified, class F>
 HYPOTRACK_PIXEL Mapped<F> map_pixel(const StereoMap& map, F x, F y, F w) {
   using pixel::mul_add;
@@ -40,7 +41,7 @@ HYPOTRACK_PIXEL Mapped<F> map_pixel(const StereoMap& map, F x, F y, F w) {
   }
 }
 
-/// Whether the nearest pixel lies within the other view's tile, in front of its camera.
+/// Returns true if the nearest pixel lies within the other view's tile, in front of its camera.
 template <bool kRectified, class F>
 HYPOTRACK_PIXEL auto lands_inside(const StereoMap& map, const Mapped<F>& m) {
   const F low(-0.5f);
@@ -53,8 +54,8 @@ HYPOTRACK_PIXEL auto lands_inside(const StereoMap& map, const Mapped<F>& m) {
   }
 }
 
-/// Whether two inverse depths are the same surface: |1/a - 1/b| <= r. `a` > 0; b = 0 (nothing) is
-/// never the same.
+/// Returns true if two inverse depths belong to one surface: |1/a - 1/b| <= r. Requires `a` > 0; b
+/// = 0 (nothing) never matches.
 template <class F>
 HYPOTRACK_PIXEL auto same_depth(F a, F b, F r) {
   using pixel::abs;

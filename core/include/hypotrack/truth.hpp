@@ -14,8 +14,8 @@
 
 namespace hypotrack {
 
-/// The answer to a recording, as parameters of a source: tables as described in tables.hpp. Visit
-/// it from the source's own `visit` (`truth.visit(v)`), so that its keys stand beside the others.
+/// The parameters by which a source names its ground-truth tables (tables.hpp). A source visits
+/// them in its own `visit` (`truth.visit(v)`), so that their keys appear among its own.
 struct TruthSettings {
   std::filesystem::path states;
   std::filesystem::path landmarks;
@@ -40,21 +40,22 @@ struct TruthSettings {
   }
 };
 
-/// Looks the answer up frame by frame.
+/// The ground truth of a recording, by frame.
 class HYPOTRACK_API TruthTables {
  public:
-  /// Without tables: knows nothing.
+  /// Creates an empty object, without tables.
   TruthTables() = default;
-  /// Reads the tables that are named. Throws DataError as read_states and read_landmarks do.
+  /// Reads the tables that the settings name. Throws DataError as read_states() and
+  /// read_landmarks().
   TruthTables(const TruthSettings& settings, const Scene& scene);
 
-  /// What the tables say about an image by its number in the recording (which `truth_offset` is
-  /// added to); nothing if they do not mention it.
+  /// Returns the ground truth of an image by its number in the recording, to which `truth_offset`
+  /// is added; nothing if no table has it.
   std::optional<GroundTruth> at(int number) const;
 
-  /// Throws DataError if tables are named and say nothing of the images `first`, `first + step`,
-  /// ..., of which there are `count` (any number if that is not known): such tables are of another
-  /// recording, and a run would have no errors without a word.
+  /// Throws DataError if the tables have no row for any of the images `first`, `first + step`, ...
+  /// Such tables belong to another recording, and the run would silently report no errors. `count`
+  /// is the number of images, if known. Does nothing without tables.
   void expect_some(int first, int step, std::optional<int> count) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace hypotrack {
 
-/// Two numbers of 0 .. 1 (others are clamped) as 16-bit fractions in one word: simd-inl.hpp's
-/// unorm16_low() and unorm16_high() undo it. Exact for 8-bit values (k / 255).
+/// Packs two numbers, clamped to 0 .. 1, as 16-bit fractions into one word. unorm16_low() and
+/// unorm16_high() (simd-inl.hpp) unpack them. Exact for 8-bit values (k / 255).
 HYPOTRACK_PIXEL std::uint32_t pack_unorm16(float low, float high) {
   const auto bits = [](float x) {
     return static_cast<std::uint32_t>(pixel::min(pixel::max(x, 0.0f), 1.0f) * 65535.0f + 0.5f);

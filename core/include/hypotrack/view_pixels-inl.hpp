@@ -9,8 +9,8 @@
 #include "hypotrack/simd-inl.hpp"
 #include "hypotrack/view_pixels.hpp"
 
-/// Walks over a hypothesis in one view, a vector of pixels at a time. As in stereo_pixels-inl.hpp,
-/// an objective brings its features (PixelPlane, made in `prepare`) and a functor:
+/// Walks over a hypothesis in one view, one vector of pixels at a time. An objective supplies its
+/// features (PixelPlane, made in `prepare`) and a functor, as in stereo_pixels-inl.hpp:
 ///
 ///   struct MyTerm {
 ///     static constexpr bool kVisitsUncovered = false;  // not called where nothing is covered
@@ -24,15 +24,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 
-/// kLanes neighbouring pixels of a row.
+/// kLanes neighbouring pixels of a row of one view.
 struct ViewPixels {
-  int x, y;             ///< of the first lane; the lanes are x, x + 1, ...
-  int pixels;           ///< number of lanes in the walk's region, the first ones
+  int x, y;             ///< of the first lane; lane i is at x + i
+  int pixels;           ///< number of lanes inside the walk's region; they come first
   Lanes inverse_depth;  ///< 1/m; 0 where uncovered
-  // Each lane of the walk's region is one of these; lanes beyond it are none.
+  // Each lane inside the region is in one of these masks; lanes outside it are in none.
   LaneMask covered, uncovered;
 
-  /// A feature; any value beyond the region. The plane has the tile's size.
+  /// Returns a feature; arbitrary outside the region. The plane has the tile's size.
   HYPOTRACK_PIXEL Lanes here(const PixelPlane<float>& plane) const {
     return load(plane.row(y) + x);
   }
@@ -42,7 +42,7 @@ struct ViewPixels {
 };
 
 namespace detail {
-// kLanes values of a row from x on, zero beyond the region; never reads beyond the stride.
+// Returns kLanes values of a row from x on, 0 outside the region. Never reads beyond the stride.
 HYPOTRACK_PIXEL Lanes load_depth(const float* row, int x, int pixels, int stride) {
   if (HWY_LIKELY(x + kLanes <= stride)) {
     return select(first_lanes(pixels), load(row + x), Lanes(0.0f));
@@ -53,7 +53,7 @@ HYPOTRACK_PIXEL Lanes load_depth(const float* row, int x, int pixels, int stride
 }
 }  // namespace detail
 
-/// Calls functor.pixels() for the pixels of `region` of a tile (see above).
+/// Calls functor.pixels() for the pixels of `region` of a tile, as shown above.
 template <class Functor>
 HYPOTRACK_PIXEL void for_each_view_pixel(const DepthTile& tile, const PixelBox& region,
                                          Functor& functor) {

@@ -10,15 +10,15 @@
 
 namespace hypotrack {
 
-/// A feature per pixel of a tile, rows without gaps, with enough room behind the last row for a
-/// whole SIMD vector. T is float or std::uint32_t (for example two 16-bit features).
+/// One feature per pixel of a tile. Rows have no gaps; padding after the last row fits a whole SIMD
+/// vector. T is float or std::uint32_t (for example two 16-bit features).
 template <class T>
 class PixelPlane {
  public:
   static_assert(sizeof(T) == 4, "SIMD lanes are 32 bits wide");
 
   PixelPlane() = default;
-  /// All zero.
+  /// Creates a plane of zeros.
   PixelPlane(int width, int height) { resize(width, height); }
 
   void resize(int width, int height) {
@@ -38,14 +38,14 @@ class PixelPlane {
   std::vector<T> data_;
 };
 
-/// Pixels x0 <= x < x1, y0 <= y < y1.
+/// A box of pixels: x0 <= x < x1, y0 <= y < y1.
 struct PixelBox {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// The part of a tile that a hypothesis may cover.
+/// Returns the part of a tile that a hypothesis may cover.
 inline PixelBox covered_box(const DepthTile& tile) { return {tile.x0, tile.y0, tile.x1, tile.y1}; }
-/// All of a tile.
+/// Returns the box of the whole tile.
 inline PixelBox whole_tile(const DepthTile& tile) { return {0, 0, tile.width, tile.height}; }
 
 }  // namespace hypotrack

@@ -26,7 +26,7 @@ std::string_view without_plus(std::string_view text) {
   return text;
 }
 
-/// [digits][.digits][e[sign]digits], at least one digit before the exponent.
+/// Matches [digits][.digits][e[sign]digits] with at least one digit before the exponent.
 bool is_unsigned_decimal(std::string_view text) {
   std::size_t digits = skip_digits(text);
   if (text.starts_with('.')) {
@@ -85,7 +85,7 @@ std::optional<std::int64_t> parse_integer(std::string_view text) {
   const auto number = parse_number(text);
   if (!number) return std::nullopt;
   if (const auto exact = convert<std::int64_t>(text)) return exact;
-  // Beyond 2^53 a double skips integers; only the plain form above is exact there.
+  // Beyond 2^53 not every integer is a double; only the plain form above is exact there.
   const bool exact = std::abs(*number) <= 9007199254740992.0 && *number == std::trunc(*number);
   if (!exact) return std::nullopt;
   return static_cast<std::int64_t>(*number);

@@ -9,7 +9,8 @@
 namespace hypotrack::detail {
 namespace {
 
-/// Longer words are no typing errors, and comparing them would cost their product.
+/// Longest word to compare. Longer ones are not typing errors, and the cost is the product of both
+/// lengths.
 constexpr std::size_t kLongestWord = 64;
 
 }  // namespace
@@ -34,7 +35,7 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
   if (word.empty() || word.size() > kLongestWord) return "";
-  // About one error in three letters; words of two letters are like anything.
+  // Allow one error per three letters; words of two letters resemble anything.
   int nearest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   const std::string* best = nullptr;
   for (const std::string& candidate : candidates) {

@@ -8,11 +8,11 @@
 
 namespace hypotrack::detail {
 
-/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions
-/// and swaps of neighbours.
+/// Returns the Damerau-Levenshtein distance (optimal string alignment): the number of insertions,
+/// deletions, substitutions and swaps of neighbours.
 HYPOTRACK_API int edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean 'particles'?", or nothing if no candidate is near.
+/// Returns "; did you mean 'particles'?", or an empty text if no candidate is near.
 HYPOTRACK_API std::string did_you_mean(std::string_view word,
                                        std::span<const std::string> candidates);
 

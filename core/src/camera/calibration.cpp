@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 3> kUnitNames = {"m", "cm", "mm"};
 constexpr std::array<std::string_view, 3> kModelNames = {"none", "brown", "fisheye"};
 constexpr std::array<double, 3> kMetresPerUnit = {1.0, 1e-2, 1e-3};
 
-// Two eyes of a hand tracker: nearer together nothing has parallax, further apart the hand is out
-// of reach. Everything outside is almost always a mistaken unit.
+// Plausible baselines for hand tracking. Closer cameras have no parallax; with cameras further
+// apart the hand is out of reach. Other values are almost always a wrong unit.
 constexpr double kNearestCameras = 0.005;  // metres
 constexpr double kFurthestCameras = 2.0;
 
@@ -27,7 +27,7 @@ struct ImageSize {
   int height = 0;
 };
 
-/// The first of several names under which a node is there; undefined if there is none.
+/// Returns the node under the first name that exists; undefined if none does.
 ConfigNode first_of(const ConfigNode& node, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
     if (ConfigNode found = node.get(name); found.defined()) return found;
@@ -98,7 +98,7 @@ void read_lens(const ConfigNode& node, std::optional<DistortionModel> model, Cam
           fmt::format("{} is {} x {}; expected one row or column", d.where, d.rows, d.cols));
     }
     camera.distortion = d.values;
-    // OpenCV pads with zeros: 12 and 14 coefficients are 8 where thin prism and tilt are unused.
+    // OpenCV pads with zeros: 12 or 14 coefficients equal 8 if thin prism and tilt are unused.
     while (camera.distortion.size() > 8 && camera.distortion.back() == 0) {
       camera.distortion.pop_back();
     }
@@ -127,13 +127,13 @@ void read_pose(const ConfigNode& r_node, const ConfigNode& t_node, double metres
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = r.values[static_cast<std::size_t>(i)];
   camera.camera_from_world.linear() = rotation;
-  Camera checked = camera;  // R alone, so that the message names its line
+  Camera checked = camera;  // R alone, so that the message gives its line
   checked.width = checked.height = 1;
   checked.fx = checked.fy = 1;
   checked.distortion_model = DistortionModel::none;
   checked.distortion.clear();
   validate(checked, r.where);
-  // Files carry a limited number of digits; the transform is to be a rotation exactly.
+  // Files have few digits; orthonormalise the rotation.
   camera.camera_from_world.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   camera.camera_from_world.translation() =
       metres_per_unit * Eigen::Vector3d(t.values[0], t.values[1], t.values[2]);
@@ -292,7 +292,7 @@ std::vector<Camera> load_calibration(const CalibrationSettings& settings) {
   apply_size(cameras, file, settings);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     Camera checked = cameras[i];
-    if (checked.width == 0) checked.width = checked.height = 1;  // known with the first image
+    if (checked.width == 0) checked.width = checked.height = 1;  // set with the first image
     validate(checked, fmt::format("{}: camera {}", settings.file.string(), i));
   }
   if (!settings.any_baseline) check_baselines(cameras, settings);

@@ -4,12 +4,12 @@
 
 #include "hypotrack/pixel.hpp"
 
-/// Lens distortion as formulas, for the CPU and for CUDA: no Eigen, no OpenCV.
+/// Lens distortion formulas for CPU and CUDA, without Eigen and OpenCV.
 namespace hypotrack {
 
-/// OpenCV's radial (rational) and tangential model on normalised image coordinates; see "Camera
-/// Calibration and 3D Reconstruction" in OpenCV's documentation. `k` holds 8 coefficients: k1 k2 p1
-/// p2 k3 k4 k5 k6. T is a scalar, an Eigen array or an interval.
+/// Applies OpenCV's radial (rational) and tangential distortion to normalised image coordinates.
+/// `k` holds k1 k2 p1 p2 k3 k4 k5 k6. T is a scalar, an Eigen array or an interval. Source: "Camera
+/// Calibration and 3D Reconstruction" in OpenCV's documentation.
 template <class T, class Scalar>
 HYPOTRACK_PIXEL void distort_brown(const Scalar* k, const T& x, const T& y, T& xd, T& yd) {
   const Scalar one(1);
@@ -22,14 +22,15 @@ HYPOTRACK_PIXEL void distort_brown(const Scalar* k, const T& x, const T& y, T& x
   yd = y * radial + k[2] * (r2 + two * y * y) + k[3] * xy2;
 }
 
-/// The distorted angle from the axis over the angle t, of its square. T is a scalar or an interval.
+/// Returns the distorted angle from the axis divided by the angle t, given t^2. T is a scalar or an
+/// interval.
 template <class T, class Scalar>
 HYPOTRACK_PIXEL T fisheye_polynomial(const Scalar* k, const T& t2) {
   return Scalar(1) + t2 * (k[0] + t2 * (k[1] + t2 * (k[2] + t2 * k[3])));
 }
 
-/// OpenCV's fisheye model (Kannala and Brandt, 2006): the factor on normalised coordinates at
-/// distance r from the axis. `k` holds k1 k2 k3 k4.
+/// Returns the factor on normalised coordinates at distance r from the axis in OpenCV's fisheye
+/// model (Kannala and Brandt, 2006). `k` holds k1 k2 k3 k4.
 template <class Scalar>
 HYPOTRACK_PIXEL Scalar fisheye_factor(const Scalar* k, Scalar r) {
   if (r < Scalar(1e-8)) return Scalar(1);

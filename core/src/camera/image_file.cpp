@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;
 
-/// Whether a JPEG or PNG has its end marker. Decoders fill up what is missing with grey.
+/// Returns true if a JPEG or PNG has its end marker. Decoders fill truncated images with grey.
 bool is_truncated(const std::vector<unsigned char>& bytes) {
   const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
@@ -34,7 +34,7 @@ ReadImage decode(const std::filesystem::path& file) {
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > kLargestFile) return {{}, name + ": is larger than 512 MiB"};
   std::ifstream in(file, std::ios::binary);
-  // Unsigned: OpenCV's WebP decoder refuses a vector of char.
+  // Unsigned: OpenCV's WebP decoder rejects a vector of char.
   const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)),
                                          std::istreambuf_iterator<char>());
   if (!in.good() && !in.eof()) return {{}, name + ": cannot be read; check its permissions"};
@@ -44,13 +44,13 @@ ReadImage decode(const std::filesystem::path& file) {
   try {
     read.image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
-    read.image.release();  // what OpenCV throws on absurd sizes names its own source lines
+    read.image.release();  // OpenCV's message for absurd sizes names its own source lines
   }
   if (read.image.empty()) read.problem = name + ": is damaged or no image";
   return read;
 }
 
-/// Three channels of the same depth.
+/// Converts an image to three channels of the same depth.
 cv::Mat to_bgr(const cv::Mat& image) {
   cv::Mat bgr;
   switch (image.channels()) {
@@ -79,7 +79,7 @@ ReadImage read_color(const std::filesystem::path& file, int bits) {
   }
   read.image = to_bgr(read.image);
   if (read.image.depth() == CV_16U) {
-    // The brightest value of so many bits becomes 255.
+    // The largest value of that many bits becomes 255.
     read.image.convertTo(read.image, CV_8U, 255.0 / (std::exp2(bits) - 1));
   }
   return read;

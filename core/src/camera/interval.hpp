@@ -6,22 +6,22 @@
 
 namespace hypotrack {
 
-/// All numbers from `low` to `high`. A formula on intervals yields one that holds whatever the
-/// formula yields for numbers taken from them (Moore, 1966), up to the rounding of doubles.
+/// An interval of numbers from `low` to `high`. A formula on intervals gives an interval that
+/// contains its value for all numbers in them, up to rounding (interval arithmetic, Moore 1966).
 struct Interval {
   double low = 0;
   double high = 0;
 
-  // Implicit, so that formulas mix intervals and numbers.
+  // Implicit, so that formulas can mix intervals and numbers.
   constexpr Interval(double number) : low(number), high(number) {}
   constexpr Interval(double from, double to) : low(from), high(to) {}
 
-  /// The smallest one around four numbers.
+  /// Returns the smallest interval that contains four numbers.
   static constexpr Interval around(const std::array<double, 4>& numbers) {
     const auto [low, high] = std::ranges::minmax(numbers);
     return {low, high};
   }
-  /// What nothing is known about, and no formula on it: NaN.
+  /// Returns an unknown interval (NaN); every formula on it is unknown.
   static constexpr Interval unknown() {
     return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
   }
@@ -33,7 +33,7 @@ constexpr Interval operator*(Interval a, Interval b) {
   return Interval::around({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
 }
 
-/// Unknown where the divisor comes near zero, where rounding would count, or lies below.
+/// Divides two intervals. Unknown if the divisor reaches below 0.01, where rounding would matter.
 constexpr Interval operator/(Interval a, Interval b) {
   constexpr double kNearZero = 0.01;
   if (!(b.low > kNearZero)) return Interval::unknown();

@@ -6,22 +6,22 @@
 #include "camera/distort.hpp"
 #include "hypotrack/pixel.hpp"
 
-/// Where a pixel of a tile lies in the camera's image: plain data and the one function that the CPU
-/// and CUDA share, without Eigen and OpenCV.
+/// Maps tile pixels to a camera's image: plain data and the one function that CPU and CUDA share,
+/// without Eigen and OpenCV.
 namespace hypotrack {
 
 enum class Lens : std::int32_t { none, brown, fisheye };
 
-/// A camera's lens, and how the ideal camera that tiles are cut from is turned against it.
+/// A camera's lens and its rotation against the ideal camera of its tiles.
 struct LensMap {
   float camera_from_ideal[9];  ///< rotation, row by row
   float fx, fy, cx, cy;        ///< pixels
   float distortion[8];
-  float largest_r2;  ///< what is farther off the axis (squared, on z = 1), the camera cannot see
+  float largest_r2;  ///< squared largest visible distance from the axis, on z = 1
   Lens lens;
 };
 
-/// The intrinsics of a tile's camera.
+/// The intrinsics of a tile's camera, pixels.
 struct TileIntrinsics {
   float fx, fy, cx, cy;
 };
@@ -30,11 +30,11 @@ struct ImagePoint {
   float x, y;
 };
 
-/// Both coordinates of what the camera cannot see: no image has them, and they fit the 16 bits of
-/// cv::remap.
+/// Both coordinates of a point that the camera cannot see. It lies outside every image and fits
+/// cv::remap's 16 bits.
 inline constexpr float kUnseen = -1e4f;
 
-/// Image coordinates of what the ideal camera sees along (u, v, 1), in pixels.
+/// Returns the image position, in pixels, of the ideal camera's ray (u, v, 1).
 HYPOTRACK_PIXEL ImagePoint image_point_along(const LensMap& map, float u, float v) {
   const float* r = map.camera_from_ideal;
   const float z = r[6] * u + (r[7] * v + r[8]);
@@ -54,13 +54,13 @@ HYPOTRACK_PIXEL ImagePoint image_point_along(const LensMap& map, float u, float 
   return {seen ? xd * map.fx + map.cx : kUnseen, seen ? yd * map.fy + map.cy : kUnseen};
 }
 
-/// Image coordinates of a position in the tile, in pixels.
+/// Returns the image position, in pixels, of a position in the tile.
 HYPOTRACK_PIXEL ImagePoint image_point(const LensMap& map, const TileIntrinsics& tile, float column,
                                        float row) {
   return image_point_along(map, (column - tile.cx) / tile.fx, (row - tile.cy) / tile.fy);
 }
 
-/// What a depth measured along the camera's axis is along the tile's, for a pixel of the tile.
+/// Converts a depth along the camera's axis to one along the tile's, for a pixel of the tile.
 HYPOTRACK_PIXEL float depth_along_tile(const LensMap& map, const TileIntrinsics& tile, int column,
                                        int row, float depth) {
   const float* axis = map.camera_from_ideal + 6;
@@ -69,13 +69,13 @@ HYPOTRACK_PIXEL float depth_along_tile(const LensMap& map, const TileIntrinsics&
   return depth / (axis[0] * u + (axis[1] * v + axis[2]));
 }
 
-/// The image pixel that a point on the image lies in; halves go up, as inside_image() has it.
+/// Returns the image pixel that contains a coordinate; halves round up, as in inside_image().
 HYPOTRACK_PIXEL int nearest_pixel(float coordinate, int size) {
   const int nearest = static_cast<int>(std::floor(coordinate + 0.5f));
   return nearest < size ? nearest : size - 1;
 }
 
-/// Whether a point lies on the image: a pixel reaches half a pixel around its centre.
+/// Returns true if a point lies on the image; a pixel extends half a pixel around its centre.
 HYPOTRACK_PIXEL bool inside_image(ImagePoint p, int width, int height) {
   return p.x >= -0.5f && p.x < static_cast<float>(width) - 0.5f && p.y >= -0.5f &&
          p.y < static_cast<float>(height) - 0.5f;

@@ -41,7 +41,7 @@ std::string read_text(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-/// Blanks what is OpenCV's own and no YAML 1.2, without moving anything: positions stay true.
+/// Blanks OpenCV's deviations from YAML 1.2 and keeps all positions.
 void blank_opencv_marks(std::string& text) {
   const std::size_t start = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
   if (text.compare(start, 5, "%YAML") == 0) {

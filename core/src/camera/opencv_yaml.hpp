@@ -9,13 +9,13 @@
 
 namespace hypotrack {
 
-/// Reads the YAML that cv::FileStorage writes. Not with cv::FileStorage: it crashes on damaged
-/// files and does not say where the damage is. Throws DataError on XML, JSON and compressed files,
+/// Reads YAML of cv::FileStorage with hypotrack's own parser, because cv::FileStorage crashes on
+/// damaged files and does not locate errors. Throws DataError on XML, JSON and compressed files,
 /// files over 8 MiB and broken YAML.
 ConfigNode read_opencv_yaml(const std::filesystem::path& file);
 
-/// A matrix as it is written: `!!opencv-matrix` with rows, cols, dt and data, a plain list of
-/// numbers (one row), or a list of rows.
+/// A matrix of a YAML file: `!!opencv-matrix` with rows, cols, dt and data, a plain list of numbers
+/// (one row), or a list of rows.
 struct YamlMatrix {
   int rows = 0;
   int cols = 0;
@@ -23,15 +23,15 @@ struct YamlMatrix {
   std::string where;           ///< `extrinsics.yml:3:4: R`
 };
 
-/// Throws DataError, naming file, line and `name`, unless the node is a matrix of finite numbers
-/// with as many as its shape says.
+/// Reads a matrix of finite numbers. Throws DataError, naming file, line and `name`, for other
+/// nodes and for a number of values that does not fit its shape.
 YamlMatrix read_matrix(const ConfigNode& node, std::string_view name);
 
-/// Throws DataError unless the matrix has the shape; a vector may lie or stand, and a plain list of
-/// as many numbers will do for a matrix.
+/// Throws DataError unless the matrix has this shape. A row vector may replace a column vector, and
+/// a plain list of the right length may replace a matrix.
 void expect_shape(const YamlMatrix& matrix, int rows, int cols);
 
-/// A positive whole number. Throws DataError.
+/// Reads a positive integer. Throws DataError.
 int read_count(const ConfigNode& node, std::string_view name);
 
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 namespace hypotrack {
 namespace {
 
-/// Cosine of the angle between optical axes up to which a pair has a left and a right camera.
+/// Least cosine of the angle between optical axes of a pair with a left and a right camera.
 constexpr double kSameWay = 0.94;  // 20 degrees
 
 bool same_picture(const cv::Mat& a, const cv::Mat& b) {

@@ -9,8 +9,8 @@
 
 namespace hypotrack {
 
-/// What looks like a mistake in a pair of views, in words: the second camera of two that look the
-/// same way stands to the left of the first, or both views show one picture. Empty if nothing does.
+/// Describes a likely mistake in a pair of views; empty if there is none. Either the second of two
+/// cameras with the same viewing direction is left of the first, or both views show the same image.
 HYPOTRACK_API std::string problem_of_pair(std::span<const Camera> cameras, const Frame& frame);
 
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 namespace hypotrack {
 namespace {
 
-/// rectified_from_world of a pair, or nothing if the pair is not near-parallel.
+/// Returns rectified_from_world of a pair, or nothing if it is not near-parallel.
 std::optional<Eigen::Matrix3d> rectifying_rotation(const Camera& a, const Camera& b) {
   const Eigen::Matrix3d world_from_a = a.camera_from_world.linear().transpose();
   const Eigen::Matrix3d world_from_b = b.camera_from_world.linear().transpose();

@@ -12,16 +12,16 @@
 
 namespace hypotrack::detail {
 
-/// The steps of a path: `models.0.type`.
+/// Splits a path such as `models.0.type` into its steps.
 HYPOTRACK_API std::vector<std::string> split_path(std::string_view path);
 
-/// A step into a list; nothing if it is no number.
+/// Returns a step as a list index, or nothing if it is not a number.
 std::optional<std::size_t> as_index(std::string_view step);
 
-/// What is at a path below `root`; null if there is nothing.
+/// Returns the node at a path below `root`, or null if there is none.
 const YamlNode* find_at(const YamlNode& root, std::span<const std::string> path);
 
-/// Levels of maps and lists.
+/// Returns the number of nested levels of maps and lists.
 std::size_t depth_of(const YamlNode& node);
 
 }  // namespace hypotrack::detail

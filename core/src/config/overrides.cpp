@@ -28,7 +28,7 @@ std::unique_ptr<YamlNode>& list_slot(YamlNode& list, std::string_view step, std:
   return list.entries[*index].value;
 }
 
-/// The place of a child, made if it is missing.
+/// Returns the place of a child; creates it if it is missing.
 std::unique_ptr<YamlNode>& slot(YamlNode& node, const std::string& step, std::string_view path,
                                 const std::string& say) {
   if (node.kind == YamlNode::Kind::kNull) {
@@ -46,7 +46,7 @@ std::unique_ptr<YamlNode>& slot(YamlNode& node, const std::string& step, std::st
   return node.entries.back().value;
 }
 
-/// What the scene has at a path.
+/// Returns the scene's node at a path. Throws ConfigError if there is none.
 const YamlNode& node_at(const YamlNode& root, const std::string& path, const std::string& say) {
   if (const YamlNode* node = find_at(root, split_path(path))) return *node;
   throw ConfigError(fmt::format(
@@ -55,11 +55,11 @@ const YamlNode& node_at(const YamlNode& root, const std::string& path, const std
       say, path, path));
 }
 
-/// Replaces texts `@path` in what an override says by what the scene has there, and `@@text` by
-/// `@text`.
+/// Replaces references `@path` in an override's value by the scene's value at that path, and
+/// `@@text` by the text `@text`.
 void resolve_references(std::unique_ptr<YamlNode>& value, const YamlNode& root,
                         const YamlOrigin& written) {
-  if (value->origin.get() != &written) return;  // was taken from another scene
+  if (value->origin.get() != &written) return;  // copied from another scene
   for (auto& entry : value->entries) {
     resolve_references(entry.value, root, written);
     entry.value->parent = value.get();
@@ -74,7 +74,7 @@ void resolve_references(std::unique_ptr<YamlNode>& value, const YamlNode& root,
 std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
                                         const std::shared_ptr<const YamlOrigin>& origin) {
   std::unique_ptr<YamlNode> value;
-  if (text.starts_with('@')) {  // which YAML wants in quotes
+  if (text.starts_with('@')) {  // YAML would require quotes
     value = make_scalar(std::string(text), false);
     value->origin = origin;
   } else {

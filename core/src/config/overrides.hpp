@@ -10,17 +10,17 @@
 
 namespace hypotrack::detail {
 
-/// Applies one `key.path=value`. Throws ConfigError, naming the override.
+/// Applies one override `key.path=value`. Throws ConfigError, naming the override.
 void apply_override(YamlNode& root, const std::string& assignment);
 
-/// The value of an assignment to `path`, with the parts that it takes from other scenes. Throws
+/// Parses the value of an assignment to `path` and replaces its references to other scenes. Throws
 /// ConfigError.
 HYPOTRACK_API std::unique_ptr<YamlNode> read_assigned(
     const std::string& path, std::string_view text,
     const std::shared_ptr<const YamlOrigin>& origin);
 
-/// Puts a value at a path below `root`, creating what is missing on the way. `say` is how messages
-/// name the assignment.
+/// Sets the value at a path below `root` and creates missing nodes on the way. `say` names the
+/// assignment in messages.
 void assign(YamlNode& root, std::span<const std::string> path, std::unique_ptr<YamlNode> value,
             const std::string& say);
 

@@ -32,7 +32,7 @@ class DumpVisitor : public ParamVisitor {
     add(key, make_scalar(std::to_string(value), true));
   }
   void on_double(std::string_view key, double& value, const ParamInfo& info) override {
-    // A default of not-a-number means "not given", and cannot be read: leave it not given.
+    // A NaN default means "not given" and has no YAML form, so the key is left out.
     if (!std::isnan(value)) add(key, number(value, info));
   }
   void on_string(std::string_view key, std::string& value, const ParamInfo&) override {

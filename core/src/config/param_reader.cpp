@@ -20,14 +20,14 @@ using detail::with_range;
 
 ParamVisitor::~ParamVisitor() = default;
 
-/// The visitor that reads. One level per open section or list item; a level without a map belongs
-/// to an item of a default list that the file does not mention, and leaves everything as it is.
+/// The reading visitor, with one level per open section or list item. A level without a map belongs
+/// to an item of a default list that the file omits; it changes nothing.
 struct ParamReader::Impl : public ParamVisitor {
   struct Level {
     ConfigNode node;
     bool reads = true;
-    std::vector<std::string> known;    ///< keys that the struct has, in its order
-    std::vector<std::string> missing;  ///< required ones that the file has not
+    std::vector<std::string> known;    ///< keys of the struct, in its order
+    std::vector<std::string> missing;  ///< required keys that the file lacks
   };
 
   Impl(ConfigNode node, std::vector<std::string> also) : also_allowed(std::move(also)) {
@@ -35,11 +35,11 @@ struct ParamReader::Impl : public ParamVisitor {
     levels.push_back({std::move(node), true, {}, {}});
   }
 
-  /// The value of a key of the current map, if it is given.
+  /// Returns the value of a key of the current map, if it is given.
   std::optional<ConfigNode> take(std::string_view key, const ParamInfo& info) {
     Level& level = levels.back();
     if (!level.reads) return std::nullopt;
-    // An optional scalar is asked for twice: whether it is there, and then for its value.
+    // An optional scalar is visited twice: for its presence, then for its value.
     if (level.known.empty() || level.known.back() != key) level.known.emplace_back(key);
     ConfigNode node = level.node.get(key);
     if (node.defined()) return node;
@@ -74,7 +74,7 @@ struct ParamReader::Impl : public ParamVisitor {
               const ParamInfo& info) override {
     const auto node = take(key, info);
     if (!node) return;
-    // The type's own limits are worth naming only where they are what stops a value.
+    // Mention the type's own limits only if they are what rejects the value.
     std::string expected = with_range("an integer", info.min, info.max, info.unit);
     const auto number =
         node->is_plain() ? detail::parse_integer(node->scalar()) : std::optional<std::int64_t>();

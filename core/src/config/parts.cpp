@@ -19,7 +19,7 @@
 namespace hypotrack::detail {
 namespace {
 
-/// `@FILE.yaml` or `@FILE.yaml#key.path`, taken apart.
+/// The file and key path of a reference `@FILE.yaml` or `@FILE.yaml#key.path`.
 struct PartName {
   std::filesystem::path file;
   std::optional<std::string> path;
@@ -44,7 +44,7 @@ std::size_t count_of(const YamlNode& node) {
   return count;
 }
 
-/// Says how far a path leads, and what there is instead of its next step.
+/// Throws ConfigError that says how far a path exists and what is there instead of its next step.
 [[noreturn]] void fail_missing(const YamlNode& root, const std::string& file,
                                std::span<const std::string> path) {
   std::size_t known = 0;
@@ -65,7 +65,7 @@ std::size_t count_of(const YamlNode& node) {
       known == 0 ? "it" : fmt::format("its '{}'", fmt::join(path.first(known), ".")), there));
 }
 
-/// One name for a file, whatever it is called by.
+/// Returns one name for a file, however its path is written.
 std::filesystem::path identity(const std::filesystem::path& file) {
   std::error_code error;
   const auto canonical = std::filesystem::canonical(file, error);
@@ -126,7 +126,7 @@ class Parts {
     return *at->second;
   }
 
-  /// What was read, its own parts taken; null while that is under way.
+  /// Parsed scenes with their references replaced; null while a scene is being read.
   std::map<std::filesystem::path, std::unique_ptr<YamlNode>> scenes_;
   std::size_t values_ = 0;
 };

@@ -10,11 +10,11 @@
 
 namespace hypotrack::detail {
 
-/// Replaces texts `@FILE.yaml`, in a value at `path` of a scene, by what the scene FILE has at the
-/// same path as the text, and `@FILE.yaml#key.path` by what it has at that one, its own such texts
-/// replaced. FILE refers to the folder that the text was written in; what is taken keeps its
-/// origin, so that its relative paths still refer to the folder of FILE. `file` is the scene's own,
-/// if `value` is one. Throws ConfigError.
+/// Replaces the references to other scenes in `value`, which stands at `path`, recursively.
+/// `@FILE.yaml` becomes the value at the same path in the scene FILE, `@FILE.yaml#key.path` the
+/// value at that path. FILE is relative to the folder of the text. A copied value keeps its origin,
+/// so that its relative paths still refer to FILE's folder. `file` is the scene's own file if
+/// `value` is a whole scene. Throws ConfigError.
 void take_parts(std::unique_ptr<YamlNode>& value, std::vector<std::string> path,
                 const std::filesystem::path& file = {});
 

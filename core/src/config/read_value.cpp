@@ -47,7 +47,7 @@ double read_double(const ConfigNode& node, const ParamInfo& info) {
   const auto number = node.is_plain() ? parse_number(node.scalar()) : std::optional<double>();
   if (!number) fail_type(node, expected);
   if (std::isnan(*number)) fail_at(node, fmt::format("expected {}, found not-a-number", expected));
-  // A limit that went through the unit's factor and back may come out some last bits beyond it.
+  // Converting a limit by the unit's factor and back may change its last bits.
   const double slack = info.to_si == 1.0 ? 0.0 : 1e-15;
   if (*number < info.min - slack * std::abs(info.min) ||
       *number > info.max + slack * std::abs(info.max)) {

@@ -24,7 +24,7 @@ std::string read_file(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
                                   std::generic_category().message(errno)));
   }
-  // One byte more than allowed is enough to know that there is too much.
+  // One byte above the limit is enough to detect a file that is too large.
   std::string text(kMaxYamlBytes + 4, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));

@@ -9,13 +9,13 @@
 
 namespace hypotrack::detail {
 
-/// Reads a document and makes a map of an empty one, so that readers name the keys it lacks.
-/// Relative paths in it refer to `directory`, the working directory if that is empty. Throws
+/// Parses a YAML document; an empty one becomes an empty map, so that readers report missing keys.
+/// Its relative paths refer to `directory`, or to the working directory if that is empty. Throws
 /// ConfigError.
 std::unique_ptr<YamlNode> read_document(std::string_view text, std::string name,
                                         const std::filesystem::path& directory);
 
-/// The same for a file. Throws ConfigError, also where the file cannot be read.
+/// Reads a YAML file as read_document() does. Throws ConfigError, also if it cannot read the file.
 std::unique_ptr<YamlNode> read_yaml_file(const std::filesystem::path& file);
 
 }  // namespace hypotrack::detail

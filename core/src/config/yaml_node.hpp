@@ -7,15 +7,15 @@
 
 namespace hypotrack::detail {
 
-/// The file or `--set` that nodes come from.
+/// The file or `--set` override that nodes come from.
 struct YamlOrigin {
   std::string name;
-  std::filesystem::path directory;  ///< absolute; what relative paths refer to
-  bool is_override = false;         ///< has no lines: the name says it all
-  std::string path = {};            ///< of the root, if that stands for a part of another document
+  std::filesystem::path directory;  ///< absolute; relative paths refer to it
+  bool is_override = false;         ///< has no line numbers; the name is the whole position
+  std::string path = {};            ///< of the root, if it is a part of another document
 };
 
-/// One value of a document. Parents own their children; a document is owned by its root.
+/// A value of a YAML document. Parents own their children; the root owns the document.
 struct YamlNode {
   enum class Kind { kNull, kScalar, kList, kMap };
 

@@ -16,7 +16,7 @@
 namespace hypotrack::detail {
 namespace {
 
-/// Whether a quoted scalar at the start of `text` has its closing quote.
+/// Returns true if a quoted scalar at the start of `text` has its closing quote.
 bool is_closed(std::string_view text) {
   const char quote = text.front();
   for (std::size_t i = 1; i < text.size(); ++i) {
@@ -29,15 +29,15 @@ bool is_closed(std::string_view text) {
   return false;
 }
 
-/// Builds the tree from the parser's events instead of going through YAML::Node: positions of keys
-/// stay known, duplicate keys and aliases are seen at all, and every limit holds before memory is
-/// spent and before the parser recurses any deeper.
+/// Builds the tree from the parser's events instead of YAML::Node. This keeps the positions of keys
+/// and detects duplicate keys and aliases. Every limit applies before memory is allocated and
+/// before the parser recurses further.
 class TreeBuilder : public YAML::EventHandler {
  public:
   TreeBuilder(const YamlText& text, std::shared_ptr<const YamlOrigin> origin)
       : text_(text), origin_(std::move(origin)) {}
 
-  /// The document; throws if it had a map or list for a key.
+  /// Returns the document. Throws if a map or list was a key.
   std::unique_ptr<YamlNode> take_root() {
     if (complex_key_) fail(*complex_key_, "a map or list cannot be a key; expected a word");
     return std::move(root_);
@@ -60,7 +60,7 @@ class TreeBuilder : public YAML::EventHandler {
     if (inside_key_ > 0) return;
     if (awaits_key()) fail(mark, "null cannot be a key; expected a word");
     auto node = make(YamlNode::Kind::kNull, mark);
-    // The parser gives the position of what follows the missing value: useless to a reader.
+    // The parser reports the position after the missing value, which does not help a reader.
     if (key_) {
       node->line = key_->position.line;
       node->column = key_->position.column;
@@ -98,8 +98,8 @@ class TreeBuilder : public YAML::EventHandler {
   void OnMapEnd() override { close(); }
 
  private:
-  static constexpr std::string_view kPlainTag = "?";   // how yaml-cpp says: no tag, no quotes
-  static constexpr std::string_view kQuotedTag = "!";  // no tag, quotes
+  static constexpr std::string_view kPlainTag = "?";   // yaml-cpp's tag for unquoted scalars
+  static constexpr std::string_view kQuotedTag = "!";  // yaml-cpp's tag for quoted scalars
 
   struct Key {
     std::string name;
@@ -115,7 +115,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void check_start(const YAML::Mark& mark, const std::string& tag) const {
-    // yaml-cpp 0.7.0 lets the end of the file close a quote.
+    // yaml-cpp 0.7.0 accepts the end of the file as a closing quote.
     const std::string_view rest = text_.from(mark.line, mark.column);
     if (tag == kQuotedTag && (rest.starts_with('\'') || rest.starts_with('"')) &&
         !is_closed(rest)) {
@@ -186,16 +186,17 @@ class TreeBuilder : public YAML::EventHandler {
   std::shared_ptr<const YamlOrigin> origin_;
   std::unique_ptr<YamlNode> root_;
   std::vector<Open> open_;
-  std::optional<Key> key_;  ///< of the map on top, waiting for its value
-  /// A map or list for a key: mostly a bracket that was never closed, of which the parser complains
-  /// better, but later. So it is skipped, counting its levels, and refused at the end.
+  std::optional<Key> key_;  ///< of the innermost map, waiting for its value
+  /// Position of a map or list used as a key. This is usually an unclosed bracket, for which the
+  /// parser has a better message later. So the key is skipped, counting its levels, and rejected at
+  /// the end.
   std::optional<YAML::Mark> complex_key_;
   std::size_t inside_key_ = 0;
   std::size_t nodes_ = 0;
   int documents_ = 0;
 };
 
-/// Of mistakes whose message does not tell what to do.
+/// Returns a hint for parser errors whose message does not say what to do.
 const char* hint_about(const YamlText& text, const YAML::Mark& mark) {
   if (text.from(mark.line, mark.column).starts_with('@'))
     return "; a text that begins with @ needs quotes";
@@ -215,7 +216,7 @@ std::unique_ptr<YamlNode> read_yaml(std::string_view text,
   try {
     std::istringstream stream{std::string(checked.text())};
     YAML::Parser parser(stream);
-    // Never in a loop: yaml-cpp 0.7.0 can find a further document at the same place for ever.
+    // Call it at most twice: yaml-cpp 0.7.0 can find another document at the same place forever.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const YAML::Exception& e) {
     builder.fail(e.mark, fmt::format("broken YAML: {}{}", e.msg, hint_about(checked, e.mark)));

@@ -7,8 +7,8 @@
 
 namespace hypotrack::detail {
 
-/// Reads one YAML document. Throws ConfigError, with the position, on everything that
-/// ConfigNode::load refuses. An empty text is a null node.
+/// Parses one YAML document; an empty text is a null node. Throws ConfigError, with the position,
+/// on everything that ConfigNode::load refuses.
 std::unique_ptr<YamlNode> read_yaml(std::string_view text,
                                     const std::shared_ptr<const YamlOrigin>& origin);
 

@@ -9,7 +9,7 @@
 namespace hypotrack::detail {
 namespace {
 
-/// Length of the UTF-8 sequence at the start of `rest`, 0 if it is none.
+/// Returns the length of the UTF-8 sequence at the start of `rest`, 0 if it is invalid.
 std::size_t utf8_length(std::string_view rest) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(rest[i]); };
   if (byte(0) < 0x80) return 1;

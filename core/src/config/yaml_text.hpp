@@ -9,14 +9,14 @@
 
 namespace hypotrack::detail {
 
-/// `scene.yaml:12:5`, or just the name of an override.
+/// Returns `scene.yaml:12:5`, or only the name for an override.
 std::string describe_position(const YamlOrigin& origin, int line, int column);
 
-/// A text and where its lines begin, to turn the parser's byte columns into what editors show.
+/// A text with its line starts; converts the parser's byte columns to character columns.
 class YamlText {
  public:
   /// Skips a byte order mark. Throws ConfigError on texts over 8 MiB, invalid UTF-8 and control
-  /// characters (yaml-cpp takes U+0004 for the end of the text).
+  /// characters, because yaml-cpp takes U+0004 for the end of the text.
   YamlText(std::string_view text, const YamlOrigin& origin);
 
   std::string_view text() const { return text_; }
@@ -25,9 +25,9 @@ class YamlText {
     int line;
     int column;
   };
-  /// 1-based position in characters of a 0-based line and byte.
+  /// Returns the 1-based position in characters of a 0-based line and byte.
   Position position(int line, int byte) const;
-  /// The text from a 0-based line and byte on.
+  /// Returns the text from a 0-based line and byte on.
   std::string_view from(int line, int byte) const;
 
  private:
@@ -35,7 +35,8 @@ class YamlText {
 
   std::string_view text_;
   std::vector<std::size_t> line_starts_;
-  // Where the last question ended: nearly all go forwards, and a line may be the whole text.
+  // Result of the last call, from which the next one continues. Nearly all calls move forward, and
+  // one line may be the whole text.
   mutable std::size_t known_line_ = 0;
   mutable std::size_t known_byte_ = 0;  ///< in the line
   mutable std::size_t known_characters_ = 0;

@@ -14,7 +14,7 @@ bool is_word_character(char c) {
          std::string_view("_./+-").find(c) != std::string_view::npos;
 }
 
-/// Words that YAML 1.1 or 1.2 readers take for a bool, null or number.
+/// Words that YAML 1.1 or 1.2 readers parse as a bool, null or number.
 bool is_reserved(std::string_view text) {
   std::string lower(text);
   std::transform(lower.begin(), lower.end(), lower.begin(),
@@ -24,7 +24,7 @@ bool is_reserved(std::string_view text) {
   return std::find(kWords.begin(), kWords.end(), lower) != kWords.end();
 }
 
-/// Whether a text may stand without quotes and still be read as the same text.
+/// Returns true if a reader parses the unquoted text as the same text.
 bool needs_no_quotes(const YamlNode& node) {
   const std::string& text = node.text;
   if (text.empty() || !std::all_of(text.begin(), text.end(), is_word_character)) return false;

@@ -7,13 +7,13 @@
 
 namespace hypotrack::detail {
 
-/// A node as YAML text that read_yaml reads back to an equal node (positions apart).
+/// Writes a node as YAML text that read_yaml() reads back to an equal node, except positions.
 HYPOTRACK_API std::string write_yaml(const YamlNode& node);
 
-/// A new scalar; text that could be taken for a number, bool or null stays text unless `plain`.
+/// Makes a scalar. Unless `plain`, text that looks like a number, bool or null stays text.
 HYPOTRACK_API std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain);
 
-/// A copy with its own children, without a parent.
+/// Copies a node with all its children; the copy has no parent.
 std::unique_ptr<YamlNode> clone(const YamlNode& node);
 
 }  // namespace hypotrack::detail

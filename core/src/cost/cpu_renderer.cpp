@@ -39,8 +39,8 @@ class CpuRenderer : public HypothesisRenderer {
     arena_.execute([&] {
       tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, states.cols()),
                         [&](const tbb::blocked_range<Eigen::Index>& range) {
-                          // An objective that is parallel itself must not pick up another
-                          // hypothesis while it waits: it would draw over its own tiles.
+                          // A parallel objective must not start another hypothesis while it waits,
+                          // because that would overwrite the tiles in use.
                           tbb::this_task_arena::isolate([&] {
                             for (auto i = range.begin(); i < range.end(); ++i) {
                               visit_one(states, i, visit);
@@ -64,7 +64,7 @@ class CpuRenderer : public HypothesisRenderer {
   }
 
   int threads_;
-  tbb::global_control limit_;  // more threads than cores, if somebody asks for them
+  tbb::global_control limit_;  // allows more threads than cores
   tbb::task_arena arena_;
   std::unique_ptr<const ScenePlan> plan_;
   FrameProjection frame_;

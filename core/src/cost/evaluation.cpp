@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kAnalytic =
     "the optimizer takes analytic Jacobians, which are computed on the CPU";
 
-/// Scored where it is drawn if OpenGL and CUDA share the GPU, otherwise read back.
+/// Makes the OpenGL evaluation: scores on the GPU if OpenGL and CUDA share it, else reads back.
 std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
                                                 const std::vector<ObjectiveTerm>& terms,
                                                 const EvaluateSettings& settings,

@@ -27,7 +27,7 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
   return terms;
 }
 
-/// What any of the terms looks at.
+/// Returns the images that any of the terms reads.
 ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
   ImageUse all{.mask = false, .depth = false};
   for (const ObjectiveTerm& term : terms) {
@@ -38,7 +38,7 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
   return all;
 }
 
-/// The images of a frame that are looked at.
+/// Returns the frame without the images that no term reads.
 Frame looked_at(const Frame& frame, const ImageUse& use) {
   Frame out{frame.index, frame.time, frame.views, {}, {}};
   for (View& view : out.views) {
@@ -57,7 +57,7 @@ struct Evaluator::Impl final : ResidualDifferences {
         terms(checked(std::move(t))),
         evaluation(make_evaluation(scene, terms, settings, use)) {}
 
-  // ResidualDifferences, for the evaluation's
+  // ResidualDifferences: normalises and forwards to the evaluation's.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::VectorXd> costs) override {
     normalize(states, costs.size());
@@ -71,14 +71,14 @@ struct Evaluator::Impl final : ResidualDifferences {
     return evaluation->differences()->normal_equations(normalized, scale, costs);
   }
 
-  /// Takes in the states of a batch, normalised. Throws Error if they do not fit.
+  /// Stores the normalised states of a batch. Throws Error if their sizes do not fit.
   void normalize(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Index costs);
 
   const Scene& scene;
   std::vector<ObjectiveTerm> terms;
   std::unique_ptr<Evaluation> evaluation;
-  Frame frame;    // that is prepared, as far as the terms look at it
-  TilePlan plan;  // of that frame
+  Frame frame;    // the prepared frame, without unused images
+  TilePlan plan;  // plan of that frame
   Eigen::MatrixXd normalized;
   bool prepared = false;
 };

@@ -18,7 +18,7 @@ namespace hypotrack {
 enum class Backend { automatic, cpu, egl, cuda };
 HYPOTRACK_API std::span<const std::string_view> enum_names(Backend);
 
-/// `evaluate:` of a scene.
+/// Parameters of a scene's `evaluate:` section.
 struct EvaluateSettings {
   Backend backend = Backend::automatic;
   int threads = 0;
@@ -35,80 +35,84 @@ struct EvaluateSettings {
   }
 };
 
-/// One term of the cost.
+/// A weighted term of the cost.
 struct ObjectiveTerm {
-  double weight = 1;  ///< 0: the term is prepared but not asked
+  double weight = 1;  ///< 0 = the term is prepared but not evaluated
   std::shared_ptr<Objective> objective;
   std::string name = {};  ///< for messages
 };
 
-/// What is wanted of residuals.
+/// The use of residuals by an optimizer.
 struct ResidualUse {
   bool wanted = false;
-  Linearization linearization = Linearization::unused;  ///< where they are
+  Linearization linearization = Linearization::unused;  ///< of the wanted residuals
 };
 
-/// Residuals that follow each other.
+/// A range of consecutive residuals.
 struct ResidualRows {
   Eigen::Index first = 0, count = 0;
 };
 
-/// Turns hypotheses into costs: normalise, pose, skin, draw both views' depth tiles, score. Whole
-/// batches at a time, over threads; the result does not depend on the number of threads.
+/// Turns batches of hypotheses into costs: normalises, poses, skins, draws depth tiles of both
+/// views, and scores. It uses several threads; the result does not depend on their number.
 class HYPOTRACK_API Evaluator {
  public:
-  /// The scene must outlive the evaluator. Throws DeviceError if the backend is not to be had, and
-  /// ConfigError if a term or the backend does not have what is wanted of residuals.
+  /// The scene must outlive the evaluator. Throws DeviceError if the backend is unavailable, and
+  /// ConfigError if a term or the backend lacks the residuals of `use`.
   Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings,
             const ResidualUse& use = {});
   ~Evaluator();
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
 
-  /// Takes a frame in, for the terms as well; the observation must outlive the evaluations.
+  /// Prepares the evaluator and the terms for a frame. The observation must outlive the
+  /// evaluations.
   void prepare(const Observation& observation);
-  /// The same after another evaluator of the same terms has taken that observation in, and nobody
-  /// another one since: on the CPU the terms are as they should be.
+  /// Prepares for drawing only. Precondition: every term was already prepared with this
+  /// observation.
   void prepare_drawing(const Observation& observation);
-  /// The same for a frame whose tiles are not cut yet, of images that a term looks at: on the GPU
-  /// they are cut there. The frame's images must outlive the evaluations.
+  /// Prepares a frame from the images that its terms read; the backend resamples the tiles, on the
+  /// GPU if it can. The frame's images must outlive the evaluations.
   void prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan);
 
-  /// Weighted sums of the terms (N) for states (DxN, one per column). Throws Error, naming the
-  /// term, if one returns NaN; what a term throws arrives unchanged. A model with a parameter that
-  /// is not finite or over 1e6 is not drawn, nor are triangles with a corner nearer than 1 cm,
-  /// farther than 1 km or a million pixels off. A model whose mesh is closed and wound outwards is
-  /// drawn without the faces turned away from the camera.
+  /// Computes the weighted sums of the terms (N) for states (DxN, one per column). Throws Error,
+  /// naming the term, if one returns NaN; exceptions of terms pass through unchanged.
+  /// A model with a parameter that is not finite or exceeds 1e6 is not drawn. Nor are triangles
+  /// with a corner nearer than 1 cm, farther than 1 km or a million pixels off. A closed model
+  /// wound outwards is drawn without back faces.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
 
-  /// Whether residuals can be had; always if they were announced.
+  /// Returns true if residuals are available; always true if `use` wanted them.
   bool has_residuals() const;
-  /// Number M of residuals of every state, for the prepared frame.
+  /// Returns the number M of residuals per state, for the prepared frame.
   Eigen::Index residual_count() const;
-  /// Those of them that belong to terms that look at no picture, where others do.
+  /// Returns the residuals of terms that read no images, if other terms do.
   std::vector<ResidualRows> pose_only_residuals() const;
-  /// The same costs (N), and residuals (MxN) whose squares add up to them (ResidualTerm).
+  /// Computes the costs (N) and the residuals (MxN) of states; the squares of a column add up to
+  /// its cost as ResidualTerm defines.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs);
 
-  /// Residuals of states that stay in GPU memory; null on other backends. Outlived by this.
+  /// Returns numerical normal equations with residuals in GPU memory; null on other backends. The
+  /// evaluator owns the result.
   ResidualDifferences* differences();
 
-  /// Whether linearize() is there: each term's residuals belong to pixels and have slopes, or the
-  /// term needs no rendering.
+  /// Returns true if linearize() is available: every term needs no rendering, or its residuals
+  /// belong to pixels and have slopes.
   bool can_linearize() const;
-  /// Normal equations at states.col(0), with columns per step (ResidualCost::linearize).
+  /// Computes the normal equations at states.col(0), with columns per step
+  /// (ResidualCost::linearize).
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
 
-  /// Whether device_cost() is there.
+  /// Returns true if device_cost() is available.
   bool on_device() const;
-  /// Costs of search points that stay on the GPU, for the prepared frame; null on other backends.
-  /// Points are states or, with `rotation_vectors`, states in which every model's quaternion is
-  /// replaced by a rotation vector (3 numbers) applied to that of `prior` (SearchSpace).
+  /// Returns the costs of search points in GPU memory, for the prepared frame; null on other
+  /// backends. Points are states. With `rotation_vectors`, a rotation vector (3 numbers) replaces
+  /// every model's quaternion and applies to that of `prior` (SearchSpace).
   cuda::DeviceCost* device_cost(const Eigen::VectorXd& prior, bool rotation_vectors);
 
-  /// What draws: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.
+  /// Describes the backend: `cpu (AVX3, 2 threads)`, `egl (llvmpipe ...)`.
   std::string backend() const;
 
  private:

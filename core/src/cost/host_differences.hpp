@@ -6,7 +6,7 @@
 
 namespace hypotrack {
 
-/// Keeps the residuals that a cost hands out. The cost must outlive it.
+/// Numerical normal equations from the residuals that a cost returns. The cost must outlive it.
 class HostDifferences final : public ResidualDifferences {
  public:
   explicit HostDifferences(ResidualCost& cost) : cost_(cost) {}
@@ -20,7 +20,7 @@ class HostDifferences final : public ResidualDifferences {
 
  private:
   ResidualCost& cost_;
-  Eigen::MatrixXf batch_;  ///< residuals of the last one
+  Eigen::MatrixXf batch_;  ///< residuals of the last batch
   Eigen::VectorXf here_;
 };
 

@@ -87,14 +87,15 @@ class HostEvaluation final : public Evaluation {
   }
 
  private:
-  /// The weighted sum of what `cost_of(index of a term, hypothesis as it wants it)` returns.
+  /// Returns the weighted sum of `cost_of(term index, hypothesis)` over the terms. Terms that need
+  /// no rendering get no views.
   template <class CostOf>
   double sum_up(Eigen::Index index, const RenderedHypothesis& hypothesis,
                 const CostOf& cost_of) const {
     double sum = 0;
     for (std::size_t t = 0; t < terms_.size(); ++t) {
       const ObjectiveTerm& term = terms_[t];
-      if (term.weight == 0) continue;  // also keeps 0 * infinity out
+      if (term.weight == 0) continue;  // also avoids 0 * infinity
       const bool draws = term.objective->needs_rendering();
       const double cost = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
       sum += term.weight * cost;
@@ -106,10 +107,10 @@ class HostEvaluation final : public Evaluation {
 
   std::vector<ObjectiveTerm> terms_;
   std::string why_here_;
-  std::optional<TermResiduals> residuals_;  // if the terms are a sum of squares
+  std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
-  std::unique_ptr<Linearizer> linearizer_;  // if the terms have what it needs
-  tbb::task_arena arena_;                   // of what a frame takes before hypotheses
+  std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
+  tbb::task_arena arena_;                   // for the work of a frame before hypotheses
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ ViewProjection make_view(const TileCamera& camera, const Eigen::Isometry3d& firs
   return view;
 }
 
-// Whether two views may share y and 1/z: the observation says so, and it is true.
+// Returns true if the observation claims that two views share y and 1/z, and the cameras agree.
 bool share_rows(const Observation& observation) {
   if (!observation.rectified || observation.views.size() != 2) return false;
   const TileCamera& a = observation.views[0].camera;
@@ -72,7 +72,7 @@ void HypothesisDrawer::prepare(const FrameProjection& frame) {
       tile_storage_[i] = hwy::AllocateAligned<float>(size);
       tile_size_[i] = size;
     }
-    // The size may have changed, so that the box drawn last does not say what to clear.
+    // The tile size may have changed, so the last box does not tell what to clear.
     std::fill_n(tile_storage_[i].get(), size, 0.0f);
     tiles_[i] = {view.width, view.height, view.stride, tile_storage_[i].get(), 0, 0, 0, 0};
   }

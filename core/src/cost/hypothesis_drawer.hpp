@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// The cameras of a frame's tiles as the kernels see them.
+/// The cameras of a frame's tiles, in the kernels' form.
 struct HYPOTRACK_API FrameProjection {
   FrameProjection() = default;
   explicit FrameProjection(const Observation& observation);
@@ -23,25 +23,25 @@ struct HYPOTRACK_API FrameProjection {
   bool pair = false;  ///< the views share y and 1/z
 };
 
-/// Poses and draws one hypothesis at a time into tiles of its own; one per thread. draw() runs the
-/// stages in their order; they are separate so that each can be measured.
+/// Poses and draws one hypothesis at a time into its own tiles; one per thread. draw() runs the
+/// stages in their order. They are public so that each can be measured.
 class HYPOTRACK_API HypothesisDrawer {
  public:
   /// The plan must outlive the drawer.
   explicit HypothesisDrawer(const ScenePlan& plan);
 
-  /// Takes a frame's cameras, which must outlive the drawing.
+  /// Sets a frame's cameras, which must outlive the drawing.
   void prepare(const FrameProjection& frame);
 
-  /// Depth of a normalised state in every view, valid until the next call.
+  /// Draws a normalised state; returns its depth in every view, valid until the next call.
   std::span<const DepthTile> draw(std::span<const double> state);
 
   std::span<const DepthTile> tiles() const { return tiles_; }
-  /// Projected vertices of the posed state as a view sees them: of one view, or of both views of a
-  /// rectified pair (kRecord).
+  /// Returns the posed state's projected vertices in a view (kRecord floats each). Both views of a
+  /// rectified pair share their records.
   const float* records(std::size_t view) const { return records_[frame_->pair ? 0 : view].get(); }
   const VisibleTriangles& visible(std::size_t view) const { return visible_[view]; }
-  void clear();                              ///< empties what was drawn before
+  void clear();                              ///< clears the previous drawing
   void pose(std::span<const double> state);  ///< kinematics and skinning
   void project();
   void cull();

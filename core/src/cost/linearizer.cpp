@@ -14,15 +14,15 @@
 namespace hypotrack {
 namespace {
 
-/// A view's pixels in one term.
+/// The pixels of a view in one term.
 struct PixelPart {
   const ResidualTerm* term;
-  std::size_t index;  ///< in its pixel_views()
+  std::size_t index;  ///< index of the view in its pixel_views()
   float factor;       ///< root of the term's weight
   std::vector<float> residuals = {}, slopes = {};
 };
 
-/// All that one thread may work on at a time: the terms of one view.
+/// All terms of one view; one thread handles them at a time.
 struct ViewPart {
   std::size_t view = 0;
   std::vector<PixelPart> parts = {};
@@ -47,7 +47,7 @@ struct Linearizer::Impl {
     centre = std::make_unique<HypothesisDrawer>(plan);
   }
 
-  /// Finds out what the terms look at in the prepared frame.
+  /// Collects what the terms read in the prepared frame.
   void take_terms() {
     others.clear();
     for (ViewPart& view : views) view.parts.clear();
@@ -124,7 +124,7 @@ struct Linearizer::Impl {
     }
   }
 
-  /// Adds a term that looks at states only.
+  /// Adds a term of the state by differences.
   void add_differences(const StatePart& part, const Eigen::MatrixXd& states,
                        const Eigen::VectorXd& steps, NormalEquations& sums) const {
     const auto count = static_cast<std::size_t>(part.term->residual_count());
@@ -148,8 +148,8 @@ struct Linearizer::Impl {
   ScenePlan plan;
   std::vector<ObjectiveTerm> terms;
   FrameProjection frame;
-  std::vector<std::unique_ptr<HypothesisDrawer>> drawers;  // that pose, one per slot of the arena
-  std::unique_ptr<HypothesisDrawer> centre;                // that draws the point at hand
+  std::vector<std::unique_ptr<HypothesisDrawer>> drawers;  // for posing, one per slot of the arena
+  std::unique_ptr<HypothesisDrawer> centre;                // draws the point of linearisation
   std::vector<ViewPart> views;
   std::vector<StatePart> others;
   std::vector<float> records;

@@ -11,21 +11,22 @@
 
 namespace hypotrack {
 
-/// Normal equations of the terms' residuals from one drawn hypothesis: pixels by PixelRows, terms
-/// that need no rendering by differences. The same whatever the number of threads.
+/// Computes normal equations of the terms' residuals from one drawn hypothesis. PixelRows handles
+/// pixels; terms that need no rendering use differences. The result does not depend on the number
+/// of threads.
 class Linearizer {
  public:
-  /// Whether every term of a sum of squares has what it takes.
+  /// Returns true if every term (of a sum of squares) needs no rendering or has slopes.
   static bool can_linearize(const std::vector<ObjectiveTerm>& terms);
 
-  /// The scene must outlive it. `threads`: 0 for one per core.
+  /// The scene must outlive it. `threads` 0 means one per core.
   Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads);
   ~Linearizer();
 
-  /// Takes the cameras of a frame's tiles, for which the terms are prepared.
+  /// Sets the cameras of a frame's tiles. The terms must be prepared for that frame.
   void prepare(const Observation& observation);
 
-  /// See ResidualCost::linearize; states (normalised) in place of points.
+  /// Computes the normal equations as ResidualCost::linearize(), for normalised states.
   NormalEquations linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
                             double blur);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Eigen::Index kRows = 64;  // per block: half a row of a tile
 
-/// One block of rows, with the columns that differ from r.
+/// A block of rows, restricted to the columns that differ from r.
 class Block {
  public:
   explicit Block(Eigen::Index columns) : j_(kRows, columns) {

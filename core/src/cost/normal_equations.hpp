@@ -7,14 +7,14 @@
 
 namespace hypotrack {
 
-/// Builds the normal equations from the residuals r at a point (M) and those beside it (MxD):
-/// column d of J is (beside.col(d) - r) * scale[d]. Columns of scale 0 are left out, whatever they
-/// hold. Most residuals do not feel most parameters: what is equal costs a comparison only.
+/// Computes the normal equations from residuals r at a point (M) and at D neighbours (MxD). Column
+/// d of J is (beside.col(d) - r) * scale[d]; columns with scale 0 are ignored. Most residuals do
+/// not depend on most parameters; equal entries cost only a comparison.
 HYPOTRACK_API NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
                                                const Eigen::Ref<const Eigen::MatrixXf>& beside,
                                                const Eigen::VectorXd& scale);
 
-/// `scale` with 0 for columns whose cost is infinite: their residuals may be anything.
+/// Returns `scale` with 0 for columns of infinite cost, whose residuals are undefined.
 Eigen::VectorXd scale_of_finite(const Eigen::Ref<const Eigen::VectorXd>& scale,
                                 const Eigen::Ref<const Eigen::VectorXd>& costs);
 

@@ -12,7 +12,7 @@
 namespace hypotrack {
 namespace {
 
-/// What the kernel works on.
+/// Input and output of the kernel.
 struct Work {
   const DrawnView& drawn;
   const PixelSlopes& term;
@@ -31,10 +31,10 @@ HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
 
-constexpr std::size_t kRows = 64;  // that are multiplied together
-// Beyond this step in depth (metres) a neighbour is another surface, behind this one.
+constexpr std::size_t kRows = 64;  // rows multiplied together
+// A larger step in depth (metres) means that the neighbour is another surface, behind this one.
 constexpr float kStep = 0.006f;
-// Of the rasteriser, with some room for its other order of operations.
+// The rasteriser's tolerance, widened for the different order of operations here.
 constexpr float kInclusive = 2e-5f;
 constexpr float kSameDepth = 1e-5f;
 
@@ -42,7 +42,7 @@ struct Point {
   float x, y, w;
 };
 
-/// sums += rows^T rows, above the diagonal in blocks of kBlock.
+/// Computes sums += rows^T rows, above the diagonal in blocks of kBlock.
 HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t columns, float* sums) {
   constexpr std::size_t kSide = 8;
   constexpr std::size_t kWide = kBlock / kLanes;
@@ -95,7 +95,7 @@ class Walk {
     return {d_.second ? record[3] : record[0], record[1], record[2]};
   }
 
-  /// The motion of a vertex: x, y and 1/z, a row each.
+  /// Returns the motion of a vertex: rows of x, y and 1/z.
   const float* motion(std::uint32_t corner) {
     const std::size_t vertex = corner / kRecord;
     float* rows = work_.motion + 3 * work_.columns * vertex;
@@ -157,7 +157,7 @@ class Walk {
     const int width = d_.view->width, height = d_.view->height;
     const int at = y * width + x;
     const float slope = work_.term.slopes[at];
-    // Seen along the surface, a small motion moves the pixel far along it.
+    // On a surface seen at a grazing angle, a small motion moves the pixel far along it.
     const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
     if (slope != 0 && !steep) add_surface(slope, work_.term.residuals[at], shares);
     if (x > 0) edge(at, at - 1, x - 1, y, w, shares, 0, -1);
@@ -166,7 +166,7 @@ class Walk {
     if (y + 1 < height) edge(at, at + width, x, y + 1, w, shares, 1, 1);
   }
 
-  /// Motion of 1/z on the rays through the three corners.
+  /// Computes the motion of 1/z on the rays through the three corners.
   void find_surface() {
     has_surface_ = true;
     const Vec dx = hn::Set(f, share_dx_), dy = hn::Set(f, share_dy_);
@@ -226,9 +226,9 @@ class Walk {
   std::size_t count_ = 0;
   float root_blur_ = 1;
 
-  // The triangle at hand.
+  // The current triangle.
   const std::uint32_t* corners_ = nullptr;
-  float share_dx_ = 0, share_dy_ = 0;  // gradient of 1/z on the screen
+  float share_dx_ = 0, share_dy_ = 0;  // gradient of 1/z in the image
   bool has_surface_ = false;
 };
 

@@ -10,16 +10,15 @@
 
 namespace hypotrack {
 
-/// A hypothesis as one view sees it, and how the vertices on its screen move with each of D
-/// numbers.
+/// A hypothesis drawn in one view, with its projected vertices at D neighbouring points.
 struct DrawnView {
   const ScenePlan* plan = nullptr;
   const ViewProjection* view = nullptr;
   const VisibleTriangles* visible = nullptr;
-  bool second = false;             ///< of a rectified pair
+  bool second = false;             ///< second view of a rectified pair
   const float* tile = nullptr;     ///< inverse depth, `view->stride` x height
-  const float* records = nullptr;  ///< of its vertices
-  /// Records with one number changed, and 1 / by how much (0: left out). D of them.
+  const float* records = nullptr;  ///< of the drawn vertices
+  /// D records with one parameter changed, and 1 / the change (0 = ignore).
   const float* const* beside = nullptr;
   const float* per_step = nullptr;
   int dimension = 0;
@@ -29,43 +28,44 @@ struct DrawnView {
 struct PixelSlopes {
   const float* residuals = nullptr;
   const float* slopes = nullptr;
-  float blur = 1;  ///< pixels over which a passing silhouette changes a residual
+  float blur = 1;  ///< pixels over which a crossing silhouette changes a residual
 };
 
-/// Sums up J^T J and J^T r of pixels' residuals, from slopes and the motion of what is drawn.
+/// Accumulates J^T J and J^T r of pixel residuals, from slopes and the motion of the drawn surface.
 ///
-/// A pixel looks along a ray that does not move. Where a surface moves, its inverse depth w on the
-/// ray changes by dw = w' - grad w . p' with p' and w' the motions of the surface point on the
-/// screen and of its inverse depth; both, and w itself, are linear on the screen in each triangle.
-/// That makes the row slope * dw.
+/// Interior pixels: a pixel looks along a fixed ray. When the surface moves, its inverse depth w on
+/// the ray changes by dw = w' - grad w . p'. Here p' and w' are the motions of the surface point in
+/// the image and of its inverse depth. p', w' and w are linear within each triangle's image. The
+/// row of J is slope * dw.
 ///
-/// Where a silhouette moves, pixels change from what is behind it to what is before it. With p the
-/// last pixel before and q the first behind, the sum of squares changes by (r_p^2 - r_q^2) per
-/// pixel of the way outwards (the boundary integral of a shape derivative; a staircase of pixel
-/// edges has the right integral, each edge with the motion across it). A residual that changes from
-/// r_q to r_p over `blur` pixels makes the row (r_p - r_q) / sqrt(blur) with the residual
-/// (r_p + r_q) / 2 sqrt(blur): the right gradient, and a curvature that falls with the blur.
+/// Silhouettes: when a silhouette moves, pixels change between the surface and its background. Let
+/// p be the last pixel on the surface and q the first one beyond. Per pixel of outward motion, the
+/// sum of squares changes by r_p^2 - r_q^2. This is the boundary integral of a shape derivative;
+/// the staircase of pixel edges, each with the motion across it, has the same integral. A residual
+/// that changes from r_q to r_p over `blur` pixels has the row (r_p - r_q) / sqrt(blur) and the
+/// residual (r_p + r_q) / 2 sqrt(blur). They give the exact gradient and a curvature that decreases
+/// with the blur.
 class HYPOTRACK_API PixelRows {
  public:
-  /// Begins a view; what it refers to must live until the last add(). `width` and `height` of the
-  /// tile come from the view.
+  /// Begins a view. The data that `drawn` refers to must live until the last add(). `width` and
+  /// `height` of the tile come from the view.
   void begin(const DrawnView& drawn);
 
   /// Adds the rows of a term to the sums.
   void add(const PixelSlopes& term);
 
-  /// Number of columns of the sums: D + 1, rounded up to whole vectors.
+  /// Returns the number of columns of the sums: D + 1, rounded up to whole vectors.
   std::size_t columns() const { return columns_; }
-  /// columns() x columns() numbers; valid where row <= column < D + 1. J^T J, with r as the last
-  /// column of J.
+  /// Returns J^T J, with r as the last column of J: columns() x columns() numbers, valid where row
+  /// <= column < D + 1.
   const std::vector<float>& sums() const { return sums_; }
 
  private:
   DrawnView drawn_;
   std::size_t columns_ = 0;
   std::vector<float> sums_;
-  std::vector<std::uint8_t> taken_;  // per pixel: whether it has found its triangle
-  std::vector<std::uint8_t> known_;  // per vertex: whether its motion is there
+  std::vector<std::uint8_t> taken_;  // per pixel: whether its triangle is known
+  std::vector<std::uint8_t> known_;  // per vertex: whether its motion is computed
   AlignedFloats motion_;             // per vertex 3 x columns: of x, y and 1/z
   std::size_t motion_size_ = 0;
 };

@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: the include below includes this file again.
+// Compiled once per instruction set: the include below includes this file again.
 
 #define HWY_TARGET_INCLUDE "cost/project_kernel.cpp"
 #include <hypotrack/foreach_target-inl.hpp>
@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
 
-// Beyond all coordinates that count.
+// A coordinate beyond all valid ones.
 constexpr float kBeyond = 2 * kGuard;
 
 HWY_INLINE Mask within_guard(Vec value) {

@@ -1,11 +1,10 @@
-// Triangles to inverse depth. Compiled once for every instruction set: the include below includes
-// this file again.
+// Rasterises triangles to inverse depth. Compiled once per instruction set: the include below
+// includes this file again.
 //
-// Hypotheses are drawn with a few thousand triangles of a few pixels each, so the work per triangle
-// counts more than the work per pixel. First all triangles are culled, as many at a time as a
-// vector has lanes; then the small ones are drawn with one triangle per lane, stepping all lanes
-// through the pixels of their bounding boxes together, and the rest one by one with one pixel per
-// lane.
+// Hypotheses have a few thousand triangles of a few pixels each, so the work per triangle
+// dominates. First all triangles are culled, one per lane. Small triangles are then drawn one per
+// lane; all lanes step through the pixels of their bounding boxes together. The rest are drawn one
+// by one, with one pixel per lane.
 
 #define HWY_TARGET_INCLUDE "cost/raster_kernel.cpp"
 #include <hypotrack/foreach_target-inl.hpp>
@@ -22,22 +21,22 @@ using U = hn::RebindToUnsigned<F>;
 constexpr I s32;
 constexpr U u32;
 
-// Triangles with less area (twice, pixels^2) are noise of single precision.
+// Smallest drawn area (twice, pixels^2); below it, single precision gives only noise.
 constexpr float kSmallestArea = 1e-6f;
-// Edges are inclusive by this share of a triangle's height, so that no pixel falls between two
+// Widening of the edges, as a share of a triangle's height, so that no pixel falls between two
 // triangles.
 constexpr float kInclusive = 1e-5f;
-// Edges with smaller slopes, barycentric coordinate per pixel, count as horizontal.
+// Slope (barycentric coordinate per pixel) below which an edge counts as horizontal.
 constexpr float kHorizontal = 1e-20f;
 
-// The same corner of kLanes triangles: x, y, 1/z, and x in the second view.
+// One corner of kLanes triangles: x, y, 1/z, and x in the second view.
 struct Corner {
   Vec x, y, w, x2;
 };
 
-// Where the record of corner `k` of the i-th triangle at hand lies.
+// Returns the offset of the record of corner `k` of triangle i.
 struct InSequence {
-  const std::uint32_t* corners;  // of the first
+  const std::uint32_t* corners;  // of triangle 0
   HWY_INLINE std::size_t operator()(std::size_t i, std::size_t k) const {
     return corners[4 * i + k];
   }
@@ -61,7 +60,7 @@ HWY_INLINE Corner load_corner(const float* records, const Offset& offset, std::s
 
 #else
 
-// Records of the triangles first, first + 4, first + 8 ..., one per 128-bit block.
+// Loads records first, first + 4, first + 8, ..., one per 128-bit block.
 template <class D, class Offset>
 HWY_INLINE hn::Vec<D> load_records(D d, const float* records, const Offset& offset,
                                    std::size_t first, std::size_t k) {
@@ -105,7 +104,7 @@ HWY_INLINE Corners load_corners(const float* records, const Offset& offset) {
           load_corner(records, offset, 2)};
 }
 
-// Pixels whose centres lie within the bounding boxes, inclusive, cut to the tile.
+// Computes the pixels whose centres lie within the bounding boxes, inclusive, clamped to the tile.
 struct Boxes {
   Vec x0, y0, x1, y1;
 };
@@ -129,8 +128,7 @@ HWY_INLINE void append(hn::Vec<U> numbers, Mask mask, std::uint32_t* list, std::
   count += hn::CountTrue(u32, bits);
 }
 
-// Sorts the triangles that are `seen` and whose boxes reach `extent` pixels from their first by
-// size.
+// Appends the `seen` triangles to the lists by size; `extent` is their box's size minus one.
 HWY_INLINE void append_by_size(hn::Vec<U> numbers, Mask seen, Mask whole, Vec extent,
                                VisibleTriangles& visible) {
   Mask left = seen;
@@ -146,7 +144,7 @@ HWY_INLINE void append_by_size(hn::Vec<U> numbers, Mask seen, Mask whole, Vec ex
 void cull(const std::uint32_t* corners, const TriangleRange& range, const float* records,
           const ViewProjection* views, bool pair, VisibleTriangles* visible) {
   const Vec smallest = hn::Set(f, kSmallestArea);
-  // Counted in local variables: stores into the lists could otherwise change the counts.
+  // Count in local variables, because stores into the lists might alias the counts.
   VisibleTriangles lists[2] = {visible[0], pair ? visible[1] : VisibleTriangles{}};
   for (std::uint32_t t = range.begin; t < range.end; t += kLanes) {
     const auto [a, b, c] = load_corners(records, InSequence{corners + 4 * std::size_t{t}});
@@ -160,7 +158,7 @@ void cull(const std::uint32_t* corners, const TriangleRange& range, const float*
     const Mask in_rows =
         hn::And(hn::Le(y0, y1), hn::Gt(hn::Min(hn::Min(a.w, b.w), c.w), hn::Zero(f)));
     const auto view = [&](Vec ax, Vec bx, Vec cx, int width, VisibleTriangles& list) HWY_ATTR {
-      // Counter-clockwise from outside is negative with y downwards.
+      // The area is negative if counter-clockwise from outside (y is down).
       Vec area = hn::Neg(twice_area(ax, a.y, bx, b.y, cx, c.y));
       if (range.two_sided) area = hn::Abs(area);
       const Vec x0 = first_pixel(ax, bx, cx);
@@ -178,13 +176,13 @@ void cull(const std::uint32_t* corners, const TriangleRange& range, const float*
   if (pair) visible[1] = lists[1];
 }
 
-// Where an edge crosses the rows of kLanes triangles: x = at + dy * per_row, in pixels from the
-// first of the box. What lies within is to the right of it, or to the left.
+// Intersection of an edge of kLanes triangles with the rows: x = at + dy * per_row, in pixels from
+// the box's first. `right` tells on which side the triangle lies.
 struct Crossing {
   Vec at, per_row;
   Mask right;
 
-  // Cuts the part within the edge out of first .. last; `first` is not negative.
+  // Clips the columns first .. last to the inner side of the edge; `first` is not negative.
   HWY_INLINE void cut(Vec dy, Vec& first, Vec& last) const {
     const Vec x = hn::MulAdd(dy, per_row, at);
     first = hn::Max(first, hn::IfThenElseZero(right, x));
@@ -192,7 +190,7 @@ struct Crossing {
   }
 };
 
-// Of the edge where a + dx * a_dx + dy * a_dy = 0, a little widened.
+// Returns the crossing of the edge a + dx * a_dx + dy * a_dy = 0, slightly widened.
 HWY_INLINE Crossing crossing(Vec a, Vec a_dx, Vec a_dy) {
   const Vec horizontal = hn::Set(f, kHorizontal);
   const Vec slope = hn::IfThenElse(hn::Lt(hn::Abs(a_dx), horizontal), horizontal, a_dx);
@@ -201,8 +199,8 @@ HWY_INLINE Crossing crossing(Vec a, Vec a_dx, Vec a_dy) {
           hn::Gt(slope, hn::Zero(f))};
 }
 
-// What drawing needs of kLanes triangles: their boxes, where their edges cross the rows, and 1/z,
-// which is linear on the screen, as a plane over the pixels from the first one of the box.
+// Drawing parameters of kLanes triangles: their boxes, edge crossings, and 1/z as a plane over the
+// pixels, relative to the box's first.
 struct Planes {
   Vec x0, y0, x1, y1;
   Crossing a, b, c;  // opposite to the corners
@@ -217,7 +215,7 @@ HWY_INLINE Planes make_planes(const Corners& corners, bool second, const ViewPro
   p.x1 = last_pixel(ax, bx, cx, view.width);
   p.y0 = first_pixel(a.y, b.y, c.y);
   p.y1 = last_pixel(a.y, b.y, c.y, view.height);
-  // Coordinates from the first pixel are small, so that their products are exact enough.
+  // Coordinates relative to the first pixel are small, so their products are accurate.
   ax = hn::Sub(ax, p.x0), bx = hn::Sub(bx, p.x0), cx = hn::Sub(cx, p.x0);
   const Vec ay = hn::Sub(a.y, p.y0), by = hn::Sub(b.y, p.y0), cy = hn::Sub(c.y, p.y0);
   const Vec area = twice_area(ax, ay, bx, by, cx, cy), one = hn::Set(f, 1.0f);
@@ -242,7 +240,7 @@ HWY_INLINE Planes make_planes(const Corners& corners, bool second, const ViewPro
   return p;
 }
 
-// The columns of row y0 + dy that triangles cover, from x0 on: first <= dx <= last.
+// Returns the columns of row y0 + dy that triangles cover, relative to x0: first <= dx <= last.
 struct Columns {
   Vec first, last;
 };
@@ -256,7 +254,7 @@ HWY_INLINE Columns columns_of_row(const Crossing& a, const Crossing& b, const Cr
   return columns;
 }
 
-// Covered pixels that wait to be written: several triangles of a vector may cover the same one.
+// Covered pixels waiting to be written, because several triangles of a vector may cover one pixel.
 struct Fragments {
   static constexpr std::size_t kRoom = 4096;
   static constexpr std::size_t kMost =
@@ -274,8 +272,7 @@ HWY_INLINE void flush(Fragments& fragments, float* tile) {
   fragments.count = 0;
 }
 
-// Draws kLanes triangles that fit into kSize x kSize pixels: every lane steps through the pixels of
-// such a square.
+// Draws kLanes triangles that fit into kSize x kSize pixels; all lanes step through that square.
 template <int kSize>
 HWY_INLINE void draw_boxes(const Planes& p, int stride, Fragments& fragments) {
   auto row_origin =
@@ -303,7 +300,7 @@ HWY_INLINE void draw_boxes(const Planes& p, int stride, Fragments& fragments) {
   fragments.count = count;
 }
 
-// Planes in plain numbers, to be taken out one by one.
+// Planes stored as plain floats, to be read one triangle at a time.
 struct Plane {
   struct Edge {
     alignas(64) float at[kLanes], per_row[kLanes], right[kLanes];
@@ -327,8 +324,8 @@ HWY_INLINE void store(const Planes& p, Plane& out) {
   hn::Store(p.w, f, out.w), hn::Store(p.w_dx, f, out.w_dx), hn::Store(p.w_dy, f, out.w_dy);
 }
 
-// Draws one triangle of any size, kLanes pixels of a row at a time, at multiples of kLanes: equal
-// addresses and widths let the processor forward what it has just stored.
+// Draws one triangle of any size, kLanes pixels of a row at a time, aligned to kLanes. With equal
+// addresses and widths the processor can forward recent stores.
 HWY_INLINE void draw_large(const Plane& p, std::size_t i, int stride, float* tile) {
   constexpr int kStep = static_cast<int>(kLanes);
   const int x0 = static_cast<int>(p.x0[i]), x1 = static_cast<int>(p.x1[i]);
@@ -356,7 +353,7 @@ HWY_INLINE void draw_large(const Plane& p, std::size_t i, int stride, float* til
   }
 }
 
-// What is being drawn into one tile.
+// The tile being drawn.
 struct Drawing {
   const std::uint32_t* corners;
   const float* records;
@@ -401,7 +398,7 @@ void draw(const std::uint32_t* corners, std::uint32_t degenerate, const float* r
   }
 }
 
-// Whole vectors: what lies beside the pixels to be cleared is zero already.
+// Clears whole vectors; the pixels beside the box are already zero.
 void clear(float* tile, int stride, int x0, int y0, int x1, int y1) {
   constexpr int kStep = static_cast<int>(kLanes);
   for (int y = y0; y < y1; ++y) {

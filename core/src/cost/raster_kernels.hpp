@@ -6,29 +6,29 @@
 #include "hypotrack/export.hpp"
 #include "scene/simd_kernels.hpp"
 
-// The vectorised inner loops of the CPU renderer, behind plain data, compiled once per instruction
-// set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
+// The vectorised inner loops of the CPU renderer, behind plain data. They are compiled once per
+// instruction set and selected at run time. Arrays named `aligned` start at multiples of 64 bytes.
 //
-// Wherever there is a fused multiply-add, vertices, coverage and inverse depths are the same to the
-// last bit, on the GPU as well (hypotrack/cuda/{vertices,cull,fill}.cuh): the same operations on
-// the same numbers, fused alike. Who changes one side changes the other.
+// With fused multiply-add, vertices, coverage and inverse depths are bit-identical on CPU and GPU
+// (hypotrack/cuda/{vertices,cull,fill}.cuh). Both sides use the same operations with the same
+// fusing. Whoever changes one side must change the other.
 namespace hypotrack {
 
-/// A vertex is drawn if its depth is within these bounds (metres) and it lies within kGuard pixels
-/// of the tile's origin in every view that shares its record. Triangles with another vertex are
-/// dropped. So nothing that follows meets NaN, infinity or overflow.
+/// Depth bounds (metres) and largest pixel distance of drawable vertices. The distance is from the
+/// tile's origin, in every view that shares the vertex' record. Triangles with any other vertex are
+/// dropped, so that later steps meet no NaN, infinity or overflow.
 inline constexpr float kNear = 0.01f;
 inline constexpr float kFar = 1000.0f;
 inline constexpr float kGuard = 1 << 20;
 
-/// A camera looking at points given in the frame of the first one.
+/// A camera for points in the frame of the first one.
 struct ViewProjection {
   float camera_from_first[12];  ///< 3x4 row-major
   float fx, fy, cx, cy;
   int width, height, stride;  ///< of the tile; stride is a multiple of kBlock
 };
 
-/// Smallest and largest coordinates of the vertices that can be drawn; low > high: none can.
+/// Range of the drawable vertices' coordinates; low > high if there are none.
 struct PixelRange {
   float low_x, high_x, low_y, high_y;
 };
@@ -37,37 +37,37 @@ struct PixelRange {
 HYPOTRACK_API void project_view(const float* x, const float* y, const float* z, std::size_t count,
                                 const ViewProjection& view, float* records, PixelRange& range);
 
-/// Projects into both views of a rectified pair: y and 1/z are the same in both. `ranges` has two.
+/// Projects points into both views of a rectified pair, which share y and 1/z. `ranges` has two
+/// elements.
 HYPOTRACK_API void project_pair(const float* x, const float* y, const float* z, std::size_t count,
                                 const ViewProjection* views, float* records, PixelRange* ranges);
 
-/// Triangles that may cover pixel centres are sorted by size: the i-th list has those whose pixels
-/// fit into a square of kBoxSizes[i] and that no edge of the tile but the left and the top cuts,
-/// the last list the rest.
+/// Largest extents of the size classes of visible triangles. Class i holds triangles that fit into
+/// a square of kBoxSizes[i] pixels and that no right or bottom edge of the tile cuts. The last
+/// class holds the rest.
 inline constexpr int kBoxSizes[] = {2, 3, 5, 8};
 inline constexpr int kSizeClasses = 5;
 
-/// Visible triangles of one view. Each list has room for all triangles and kBlock more.
+/// Visible triangles of one view. Each list has room for all triangles plus kBlock.
 struct VisibleTriangles {
   std::uint32_t* list[kSizeClasses] = {};
   std::size_t count[kSizeClasses] = {};
 };
 
-/// Appends the visible triangles of a range for one view (`pair` false) or for both views of a
+/// Appends the visible triangles of a range for one view or, with `pair`, for both views of a
 /// rectified pair.
 HYPOTRACK_API void cull_triangles(const std::uint32_t* corners, const TriangleRange& range,
                                   const float* records, const ViewProjection* views, bool pair,
                                   VisibleTriangles* visible);
 
-/// Draws visible triangles into an inverse-depth tile (`stride` x height floats, aligned): the
-/// larger 1/z wins. `second` draws a rectified pair's second view. `degenerate` is the number of a
-/// triangle without area; it fills up the lists, which therefore change.
+/// Draws visible triangles into an inverse-depth tile (`stride` x height floats, aligned); the
+/// larger 1/z wins. `second` selects a rectified pair's second view. `degenerate` is the index of a
+/// triangle without area that pads the lists, which are changed.
 HYPOTRACK_API void draw_triangles(const std::uint32_t* corners, std::uint32_t degenerate,
                                   const float* records, bool second, const ViewProjection& view,
                                   VisibleTriangles& visible, float* tile);
 
-/// Sets the pixels of a tile with x0 <= x < x1, y0 <= y < y1 to zero, where all others are zero
-/// already.
+/// Sets the pixels x0 <= x < x1, y0 <= y < y1 of a tile to zero; all others must already be zero.
 HYPOTRACK_API void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1);
 
 }  // namespace hypotrack

@@ -10,31 +10,32 @@
 
 namespace hypotrack {
 
-/// Residuals of one term.
+/// Number of residuals of one term.
 struct TermRows {
   Eigen::Index count;
-  bool draws;  ///< whether it looks at pictures
+  bool draws;  ///< whether it reads images
 };
-/// Those of terms that look at no picture, where others do (Evaluator::pose_only_residuals()).
+/// Returns the residuals of terms that read no images, if other terms do
+/// (Evaluator::pose_only_residuals()).
 std::vector<ResidualRows> pose_only_rows(const std::vector<TermRows>& terms);
 
-/// The residuals of several terms, one after the other, each times the square root of its weight:
-/// the sum of squares of all is the weighted sum of theirs. Terms of weight 0 have none.
+/// The concatenated residuals of several terms, each times the square root of its weight. The sum
+/// of squares is the weighted sum of the terms' sums. Terms of weight 0 have none.
 class TermResiduals {
  public:
-  /// Why these terms are no sum of squares, and what to do; empty if they are one.
+  /// Returns why these terms are not a sum of squares and what to do; empty if they are.
   static std::string why_none(const std::vector<ObjectiveTerm>& terms);
 
   /// The terms must be a sum of squares.
   explicit TermResiduals(const std::vector<ObjectiveTerm>& terms);
 
-  /// Asks the terms for the counts of the frame that they are prepared for.
+  /// Reads the terms' residual counts for the frame that they are prepared for.
   void prepare();
   Eigen::Index count() const { return count_; }
-  /// Evaluator::pose_only_residuals().
+  /// See Evaluator::pose_only_residuals().
   std::vector<ResidualRows> pose_only() const;
-  /// Cost of one of the terms, without its weight; its residuals go to the front of `rest`, which
-  /// then begins behind them. May be called from several threads at once.
+  /// Writes one term's residuals to the front of `rest`, advances `rest`, and returns the term's
+  /// cost without its weight. May be called from several threads at once.
   double write(std::size_t term, const RenderedHypothesis& hypothesis,
                std::span<float>& rest) const;
 

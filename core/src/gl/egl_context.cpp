@@ -14,9 +14,9 @@
 namespace hypotrack::gl {
 namespace {
 
-constexpr int kVersionNeeded = 33;  // as epoxy counts: 3.3
+constexpr int kVersionNeeded = 33;  // 3.3 in epoxy's notation
 
-/// A way to a display that may or may not work.
+/// A candidate for an EGL display; it may not work.
 struct Candidate {
   std::string name;
   EGLenum platform = 0;
@@ -153,7 +153,7 @@ Made try_candidate(const Candidate& candidate) {
   return made;
 }
 
-/// Gives the thread back what it had current before contexts were tried.
+/// Restores what the thread had current before contexts were tried.
 class KeepCurrent {
  public:
   KeepCurrent()

@@ -4,18 +4,18 @@
 
 namespace hypotrack::gl {
 
-/// An OpenGL core context (3.3 or newer) without a window. Tried in this order: NVIDIA's devices,
-/// other graphics devices, software devices, Mesa's surfaceless platform. The displays belong to
-/// the process and are never closed, since other contexts may live on them.
+/// An OpenGL core context (3.3 or newer) without a window. It tries NVIDIA's devices, other
+/// graphics devices, software devices and Mesa's surfaceless platform, in this order. The displays
+/// belong to the process and are never closed, because other contexts may use them.
 class Context {
  public:
-  /// Throws DeviceError, listing what was tried and why it failed.
+  /// Throws DeviceError, which lists what was tried and why it failed.
   Context();
   ~Context();
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
-  /// Vendor, renderer and version as OpenGL tells them.
+  /// Returns OpenGL's vendor, renderer and version.
   const std::string& device() const { return device_; }
 
  private:
@@ -25,9 +25,8 @@ class Context {
   std::string device_;
 };
 
-/// Makes a context the calling thread's current one for the life of this object and gives the
-/// thread its former context back afterwards, so that a context can be used from one thread after
-/// another.
+/// Makes a context current in the calling thread during this object's lifetime, then restores the
+/// thread's former context. Several threads can so use one context in turn.
 class CurrentContext {
  public:
   /// Throws DeviceError if the context is current in another thread.

@@ -7,7 +7,7 @@
 
 namespace hypotrack::gl {
 
-/// Owner of an OpenGL name. Deleting it needs the context that made it to be current.
+/// Owner of an OpenGL name. The context that created the object must be current at its deletion.
 template <void (*kDelete)(GLuint)>
 class Owned {
  public:
@@ -50,10 +50,10 @@ Buffer make_buffer();
 VertexArray make_vertex_array();
 Texture make_texture();
 Framebuffer make_framebuffer();
-/// `samples` 0: not multisampled.
+/// Makes a renderbuffer; `samples` 0 means not multisampled.
 Renderbuffer make_renderbuffer(GLenum format, int width, int height, int samples);
 
-/// Compiles and links; throws DeviceError with the driver's log, naming `what`.
+/// Compiles and links a program. Throws DeviceError with the driver's log, naming `what`.
 Program make_program(const char* vertex_source, const char* fragment_source, const char* what);
 
 /// Throws DeviceError unless the bound framebuffer is complete.

@@ -16,7 +16,7 @@ void require_size(std::span<const double> parameters, std::size_t expected) {
                               parameters.size(), expected));
 }
 
-// parent_from_bone of every bone with the rotations that the parameters ask for.
+// Returns parent_from_bone of every bone, with the parameters' rotations applied.
 Bones parent_from_bones(const ModelData& data, std::span<const double> parameters) {
   Bones bones;
   bones.reserve(data.bones.size());
@@ -29,7 +29,7 @@ Bones parent_from_bones(const ModelData& data, std::span<const double> parameter
   return bones;
 }
 
-// Turns transforms to the parent into transforms to `root`; parents come first.
+// Composes transforms to the parent into transforms to `root`; parents come first.
 void chain(const ModelData& data, const Eigen::Isometry3d& root, Bones& bones) {
   for (std::size_t i = 0; i < bones.size(); ++i) {
     const int parent = data.bones[i].parent;
@@ -99,7 +99,7 @@ Eigen::Matrix3Xd place_landmarks(const ModelData& data,
 
 namespace {
 
-/// Throws PluginError unless a model that poses itself returned as many as its data has.
+/// Throws PluginError unless a model that poses itself returned as many points as its data has.
 void require_count(Eigen::Index found, Eigen::Index expected, const char* what) {
   if (found == expected) return;
   throw PluginError(fmt::format(

@@ -32,7 +32,7 @@ std::vector<Eigen::Index> known_columns(const Model& model, const Eigen::Matrix3
   return known;
 }
 
-/// What the steps move: a model's parameters, and its scale as one more.
+/// The variables of the fit: a model's parameters and its scale.
 struct Trial {
   Eigen::VectorXd parameters;
   double scale = 1;
@@ -55,7 +55,7 @@ class Problem {
 
   int unknowns() const { return unknowns_; }
 
-  /// Moves, turns about the model's own axes, bends (within bounds) and scales.
+  /// Applies a step: moves, rotates about the model's own axes, bends (within bounds) and scales.
   Trial moved(const Trial& from, const Eigen::VectorXd& step) const {
     Trial to = from;
     to.parameters.head<3>() += step.head<3>();
@@ -109,7 +109,7 @@ class Problem {
     return j;
   }
 
-  /// Whether an angle lies at a bound and would leave it downhill.
+  /// Returns true if an angle is at a bound and descent would cross it.
   bool stuck(const Trial& trial, int unknown, double gradient) const {
     if (unknown < 6 || unknown >= 6 + angles_) return false;
     const Parameter& p = parameter(unknown - 6);
@@ -127,10 +127,10 @@ class Problem {
   Eigen::Matrix3Xd targets_;
   int angles_;
   int unknowns_;
-  std::vector<double> prior_;  // of the angles
+  std::vector<double> prior_;  // one per angle
 };
 
-/// The damped Gauss-Newton step, 0 for angles that are stuck at a bound.
+/// Computes the damped Gauss-Newton step, 0 for angles that are stuck at a bound.
 Eigen::VectorXd damped_step(const Problem& problem, const Trial& trial, const Eigen::MatrixXd& j,
                             const Eigen::VectorXd& r, double damping) {
   Eigen::VectorXd gradient = j.transpose() * r;

@@ -7,13 +7,13 @@
 namespace hypotrack {
 namespace {
 
-/// Sets of parameters that only ever join.
+/// Disjoint sets of parameters (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t count) : leader_(count) {
     std::iota(leader_.begin(), leader_.end(), 0);
   }
-  /// The lowest parameter of a parameter's set.
+  /// Returns the lowest parameter of a parameter's set.
   int of(int parameter) const {
     while (leader_[static_cast<std::size_t>(parameter)] != parameter)
       parameter = leader_[static_cast<std::size_t>(parameter)];
@@ -29,7 +29,7 @@ class Sets {
   std::vector<int> leader_;
 };
 
-/// For every bone one of the parameters that turn it, -1 for a rigid one.
+/// Returns one of the parameters that turn each bone, -1 for a rigid bone.
 std::vector<int> joint_of_bones(const ModelData& data, Sets& sets) {
   std::vector<int> joint(data.bones.size(), -1);
   for (const BoneRotation& rotation : data.rotations) {
@@ -40,10 +40,10 @@ std::vector<int> joint_of_bones(const ModelData& data, Sets& sets) {
   return joint;
 }
 
-/// Joins each jointed bone with the jointed one above it, unless others hang there, too.
+/// Joins each jointed bone with the nearest jointed bone above it, unless that one has others.
 void join_chains(const ModelData& data, const std::vector<int>& joint, Sets& sets) {
   std::vector<int> above(data.bones.size(), -1);  // nearest jointed bone
-  std::vector<int> below(data.bones.size(), 0);   // number of those whose nearest this one is
+  std::vector<int> below(data.bones.size(), 0);   // number of jointed bones directly below
   for (std::size_t b = 0; b < data.bones.size(); ++b) {
     if (data.bones[b].parent < 0) continue;
     const auto parent = static_cast<std::size_t>(data.bones[b].parent);
@@ -64,7 +64,7 @@ std::vector<std::vector<int>> parameter_groups(const ModelData& data) {
     if (data.parameters[static_cast<std::size_t>(i)].kind != ParameterKind::angle) sets.join(0, i);
   }
   join_chains(data, joint_of_bones(data, sets), sets);
-  std::map<int, std::vector<int>> by_leader;  // the pose's comes first: parameter 0 leads it
+  std::map<int, std::vector<int>> by_leader;  // the pose is first: parameter 0 leads it
   for (int i = 0; i < static_cast<int>(data.parameters.size()); ++i) {
     by_leader[sets.of(i)].push_back(i);
   }

@@ -8,8 +8,8 @@
 namespace hypotrack {
 namespace {
 
-// The centre of the bounding box and the ends of its two longest half-axes; of equally long axes
-// the earlier one comes first.
+// Returns the centre of the bounding box and the ends of its two longest half-axes. Of equally long
+// axes, the earlier one comes first.
 std::vector<Landmark> bounding_box_anchors(const Eigen::Matrix3Xf& vertices) {
   if (vertices.cols() == 0) return {};
   const Eigen::Vector3d low = vertices.rowwise().minCoeff().cast<double>();

@@ -5,7 +5,7 @@
 namespace hypotrack {
 namespace {
 
-/// The values of a model, whose names and bounds are the model's.
+/// The parameter struct of a model's shape values; names and bounds are the model's.
 struct Values {
   std::vector<ShapeParameter> all;
   void visit(ParamVisitor& v) {

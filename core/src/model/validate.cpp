@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kTolerance = 1e-4;  // of weight sums, unit axes and rotation matrices
 
-// Checks one model; every message begins with where the model came from.
+// Validates one model; every message begins with where the model came from.
 class Validator {
  public:
   Validator(const ModelData& data, std::string_view where) : data_(data), where_(where) {}
@@ -47,7 +47,7 @@ class Validator {
     }
   }
 
-  /// For what gets a column in the tables of a run.
+  /// Checks names that become columns in the tables of a run.
   template <class Items>
   void check_column_names(const Items& items, std::string_view kind) const {
     check_names(items, kind);
@@ -206,7 +206,7 @@ void Validator::check_rotations() const {
       fail("rotation {} refers to parameter {}, expected an angle (7 to {})", i, rotation.parameter,
            count - 1);
     }
-    // Written so that NaN fails.
+    // Negated, so that NaN fails.
     if (!(std::abs(rotation.axis.norm() - 1) <= kTolerance)) {
       fail("rotation {} has an axis of length {}, expected 1", i, rotation.axis.norm());
     }

@@ -8,18 +8,18 @@
 namespace hypotrack {
 namespace {
 
-// Orange and blue can be told apart by nearly everybody (BGR).
+// Nearly everybody can tell orange and blue apart (BGR).
 const cv::Scalar kSolutionColor(30, 140, 255);
 const cv::Scalar kTruthColor(255, 190, 70);
 const cv::Scalar kTextColor(235, 235, 235);
 const cv::Scalar kStripColor(32, 32, 32);
 constexpr double kTint = 0.35;
-constexpr int kLongSide = 640;  // of the enlarged piece
-constexpr int kSmallest = 120;  // side of the piece, so that the legend fits
+constexpr int kLongSide = 640;  // of the enlarged crop
+constexpr int kSmallest = 120;  // side of the crop, so that the legend fits
 constexpr int kStripHeight = 56;
 constexpr int kSubpixelBits = 4;
 
-using Pixels = std::vector<cv::Point2d>;  // NaN where a landmark cannot be seen
+using Pixels = std::vector<cv::Point2d>;  // NaN for invisible landmarks
 
 Pixels pixels_of(const Eigen::Matrix3Xd& landmarks, const Camera& camera) {
   Pixels pixels;
@@ -34,14 +34,14 @@ bool is_inside(const cv::Point2d& p, const cv::Size& size) {
   return p.x >= 0 && p.y >= 0 && p.x < size.width && p.y < size.height;  // false for NaN
 }
 
-/// Widens a range to at least `least` and 15 % more on both sides, within 0 .. size.
+/// Widens a range to at least `least`, and by 15 % on both sides, within 0 .. size.
 void widen(int& begin, int& length, int least, int size) {
   const int wanted = std::min(size, std::max(least, static_cast<int>(std::lround(1.3 * length))));
   begin = std::clamp(begin - (wanted - length) / 2, 0, size - wanted);
   length = wanted;
 }
 
-/// The part of the image that shows either, or all of it if it shows none.
+/// Returns the part of the image that shows either pose, or all of it if neither is visible.
 cv::Rect piece_around(const std::vector<cv::Mat>& labels, const std::vector<Pixels>& landmarks,
                       const cv::Size& size) {
   cv::Rect piece;
@@ -56,7 +56,7 @@ cv::Rect piece_around(const std::vector<cv::Mat>& labels, const std::vector<Pixe
   return piece;
 }
 
-/// Draws on an enlarged piece of an image in the coordinates of the whole image.
+/// Draws on an enlarged crop of an image, in the coordinates of the whole image.
 class Sheet {
  public:
   Sheet(const cv::Mat& image, const cv::Rect& piece)
@@ -98,7 +98,7 @@ class Sheet {
                kSubpixelBits);
   }
 
-  /// The picture with what it shows written under it.
+  /// Returns the picture with the legend below it.
   cv::Mat with_legend(const std::string& caption) const {
     cv::Mat result;
     cv::copyMakeBorder(picture_, result, 0, kStripHeight, 0, 0, cv::BORDER_CONSTANT, kStripColor);
@@ -112,7 +112,7 @@ class Sheet {
   }
 
  private:
-  /// In 1/16 pixels of the sheet; pixel centres are at integers in both images.
+  /// Converts an image position to 1/16 pixels of the sheet; pixel centres are at integers in both.
   cv::Point place(const cv::Point2d& p) const {
     const cv::Point2d at =
         (p - cv::Point2d(piece_.tl()) + cv::Point2d(0.5, 0.5)) * scale_ - cv::Point2d(0.5, 0.5);

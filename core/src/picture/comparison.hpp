@@ -10,16 +10,16 @@
 
 namespace hypotrack {
 
-/// Where a scene is; `state` or `landmarks` may be unknown.
+/// The state and landmarks of a scene; either may be unknown.
 struct ScenePose {
-  Eigen::VectorXd state;       ///< size 0: unknown
+  Eigen::VectorXd state;       ///< size 0 = unknown
   Eigen::Matrix3Xd landmarks;  ///< 3xL, world, metres; NaN columns are unknown
 };
 
-/// A piece of `image` (8-bit BGR of the camera's size) around a solution, enlarged, with the
-/// solution in orange (tinted and outlined), the truth in blue (outlined), a line from each
-/// landmark to where it should be, and a legend under it. `renderer` is one of the scene of both.
-/// Throws DataError where Renderer::render does.
+/// Draws a solution and the ground truth on an enlarged crop of `image` (8-bit BGR of the camera's
+/// size). The solution is orange (tinted and outlined), the truth blue (outlined). Lines lead from
+/// landmarks to their true positions; a legend is below. `renderer` must render the scene of both.
+/// Throws DataError as Renderer::render does.
 HYPOTRACK_API cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image,
                                       const Camera& camera, const ScenePose& solution,
                                       const ScenePose& truth, const std::string& caption);

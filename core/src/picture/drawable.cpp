@@ -36,8 +36,8 @@ gl::Texture make_texture(const cv::Mat& image) {
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, fitted.cols, fitted.rows, 0, GL_BGR, GL_UNSIGNED_BYTE,
                fitted.data);
   glGenerateMipmap(GL_TEXTURE_2D);
-  // No anisotropic filter: with multisampling Mesa's llvmpipe (22.3) never comes back from it where
-  // a face is seen almost edge on.
+  // No anisotropic filter: with multisampling, Mesa's llvmpipe (22.3) hangs in it if a face is seen
+  // almost edge on.
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);

@@ -8,7 +8,7 @@
 
 namespace hypotrack {
 
-/// A model on the OpenGL side.
+/// The OpenGL objects of a model.
 struct Drawable {
   ShadingMesh mesh;
   gl::VertexArray vertex_array;
@@ -16,14 +16,14 @@ struct Drawable {
   gl::Buffer normals;
   gl::Buffer uv;
   gl::Buffer triangles;
-  gl::Texture texture;  // 0: none
+  gl::Texture texture;  // 0 = none
   Eigen::Vector3f color;
 };
 
-/// Puts a mesh and its texture into buffers; positions and normals follow with pose_drawable().
+/// Uploads a mesh and its texture; pose_drawable() uploads positions and normals.
 Drawable make_drawable(const Mesh& mesh);
 
-/// Moves a model to where its vertices (3xV, world) are.
+/// Uploads the positions and normals of posed vertices (3xV, world).
 void pose_drawable(const Drawable& drawable, const Eigen::Matrix3Xf& vertices);
 
 }  // namespace hypotrack

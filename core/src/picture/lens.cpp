@@ -11,11 +11,11 @@
 namespace hypotrack {
 namespace {
 
-/// Rays at more than this angle from the axis (tangent) do not fit a pinhole picture.
+/// Largest angle from the axis (tangent) of a ray in the pinhole's picture.
 constexpr double kWidestTangent = 6.0;    // 80.5 degrees
 constexpr double kLargestPinhole = 6144;  // pixels along one side
 constexpr double kLargestGeometry = 8192;
-/// The nearest pixel of a picture this much finer is at most an eighth of a pixel away.
+/// Factor by which geometry is drawn finer, so that the nearest pixel is at most 1/8 pixel off.
 constexpr int kGeometryScale = 4;
 constexpr double kInversionTolerance = 0.1;  // pixels
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -47,8 +47,8 @@ std::vector<cv::Point2d> distort(const Camera& c, const std::vector<cv::Point2d>
   return pixels;
 }
 
-/// Rays of one row of pixels. OpenCV inverts by iteration; where that leads nowhere there is no
-/// ray.
+/// Computes the rays of one row of pixels. OpenCV inverts the distortion iteratively; where that
+/// fails there is no ray.
 void fill_row(const Camera& camera, int y, cv::Point2f* row) {
   std::vector<cv::Point2d> pixels(static_cast<std::size_t>(camera.width));
   for (int x = 0; x < camera.width; ++x)
@@ -77,7 +77,8 @@ Eigen::AlignedBox2d grown(Eigen::AlignedBox2d box, double margin) {
   return box;
 }
 
-/// Smallest step between neighbouring rays of a part of the image: the resolution to draw with.
+/// Returns the smallest step between neighbouring rays of a part of the image, which determines the
+/// resolution to draw with.
 double finest_step(const cv::Mat& rays) {
   double finest = std::numeric_limits<double>::infinity();
   for (int y = 0; y + 1 < rays.rows; y += 2) {

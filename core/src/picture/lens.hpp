@@ -8,25 +8,25 @@
 
 namespace hypotrack {
 
-/// How to get a part of a camera's picture from a picture that a pinhole took at the same place.
+/// Mapping from a pinhole camera's picture to a part of a real camera's picture.
 struct LensView {
-  cv::Rect roi;        ///< part of the camera's image; empty if nothing of it is needed
-  TileCamera pinhole;  ///< camera to draw with
-  cv::Mat map;  ///< 32-bit float x y in `pinhole` for every pixel of `roi`; NaN: no such ray;
-                ///< empty for a camera without distortion, where `pinhole` is just that part
-  /// Depth and labels, which are not interpolated, are to be drawn this much finer than `pinhole`.
+  cv::Rect roi;        ///< part of the camera's image; empty if none is needed
+  TileCamera pinhole;  ///< camera to draw with, at the same place
+  cv::Mat map;  ///< 32-bit float x y in `pinhole` per pixel of `roi`; NaN = no such ray; empty
+                ///< without distortion, where `pinhole` is just that part
+  /// Factor by which depth and labels, which are not interpolated, are drawn finer than `pinhole`.
   int geometry_scale = 1;
 };
 
-/// Viewing rays of a camera and what follows for drawing with a renderer that knows pinholes only.
+/// The viewing rays of a camera; a renderer for pinhole cameras needs them to draw lens distortion.
 class Lens {
  public:
   explicit Lens(const Camera& camera);
 
-  /// Whether this is the lens of a camera (its pose does not matter).
+  /// Returns true if this is the lens of a camera; poses may differ.
   bool fits(const Camera& camera) const;
 
-  /// The view that shows `extent`, a box in the plane z = 1 (SceneDrawer::extent).
+  /// Returns the view that shows `extent`, a box in the plane z = 1 (SceneDrawer::extent).
   LensView view(const Eigen::AlignedBox2d& extent,
                 const Eigen::Isometry3d& camera_from_world) const;
 
@@ -38,10 +38,10 @@ class Lens {
   cv::Mat rays_;  // 32-bit float x/z y/z for every pixel, NaN where the model cannot be inverted
 };
 
-/// Picks from `source` what `view.map` says: bilinear for colours, zero outside.
+/// Resamples `source` by `view.map`: bilinear for colours, zero outside.
 cv::Mat sample_linear(const cv::Mat& source, const LensView& view);
-/// The same, nearest pixel, from a source geometry_scale times finer: depth and labels. Types:
-/// CV_32FC1 or CV_8UC1.
+/// Resamples depth or labels (CV_32FC1 or CV_8UC1) by the nearest pixel. `source` is geometry_scale
+/// times finer than the pinhole's picture.
 cv::Mat sample_nearest(const cv::Mat& source, const LensView& view);
 
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-/// Shading from a light beside the camera, so that the relief shows from every viewpoint.
+/// Shading by a light beside the camera, so that the relief is visible from every viewpoint.
 RenderStyle shaded_for(const Camera& camera) {
   RenderStyle style;
   style.textured = false;
@@ -22,7 +22,7 @@ RenderStyle shaded_for(const Camera& camera) {
   return style;
 }
 
-/// Outlines one model of a label image; `roi` is the part that is not empty.
+/// Outlines one model of a label image; `roi` is its non-empty part.
 void draw_contours(const cv::Mat& label, const cv::Rect& roi, int model, int thickness,
                    const cv::Scalar& color, cv::Mat& image) {
   cv::Mat inside;
@@ -33,7 +33,7 @@ void draw_contours(const cv::Mat& label, const cv::Rect& roi, int model, int thi
   cv::polylines(image, contours, true, color, thickness, cv::LINE_AA);
 }
 
-/// Darkens the rims where a part of a model lies before another part of it, finger before palm.
+/// Darkens the rims where a part of a model occludes another part of it (finger before palm).
 void draw_rims(const RenderedView& view, const cv::Rect& roi, cv::Mat& image) {
   constexpr float kJump = 0.006F;  // metres from pixel to pixel
   const auto jumps = [&](cv::Point a, cv::Point b) {

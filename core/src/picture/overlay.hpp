@@ -11,16 +11,16 @@
 
 namespace hypotrack {
 
-/// How a solution is drawn on an image.
+/// Style of a solution drawn on an image.
 struct OverlayStyle {
-  double opacity = 0.5;  ///< of the models; 0: outlines only
-  bool contours = true;  ///< outline every model, also where it lies before another or itself
-  std::vector<bool> hidden = {};  ///< for each model, whether it is left out; empty: none
+  double opacity = 0.5;           ///< of the models; 0 = outlines only
+  bool contours = true;           ///< outline every model, also in front of another or itself
+  std::vector<bool> hidden = {};  ///< for each model, true to leave it out; empty = none
 };
 
-/// Draws the scene in `state` on a copy of `image` (8-bit BGR of the camera's size): every model in
-/// a colour of its own, lightly shaded so that its shape can be read, half transparent, outlined.
-/// `renderer` must be one of `scene`. Throws DataError where Renderer::render does.
+/// Draws the scene in `state` on a copy of `image` (8-bit BGR of the camera's size). Every model
+/// has its own colour, half transparent, lightly shaded and outlined. `renderer` must be one of
+/// `scene`. Throws DataError as Renderer::render does.
 HYPOTRACK_API cv::Mat draw_overlay(Renderer& renderer, const Scene& scene, const cv::Mat& image,
                                    const Camera& camera, const Eigen::VectorXd& state,
                                    const OverlayStyle& style = {});

@@ -20,7 +20,7 @@ std::vector<float> inverse_depths(const cv::Mat& depth) {
   return values;
 }
 
-/// The value that the share `q` of all is below.
+/// Returns the q-quantile of the values and reorders them.
 float quantile(std::vector<float>& values, double q) {
   const auto at =
       values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
@@ -28,8 +28,8 @@ float quantile(std::vector<float>& values, double q) {
   return *at;
 }
 
-/// Grey is linear in 1/z, which gives what is near the larger part of the range. A hundredth at
-/// either end is cut off: single wrong pixels must not take the contrast from all others.
+/// Grey is linear in 1/z, so that near surfaces get most of the range. One per cent at either end
+/// is clipped, so that outliers do not take the contrast.
 cv::Mat depth_picture(const cv::Mat& depth) {
   cv::Mat grey = cv::Mat::zeros(depth.size(), CV_8UC1);
   std::vector<float> values = inverse_depths(depth);

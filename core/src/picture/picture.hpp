@@ -7,8 +7,9 @@
 
 namespace hypotrack {
 
-/// What to show of a view, 8-bit BGR: its colour (shared, not copied); without colour its depth in
-/// grey, nearer is brighter, black where nothing was measured. Empty if the view has neither.
+/// Returns a displayable image of a view, 8-bit BGR: its colour (shared, not copied), else its
+/// depth in grey. Nearer depth is brighter; unmeasured depth is black. Empty if the view has
+/// neither.
 HYPOTRACK_API cv::Mat picture_of(const View& view);
 
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 
 namespace hypotrack {
 
-/// Size of framebuffers, which are as large as anything drawn so far.
+/// Size of framebuffers; they grow to the largest picture drawn so far.
 struct TargetSize {
   int width = 0;
   int height = 0;
@@ -32,8 +32,8 @@ struct GeometryTarget {
   gl::Renderbuffer z_buffer;
 };
 
-/// The size to go on with so that the camera's picture fits as well. Throws DeviceError if OpenGL
-/// cannot draw pictures that large.
+/// Returns the size that also holds the camera's picture. Throws DeviceError if OpenGL cannot draw
+/// pictures that large.
 TargetSize grown(const TargetSize& former, const TileCamera& camera, int samples);
 
 ColorTarget make_color_target(const TargetSize& size);

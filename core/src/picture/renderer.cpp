@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr std::size_t kLensesKept = 4;  // a lens with distortion holds a ray for every pixel
+constexpr std::size_t kLensesKept = 4;  // a distorted lens stores one ray per pixel
 
 void check_arguments(const Scene& scene, const Eigen::VectorXd& state, const Camera& camera,
                      const cv::Mat& background) {
@@ -33,7 +33,7 @@ void check_arguments(const Scene& scene, const Eigen::VectorXd& state, const Cam
   }
 }
 
-/// The camera with every pixel split into scale x scale.
+/// Returns the camera with every pixel split into scale x scale.
 TileCamera finer(TileCamera camera, int scale) {
   camera.width *= scale;
   camera.height *= scale;
@@ -44,7 +44,7 @@ TileCamera finer(TileCamera camera, int scale) {
   return camera;
 }
 
-/// Puts a picture with coverage (colour already multiplied by it) over another.
+/// Composites a picture with coverage (premultiplied colour) over another.
 void put_over(const cv::Mat& layer, cv::Mat target) {
   for (int y = 0; y < layer.rows; ++y) {
     const auto* from = layer.ptr<cv::Vec4b>(y);

@@ -19,10 +19,10 @@
 namespace hypotrack {
 namespace {
 
-/// Surfaces nearer than this are cut away: a projection has no meaning at the camera's centre.
+/// Near clipping distance: a projection has no meaning at the camera's centre.
 constexpr double kNearest = 1e-3;
 
-/// Pinhole projection with pixel centres at integers: pixel x covers [x - 0.5, x + 0.5].
+/// Returns the pinhole projection with pixel centres at integers: x covers [x - 0.5, x + 0.5].
 Eigen::Matrix4f clip_from_camera(const TileCamera& c, double near_z, double far_z) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
   m(0, 0) = 2 * c.fx / c.width;
@@ -46,7 +46,7 @@ cv::Mat read_back(GLenum attachment, GLenum format, GLenum type, cv::Size size, 
 void prepare_to_draw(const TileCamera& camera) {
   glViewport(0, 0, camera.width, camera.height);
   glScissor(0, 0, camera.width, camera.height);
-  glEnable(GL_SCISSOR_TEST);  // clears no more than is drawn
+  glEnable(GL_SCISSOR_TEST);  // clears only what is drawn
   glEnable(GL_DEPTH_TEST);
   glDisable(GL_DITHER);
 }
@@ -81,7 +81,7 @@ struct SceneDrawer::Impl {
   }
 
   ~Impl() {
-    // OpenGL objects go while their context is current, and before it.
+    // OpenGL objects must be deleted while their context is current, before it ends.
     const gl::CurrentContext current(context);
     drawables.clear();
     color_target = {};
@@ -200,9 +200,9 @@ struct SceneDrawer::Impl {
   gl::Program geometry_program;
   ColorTarget color_target;
   GeometryTarget geometry_target;
-  Eigen::VectorXd state;                // that the buffers hold
-  std::vector<bool> hidden;             // models that they do not hold
-  std::vector<Eigen::Matrix3Xf> posed;  // vertices of every model in the world, none if hidden
+  Eigen::VectorXd state;                // state in the buffers
+  std::vector<bool> hidden;             // models left out of the buffers
+  std::vector<Eigen::Matrix3Xf> posed;  // world vertices of every model; none if hidden
 };
 
 SceneDrawer::SceneDrawer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -244,7 +244,7 @@ Eigen::AlignedBox2d SceneDrawer::extent(const Eigen::Isometry3d& camera_from_wor
       }
     }
   }
-  if (behind && !box.isEmpty()) {  // a triangle through the camera's plane may reach anywhere
+  if (behind && !box.isEmpty()) {  // a triangle through the camera plane may reach anywhere
     box.min().setConstant(-std::numeric_limits<double>::infinity());
     box.max().setConstant(std::numeric_limits<double>::infinity());
   }

@@ -12,16 +12,16 @@
 
 namespace hypotrack {
 
-/// The nearest surface at the pixels' centres.
+/// Depth and label of the nearest surface at pixel centres.
 struct Geometry {
-  cv::Mat depth;  ///< 32-bit float z in metres, 0: nothing there
-  cv::Mat label;  ///< 8-bit, 0: nothing, otherwise 1 + index of the model
+  cv::Mat depth;  ///< 32-bit float z in metres; 0 = nothing
+  cv::Mat label;  ///< 8-bit; 0 = nothing, else 1 + index of the model
 };
 
-/// RGB in [0, 1] of a model drawn without its texture, by its index in the scene.
+/// Returns the colour (RGB in [0, 1]) of a model drawn without texture, by its index in the scene.
 Eigen::Vector3f flat_color(int model_index);
 
-/// Holds the OpenGL side of a scene and draws it for pinhole cameras.
+/// Owns the OpenGL objects of a scene and draws it for pinhole cameras.
 class SceneDrawer {
  public:
   /// The scene must outlive the drawer. Throws DeviceError if no context can be made.
@@ -30,19 +30,18 @@ class SceneDrawer {
   SceneDrawer(const SceneDrawer&) = delete;
   SceneDrawer& operator=(const SceneDrawer&) = delete;
 
-  /// Poses the scene for the draws that follow, which leave `hidden` models out (empty: none).
+  /// Poses the scene for the next draws; they leave out `hidden` models (empty: none).
   void pose(const Eigen::VectorXd& state, const std::vector<bool>& hidden = {});
 
-  /// Where the posed scene lies in the image plane at z = 1 of a camera: the box of (x / z, y / z).
-  /// Empty if nothing is in front of the camera, infinite if a part of the scene is at or behind
-  /// it.
+  /// Returns the bounding box of the posed scene in the plane z = 1 of a camera: (x / z, y / z).
+  /// Empty if nothing is in front of the camera; infinite if part of the scene is at or behind it.
   Eigen::AlignedBox2d extent(const Eigen::Isometry3d& camera_from_world) const;
 
-  /// Draws the posed scene antialiased: 8-bit BGRA, colour times coverage and coverage (0 .. 255).
-  /// Throws DeviceError on sizes beyond what OpenGL can do.
+  /// Draws the posed scene antialiased: 8-bit BGRA with colour times coverage, and coverage (0 ..
+  /// 255). Throws DeviceError on sizes beyond OpenGL's limits.
   cv::Mat draw_color(const TileCamera& camera, const RenderStyle& style);
 
-  /// Draws depth and labels of the posed scene. Throws DeviceError like draw_color().
+  /// Draws depth and labels of the posed scene. Throws DeviceError as draw_color() does.
   Geometry draw_geometry(const TileCamera& camera);
 
   const std::string& device() const;

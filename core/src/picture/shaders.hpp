@@ -2,7 +2,7 @@
 
 namespace hypotrack::shaders {
 
-/// World to clip space; row 0 of the framebuffer is the top row of the image.
+/// Vertex shader, world to clip space; row 0 of the framebuffer is the image's top row.
 inline constexpr const char* kSceneVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;  // world, metres
 layout(location = 1) in vec3 normal;    // world
@@ -23,8 +23,8 @@ void main() {
 }
 )";
 
-/// Ambient, Lambert and Blinn-Phong terms of one distant light. Colours are used as they are
-/// stored, so that ambient 1 alone gives the texture's own values.
+/// Fragment shader with ambient, Lambert and Blinn-Phong terms of one distant light. Colours are
+/// used as stored, so that ambient 1 alone gives the texture's own values.
 inline constexpr const char* kColorFragment = R"(#version 330 core
 in vec3 world_position;
 in vec3 world_normal;

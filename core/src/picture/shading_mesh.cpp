@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-/// Sets that only ever merge.
+/// Disjoint sets of corners (union-find).
 class DisjointSets {
  public:
   explicit DisjointSets(int count) : parent_(static_cast<std::size_t>(count)) {
@@ -39,7 +39,7 @@ Eigen::Matrix3Xf face_normals(const Eigen::Matrix3Xf& vertices, const Eigen::Mat
   return normals;
 }
 
-/// Groups the 3T face corners: corners of one vertex belong together if smooth edges join them.
+/// Groups the 3T face corners: corners of one vertex join if smooth edges connect them.
 DisjointSets smooth_corners(const Mesh& mesh) {
   const Eigen::Matrix3Xi& triangles = mesh.triangles;
   const Eigen::Matrix3Xf normals = face_normals(mesh.vertices, triangles);

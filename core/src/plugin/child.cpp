@@ -46,8 +46,8 @@ class Pipe {
   int ends_[2] = {-1, -1};
 };
 
-/// posix_spawn rather than fork: between fork and exec, a process with threads may not even
-/// allocate.
+/// Starts the program with posix_spawn, because fork is unsafe in a process with threads: the child
+/// may not allocate before exec.
 pid_t spawn(const std::filesystem::path& program, const std::string& argument, int write_end) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -60,7 +60,7 @@ pid_t spawn(const std::filesystem::path& program, const std::string& argument, i
   sigset_t none;
   sigemptyset(&none);
   posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setpgroup(&attributes, 0);  // whatever it starts is killed with it
+  posix_spawnattr_setpgroup(&attributes, 0);  // kills its own children with it
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
 
   std::string path = program.string();
@@ -79,7 +79,7 @@ pid_t spawn(const std::filesystem::path& program, const std::string& argument, i
   return child;
 }
 
-/// Reads until the other end is closed or the time is over.
+/// Reads until the other end closes or time runs out.
 std::string read_all(int descriptor, Clock::time_point deadline) {
   std::string text;
   char buffer[4096];
@@ -97,7 +97,7 @@ std::string read_all(int descriptor, Clock::time_point deadline) {
   }
 }
 
-/// Waits for the end of a child that has closed its pipe, or kills it when the time is over.
+/// Waits for a child that has closed its pipe; kills it when time runs out.
 void reap(pid_t child, Clock::time_point deadline, ChildResult& result) {
   int status = 0;
   pid_t ended = 0;
@@ -111,7 +111,7 @@ void reap(pid_t child, Clock::time_point deadline, ChildResult& result) {
     }
     return;
   }
-  if (ended < 0) return;  // the program ignores SIGCHLD: how the child ended is lost
+  if (ended < 0) return;  // the program ignores SIGCHLD, so the status is lost
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
 }

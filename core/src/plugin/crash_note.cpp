@@ -10,7 +10,7 @@
 namespace hypotrack::detail {
 namespace {
 
-// Made beforehand: a signal handler may not allocate.
+// Filled in advance, because a signal handler may not allocate.
 std::array<char, 4096> g_note;
 std::size_t g_length = 0;
 
@@ -38,7 +38,7 @@ CrashNote::~CrashNote() {
   for (std::size_t i = 0; i < kSignals.size(); ++i) {
     struct sigaction now {};
     sigaction(kSignals[i], nullptr, &now);
-    // A library that has brought a handler of its own keeps it.
+    // Keep a handler that the library itself has installed.
     if (now.sa_handler == on_crash) sigaction(kSignals[i], &before_[i], nullptr);
   }
 }

@@ -6,8 +6,8 @@
 
 namespace hypotrack::detail {
 
-/// While it lives, a crash names the library that is being opened before it ends the program as
-/// ever: code of a plugin runs before anything of it can be checked.
+/// Names the library being opened if the program crashes during this object's lifetime. A plugin's
+/// code runs before anything about it can be checked. The crash then ends the program as usual.
 class CrashNote {
  public:
   explicit CrashNote(const std::filesystem::path& library);

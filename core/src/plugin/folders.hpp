@@ -7,17 +7,17 @@
 
 namespace hypotrack::detail {
 
-/// The folder that holds lib/, share/ and so on: of the installation or the build tree that this
-/// libhypotrack.so was loaded from.
+/// Returns the folder that contains lib/ and share/: the installation or build tree of this
+/// libhypotrack.so.
 std::filesystem::path prefix_folder();
 
-/// The program that opens plugins in a process of their own.
+/// Returns the path of the program that opens plugins in a separate process.
 std::filesystem::path probe_program();
 
-/// `extra`, HYPOTRACK_PLUGIN_PATH (absolute folders with colons between them), the build's own
-/// folder. Relative elements of `extra` are relative to the working directory as it is now, for
-/// they were typed on purpose; in the environment they would depend on where one happens to be, and
-/// throw PluginError. Empty elements are ignored.
+/// Returns the plugin search path: `extra`, HYPOTRACK_PLUGIN_PATH (absolute folders with colons
+/// between them), and the build's own folder. Relative elements of `extra` are relative to the
+/// current working directory, because the user typed them. Relative elements in the environment
+/// would depend on where the program runs, so they throw PluginError. Empty elements are ignored.
 HYPOTRACK_API std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra);
 

@@ -22,7 +22,7 @@ std::string signal_name(int signal) {
   return name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
 }
 
-/// What went wrong with a child that gave no result.
+/// Describes the failure of a child that returned no result.
 std::string describe_end(const detail::ChildResult& result, std::chrono::milliseconds limit) {
   const std::string step = result.lines.empty() ? "while starting" : result.lines.back();
   if (result.timed_out) {
@@ -52,8 +52,8 @@ PluginRow row_of(const std::filesystem::path& file) {
   return row;
 }
 
-/// Libraries on the search path with nothing but what their file names say, sorted; hidden ones
-/// last among their like.
+/// Lists the libraries on the search path by their file names, sorted. Of equal names, hidden
+/// libraries come last.
 std::vector<PluginRow> find_libraries(std::span<const std::filesystem::path> search_path) {
   std::vector<PluginRow> rows;
   for (const auto& folder : search_path) {

@@ -19,7 +19,7 @@ constexpr std::string_view kFileSuffix = ".so";
 
 std::string_view text_of(const char* text) { return text ? text : "(null)"; }
 
-/// A magic number as text, whatever is in it.
+/// Returns a magic number as printable text, whatever its bytes are.
 std::string printable(std::string_view bytes) {
   std::string text;
   for (const char c : bytes) {
@@ -42,7 +42,7 @@ std::vector<std::string_view> split_tag(std::string_view tag) {
   return parts;
 }
 
-/// The parts of the plugin's tag that hypotrack's does not have, or the other way round.
+/// Describes which parts of the plugin's build tag differ from hypotrack's.
 std::string tag_difference(std::string_view theirs, std::string_view ours) {
   const auto missing_from = [](std::string_view these, std::string_view others) {
     const auto known = split_tag(others);
@@ -56,7 +56,7 @@ std::string tag_difference(std::string_view theirs, std::string_view ours) {
                      missing_from(theirs, ours), missing_from(ours, theirs));
 }
 
-/// 0 for what is no file.
+/// Returns a file's size, or 0 if it is not a file.
 std::uintmax_t file_size_of(const std::filesystem::path& file) {
   std::error_code none;
   const std::uintmax_t size = std::filesystem::file_size(file, none);
@@ -109,8 +109,9 @@ void* load_library(const std::filesystem::path& file) {
         "cannot be loaded: the file is cut off: it has {} of {} bytes; build or copy it again",
         size, whole));
   }
-  // An absolute path, so that the dynamic linker searches nowhere. NODELETE and no dlclose: types
-  // and exceptions of a plugin may live as long as the process does.
+  // The absolute path stops the dynamic linker from searching. The library is never closed
+  // (NODELETE, no dlclose), because a plugin's types and exceptions may live as long as the
+  // process.
   const std::string path = std::filesystem::absolute(file).string();
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!library) {

@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-/// The steps from one node's path to that of a node below it, or nothing.
+/// Returns the steps from a node's path to that of a node below it, or nothing if it is not below.
 std::vector<std::string> steps_between(const std::string& outer, const std::string& inner) {
   const std::string head = outer.empty() ? "" : outer + ".";
   if (!inner.starts_with(head) || inner.size() == head.size()) return {};
@@ -37,7 +37,7 @@ const Scene& PluginContext::scene() const {
 
 void PluginContext::record_nested(const ConfigNode& config, const std::string& resolved) {
   const auto steps = steps_between(config_.path(), config.path());
-  if (steps.empty()) return;  // from elsewhere: no parameter of this plugin
+  if (steps.empty()) return;  // from elsewhere, so it is not a parameter of this plugin
   auto origin = std::make_shared<detail::YamlOrigin>();
   origin->name = config.where();
   const auto tree = detail::read_yaml(resolved_, origin);

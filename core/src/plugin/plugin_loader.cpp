@@ -18,7 +18,7 @@
 namespace hypotrack {
 namespace {
 
-/// The plugin that a node names.
+/// Returns the name of the plugin that a node selects.
 std::string type_of(std::string_view kind, const ConfigNode& config) {
   if (!config.is_map()) {
     detail::fail_at(config, fmt::format("{}; expected a map with `type: NAME`, the {} to use",
@@ -45,7 +45,7 @@ std::string join_paths(const std::vector<std::filesystem::path>& paths) {
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The name of the type of the exception being handled: `int`.
+/// Returns the type name of the exception being handled: `int`.
 std::string current_exception_name() {
   const std::type_info* type = abi::__cxa_current_exception_type();
   if (!type) return "an unknown type";
@@ -56,7 +56,7 @@ std::string current_exception_name() {
   return name;
 }
 
-/// Runs a plugin's factory; whatever else than an Error it throws becomes a PluginError.
+/// Runs a plugin's factory; converts exceptions other than Error to PluginError.
 void* create(const HypotrackPlugin& plugin, PluginContext& context) {
   const std::string who =
       fmt::format("{}: {} '{}'", context.config().where(), plugin.kind, plugin.name);

@@ -16,7 +16,7 @@ void write_line(std::string line) {
   line += '\n';
   for (std::string_view rest = line; !rest.empty();) {
     const ssize_t written = write(kProbeDescriptor, rest.data(), rest.size());
-    if (written <= 0) _exit(2);  // nobody listens any more
+    if (written <= 0) _exit(2);  // the reader has gone
     rest.remove_prefix(static_cast<std::size_t>(written));
   }
 }
@@ -57,7 +57,7 @@ void run_probe(const std::filesystem::path& file) {
   setrlimit(RLIMIT_CORE, &none);  // crashes are expected here
   const nlohmann::json report = probe(file);
   write_line(report.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace));
-  _exit(0);  // without the destructors of a library that may be broken
+  _exit(0);  // skips the destructors of a library that may be broken
 }
 
 }  // namespace hypotrack::detail

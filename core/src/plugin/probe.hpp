@@ -6,16 +6,15 @@
 
 namespace hypotrack::detail {
 
-/// The descriptor that the probe program writes to, so that nothing a plugin prints gets in
-/// between.
+/// File descriptor of the probe program's report, separate from anything that a plugin prints.
 inline constexpr int kProbeDescriptor = 3;
 
-// What it writes there: a line when each step begins, and the result as one line of JSON.
+// Lines of the report: one as each step begins, then the result as one line of JSON.
 inline constexpr const char* kProbeLoading = "while loading";
 inline constexpr const char* kProbeEntry = "while returning its descriptor";
 inline constexpr const char* kProbeDescribing = "while describing its parameters";
 
-/// The whole of the probe program: opens a library and reports. Does not return.
+/// Opens a library, writes the report and exits: the probe program's main function.
 [[noreturn]] HYPOTRACK_API void run_probe(const std::filesystem::path& file);
 
 }  // namespace hypotrack::detail

@@ -1,5 +1,5 @@
-// hypotrack_plugin_probe FILE: opens one plugin library for `hypotrack plugins`, in a process of
-// its own. Writes its report to file descriptor 3.
+// hypotrack_plugin_probe FILE: opens one plugin library for `hypotrack plugins` in a separate
+// process and writes its report to file descriptor 3.
 #include "plugin/probe.hpp"
 
 int main(int argc, char** argv) {

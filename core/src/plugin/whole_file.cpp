@@ -14,7 +14,7 @@ namespace {
 constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
 constexpr std::uintmax_t kMost = std::numeric_limits<std::uintmax_t>::max();
 
-/// Where a part ends; numbers of a damaged header may be anything.
+/// Returns the end of a part, saturated: a damaged header may contain any numbers.
 std::uintmax_t end_of(std::uintmax_t begin, std::uintmax_t size) {
   return size > kMost - begin ? kMost : begin + size;
 }

@@ -5,7 +5,7 @@
 
 #include "scene/simd_kernels.hpp"
 
-// The vectors that the kernels work on: as long as the machine has them, kBlock floats at most.
+// Vector types of the kernels: the machine's width, at most kBlock floats.
 HWY_BEFORE_NAMESPACE();
 namespace hypotrack::HWY_NAMESPACE {
 namespace {
@@ -17,8 +17,8 @@ using Mask = hn::Mask<F>;
 constexpr F f;
 constexpr std::size_t kLanes = hn::MaxLanes(F());
 
-// Minimum and maximum, lane by lane. No default member values: a constructor that the compiler
-// writes is not compiled for the target.
+// Minimum and maximum per lane. No default member values, because the implicit constructor would
+// not be compiled for the target.
 struct Range {
   Vec low, high;
   HWY_INLINE void add(Vec value) {
@@ -33,7 +33,7 @@ struct Range {
   HWY_INLINE float highest() const { return hn::GetLane(hn::MaxOfLanes(f, high)); }
 };
 
-// That of no values, where all that are added lie between -limit and limit.
+// The range of no values; all values added later must lie between -limit and limit.
 HWY_INLINE Range no_range(float limit) { return {hn::Set(f, limit), hn::Set(f, -limit)}; }
 
 // Row of a 3x4 matrix times (x y z 1), with fused multiply-add.

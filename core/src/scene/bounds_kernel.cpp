@@ -1,5 +1,6 @@
-// Compiled once for every instruction set: the include below includes this file again. Without
-// fused multiply-add (see CMakeLists.txt): where a tile lies must not depend on the machine.
+// Compiled once per instruction set: the include below includes this file again. Compiled without
+// fused multiply-add (see CMakeLists.txt), because a tile's position must not depend on the
+// machine.
 
 #define HWY_TARGET_INCLUDE "scene/bounds_kernel.cpp"
 #include <hypotrack/foreach_target-inl.hpp>
@@ -23,7 +24,7 @@ void bound(const float* in_x, const float* in_y, const float* in_z, std::size_t 
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   Range across = no_range(kInfinity), down = across;
   Vec nearest = hn::Set(f, kInfinity);
-  Vec poison = zero;  // NaN once anything is not finite
+  Vec poison = zero;  // NaN once any value is not finite
   for (std::size_t i = 0; i < count; i += kLanes) {
     const Vec px = hn::Load(f, in_x + i), py = hn::Load(f, in_y + i), pz = hn::Load(f, in_z + i);
     const Vec x = transform(m, px, py, pz);

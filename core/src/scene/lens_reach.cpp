@@ -16,10 +16,10 @@ struct Rectangle {
   Interval x, y;
 };
 
-/// What the plane z = 1 of the turned camera shows of bounds. With d = R (u, v, 1), x is dx/dz: a
-/// quotient of functions that are linear along any line, monotonic along it while dz stays
-/// positive. So is dx/dz along the rectangle's sides: extremes lie at corners, and so does the
-/// smallest dz. Nothing where the camera looks too far aside.
+/// Returns the bounds as the rotated camera sees them on its plane z = 1, or nothing if it looks
+/// too far aside. With d = R (u, v, 1), x is dx/dz. Along any line this is a quotient of linear
+/// functions, monotonic while dz is positive. So are the rectangle's sides; the extremes and the
+/// smallest dz are at corners.
 std::optional<Rectangle> turned(const Bounds& bounds, const Eigen::Matrix3d& camera_from_ideal) {
   constexpr double kLeastAhead = 0.05;
   const std::array<Eigen::Vector3d, 4> corners = {{{bounds.x0, bounds.y0, 1},
@@ -37,7 +37,7 @@ std::optional<Rectangle> turned(const Bounds& bounds, const Eigen::Matrix3d& cam
   return Rectangle{Interval::around(x), Interval::around(y)};
 }
 
-/// The squares of an interval's numbers.
+/// Returns the interval of the squares of an interval's numbers.
 Interval square(Interval a) {
   const double low = a.low * a.low;
   const double high = a.high * a.high;
@@ -45,7 +45,8 @@ Interval square(Interval a) {
   return {has_zero ? 0 : std::min(low, high), std::max(low, high)};
 }
 
-/// atan(r) / r falls as r grows; the rest of the fisheye's factor is a polynomial of the angle.
+/// Returns the interval of fisheye factors. atan(r) / r decreases with r; the rest of the factor is
+/// a polynomial of the angle.
 Interval fisheye_factors(const double* k, Interval r2) {
   const Interval r{std::sqrt(r2.low), std::sqrt(r2.high)};
   const Interval angle{std::atan(r.low), std::atan(r.high)};
@@ -72,8 +73,9 @@ Rectangle distorted(const Camera& camera, const Rectangle& ideal) {
   return ideal;
 }
 
-/// A pixel within an image's ends. It is far more than all rounding: that of single precision, in
-/// which bounds and shares are computed, moves a point by some 1e-6 of the image's width.
+/// Returns true if an interval lies at least one pixel inside the image. The margin far exceeds
+/// rounding: single precision, used for bounds and shares, moves a point by about 1e-6 of the
+/// image's width.
 bool inside(Interval pixels, int size) {
   constexpr double kMargin = 1.0;
   return pixels.low >= kMargin - 0.5 && pixels.high <= size - 0.5 - kMargin;

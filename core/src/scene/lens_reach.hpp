@@ -8,9 +8,9 @@
 
 namespace hypotrack {
 
-/// True only if the camera's image shows whatever an ideal camera at the same place sees within
-/// bounds, the image's outermost pixel aside. False says nothing. `camera_from_ideal` is a
-/// rotation.
+/// Returns true only if the camera's image surely shows everything within an ideal camera's bounds,
+/// except the image's outermost pixel. False proves nothing. The ideal camera is at the same place;
+/// `camera_from_ideal` is a rotation.
 HYPOTRACK_API bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal,
                                 const Bounds& bounds);
 

@@ -13,7 +13,7 @@ std::uint64_t directed_edge(int from, int to) {
          static_cast<std::uint32_t>(to);
 }
 
-// Every directed edge occurs once, and so does its reverse.
+// Returns true if every directed edge occurs once, and so does its reverse.
 bool is_closed_manifold(const Eigen::Matrix3Xi& triangles) {
   std::vector<std::uint64_t> edges, reversed;
   for (const auto& t : triangles.colwise()) {

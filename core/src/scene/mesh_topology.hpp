@@ -5,9 +5,9 @@
 
 namespace hypotrack {
 
-/// Whether a mesh is the outside of solid bodies: every edge joins two triangles of the same
-/// orientation, and every connected part encloses a positive volume. What is nearest to a camera
-/// outside then faces it, so that the other triangles need not be drawn.
+/// Returns true if a mesh is the outer surface of solid bodies. Then every edge joins two triangles
+/// of equal orientation, and every connected part encloses a positive volume. From outside, the
+/// nearest surface faces the camera, so that back faces need not be drawn.
 HYPOTRACK_API bool is_closed_outwards(const Mesh& mesh);
 
 }  // namespace hypotrack

@@ -7,15 +7,15 @@
 
 namespace hypotrack {
 
-/// One number for each of a block's vertices.
+/// One number per vertex of a block.
 using BlockArray = Eigen::Array<float, kBlock, 1>;
 
-/// A block of points.
+/// The coordinates of a block of points.
 struct PointBlock {
   BlockArray x, y, z;
 };
 
-/// The block of posed vertices that begins at `first`, seen by another camera.
+/// Returns the block of posed vertices that begins at `first`, in another camera's frame.
 inline PointBlock point_block(const ScenePoser& poser, std::size_t first,
                               const Eigen::Matrix<float, 3, 4>& other_from_camera) {
   using Vertices = Eigen::Map<const BlockArray, Eigen::Aligned64>;

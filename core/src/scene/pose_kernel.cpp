@@ -1,4 +1,4 @@
-// Compiled once for every instruction set: an include below includes this file again.
+// Compiled once per instruction set: an include below includes this file again.
 #include "scene/pose_kernel.hpp"
 
 #define HWY_TARGET_INCLUDE "scene/pose_kernel.cpp"
@@ -31,13 +31,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using pose_kernel::Row;
 using pose_kernel::SineCosine;
 
-// a * b + c, in one rounding where the instruction set has that.
+// Returns a * b + c, in one rounding if the instruction set has that.
 HWY_INLINE float fma(float a, float b, float c) {
   const hn::CappedTag<float, 1> one;
   return hn::GetLane(hn::MulAdd(hn::Set(one, a), hn::Set(one, b), hn::Set(one, c)));
 }
 
-// See hypotrack/sine_cosine.hpp.
+// Computes sine and cosine; see hypotrack/sine_cosine.hpp.
 HWY_INLINE SineCosine sine_and_cosine(float angle) {
   using namespace hypotrack::sine_cosine;
   const float biased = angle * kQuartersPerRadian + kRoundingBias;
@@ -56,13 +56,13 @@ HWY_INLINE float along(const Row& row, float x, float y, float z) {
   return fma(row.x, x, fma(row.y, y, row.z * z));
 }
 
-// The inverse of the norm of a quaternion that is normalised but for rounding.
+// Returns the inverse norm of a quaternion that is normalised up to rounding.
 HWY_INLINE float inverse_norm(const float* q) {
   const float excess = fma(q[0], q[0], fma(q[1], q[1], fma(q[2], q[2], q[3] * q[3]))) - 1.0f;
   return fma(excess, fma(excess, 0.375f, -0.5f), 1.0f);
 }
 
-// A row of first_from_model.
+// Computes a row of first_from_model.
 HWY_INLINE Row model_row(const float* state, const float* f) {
   const float scale = inverse_norm(state + 3);
   const float w = state[3] * scale, x = state[4] * scale;
@@ -78,7 +78,7 @@ HWY_INLINE Row model_row(const float* state, const float* f) {
           dot(state[0], state[1], state[2], f[3])};
 }
 
-// A row of a transform whose frame is turned about a unit axis.
+// Computes a row of a transform whose frame is rotated about a unit axis.
 HWY_INLINE Row turned(const Row& row, const cuda::Turn& t, const SineCosine& angle) {
   const float s = angle.sine, c = angle.cosine;
   const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
@@ -88,7 +88,7 @@ HWY_INLINE Row turned(const Row& row, const cuda::Turn& t, const SineCosine& ang
           along(row, fma(dx, z, s * y), fma(dy, z, -s * x), fma(dz, z, c)), row.w};
 }
 
-// parent_from_bone with all turns of the bone.
+// Computes parent_from_bone with all rotations of the bone.
 HWY_INLINE void place(const SkeletonLayout& skeleton, const cuda::BoneLayout& bone,
                       const float* state, Row* rows) {
   for (int r = 0; r < 3; ++r) {
@@ -102,7 +102,7 @@ HWY_INLINE void place(const SkeletonLayout& skeleton, const cuda::BoneLayout& bo
   }
 }
 
-// m * (columns of `to`), of which the last is a point and the others are vectors.
+// Multiplies m with the columns of `to`; the last column is a point, the others are vectors.
 HWY_INLINE void transform(const Row* m, float* to) {
   for (int column = 0; column < 4; ++column) {
     const float w = column == 3 ? 1.0f : 0.0f;

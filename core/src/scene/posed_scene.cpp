@@ -9,7 +9,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr float kNearest = 1e-3f;  // metres in front of a camera that everything must be
+constexpr float kNearest = 1e-3f;  // least distance in front of every camera, metres
 
 void extend(Bounds& bounds, const PlaneBounds& part) {
   bounds.x0 = std::min(bounds.x0, part.x0);

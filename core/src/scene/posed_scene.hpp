@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// A rectangle on the plane z = 1 of an ideal camera.
+/// A rectangle in the plane z = 1 of an ideal camera.
 struct Bounds {
   float x0 = std::numeric_limits<float>::infinity();
   float x1 = -x0;
@@ -24,33 +24,33 @@ struct Bounds {
   double height() const { return double{y1} - y0; }
 };
 
-/// A scene posed before the ideal cameras of a rig, and where they see it. Knows the state that it
-/// posed last: the solution of a frame is where the tiles of the next one are cut. Reuses its
-/// memory: one per thread.
+/// A scene posed for a rig's ideal cameras, with its image bounds. It caches the last state,
+/// because the tiles of a frame are cropped around the previous frame's solution. It reuses its
+/// memory; use one per thread.
 class HYPOTRACK_API PosedScene {
  public:
-  /// The scene must outlive it.
+  /// The scene must outlive this object.
   PosedScene(const Scene& scene, const IdealRig& rig);
 
-  /// Costs a comparison if the state is the last one. Throws as ScenePoser::pose() does.
+  /// Poses the scene; only a comparison if the state is the last one. Throws as ScenePoser::pose()
+  /// does.
   void pose(const Eigen::VectorXd& state);
 
-  /// Leaves models out of bounds and checks from now on. One flag per model of the scene, not all
-  /// set.
+  /// Excludes models from bounds and checks from now on: one flag per model, not all set.
   void leave_out(const std::vector<bool>& models);
   bool leaves_out(const ScenePlan::Part& part) const {
     return left_out_[static_cast<std::size_t>(&part - plan_.parts.data())];
   }
 
   const ScenePlan& plan() const { return plan_; }
-  /// In the frame of the first ideal camera.
+  /// Returns the vertices in the frame of the first ideal camera.
   const ScenePoser& vertices() const { return poser_; }
 
-  /// Whether everything lies in front of every ideal camera.
+  /// Returns true if all vertices lie in front of every ideal camera.
   bool in_front() const { return behind_.part == nullptr; }
-  /// Throws DataError, naming model and camera, unless it does.
+  /// Throws DataError, naming model and camera, unless in_front().
   void check_in_front() const;
-  /// One rectangle around the vertices for every ideal camera. Only if all lie in front.
+  /// Returns the bounding rectangle of the vertices for every ideal camera. Requires in_front().
   std::span<const Bounds> bounds() const { return bounds_; }
 
  private:
@@ -70,8 +70,8 @@ class HYPOTRACK_API PosedScene {
   Eigen::Isometry3d first_from_world_;
   std::vector<Matrix34> ideal_from_first_;
   std::vector<bool> left_out_;  ///< one per part
-  bool posed_ = false;          ///< in the state that was given last
-  Eigen::VectorXd given_;       ///< the state as it was given
+  bool posed_ = false;          ///< in the state `given_`
+  Eigen::VectorXd given_;       ///< the state before normalisation
   Eigen::VectorXd normal_;      ///< normalised
   std::vector<Bounds> bounds_;
   Behind behind_;

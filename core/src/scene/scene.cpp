@@ -59,7 +59,7 @@ void Scene::normalize(Eigen::Ref<Eigen::VectorXd> state) const {
   constexpr double kRoundOff = 8 * std::numeric_limits<double>::epsilon();
   for (const Item& item : items_) {
     auto quaternion = state.segment<4>(item.offset + 3);
-    // Doing it again would change the last digit of a state that was written and read back.
+    // Normalising again would change the last digit of a state that was written and read back.
     if (std::abs(quaternion.squaredNorm() - 1) <= kRoundOff) continue;
     if (quaternion.isZero(0)) quaternion[0] = 1;
     quaternion.stableNormalize();

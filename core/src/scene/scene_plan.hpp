@@ -14,16 +14,16 @@ namespace hypotrack {
 
 using AlignedFloats = hwy::AlignedFreeUniquePtr<float[]>;
 
-/// A scene in the order and layout that the CPU renderer works on. Vertices of all models lie one
-/// after the other, first those that core skins, sorted by bones, then those of models that pose
-/// themselves, in the models' own order; each model fills up whole blocks.
+/// A scene in the vertex order and memory layout of the CPU renderer. All models' vertices are
+/// consecutive. Skinned models come first, sorted by bones, then models that pose themselves, in
+/// their own order. Each model fills whole blocks.
 struct HYPOTRACK_API ScenePlan {
-  /// A model whose vertices the skinning moves.
+  /// A model that core skins.
   struct Skinned {
     BonePoser poser;
-    int offset = 0;  ///< in the state
+    int offset = 0;  ///< of its parameters in the state
     int dimension = 0;
-    int first_bone = 0;  ///< in the scene's bone matrices
+    int first_bone = 0;  ///< index of its first matrix in the scene's
   };
   /// A model that poses itself.
   struct Posed {
@@ -32,7 +32,7 @@ struct HYPOTRACK_API ScenePlan {
     std::uint32_t first_vertex = 0;
   };
 
-  /// Where the vertices of a model lie; the block that its last one lies in belongs to it as well.
+  /// The vertices of a model, including the padding of its last block.
   struct Part {
     const Scene::Item* item = nullptr;
     std::uint32_t first_vertex = 0;  ///< a multiple of kBlock

@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-// Larger parameters make no sense and would overflow single precision later.
+// Largest parameter. Larger ones are meaningless and would overflow single precision later.
 constexpr double kLargestParameter = 1e6;
 
 bool drawable(std::span<const double> parameters) {

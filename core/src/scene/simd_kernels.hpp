@@ -15,9 +15,8 @@ namespace hypotrack {
 /// Vertices are handled in blocks of this many, whatever the width of the machine's vectors.
 inline constexpr int kBlock = 16;
 
-/// Linear blend skinning prepared for vectors: the vertices, ordered by the bones that hold them,
-/// in blocks; per block a few entries, one per bone that holds any of its vertices, in rising
-/// order.
+/// Linear blend skinning prepared for vectors. Vertices are sorted by their bones, in blocks. Each
+/// block has one entry per bone that moves any of its vertices, in rising order.
 struct SkinBlocks {
   std::vector<std::uint32_t> first_entry;  ///< per block, and one more at the end
   std::vector<std::uint32_t> bone;         ///< per entry
@@ -28,24 +27,25 @@ struct SkinBlocks {
   float weight_unit = 1;
 };
 
-/// Moves all blocks: x, y, z (each kBlock per block, aligned) in the frame that `bones` lead to
-/// from the bind pose. `bones` holds 3x4 row-major matrices.
+/// Skins all blocks. Writes x, y, z (kBlock floats per block, aligned) in the frame that `bones`,
+/// 3x4 row-major matrices from the bind pose, map to.
 HYPOTRACK_API void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y,
                                float* z);
 
-/// Where points lie on the plane z = 1 of a camera, and the smallest z: NaN if any coordinate is
-/// not finite.
+/// Bounds of points on the plane z = 1 of a camera, and the smallest z. `nearest` is NaN if any
+/// coordinate is not finite.
 struct PlaneBounds {
   float x0, x1, y0, y1;
   float nearest;
 };
 
-/// Bounds `count` (a multiple of kBlock) aligned points, seen by a camera (3x4 row-major).
+/// Computes the bounds of `count` (a multiple of kBlock) aligned points in a camera (3x4
+/// row-major).
 HYPOTRACK_API void bound_points(const float* x, const float* y, const float* z, std::size_t count,
                                 const float* camera_from_first, PlaneBounds& bounds);
 
-/// A projected vertex is a record of four floats: x, y (pixels), 1/z (1/m; 0: not to be drawn), and
-/// x in the second view of a rectified pair.
+/// Floats of a projected vertex' record: x, y (pixels), 1/z (1/m, 0 = do not draw), and x in the
+/// second view of a rectified pair.
 inline constexpr int kRecord = 4;
 
 /// Corners of triangles as offsets into the records: 4 numbers per triangle, the last unused. The
@@ -55,10 +55,10 @@ struct TriangleRange {
   bool two_sided = true;             ///< false: those seen from behind are left out
 };
 
-/// Name of the instruction set in use: `AVX3`.
+/// Returns the name of the instruction set in use: `AVX3`.
 HYPOTRACK_API const char* simd_target();
 
-/// The instruction sets that there are kernels for: Highway's bits.
+/// Returns the instruction sets of the compiled kernels, as Highway's bits.
 HYPOTRACK_API std::int64_t compiled_simd_targets();
 
 }  // namespace hypotrack

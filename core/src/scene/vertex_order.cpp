@@ -7,7 +7,7 @@
 namespace hypotrack {
 namespace {
 
-// Bones that hold a vertex, in rising order.
+// Returns the bones of a vertex, in rising order.
 std::array<int, 4> holding_bones(const Mesh& mesh, int vertex) {
   std::array<int, 4> bones{-1, -1, -1, -1};
   for (std::size_t k = 0; k < 4; ++k) {

@@ -6,8 +6,8 @@
 
 namespace hypotrack {
 
-/// Vertex numbers in an order in which neighbours are held by the same bones, so that vectors and
-/// warps of vertices read the same matrices.
+/// Returns the vertex indices sorted so that neighbours have the same bones. Vectors and warps of
+/// vertices then read the same matrices.
 std::vector<int> order_by_bones(const Mesh& mesh);
 
 }  // namespace hypotrack

@@ -49,7 +49,8 @@ VisibleShare::VisibleShare(std::span<const Camera> cameras, const IdealRig& rig)
   }
 }
 
-/// Leaves the vertices of a block that an image shows; false if any lies behind the camera.
+/// Clears the mask of a block's vertices that an image does not show. Returns false if any lies
+/// behind the camera.
 bool VisibleShare::keep_shown(const SeenBy& view, const ScenePoser& vertices, std::size_t first,
                               Eigen::Array<bool, kBlock, 1>& mask) {
   const PointBlock points = point_block(vertices, first, view.camera_from_first);
@@ -64,7 +65,7 @@ bool VisibleShare::keep_shown(const SeenBy& view, const ScenePoser& vertices, st
   return true;
 }
 
-/// What most frames need no count for. True only if the count would find every vertex.
+/// Returns true only if every vertex is surely shown; in most frames this saves the count.
 bool VisibleShare::shown_entirely(const PosedScene& scene) const {
   for (std::size_t i = 0; i < views_.size(); ++i) {
     if (!surely_shown(views_[i].camera, views_[i].camera_from_ideal, scene.bounds()[i]))
@@ -74,7 +75,7 @@ bool VisibleShare::shown_entirely(const PosedScene& scene) const {
 }
 
 double VisibleShare::of(const PosedScene& scene) const {
-  if (!scene.in_front()) return 0;  // no tile can be cut around this state
+  if (!scene.in_front()) return 0;  // no tile exists for this state
   if (shown_entirely(scene)) return 1;
   Eigen::Index visible = 0;
   Eigen::Index all = 0;

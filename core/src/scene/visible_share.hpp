@@ -11,26 +11,26 @@
 
 namespace hypotrack {
 
-/// How much of a scene its cameras see, whatever hides it.
+/// Computes how much of a scene its cameras see, ignoring occlusion.
 class VisibleShare {
  public:
-  /// The cameras, at least one, and their rig.
+  /// Takes the cameras, at least one, and their rig.
   VisibleShare(std::span<const Camera> cameras, const IdealRig& rig);
 
   /// Returns the share of the models' vertices that every image shows. Models that the scene leaves
-  /// out do not count. 0 if any vertex lies at or behind a camera: no tile can be cut then. The
-  /// scene is posed for the same rig.
+  /// out do not count. Returns 0 if any vertex lies at or behind a camera, so that no tile exists.
+  /// The scene must be posed for the same rig.
   double of(const PosedScene& scene) const;
 
  private:
-  /// A camera, looked at from the first ideal one.
+  /// A camera, relative to the first ideal one.
   struct SeenBy {
     Camera camera;
     Eigen::Matrix3d camera_from_ideal;  ///< from its own ideal camera
     Eigen::Matrix<float, 3, 4> camera_from_first;
     std::array<float, 8> distortion;
     float fx, fy, cx, cy;
-    float right, bottom;  ///< the image's ends
+    float right, bottom;  ///< upper bounds of the image's coordinates
   };
 
   bool shown_entirely(const PosedScene& scene) const;

@@ -19,7 +19,7 @@ WholeWeights whole_weights(const Mesh& mesh, int vertex) {
   const auto largest =
       std::max_element(weight_of.begin(), weight_of.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
-  largest->second += rest;  // that rounding left over
+  largest->second += rest;  // the rounding error
   WholeWeights out;
   std::size_t k = 0;
   for (const auto& [bone, weight] : weight_of) {

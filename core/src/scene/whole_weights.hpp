@@ -9,14 +9,15 @@
 
 namespace hypotrack {
 
-/// The bones that hold a vertex, in rising order and each once, with weights in units of
-/// 1 / cuda::kWholeWeight that add up: the CPU and the GPU skin with the same numbers in the same
-/// order. Influences that are not used, behind the others, have weight 0 and bone 0.
+/// Bone influences of a vertex with quantised weights, in units of 1 / cuda::kWholeWeight. Bones
+/// are distinct and in rising order; the weights add up exactly. CPU and GPU skin with the same
+/// numbers in the same order. Unused influences come last, with weight 0 and bone 0.
 struct WholeWeights {
   std::array<int, 4> bone{};
   std::array<std::uint16_t, 4> weight{};
 };
 
+/// Quantises the bone influences of one vertex.
 HYPOTRACK_API WholeWeights whole_weights(const Mesh& mesh, int vertex);
 
 }  // namespace hypotrack

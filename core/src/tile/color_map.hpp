@@ -5,17 +5,17 @@
 
 #include "hypotrack/pixel.hpp"
 
-/// How one camera's colours become another's: plain data and the one function that the CPU and CUDA
-/// share, without Eigen and OpenCV.
+/// Maps one camera's colours to another's: plain data and the one function that CPU and CUDA share,
+/// without Eigen and OpenCV.
 namespace hypotrack {
 
-/// gain * value + offset for blue, green and red. Values are 0 .. 255.
+/// Coefficients of gain * value + offset for blue, green and red; values are 0 .. 255.
 struct ColorMap {
   float gain[3] = {1, 1, 1};
   float offset[3] = {0, 0, 0};
 };
 
-/// Whether a map leaves colours as they are.
+/// Returns true for the identity map.
 HYPOTRACK_PIXEL bool keeps_colors(const ColorMap& map) {
   for (int i = 0; i < 3; ++i) {
     if (map.gain[i] != 1.0f || map.offset[i] != 0.0f) return false;
@@ -23,7 +23,7 @@ HYPOTRACK_PIXEL bool keeps_colors(const ColorMap& map) {
   return true;
 }
 
-/// The nearest whole number to a channel's mapped value, within 0 .. 255.
+/// Returns a channel's mapped value, rounded and clamped to 0 .. 255.
 HYPOTRACK_PIXEL std::uint32_t mapped_channel(const ColorMap& map, int channel,
                                              std::uint32_t value) {
   const float exact = std::fma(map.gain[channel], static_cast<float>(value), map.offset[channel]);

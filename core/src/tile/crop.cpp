@@ -5,7 +5,7 @@
 namespace hypotrack {
 namespace {
 
-/// The pinhole camera whose square image is `extent` wide on the plane z = 1 around a centre.
+/// Returns the pinhole camera of a square image, `extent` wide on the plane z = 1, around a centre.
 TileCamera tile_camera(int size, double extent, const Bounds& around,
                        const Eigen::Isometry3d& ideal_from_world) {
   TileCamera camera;
@@ -27,7 +27,7 @@ std::vector<TileCamera> crop(std::span<const Bounds> around, const IdealRig& rig
   std::vector<double> extents;
   for (const Bounds& b : bounds) extents.push_back(std::max(b.width(), b.height()));
   if (rig.rectified) {
-    // y/z agrees in both views up to rounding; the same bounds make rows and scales identical.
+    // y/z agrees in both views up to rounding; equal bounds make rows and scales identical.
     bounds[0].y0 = bounds[1].y0 = std::min(bounds[0].y0, bounds[1].y0);
     bounds[0].y1 = bounds[1].y1 = std::max(bounds[0].y1, bounds[1].y1);
     extents[0] = extents[1] = std::max({extents[0], extents[1], bounds[0].height()});

@@ -9,9 +9,9 @@
 
 namespace hypotrack {
 
-/// The tiles of size x size pixels around bounds, with a margin on each side as a share of the
-/// larger extent, none wider than `largest_focal` pixels at z = 1. Tiles of a rectified pair share
-/// rows and scale.
+/// Returns the cameras of size x size pixel tiles around bounds. The margin on each side is
+/// `padding` times the larger extent. No tile is wider than `largest_focal` pixels at z = 1. Tiles
+/// of a rectified pair share rows and scale.
 std::vector<TileCamera> crop(std::span<const Bounds> around, const IdealRig& rig, int size,
                              double padding, double largest_focal);
 

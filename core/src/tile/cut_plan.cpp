@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kGrid = 9;  // positions along one side of a tile that are looked at
+constexpr int kGrid = 9;  // sample positions along one side of a tile
 
 Lens lens_of(DistortionModel model) {
   switch (model) {
@@ -24,11 +24,11 @@ Lens lens_of(DistortionModel model) {
   return Lens::none;
 }
 
-/// One image coordinate of the positions of a grid over a tile, and the pixel around it that the
-/// map's interpolation looks at.
+/// One image coordinate at a grid of positions over a tile and its margin of one pixel, which the
+/// map's interpolation reads.
 using Grid = Eigen::Array<float, kGrid, kGrid>;
 
-/// Samples the map; false if some position is not seen.
+/// Samples the map; returns false if the camera cannot see some position.
 bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
   const TileIntrinsics camera = intrinsics(tile);
   const float step_u = static_cast<float>(tile.width + 1) / (kGrid - 1);
@@ -51,8 +51,8 @@ bool sample(const LensMap& map, const TileCamera& tile, Grid& x, Grid& y) {
   return seen;
 }
 
-/// The largest second differences along rows and columns. Between the positions the map differs
-/// from straight lines by an eighth of them.
+/// Returns the sum of the largest second differences along rows and columns. Between samples, the
+/// map deviates from linear by an eighth of them.
 float bend(const Grid& grid) {
   constexpr int kInner = kGrid - 2;
   const auto along_rows =
@@ -62,8 +62,8 @@ float bend(const Grid& grid) {
   return along_rows.abs().maxCoeff() + along_columns.abs().maxCoeff();
 }
 
-/// Whole blocks of 0 .. end around the positions, or around the image's border where they lie
-/// beyond it.
+/// Returns the pixels 0 .. end around the positions in whole blocks. Positions outside the image
+/// are clamped to its border.
 cv::Range block_range(const Grid& grid, double margin, int end, int blocks) {
   const auto within = [end](float a) { return std::clamp(double{a}, 0.0, end - 1.0); };
   const double low = within(grid.minCoeff());
@@ -81,9 +81,9 @@ cv::Rect touched(const LensMap& map, const TileCamera& tile, cv::Size image, dou
                  int blocks) {
   Grid x;
   Grid y;
-  if (!sample(map, tile, x, y))  // the seen part ends somewhere between the positions
+  if (!sample(map, tile, x, y))  // the visible part ends between two positions
     return {0, 0, image.width / blocks * blocks, image.height / blocks * blocks};
-  constexpr double kSafety = 0.5;  // four times the eighth
+  constexpr double kSafety = 0.5;  // four times one eighth
   const double margin = 2 * blocks + scale;
   const cv::Range columns = block_range(x, margin + kSafety * bend(x), image.width, blocks);
   const cv::Range rows = block_range(y, margin + kSafety * bend(y), image.height, blocks);

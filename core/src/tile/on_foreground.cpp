@@ -23,13 +23,13 @@ struct Masked {
   }
 };
 
-/// Twice the area of a triangle, signed.
+/// Returns twice the signed area of a triangle.
 double area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Calls `use` with a point of the triangle at each foreground pixel that it covers, until that
-/// returns true; then true.
+/// Calls `use` with a point of the triangle at each foreground pixel that it covers. Stops and
+/// returns true when `use` does.
 template <class Use>
 bool any_point(const std::array<Eigen::Vector3d, 3>& corners, const Masked& view, const Use& use) {
   std::array<Eigen::Vector2d, 3> t;
@@ -57,7 +57,7 @@ bool any_point(const std::array<Eigen::Vector3d, 3>& corners, const Masked& view
   return false;
 }
 
-/// The same for all triangles of a scene.
+/// Calls `use` for all triangles of a scene; stops and returns true when `use` does.
 template <class Use>
 bool any_point(const PosedScene& scene, const Eigen::Isometry3d& world_from_scene,
                const Masked& view, const Use& use) {

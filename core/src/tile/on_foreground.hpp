@@ -9,16 +9,16 @@
 
 namespace hypotrack {
 
-/// Where a scene lies in the foreground masks of a frame.
+/// Overlap of a scene with the foreground masks of a frame.
 enum class OnForeground {
   unknown,   ///< no view has a mask
-  nowhere,   ///< it covers no foreground pixel of any mask
-  in_parts,  ///< it does, but none of its points lies on the foreground of all masks
-  yes,       ///< one of its points does, whatever hides it
+  nowhere,   ///< the scene covers no foreground pixel of any mask
+  in_parts,  ///< it covers some, but no scene point is on the foreground of all masks
+  yes,       ///< a scene point is on the foreground of all masks; occlusion is ignored
 };
 
-/// The scene is in the frame that `world_from_scene` leaves. Looks at the centres of pixels. Lens
-/// distortion moves corners of triangles; their edges stay straight.
+/// Tests where a scene lies in the foreground masks, at pixel centres. `world_from_scene` maps the
+/// posed scene's frame to the world. Lens distortion moves triangle corners; edges stay straight.
 OnForeground on_foreground(const PosedScene& scene, const Eigen::Isometry3d& world_from_scene,
                            std::span<const Camera> cameras, std::span<const View> views);
 

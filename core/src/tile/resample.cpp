@@ -22,8 +22,9 @@ cv::Mat inside_mask(const ImageMap& map, int size, cv::Size image) {
   return valid;
 }
 
-/// Depth at the nearest image pixel of every tile pixel, never a mixture of two, turned from the
-/// camera's optical axis to the tile's. What is not a positive number counts as not measured.
+/// Returns the depth of each tile pixel's nearest image pixel, converted from the camera's optical
+/// axis to the tile's. Never interpolates. Values that are not positive numbers count as
+/// unmeasured.
 cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap& map,
                       const TileCamera& tile, const LensMap& lens) {
   const TileIntrinsics camera = intrinsics(tile);
@@ -44,16 +45,16 @@ cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap
   return out;
 }
 
-/// Where the samples of a tile lie in the means over blocks of what the plan touches.
+/// Returns the positions of a tile's samples in the block means of the part that the plan touches.
 std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const CutPlan& plan) {
-  // Pixel centres are at integers, so a block's centre is half a block less half a pixel in.
+  // Pixel centres are at integers, so a block's centre is half a block minus half a pixel in.
   const double factor = 1.0 / plan.reduction.blocks;
   const int samples = plan.reduction.samples;
   cv::Mat x, y;
   map.x.convertTo(x, CV_32F, factor, (0.5 - plan.touched.x) * factor - 0.5);
   map.y.convertTo(y, CV_32F, factor, (0.5 - plan.touched.y) * factor - 0.5);
   if (samples > 1) {
-    // Linear interpolation of the map is exact to about 0.001 pixels: lenses are smooth.
+    // Linear interpolation of the map is accurate to about 0.001 pixels, because lenses are smooth.
     const cv::Size fine(x.cols * samples, x.rows * samples);
     cv::resize(x, x, fine, 0, 0, cv::INTER_LINEAR);
     cv::resize(y, y, fine, 0, 0, cv::INTER_LINEAR);
@@ -62,7 +63,7 @@ std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const CutPlan
   return {x(inner), y(inner)};
 }
 
-/// The colours of a tile (8-bit BGR), mapped.
+/// Applies a colour map to a tile (8-bit BGR).
 cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
   if (keeps_colors(map)) return color;
   cv::Mat table(1, 256, CV_8UC3);

@@ -104,7 +104,7 @@ std::vector<CutPlan> TileMaker::Impl::plan_cuts(const std::vector<TileCamera>& t
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     scales.push_back(scale_at_centre(resamplers[i].lens(), tiles[i]));
   }
-  // A pair is compared pixel by pixel: both views must be smoothed the same way.
+  // A pair is compared pixel by pixel, so both views must be smoothed equally.
   if (rig.rectified) scales[0] = scales[1] = std::sqrt(scales[0] * scales[1]);
   std::vector<CutPlan> cuts;
   for (std::size_t i = 0; i < tiles.size(); ++i) {

@@ -17,7 +17,7 @@
 
 namespace hypotrack {
 
-/// `tile:` of a scene.
+/// Parameters of a scene's `tile:` section.
 struct TileSettings {
   int size = 128;
   double padding = 0.2;
@@ -30,14 +30,14 @@ struct TileSettings {
   }
 };
 
-/// What cutting the tiles of a frame needs.
+/// Everything that resampling a frame's tiles needs besides its pixels.
 struct TilePlan {
-  Observation header;         ///< everything but the pixels: its images are empty
+  Observation header;         ///< the observation without images
   std::vector<CutPlan> cuts;  ///< one per view
 };
 
-/// Cuts the piece around a hypothesis out of every view of a frame: undistorted, scaled to a square
-/// tile and, where two cameras are nearly parallel, rectified, all in one resampling.
+/// Crops the region around a hypothesis from every view of a frame. One resampling step undistorts
+/// it, scales it to a square tile and rectifies nearly parallel pairs.
 class HYPOTRACK_API TileMaker {
  public:
   /// The scene must outlive the tile maker.
@@ -46,37 +46,37 @@ class HYPOTRACK_API TileMaker {
   TileMaker(const TileMaker&) = delete;
   TileMaker& operator=(const TileMaker&) = delete;
 
-  /// Whether the pair is near enough to parallel to be rectified.
+  /// Returns true if the pair is parallel enough to be rectified.
   bool rectifies() const;
 
-  /// One per camera.
+  /// Returns one resampler per camera.
   std::span<const Resampler> resamplers() const;
 
-  /// Leaves models out of tiles and shares from now on: one flag per model, not all set.
+  /// Excludes models from tiles and shares from now on: one flag per model, not all set.
   void leave_out(const std::vector<bool>& models);
 
-  /// How much of the scene posed in `state` the cameras see, whatever hides it: the share of the
-  /// models' vertices that every image shows; 0 if any lies behind a camera, so that no tile can be
-  /// cut. Not from several threads at once. This and plan() cost next to nothing for the state that
-  /// either was asked about last.
+  /// Returns the share of the models' vertices that every image shows, ignoring occlusion. Returns
+  /// 0 if any lies behind a camera, so that no tile exists. Call it from one thread at a time. The
+  /// last state's pose is cached, for this function and plan().
   double visible_share(const Eigen::VectorXd& state) const;
 
-  /// Where the scene posed in `state` lies in the frame's masks; next to nothing where it covers
-  /// much of their foreground.
+  /// Returns where the scene posed in `state` lies in the frame's masks. It is fast if the scene
+  /// covers much of the foreground.
   OnForeground on_foreground(const Frame& frame, const Eigen::VectorXd& state) const;
 
-  /// The scene posed in `state`. The same cost, and the same thread.
+  /// Returns the scene posed in `state`, cached for the last state. Call it from one thread at a
+  /// time.
   const PosedScene& posed(const Eigen::VectorXd& state) const;
 
-  /// Where the tiles around the scene posed in `state` lie; looks at no pixel. Throws DataError if
-  /// the frame's views do not match the cameras in number or size, or if the posed scene lies at or
-  /// behind a camera. Not from several threads at once.
+  /// Plans the tiles around the scene posed in `state`, without reading pixels. Call it from one
+  /// thread at a time. Throws DataError if the frame's views do not match the cameras in number or
+  /// size, or if the posed scene lies at or behind a camera.
   TilePlan plan(const Frame& frame, const Eigen::VectorXd& state) const;
 
-  /// The tiles of a frame and its plan.
+  /// Resamples the tiles of a frame by its plan.
   Observation cut(const Frame& frame, const TilePlan& plan) const;
 
-  /// Both in one.
+  /// Plans and resamples the tiles of a frame.
   Observation make(const Frame& frame, const Eigen::VectorXd& state) const;
 
  private:

@@ -5,19 +5,19 @@
 
 namespace hypotrack::cuda {
 
-/// A particle and its cost; the highest index with +infinity stands for none.
+/// A particle's index and cost; the default stands for no particle.
 struct Candidate {
   double cost = std::numeric_limits<double>::infinity();
   std::int32_t particle = std::numeric_limits<std::int32_t>::max();
 };
 
-/// The lower cost, on equal ones the lower index; NaN never.
+/// Returns the candidate with the lower cost, on a tie with the lower index; never one with NaN.
 __device__ __forceinline__ Candidate better(const Candidate& a, const Candidate& b) {
   const bool other = b.cost < a.cost || (b.cost == a.cost && b.particle < a.particle);
   return other ? b : a;
 }
 
-/// The best of the candidates of a warp, in all its lanes.
+/// Returns the best candidate of a warp, in all its lanes.
 __device__ __forceinline__ Candidate best_of_warp(Candidate mine) {
   constexpr unsigned kAll = 0xffffffffu;
 #pragma unroll
@@ -36,13 +36,13 @@ __device__ __forceinline__ Candidate best_of_strided(const double* costs, std::i
   return best;
 }
 
-/// The best of `count` costs, in every thread of a block of kThreads. All of them call it.
+/// Returns the best of `count` costs in every thread of a block of kThreads; all threads call it.
 template <int kThreads>
 __device__ __forceinline__ Candidate best_of_costs(const double* costs, std::int32_t count) {
   constexpr int kWarp = 32;
   constexpr int kFew = 4 * kWarp;
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
-  // Where there are few, each warp looks at all of them: cheaper than a meeting of the block.
+  // For few costs, each warp reads all of them, which is cheaper than a barrier.
   if (count <= kFew) return best_of_warp(best_of_strided(costs, count, lane, kWarp));
 
   __shared__ Candidate of_warp[kThreads / kWarp];

@@ -5,7 +5,7 @@
 #include "hypotrack/cuda/instructions.cuh"
 #include "hypotrack/cuda/layout.hpp"
 
-/// Small things that a block of threads does together.
+/// Primitives for a block of threads: reductions, rounding, shared memory, z-buffers.
 namespace hypotrack::cuda {
 
 inline constexpr unsigned kWholeWarp = 0xFFFFFFFFu;
@@ -36,7 +36,7 @@ __device__ __forceinline__ unsigned warp_or(unsigned x) {
 #endif
 }
 
-/// The sum of a lane's x and those of all lanes before it.
+/// Returns the inclusive prefix sum of x over the lanes.
 __device__ __forceinline__ int warp_scan(int x) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   for (int step = 1; step < kWarp; step *= 2) {
@@ -46,8 +46,8 @@ __device__ __forceinline__ int warp_scan(int x) {
   return x;
 }
 
-// Between numbers of magnitude below 2^22. The conversion instructions have a quarter of an
-// addition's throughput; adding 1.5 * 2^23 leaves the integer in a float's last bits.
+// Conversions between float and int for magnitudes below 2^22. The conversion instructions have a
+// quarter of an addition's throughput. Adding 1.5 * 2^23 leaves the integer in a float's last bits.
 inline constexpr float kIntegerBias = 12582912.0f;
 inline constexpr int kIntegerBits = 0x4B400000;
 __device__ __forceinline__ int round_up(float x) {
@@ -56,7 +56,7 @@ __device__ __forceinline__ int round_up(float x) {
 __device__ __forceinline__ int round_down(float x) {
   return __float_as_int(__fadd_rd(x, kIntegerBias)) - kIntegerBits;
 }
-/// Ties to even.
+/// Rounds to the nearest integer, ties to even.
 __device__ __forceinline__ int round_nearest(float x) {
   return __float_as_int(__fadd_rn(x, kIntegerBias)) - kIntegerBits;
 }
@@ -64,8 +64,8 @@ __device__ __forceinline__ float exact_float(int x) {
   return __int_as_float(x + kIntegerBits) - kIntegerBias;
 }
 
-/// The halves of a word as floats, cheaper than by a conversion: kHalfBias + k, for k of 16 bits,
-/// has k in its last bits.
+/// Bias that converts a 16-bit half k of a word to a float without a conversion instruction: the
+/// last bits of kHalfBias + k are k.
 inline constexpr float kHalfBias = 8388608.0f;  // 2^23
 __device__ __forceinline__ float biased_low_half(std::uint32_t word) {
   return __uint_as_float(__byte_perm(word, 0x4B000000u, 0x7610));
@@ -80,21 +80,20 @@ __device__ __forceinline__ float exact_high_half(std::uint32_t word) {
   return biased_high_half(word) - kHalfBias;
 }
 
-/// 1 / x rounded correctly, as on the CPU, for x whose reciprocal is a normal number
-/// (P. Markstein, "Computation of elementary functions on the IBM RISC System/6000 processor",
-/// 1990).
+/// Returns 1 / x correctly rounded, as on the CPU; 1 / x must be a normal number. Source: P.
+/// Markstein, "Computation of elementary functions on the IBM RISC System/6000 processor", 1990.
 __device__ __forceinline__ float exact_reciprocal(float x) {
   const float r = reciprocal(x);
   return fmaf(fmaf(-x, r, 1.0f), r, r);
 }
 
-/// a / b for 0 <= a < 2^20, 0 < b.
+/// Returns a / b, rounded down, for 0 <= a < 2^20 and 0 < b.
 __device__ __forceinline__ int small_quotient(int a, int b) {
-  // (a + 1/2) / b is at least 1 / (2 b) away from every integer, which is more than the error.
+  // (a + 1/2) / b differs from every integer by at least 1 / (2 b), more than the rounding error.
   return round_down((exact_float(a) + 0.5f) * reciprocal(exact_float(b)));
 }
 
-/// Pixels x0 <= x < x1, y0 <= y < y1.
+/// A box of pixels: x0 <= x < x1, y0 <= y < y1.
 struct Box {
   int x0, y0, x1, y1;
   __device__ int width() const { return x1 - x0; }
@@ -102,13 +101,13 @@ struct Box {
   __device__ bool empty() const { return x0 >= x1 || y0 >= y1; }
 };
 
-/// The block's dynamic shared memory.
+/// Returns the block's dynamic shared memory.
 __device__ __forceinline__ float* shared_floats() {
   extern __shared__ float4 hypotrack_shared_memory[];
   return reinterpret_cast<float*>(hypotrack_shared_memory);
 }
 
-/// Copies `count` objects to an offset in shared memory.
+/// Copies `count` objects to an offset in shared memory; a barrier must follow.
 template <class T>
 __device__ __forceinline__ void copy_to_shared(const T* from, int count, int to) {
   const auto* words = reinterpret_cast<const float*>(from);
@@ -118,19 +117,19 @@ __device__ __forceinline__ void copy_to_shared(const T* from, int count, int to)
   }
 }
 
-/// An array of floats in shared memory (known to the compiler as such, which makes access cheaper)
-/// or in global memory.
+/// An array of floats in global or shared memory. The compiler knows which, so that shared access
+/// is cheap.
 template <bool kShared>
 struct Floats {
-  float* global;  ///< unless kShared
-  int offset;     ///< of the first, from shared_floats() or `global`
+  float* global;  ///< base address, unused if kShared
+  int offset;     ///< of the first float, from shared_floats() or `global`
   __device__ __forceinline__ float* at(int index) const {
     return (kShared ? shared_floats() : global) + offset + index;
   }
   __device__ __forceinline__ float& operator[](int index) const { return *at(index); }
 };
 
-/// Plain objects that lie in global memory or, copied, in shared memory.
+/// Plain objects in global memory or in a shared-memory copy of it.
 template <class T>
 struct Staged {
   const T* global;
@@ -142,18 +141,18 @@ struct Staged {
   }
 };
 
-/// Sets `count` floats to zero, a multiple of four from a multiple of four on, with the first
-/// `threads` threads of the block; needs a barrier after it.
+/// Sets `count` floats to zero with the first `threads` threads of the block; a barrier must
+/// follow. `count` and the offset must be multiples of four.
 template <bool kShared>
 __device__ __forceinline__ void clear(const Floats<kShared>& floats, int count, int threads) {
   const int thread = static_cast<int>(threadIdx.x);
   if (thread >= threads) return;
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
   for (int i = 4 * thread; i < count; i += 4 * threads) {
     *reinterpret_cast<float4*>(floats.at(i)) = {0.0f, 0.0f, 0.0f, 0.0f};
   }
 }
-/// The same with all threads.
+/// Sets `count` floats to zero with all threads of the block; a barrier must follow.
 template <bool kShared>
 __device__ __forceinline__ void clear(const Floats<kShared>& floats, int count) {
   clear(floats, count, static_cast<int>(blockDim.x));
@@ -176,16 +175,16 @@ struct DepthBuffer {
   __device__ __forceinline__ float operator()(int x, int y) const {
     return y >= box.y0 && y < box.y1 ? in_row(x, y) : 0.0f;
   }
-  /// For a pixel within the box.
+  /// Returns the inverse depth of a pixel inside the box.
   __device__ __forceinline__ float inside(int x, int y) const { return inverse_depth[index(x, y)]; }
-  /// For a row within the box.
+  /// Returns the inverse depth of a pixel in one of the box's rows; 0 outside its columns.
   __device__ __forceinline__ float in_row(int x, int y) const {
     return x >= box.x0 && x < box.x1 ? inverse_depth[index(x, y)] : 0.0f;
   }
 };
 
-/// Sums of all threads, the same in every run. `room` holds kCount floats per warp of the block;
-/// the sums are in `total` of the first warp's threads.
+/// Sums the values of all threads in a fixed order, into `total` of the first warp's threads.
+/// `room` holds kCount floats per warp of the block.
 template <int kCount>
 __device__ __forceinline__ void block_sum(const float (&values)[kCount], float* room,
                                           double (&total)[kCount]) {

@@ -7,67 +7,66 @@
 
 namespace hypotrack::cuda {
 
-/// Where in a block's shared memory a hypothesis is posed; offsets in floats.
+/// Layout of a posed hypothesis in a block's shared memory; offsets in floats.
 struct PoseMemory {
-  int point;                               ///< the search point in single precision
-  int state;                               ///< the decoded state
-  int models;                              ///< a 3x4 matrix per model: first_from_model
-  int drawable;                            ///< per model 0, or NaN if it cannot be drawn
-  int locals;                              ///< a 3x4 matrix per bone: parent_from_bone
-  int bones;                               ///< a 3x4 matrix per bone: the first camera from the
-                                           ///< vertices of the bind pose
+  int point;     ///< the search point in single precision
+  int state;     ///< the decoded state
+  int models;    ///< a 3x4 matrix per model: first_from_model
+  int drawable;  ///< per model 0, or NaN if it cannot be drawn
+  int locals;    ///< a 3x4 matrix per bone: parent_from_bone
+  int bones;     ///< a 3x4 matrix per bone: first camera from the bind pose's vertices
   int model_layouts, bone_layouts, turns;  ///< of the scene
 };
 
-/// What a particle of a swarm knows of each of its dimensions, in double precision.
+/// Numbers that a particle stores per dimension, in double precision.
 inline constexpr int kParticleNumbers = 8;
 
-/// How one hypothesis is spread over blocks of threads, and what lies where in a block's shared
-/// memory (offsets in floats, multiples of four).
+/// Distribution of a hypothesis over blocks of threads, and the layout of a block's shared memory
+/// (offsets in floats, multiples of four).
 struct BlockPlan {
   int threads = 0;
   int bands = 1;  ///< blocks per hypothesis; each draws and scores a band of rows
   int shared_bytes = 0;
   bool vertices_in_shared = true;  ///< otherwise in `vertex_scratch`
-  int chunk = 0;                   ///< triangles that are culled at a time
+  int chunk = 0;                   ///< triangles culled at a time
   int depth_capacity = 0;          ///< floats of the z-buffers
   PoseMemory pose{};
-  int particle = 0;  ///< kParticleNumbers arrays of a number per dimension
+  int particle = 0;  ///< kParticleNumbers arrays, one number per dimension each
   int vertices = 0, vertex_stride = 0, list = 0, sums = 0, depth = 0;
-  int heights = -1;  ///< from `vertices` on: every vertex's y once more; -1: only in its record
-  /// Whether the scene's vertices and triangles are copied to shared memory while the kernel before
-  /// still runs.
+  int heights = -1;  ///< extra copy of every vertex's y, relative to `vertices`; -1 = none
+  /// True if the scene's vertices or triangles are copied to shared memory while the previous
+  /// kernel still runs.
   bool stages_vertices = false, stages_triangles = false;
-  /// Whether those vertices stay there for all hypotheses of a search; otherwise texels are copied
-  /// over them.
+  /// True if the staged vertices stay there for all hypotheses of a search. Otherwise texels
+  /// overwrite them.
   bool keeps_vertices = false;
   int staged_vertices = 0, staged_triangles = 0;
-  int end = 0;  ///< of the block's memory; from the z-buffers' last pixel to here there is room for
-                ///< texels, once the vertices are placed
+  int end = 0;  ///< end of the block's memory; once the vertices are placed, texels fit between the
+                ///< last z-buffer pixel and here
 
   float* vertex_scratch = nullptr;  ///< 4 * vertex_stride floats per block
   float* depth_scratch = nullptr;   ///< depth_scratch_size floats per block, or null
   int depth_scratch_size = 0;
-  double* band_sums = nullptr;  ///< with several bands: a slot per block and sum (join_bands)
+  double* band_sums = nullptr;  ///< with several bands: one slot per block and sum (join_bands)
 };
 
-/// What a plan is made for.
+/// Input of plan_blocks().
 struct PlanRequest {
   SceneLayout scene;
   DeviceLimits limits;
   std::int64_t count = 0;  ///< hypotheses per batch
   int tile_width = 0;      ///< of the widest view
   int tile_height = 0;
-  int tiles_at_once = 1;  ///< z-buffers that must be there together
-  bool may_split = true;  ///< into bands
+  int tiles_at_once = 1;  ///< z-buffers needed at the same time
+  bool may_split = true;  ///< allows several bands
   int sums = 0;
-  bool texels = false;  ///< whether it pays to have room for texels
-  bool alone = false;   ///< no other kernel starts while the block is at work (a whole search)
+  bool texels = false;  ///< whether room for texels is useful
+  bool alone = false;   ///< no other kernel starts while the block runs (a whole search)
 };
 
 inline constexpr int kMostThreads = 1024;
 
-/// Room for a row of every z-buffer: with less a plan cannot work.
+/// Returns the least depth capacity of a usable plan: one row of every z-buffer.
 inline int least_depth_capacity(int tiles_at_once, int tile_width) {
   return tiles_at_once * tile_width + 4;
 }
@@ -76,20 +75,19 @@ namespace detail {
 
 inline int rounded(int floats) { return (floats + 3) / 4 * 4; }
 
-// What the system takes of a multiprocessor's shared memory for every block, and what the kernels
-// declare statically.
+// Shared memory per block that the system and the kernels' static variables take.
 inline constexpr int kReservedBytes = 1024 + 1024;
 
-// What is left to an optimizer's kernel that starts early, beside a block that takes all it can
-// get.
+// Shared memory left for an optimizer's kernel that starts early, beside a block that takes the
+// rest.
 inline constexpr int kLeftToOthers = 20 * 1024;
 
-/// The plan for a block that may use `bytes` of shared memory; depth_capacity is what is left.
+/// Plans a block that may use `bytes` of shared memory; the z-buffers take what is left.
 inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes) {
   BlockPlan p;
   p.threads = threads;
   p.bands = bands;
-  // In bands the block waits for every chunk: one is best.
+  // With bands, blocks wait for one another after every chunk, so one chunk is best.
   p.chunk = std::min(r.scene.triangle_count, bands > 1 ? 8192 : 4096);
   p.vertex_stride = r.scene.vertex_count;
   int end = 0;
@@ -112,9 +110,9 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
   p.particle = take(2 * kParticleNumbers * r.scene.dimension);
   p.sums = take(r.sums * (kMostThreads / 32));
-  p.list = take(p.chunk);  // two entries of 16 bits per triangle
+  p.list = take(p.chunk);  // two 16-bit entries per triangle
   const int floats = bytes / 4;
-  // At least one row of every z-buffer must fit, and a third of the memory should be left to them.
+  // One row of every z-buffer must fit; reserve at least a third of the memory for z-buffers.
   const int least_depth =
       rounded(std::max(least_depth_capacity(r.tiles_at_once, r.tile_width), floats / 3));
   p.vertices_in_shared = end + 4 * p.vertex_stride + least_depth <= floats;
@@ -126,14 +124,14 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
   const std::int64_t wanted = std::int64_t{rows} * r.tiles_at_once * r.tile_width + 8;
   const int vertices = static_cast<int>(sizeof(VertexLayout) / 4) * r.scene.vertex_count;
   const int triangles = static_cast<int>(sizeof(PackedTriangle) / 4) * r.scene.triangle_count;
-  // A band is rarely as wide as its tile; a whole hypothesis waits less for what is not staged,
-  // since another block works beside it, but would be drawn in more pieces.
+  // A band is rarely as wide as its tile. A whole hypothesis gains less from staging, since another
+  // block works beside it, and staging would split its drawing into more pieces.
   const std::int64_t needed = bands > 1 ? std::min<std::int64_t>(wanted, least_depth) : wanted;
   const std::int64_t staged = end + triangles + needed + 8;
   p.stages_triangles = p.vertices_in_shared && staged <= floats;
   p.stages_vertices = p.stages_triangles && staged + vertices <= floats;
   p.staged_triangles = p.stages_triangles ? take(triangles) : 0;
-  // Beside z-buffers and texels of 8 bytes for all rows of a band.
+  // This must leave room for z-buffers and 8-byte texels of all rows of a band.
   p.keeps_vertices = r.alone && r.texels && bands > 1 && p.stages_vertices &&
                      end + rounded(vertices) + 3 * wanted <= floats;
   if (p.keeps_vertices) p.staged_vertices = take(vertices);
@@ -153,9 +151,9 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
 
 }  // namespace detail
 
-/// Spreads a batch over the device: a few hypotheses are cut into bands so that every
-/// multiprocessor has one block; many are drawn whole, two blocks to a multiprocessor, so that one
-/// works while the other waits.
+/// Plans how a batch is distributed over the device. A few hypotheses are split into bands, so that
+/// every multiprocessor has one block. Many are drawn whole, with two blocks per multiprocessor, so
+/// that one works while the other waits.
 inline BlockPlan plan_blocks(const PlanRequest& r) {
   const auto slots = static_cast<std::int64_t>(r.limits.multiprocessors);
   if (r.may_split && 2 * r.count <= slots) {

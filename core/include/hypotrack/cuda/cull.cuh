@@ -2,18 +2,19 @@
 
 #include "hypotrack/cuda/vertices.cuh"
 
-/// Which triangles may cover pixels, found by a block of threads.
-/// The same operations as in the CPU's kernel (core/src/evaluate/raster_kernel.cpp), so that the
-/// same pixels are covered and have the same depth.
+/// Finds the triangles that may cover pixels, with a block of threads. The operations equal those
+/// of the CPU kernel (core/src/evaluate/raster_kernel.cpp), so that both cover the same pixels with
+/// the same depth.
 namespace hypotrack::cuda {
 
-/// Triangles with less area (twice, pixels^2) are noise of single precision.
+/// Smallest area of a triangle that is drawn (twice the area, pixels^2). Below it, single precision
+/// gives only noise.
 inline constexpr float kSmallestArea = 1e-6f;
-/// Triangles with more rows or columns are drawn by a whole warp, pixel by pixel; those with fewer
-/// by a thread per row.
+/// Most rows or columns of a small triangle, which threads draw one row each. A whole warp draws a
+/// larger triangle.
 inline constexpr int kPixelsPerThread = 8;
 
-/// The corners of a triangle in one view.
+/// The corners of a triangle in one view: pixels x, y and inverse depth w.
 struct Corners {
   float ax, ay, aw, bx, by, bw, cx, cy, cw;
 };
@@ -21,21 +22,22 @@ struct Corners {
 __device__ __forceinline__ float least(float a, float b, float c) { return fminf(fminf(a, b), c); }
 __device__ __forceinline__ float most(float a, float b, float c) { return fmaxf(fmaxf(a, b), c); }
 
-/// Pixels whose centres lie within the bounding box, inclusive, cut to 0 .. size - 1.
+/// Pixels whose centres lie within the bounding box, inclusive, clamped to 0 .. size - 1.
 struct Span {
   int first, last;
 };
+/// Returns the pixels between the smallest and the largest of three coordinates.
 __device__ __forceinline__ Span pixel_span(float a, float b, float c, int size) {
   return {round_up(fmaxf(least(a, b, c), 0.0f)),
           round_down(fminf(most(a, b, c), exact_float(size - 1)))};
 }
 
-/// Twice the signed area, pixels^2; negative if counter-clockwise from outside (y is downwards).
+/// Returns twice the signed area, pixels^2; negative if counter-clockwise from outside (y is down).
 __device__ __forceinline__ float twice_area(const Corners& t) {
   return fmaf(t.bx - t.ax, t.cy - t.ay, -((t.cx - t.ax) * (t.by - t.ay)));
 }
 
-/// The records of a triangle's corners.
+/// The vertex records of a triangle's corners.
 struct CornerRecords {
   float4 a, b, c;
   __device__ __forceinline__ Corners in_view(bool second) const {
@@ -44,7 +46,7 @@ struct CornerRecords {
   }
 };
 
-/// The vertices of a triangle.
+/// The vertex indices of a triangle.
 struct TriangleCorners {
   int a, b, c;
   __device__ __forceinline__ explicit TriangleCorners(PackedTriangle packed)
@@ -63,8 +65,8 @@ __device__ __forceinline__ CornerRecords load_corners(const TriangleCorners& cor
   return {vertices[corners.a], vertices[corners.b], vertices[corners.c]};
 }
 
-/// Visible triangles of a chunk in one view or a pair: 2 * (number within the chunk) + view. Those
-/// of few pixels grow from the front, those for a warp each from the back.
+/// Visible triangles of a chunk in one view or a pair; an entry is 2 * (index in the chunk) + view.
+/// Small triangles grow from the front, large ones from the back.
 struct VisibleList {
   std::uint16_t* entries;
   int capacity;
@@ -76,7 +78,8 @@ struct VisibleList {
 
 enum class Coverage { none, few, many };
 
-/// Appends an entry per view that is wanted; called by whole warps.
+/// Appends `entry` for the left view and `entry` + 1 for the right one, where wanted; called by
+/// whole warps.
 __device__ __forceinline__ void append(std::uint16_t* first, int step, int& count, bool left,
                                        bool right, int entry) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -94,7 +97,7 @@ __device__ __forceinline__ void append(std::uint16_t* first, int step, int& coun
   if (right) put(base + lefts + __popc(in_right & below), entry + 1);
 }
 
-/// Appends what the lanes of a warp have found to the lists.
+/// Appends a warp's triangles to the lists of small and large ones.
 __device__ __forceinline__ void append(const VisibleList& list, Coverage left, Coverage right,
                                        int entry) {
   const auto append_those = [&](Coverage wanted, std::uint16_t* first, int step, int& count) {
@@ -105,7 +108,7 @@ __device__ __forceinline__ void append(const VisibleList& list, Coverage left, C
   append_those(Coverage::many, list.entries + list.capacity - 1, -1, list.counts->many);
 }
 
-/// How many pixels of `rows` a triangle may cover in a view `width` pixels wide.
+/// Classifies how many pixels of `rows` a triangle may cover in a view `width` pixels wide.
 __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, int width,
                                              Span rows) {
   const float area = -twice_area(t);
@@ -116,9 +119,9 @@ __device__ __forceinline__ Coverage coverage(const Corners& t, bool two_sided, i
   return longest < kPixelsPerThread ? Coverage::few : Coverage::many;
 }
 
-/// Lists which of `count` triangles may cover pixels of the rows y0 <= y < y1 in
-/// a view or, with kPair, in either view of a pair. The first warp has the last triangles, and so
-/// no more of them than any other: one of its threads may come late.
+/// Lists the triangles that may cover rows y0 <= y < y1 of a view or, with kPair, of either view of
+/// a pair. `count` is the number of triangles. The first warp takes the last triangles and so never
+/// more than another warp, because one of its threads may arrive late.
 template <bool kPair, bool kShared>
 __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
                                      const Vertices<kShared>& vertices, int width, int width2,
@@ -128,12 +131,12 @@ __device__ __forceinline__ void cull(const Staged<PackedTriangle>& triangles,
   const int warps = static_cast<int>(blockDim.x) / kWarp;
   const float low = exact_float(y0), high = exact_float(y1 - 1);
   const Heights<kShared> heights(vertices);
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
   for (int base = (warp > 0 ? warp - 1 : warps - 1) * kWarp; base < count; base += warps * kWarp) {
     const bool there = base + lane < count;
     const PackedTriangle triangle = there ? triangles[base + lane] : 0;
     const TriangleCorners corners(triangle);
-    // Most triangles lie in other rows, which their heights alone tell.
+    // Most triangles lie in other rows; their heights alone show that.
     const float ay = heights(corners.a), by = heights(corners.b), cy = heights(corners.c);
     const float top = least(ay, by, cy), bottom = most(ay, by, cy);
     if (!__any_sync(kWholeWarp, there && bottom >= low && top <= high)) continue;

@@ -7,29 +7,29 @@
 
 namespace hypotrack::cuda {
 
-/// A cost function whose points and costs stay on the device; CostFunction::device() gives it.
+/// A cost function with points and costs in device memory, from CostFunction::device().
 class HYPOTRACK_API DeviceCost {
  public:
   virtual ~DeviceCost();
 
-  /// Where everything is enqueued. The frame's features are already on their way there.
+  /// Returns the stream of all work. The frame's features are already enqueued on it.
   virtual Stream stream() const = 0;
 
-  /// Makes room for batches of up to `count` points; before enqueue(), and not while capturing.
-  /// Throws DeviceError if the memory is not to be had.
+  /// Allocates memory for batches of up to `count` points. Call it before enqueue(), not during a
+  /// capture. Throws DeviceError if there is not enough memory.
   virtual void reserve(std::int64_t count) = 0;
 
-  /// Enqueues the costs (count doubles) of points (dimension x count doubles, one after the other),
-  /// both in device memory. Only launches kernels: a whole search can be captured into a graph.
-  /// They let the next kernel start early only after their own wait (let_next_start()).
+  /// Enqueues the evaluation of `count` points. `points` (dimension doubles each, consecutive) and
+  /// `costs` (count doubles) are in device memory. It only launches kernels, so that a CUDA graph
+  /// can capture a whole search. They call let_next_start() only after their own wait.
   virtual void enqueue(const double* points, std::int64_t count, double* costs) = 0;
 
-  /// Enqueues a whole search in one kernel where that can be done, after reserve() for its
-  /// particles. False: nothing was enqueued.
+  /// Enqueues a whole search as one kernel, if possible; reserve() must precede it with the number
+  /// of particles. Returns false if it enqueued nothing.
   virtual bool enqueue_search(const SwarmSearch& search);
 
-  /// A graph captured from enqueue() may be launched again as long as this number stays the same,
-  /// frame after frame.
+  /// Returns a number that stays the same, over frames, as long as a graph captured from enqueue()
+  /// remains valid.
   virtual std::uint64_t revision() const = 0;
 };
 

@@ -11,9 +11,8 @@ namespace hypotrack {
 struct Observation;
 }
 
-/// The `device` capability: hypotheses and costs stay in GPU memory. Plain C++, so that objectives
-/// and optimizers compile without a CUDA toolkit, and without Eigen, so that .cu files can include
-/// it.
+/// The `device` capability: hypotheses and costs stay in GPU memory. Plain C++ without Eigen:
+/// objectives and optimizers compile without a CUDA toolkit, and .cu files can include it.
 namespace hypotrack::cuda {
 
 /// A cudaStream_t.
@@ -21,7 +20,7 @@ struct Stream {
   void* handle = nullptr;
 };
 
-/// What a kernel's launch depends on.
+/// Device properties that a kernel's launch depends on.
 struct DeviceLimits {
   int multiprocessors = 0;
   int compute_capability = 0;      ///< 90 for 9.0
@@ -33,27 +32,27 @@ struct DeviceLimits {
 struct DeviceTile {
   TileLayout layout{};
   bool has_color = false;
-  bool has_mask = false;  ///< otherwise no pixel has kForegroundFlag
+  bool has_mask = false;  ///< if false, no pixel has kForegroundFlag
 };
 
 /// A frame on the device.
 struct DeviceObservation {
-  /// Everything but the pixels: number, time, scene, start, cameras. Its images are empty.
+  /// The observation without pixels: number, time, scene, start, cameras. Its images are empty.
   const Observation* header = nullptr;
   std::array<DeviceTile, kMaxViews> tiles;
   const FrameLayout* frame = nullptr;  ///< device memory
   bool pair = false;                   ///< as in the FrameLayout
 };
 
-/// Depth tiles of hypotheses that somebody else has drawn.
+/// Depth tiles of hypotheses that another component has drawn.
 struct DrawnBatch {
   std::uint64_t texture =
       0;          ///< cudaTextureObject_t, layered, float 1/z: hypothesis * views + view
-  int first = 0;  ///< hypothesis of the batch that layer 0 belongs to
-  int count = 0;  ///< of hypotheses
+  int first = 0;  ///< hypothesis of the batch in layer 0
+  int count = 0;  ///< number of hypotheses
 };
 
-/// An objective on the device. All calls come from one thread and on one stream.
+/// An objective on the GPU. All calls come from one thread and use one stream.
 class HYPOTRACK_API DeviceObjective {
  public:
   DeviceObjective() = default;
@@ -61,40 +60,40 @@ class HYPOTRACK_API DeviceObjective {
   DeviceObjective(const DeviceObjective&) = delete;
   DeviceObjective& operator=(const DeviceObjective&) = delete;
 
-  /// Enqueues what turns a frame into features. The observation outlives every enqueue() until the
-  /// next prepare(). Throws DataError where Objective::prepare does.
+  /// Enqueues the kernels that prepare a frame's features. The observation outlives every enqueue()
+  /// until the next prepare(). Throws DataError where Objective::prepare does.
   virtual void prepare(const DeviceObservation& observation, Stream stream) = 0;
 
-  /// Makes room for batches of up to `count` hypotheses of the prepared frame. Throws DeviceError
-  /// if the memory is not to be had.
+  /// Allocates memory for batches of up to `count` hypotheses of the prepared frame. Throws
+  /// DeviceError if there is not enough.
   virtual void reserve(const SceneLayout& scene, const DeviceLimits& limits,
                        std::int64_t count) = 0;
 
-  /// Enqueues the evaluation of a batch: poses, draws and scores. Only launches kernels, so that it
-  /// can be captured into a graph.
+  /// Enqueues the evaluation of a batch: posing, drawing and scoring. It only launches kernels, so
+  /// that a CUDA graph can capture it.
   virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) = 0;
 
-  /// Enqueues a whole search in one kernel, if it has one and all of it fits on the device at once;
-  /// after reserve() for a batch of the search's particles. `batch` says how points are read and
-  /// what their costs are weighed with. False: nothing was enqueued.
+  /// Enqueues a whole search as one kernel, if the objective has one and all blocks fit on the
+  /// device at once. Returns false if it enqueued nothing. reserve() must precede it, with the
+  /// search's number of particles. `batch` defines how points are read and how costs are weighted.
   virtual bool enqueue_search(const SceneLayout& scene, const BatchLayout& batch,
                               const SwarmSearch& search, Stream stream);
 
-  /// Whether enqueue_residuals() is there; the same before and after every prepare().
+  /// Returns true if enqueue_residuals() is available; the answer never changes.
   virtual bool has_residuals() const { return false; }
-  /// ResidualTerm::residual_count() of the prepared frame.
+  /// Returns ResidualTerm::residual_count() of the prepared frame.
   virtual std::int64_t residual_count() const { return 0; }
-  /// The same as enqueue(), and writes the residuals that ResidualTerm::write_residuals() writes on
-  /// the CPU, in its order, every one of them. Throws Error if there are none.
+  /// Evaluates like enqueue() and writes all residuals, in the order of
+  /// ResidualTerm::write_residuals(). Throws Error if there are none.
   virtual void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
                                  const ResidualLayout& residuals, Stream stream);
 
-  /// Enqueues the scoring of hypotheses that are drawn already.
+  /// Enqueues the scoring of drawn hypotheses.
   virtual void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch,
                              const DrawnBatch& drawn, Stream stream) = 0;
 
-  /// Changes whenever enqueue() would launch kernels with other arguments than before, so that a
-  /// captured graph is no longer valid.
+  /// Returns a number that changes whenever enqueue() would launch other kernels or arguments. A
+  /// captured graph is then invalid.
   virtual std::uint64_t revision() const = 0;
 };
 

@@ -6,10 +6,10 @@
 #include "hypotrack/cuda/pose.cuh"
 #include "hypotrack/cuda/score.cuh"
 
-/// Scoring of hypotheses that somebody else has drawn.
+/// Scores hypotheses that another component has drawn.
 namespace hypotrack::cuda {
 
-/// Depth that was drawn elsewhere, one layer of a texture per hypothesis and view.
+/// Inverse depth in a layered texture, with one layer per hypothesis and view.
 struct DrawnDepth {
   cudaTextureObject_t texture;
   int layer;
@@ -21,7 +21,7 @@ struct DrawnDepth {
   }
 };
 
-/// A block scores one hypothesis that is drawn already.
+/// Scores one drawn hypothesis per block.
 template <class Term>
 __global__ void __launch_bounds__(kMostThreads)
     score_drawn_hypotheses(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,
@@ -62,7 +62,7 @@ __global__ void __launch_bounds__(kMostThreads)
     }
   }
   double total[Term::kSums];
-  block_sum(sums, shared_floats() + plan.sums, total);  // with a barrier after the decoding
+  block_sum(sums, shared_floats() + plan.sums, total);  // includes a barrier after the decoding
   if (threadIdx.x != 0) return;
   const double cost = batch.weight * term.cost(total, shared_floats() + plan.pose.state);
   double& out = batch.costs[hypothesis];

@@ -9,22 +9,22 @@
 #include "hypotrack/cuda/staging.cuh"
 #include "hypotrack/cuda/texels.cuh"
 
-/// The kernel behind PixelObjective: a block (or, in bands, several) poses, draws and scores one
+/// The kernel of PixelObjective. One block, or several with bands, poses, draws and scores a
 /// hypothesis without leaving its multiprocessor.
 namespace hypotrack::cuda {
 
-/// What a Term's pixels are taken from.
+/// The views that a Term's pixels come from.
 enum class Walk { views, pair, general_pair };
 
-/// Rows of a pair that a block draws and scores at a time.
+/// A range of rows of a pair that a block draws and scores at once.
 struct PairPiece {
-  Box left, right;  ///< with the same rows
-  int last_row;     ///< of all pieces, and one more
-  int right_depth;  ///< the right view's z-buffer, in shared memory
+  Box left, right;  ///< same rows in both
+  int last_row;     ///< end of all pieces' rows
+  int right_depth;  ///< offset of the right view's z-buffer in shared memory
   TexelLayout texels;
 };
 
-/// What the threads of one block share besides its plan's memory.
+/// Data that a block's threads share besides its plan's memory.
 struct alignas(16) BlockState {
   FrameLayout frame;
   Bounds bounds;
@@ -34,13 +34,13 @@ struct alignas(16) BlockState {
   PairPiece piece;
 };
 
-/// The z-buffers that triangles are drawn into: of one view twice, or of both views of a pair.
+/// The z-buffers to draw into: one view's twice, or those of both views of a pair.
 template <bool kShared>
 struct DepthBuffers {
   DepthBuffer<kShared> left, right;
 };
 
-/// Everything that the threads of one block know about their hypothesis.
+/// Evaluation of one hypothesis by a block of threads.
 template <class Term, Walk kWalk, bool kSharedVertices>
 class BlockEvaluation {
  public:
@@ -54,8 +54,8 @@ class BlockEvaluation {
     vertices_ = {{scratch, plan.vertices}, plan.heights};
   }
 
-  /// What does not depend on the search: runs while the kernel before is still at work. `frame`
-  /// must be there already; null if it is not (begin_frame()).
+  /// Prepares what does not depend on the search point, while the previous kernel may still run.
+  /// `frame` must already be valid.
   __device__ void begin(const FrameLayout* frame) {
     Staging staging(state_.staged);
     staging.add(frame, 1, &state_.frame);
@@ -75,8 +75,8 @@ class BlockEvaluation {
     if (threadIdx.x == 0) state_.shares = shares();
   }
 
-  /// Makes the block ready for another run(): its first `threads` threads, more than a warp, do
-  /// what there is to do, all of them call it. A barrier must follow.
+  /// Prepares the block for another run(). All threads call it; the first `threads` of them (more
+  /// than a warp) do the work. A barrier must follow.
   __device__ void begin_again(int threads) {
     vertices_are_used_ = depth_is_used_ = lists_are_used_ = false;
     for (float& sum : sums_) sum = 0.0f;
@@ -95,8 +95,8 @@ class BlockEvaluation {
     load_point(batch_.points + hypothesis() * size, size, plan_.pose);
   }
 
-  /// Evaluates the point that is there, after begin_again() for the `number`-th time. One thread of
-  /// one of the hypothesis' blocks calls outcome.prepare() and, much later, outcome.put(cost).
+  /// Evaluates the loaded point; `number` counts the calls of begin_again() so far. One thread of
+  /// the hypothesis calls outcome.prepare() after posing and outcome.put(cost) at the end.
   template <class Outcome>
   __device__ void run(unsigned number, const Outcome& outcome) {
     pose(scene_, frame_, batch_.prior, plan_.pose);
@@ -126,7 +126,7 @@ class BlockEvaluation {
     return scene_.dimension - (batch_.prior ? scene_.model_count : 0);
   }
 
-  /// Whether run() overwrites what was staged: with texels.
+  /// Returns true if run() overwrites the staged vertices with texels.
   __device__ bool stages_again() const {
     return HasTexels<Term> && plan_.stages_vertices && !plan_.keeps_vertices;
   }
@@ -137,13 +137,12 @@ class BlockEvaluation {
     state_.counts.reset();
   }
 
-  /// Skins and projects all vertices into a view and, for a pair, the view beside it; then the
-  /// bounds hold for the whole block.
+  /// Skins and projects all vertices into a view and, with kPair, the second view. On return the
+  /// bounds are valid for the whole block.
   template <bool kPair>
   __device__ __forceinline__ void place_vertices(int view) {
     const float* bones = shared_floats() + plan_.pose.bones;
-    // The second view of a pair is seen from the first, also where it is drawn alone: as on the
-    // CPU.
+    // The second view of a pair is projected through the first even if drawn alone, as on the CPU.
     const bool of_pair = kPair || frame_.pair != 0;
     const bool second = !kPair && of_pair && view == 1;
     const ViewLayout& camera = frame_.views[of_pair ? 0 : view];
@@ -152,9 +151,9 @@ class BlockEvaluation {
     const Staged<VertexWords> layouts{reinterpret_cast<const VertexWords*>(scene_.vertices),
                                       plan_.staged_vertices, plan_.stages_vertices};
     const int threads = static_cast<int>(blockDim.x);
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
     for (int round = 0; round * threads < scene_.vertex_count; ++round) {
-      // Vertices with many bones come first: who has one of them gets a light one next.
+      // Vertices with many bones come first; alternating directions balance the threads.
       const int thread = static_cast<int>(threadIdx.x);
       const int i = round * threads + (round % 2 == 0 ? thread : threads - 1 - thread);
       if (i >= scene_.vertex_count) continue;
@@ -173,15 +172,15 @@ class BlockEvaluation {
     return {v[1].cx - v[0].cx, v[1].fx * v[1].view_from_first[3]};
   }
 
-  /// Draws all triangles into z-buffers that are zero, after a barrier and before one: of `view`
-  /// or, with kPair, of both views. `rows` are those of the z-buffers, of which `buffers(is_first)`
-  /// tells the rest before every chunk is filled: the whole block calls it.
+  /// Draws all triangles into cleared z-buffers of `view` or, with kPair, of both views. A barrier
+  /// must precede and follow. `rows` are the z-buffers' rows. The whole block calls
+  /// `buffers(is_first)` for the z-buffers before it fills each chunk.
   template <bool kPair, bool kSharedDepth, class Buffers>
   __device__ void draw(int view, const Span& rows, const Buffers& buffers) {
     const VisibleList list{reinterpret_cast<std::uint16_t*>(shared_floats() + plan_.list),
                            2 * plan_.chunk, &state_.counts};
-    const ViewLayout* views = frame_.views + view;  // the one behind the last is not looked at
-#pragma unroll 1                                    // the code is long enough
+    const ViewLayout* views = frame_.views + view;  // the view after the last is not read
+#pragma unroll 1                                    // keeps the code short
     for (int first = 0; first < scene_.triangle_count; first += plan_.chunk) {
       const int count = min(plan_.chunk, scene_.triangle_count - first);
       if (first > 0) __syncthreads();
@@ -206,27 +205,27 @@ class BlockEvaluation {
     }
   }
 
-  /// The shares of the work at whose ends this block's band begins and ends.
+  /// Returns the shares of work where this block's band begins and ends.
   __device__ BandShares shares() const {
-    // Where pixels that are not covered are visited, too, all rows take about the same.
+    // With uncovered pixels visited, all rows cost about the same.
     if (Term::kVisitsUncovered) return even_shares(band(), plan_.bands);
     return {share_before(frame_.work_ends, band(), plan_.bands),
             share_before(frame_.work_ends, band() + 1, plan_.bands)};
   }
 
-  /// The rows of y0 <= y < y1 that this block is responsible for.
+  /// Returns the rows of y0 <= y < y1 that belong to this block's band.
   __device__ Span band(int y0, int y1) const {
     const Span rows = {y0, y1};
     return {row_at(rows, state_.shares.before), row_at(rows, state_.shares.after)};
   }
 
-  /// Rows first .. last - 1 in pieces whose z-buffers, `width` pixels wide, fit into the block's
-  /// memory: piece(y0, y1).
+  /// Splits rows first .. last - 1 into pieces whose z-buffers, `width` pixels wide, fit into
+  /// shared memory. Calls piece(y0, y1) for each.
   template <class Piece>
   __device__ void in_pieces(const Span& rows, int width, const Piece& piece) {
     if (width <= 0) return;
     const int most = small_quotient(plan_.depth_capacity - 4, width);
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
     for (int y0 = rows.first; y0 < rows.last; y0 += most) {
       if (y0 > rows.first || depth_is_used_) {
         __syncthreads();
@@ -261,14 +260,14 @@ class BlockEvaluation {
   __device__ void pair() {
     place_vertices<true>(0);
     bool first = true;
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
     do {
       if (!first) {
         __syncthreads();
         clear(Floats<true>{nullptr, plan_.depth}, plan_.depth_capacity);
       }
-      // One thread finds what is the same for all: the others would only take turns at it. What
-      // they do not need for culling it finds while they cull.
+      // One thread computes what is equal for all; the others would only serialise. What culling
+      // does not need is computed while the others cull.
       if (threadIdx.x == 0) next_boxes(first);
       first = false;
       __syncthreads();
@@ -295,7 +294,7 @@ class BlockEvaluation {
     } while (state_.piece.left.y1 < state_.piece.last_row);
   }
 
-  /// The boxes of the first or the next piece of the block's band, by one thread.
+  /// Computes the boxes of the band's first or next piece; called by one thread.
   __device__ void next_boxes(bool first) {
     PairPiece& piece = state_.piece;
     Box left = piece.left, right = piece.right;
@@ -304,7 +303,7 @@ class BlockEvaluation {
       const ViewLayout* v = frame_.views;
       left = state_.bounds.box(v[0].width, v[0].height);
       right = state_.bounds.box2(v[1].width, v[1].height);
-      if (left.empty()) left.x0 = left.x1 = 0;  // it may lie anywhere
+      if (left.empty()) left.x0 = left.x1 = 0;  // an empty box may lie anywhere
       if (right.empty()) right.x0 = right.x1 = 0;
       if (Term::kVisitsUncovered) {
         left = {0, 0, v[0].width, v[0].height};
@@ -323,7 +322,7 @@ class BlockEvaluation {
     piece.last_row = width > 0 ? last_row : y0;
   }
 
-  /// Where the z-buffers and texels of those boxes lie, by one thread.
+  /// Places the z-buffers and texels of the piece's boxes; called by one thread.
   __device__ void lay_out_texels() {
     PairPiece& piece = state_.piece;
     const int rows = piece.left.height(), left = piece.left.width() * rows;
@@ -344,7 +343,7 @@ class BlockEvaluation {
     }
   }
 
-  /// Two views that share nothing: both z-buffers are there at once, in global memory if need be.
+  /// Evaluates two unrectified views. Both z-buffers exist at once, in global memory if necessary.
   __device__ void general_pair() {
     const Box right = place_alone(1), left = place_alone(0);
     const int left_size = padded(left.width() * left.height());
@@ -364,7 +363,7 @@ class BlockEvaluation {
 
   __device__ static int padded(int floats) { return (floats + 3) / 4 * 4; }
 
-  /// Places the vertices of a view and returns its box.
+  /// Places the vertices of one view and returns its box.
   __device__ Box place_alone(int view) {
     if (vertices_are_used_) {
       __syncthreads();
@@ -386,7 +385,7 @@ class BlockEvaluation {
     });
   }
 
-  /// The vertices are those of view 0.
+  /// Draws both views and scores them. The vertices must be placed for view 0.
   template <bool kSharedDepth>
   __device__ void draw_and_score(const DepthBuffer<kSharedDepth>& left,
                                  const DepthBuffer<kSharedDepth>& right) {
@@ -425,7 +424,7 @@ class BlockEvaluation {
   float sums_[Term::kSums] = {};
 };
 
-/// Writes a cost where a batch wants it.
+/// Writes or adds a cost to a batch.
 struct CostOfBatch {
   const BatchLayout& batch;
   std::int64_t hypothesis;

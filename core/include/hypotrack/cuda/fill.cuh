@@ -5,24 +5,25 @@
 
 #include "hypotrack/cuda/cull.cuh"
 
-/// Drawing into z-buffers by a block of threads.
-/// The same operations as in the CPU's kernel (core/src/evaluate/raster_kernel.cpp), so that the
-/// same pixels are covered and have the same depth.
+/// Draws triangles into z-buffers with a block of threads. The operations equal those of the CPU
+/// kernel (core/src/evaluate/raster_kernel.cpp), so that both cover the same pixels with the same
+/// depth.
 namespace hypotrack::cuda {
 
-/// Edges are inclusive by this share of a triangle's height, so that no pixel falls between two.
+/// Widening of the edges, as a share of a triangle's height, so that no pixel falls between two
+/// triangles.
 inline constexpr float kInclusive = 1e-5f;
 
-/// Edges with smaller slopes, barycentric coordinate per pixel, count as horizontal.
+/// Slope (barycentric coordinate per pixel) below which an edge counts as horizontal.
 inline constexpr float kHorizontal = 1e-20f;
 
-/// Where an edge crosses the rows: x = at + dy * per_row, in pixels from Planes::x0. What lies
-/// within is to the right of it, or to the left.
+/// Intersection of an edge with the pixel rows: x = at + dy * per_row, in pixels from Planes::x0.
+/// `right` tells on which side the triangle lies.
 struct Crossing {
   float at, per_row;
   bool right;
 
-  /// Cuts the part within the edge out of first .. last.
+  /// Clips the columns first .. last to the inner side of the edge.
   __device__ __forceinline__ void cut(float dy, float& first, float& last) const {
     const float x = fmaf(dy, per_row, at);
     if (right) {
@@ -33,20 +34,21 @@ struct Crossing {
   }
 };
 
-/// Of the edge where a + dx * a_dx + dy * a_dy = 0, a little widened.
+/// Returns the crossing of the edge a + dx * a_dx + dy * a_dy = 0, slightly widened.
 __device__ __forceinline__ Crossing crossing(float a, float a_dx, float a_dy) {
   const float slope = fabsf(a_dx) < kHorizontal ? kHorizontal : a_dx;
   const float inverse = -exact_reciprocal(slope);
   return {(a + kInclusive) * inverse, a_dy * inverse, slope > 0.0f};
 }
 
-/// Where the edges opposite to the corners cross the rows, and 1/z as a plane, from (x0, y0) on.
+/// Edge crossings of a triangle and 1/z as a plane, relative to pixel (x0, y0). Edges a, b and c
+/// are opposite to their corners.
 struct Planes {
   int x0, x1, y0;
   Crossing a, b, c;
   float w, w_dx, w_dy;
 
-  /// The columns of row y0 + dy that are covered: x0 + first .. x0 + last.
+  /// Returns the covered columns of row y0 + dy, relative to x0.
   __device__ __forceinline__ Span columns(float dy) const {
     return columns_of_row(a, b, c, dy, exact_float(x1 - x0));
   }
@@ -57,18 +59,19 @@ struct Planes {
     a.cut(dy, first, last);
     b.cut(dy, first, last);
     c.cut(dy, first, last);
-    // At most one column beyond either end: a thin triangle's edges may meet far away.
+    // Allow at most one column beyond either end: the edges of a thin triangle may meet far away.
     return {round_up(fminf(first, last_column + 1.0f)), round_down(fmaxf(last, -1.0f))};
   }
 };
 
+/// Computes the planes of a triangle in a view `width` pixels wide.
 __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int first_row) {
   Planes p;
   const Span columns = pixel_span(t.ax, t.bx, t.cx, width);
   p.x0 = columns.first;
   p.x1 = columns.last;
   p.y0 = first_row;
-  // Coordinates from the first pixel are small, so that their products are exact enough.
+  // Coordinates relative to the first pixel are small, so their products are accurate.
   const float x = exact_float(p.x0), y = exact_float(p.y0);
   const Corners s = {t.ax - x, t.ay - y, t.aw, t.bx - x, t.by - y, t.bw, t.cx - x, t.cy - y, t.cw};
   const float area = twice_area(s), inverse_area = exact_reciprocal(area);
@@ -90,24 +93,24 @@ __device__ __forceinline__ Planes make_planes(const Corners& t, int width, int f
   return p;
 }
 
-/// Writes a pixel: the larger 1/z wins, whoever comes first.
+/// Writes a pixel with an atomic maximum: the larger 1/z wins in any order of writes.
 template <bool kShared>
 __device__ __forceinline__ void put(const Floats<kShared>& depth, int index, float w) {
-  // Positive floats order as integers.
+  // Positive floats compare like integers.
   atomicMax(reinterpret_cast<int*>(depth.at(index)), __float_as_int(w));
 }
 
-/// Writes pixels side by side.
+/// Writes consecutive pixels of a row.
 template <bool kShared>
 class PixelWriter {
  public:
   __device__ __forceinline__ PixelWriter(const Floats<kShared>& depth, int index)
       : next_(address(depth.at(index))) {}
 
-  /// Writes the next one, if `is_there`.
+  /// Writes the next pixel if `is_there`, else skips it.
   __device__ __forceinline__ void put(float w, bool is_there) {
     if constexpr (kShared) {
-      // Without a branch, and without finding the block's shared memory anew for every pixel.
+      // No branch, and no new look-up of the shared-memory address per pixel.
       shared_max(next_, __float_as_int(w), is_there);
     } else if (is_there) {
       atomicMax(reinterpret_cast<int*>(next_), __float_as_int(w));
@@ -125,11 +128,12 @@ class PixelWriter {
   Address next_;
 };
 
-/// The rows of a thread's triangle of few pixels, for the threads of its warp: what of every row
-/// lies within all three edges.
+/// The rows of one small triangle per thread. The threads of the warp share the rows of all their
+/// triangles.
 class FewRows {
  public:
-  /// `rows` are those to be drawn, `pixel` where the z-buffers have the first of them at p.x0.
+  /// `rows` are the rows to draw; `pixel` is the z-buffer index of column p.x0 in the first of
+  /// them.
   __device__ __forceinline__ FewRows(const Planes& p, Span rows, int pixel, bool second)
       : a_(p.a),
         b_(p.b),
@@ -142,8 +146,8 @@ class FewRows {
         shape_(pack(a_.right, 0) | pack(b_.right, 1) | pack(c_.right, 2) | pack(second, kSecond) |
                pack(p.x1 - p.x0, kLast) | pack(rows.first - p.y0, kSkipped)) {}
 
-  /// Draws the rows of all the warp's triangles, a row per thread at a time. `is_there`: this
-  /// thread has one. `pitches` are those of the two views.
+  /// Draws the rows of all the warp's triangles, one row per thread at a time. `is_there`: this
+  /// thread has a triangle. `pitches` are those of the two views.
   template <bool kShared>
   __device__ __forceinline__ void draw(bool is_there, int2 pitches, const Floats<kShared>& depth) {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -153,7 +157,8 @@ class FewRows {
     const int total = __shfl_sync(kWholeWarp, end, kWarp - 1);
 #pragma unroll 1
     for (int first = 0; first < total; first += kWarp) {
-      // Every triangle has a row: as many of them as have begun are those up to a row's own.
+      // Every triangle has at least one row. So the number of triangles that have begun gives the
+      // owner of a row.
       const int at = begin - first;
       const unsigned begins = warp_or(at >= 0 && at < kWarp ? 1u << at : 0u);
       const int earlier = __popc(__ballot_sync(kWholeWarp, at < 0));
@@ -166,9 +171,9 @@ class FewRows {
   }
 
  private:
-  // shape_: three bits for the edges that have the inside to their right; then, from these bits on,
-  // whether it is the second view, the last column, the first of the warp's rows that is its own,
-  // and how many rows of it lie above those to be drawn.
+  // shape_ packs, from bit 0: one bit per edge whose inner side is to the right, the second-view
+  // bit and the last column. Then follow the index of the triangle's first row among the warp's
+  // rows, and the number of its rows above the first drawn one.
   static constexpr int kSecond = 3, kLast = 4, kBegin = 7, kSkipped = 16;
   static_assert(kPixelsPerThread <= 8 && kWarp * kPixelsPerThread < 1 << (kSkipped - kBegin));
 
@@ -179,7 +184,7 @@ class FewRows {
     return static_cast<int>(shape_ >> bit & ((1u << bits) - 1u));
   }
 
-  /// Becomes what another thread of the warp has.
+  /// Copies the triangle of another thread of the warp.
   __device__ __forceinline__ void fetch(int lane) {
     const auto get = [&](auto& value) { value = __shfl_sync(kWholeWarp, value, lane); };
     get(shape_);
@@ -196,8 +201,8 @@ class FewRows {
     get(pixel_);
   }
 
-  /// Number `number` of the warp's rows. The threads of the warp stay together: left alone, they
-  /// would leave the loop one by one, at a fraction of a warp's width.
+  /// Draws row `number` of the warp's rows. All threads run the same number of iterations.
+  /// Otherwise they would leave the loop one by one and waste most of the warp's width.
   template <bool kShared>
   __device__ __forceinline__ void draw_row(int number, bool is_row, int2 pitches,
                                            const Floats<kShared>& depth) const {
@@ -210,17 +215,17 @@ class FewRows {
     const int pitch = unpack(kSecond, 1) != 0 ? pitches.y : pitches.x;
     PixelWriter<kShared> pixels(depth, pixel_ + row * pitch + columns.first);
     float dx = exact_float(columns.first);
-#pragma unroll 1  // one or two pixels in most rows
+#pragma unroll 1  // most rows have one or two pixels
     for (int k = 0; k < most; ++k, dx += 1.0f) pixels.put(fmaf(dx, w_dx_, row_w), k < count);
   }
 
   Crossing a_, b_, c_;
-  float w_, w_dx_, w_dy_;  ///< 1/z at Planes::x0, y0, and its slopes
+  float w_, w_dx_, w_dy_;  ///< 1/z at (Planes::x0, y0) and its slopes
   int pixel_, count_;
   unsigned shape_;
 };
 
-/// Draws a triangle of many pixels with a warp.
+/// Draws a large triangle with a warp.
 template <bool kShared>
 __device__ __forceinline__ void fill_many(const Planes& p, Span rows,
                                           const DepthBuffer<kShared>& buffer) {
@@ -244,7 +249,7 @@ struct Filler {
   const DepthBuffer<kSharedDepth>& left;
   const DepthBuffer<kSharedDepth>& right;
 
-  /// draw(planes, rows, z-buffer) for an entry of a VisibleList.
+  /// Calls draw(planes, rows, z-buffer) for an entry of a VisibleList.
   template <class Draw>
   __device__ __forceinline__ void prepared(int entry, const Draw& draw) const {
     const bool second = kPair && entry % 2 != 0;
@@ -256,13 +261,13 @@ struct Filler {
          Span{max(rows.first, buffer.box.y0), min(rows.last, buffer.box.y1 - 1)}, buffer);
   }
 
-  /// What threads draw.
+  /// Draws the small triangles, one row per thread.
   __device__ __forceinline__ void few(const VisibleList& list) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int warp = static_cast<int>(threadIdx.x) / kWarp;
     const int warps = static_cast<int>(blockDim.x) / kWarp;
     const int count = list.counts->few;
-    // Where there are too few for all lanes, all warps take as many.
+    // If there are too few for all lanes, distribute them evenly over the warps.
     const int at_once = min(small_quotient(count + warps - 1, warps), kWarp);
     for (int base = warp * at_once; base < count; base += warps * at_once) {
       const bool is_there = lane < at_once && base + lane < count;
@@ -277,7 +282,7 @@ struct Filler {
     }
   }
 
-  /// What a warp each draws.
+  /// Draws the large triangles, one per warp.
   __device__ __forceinline__ void many(const VisibleList& list) const {
     const int warps = static_cast<int>(blockDim.x) / kWarp;
     const int count = list.counts->many;

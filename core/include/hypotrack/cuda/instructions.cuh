@@ -2,40 +2,40 @@
 
 #include <cstdint>
 
-/// Instructions that CUDA C++ has no name for (PTX ISA), but for those of the copy engine
-/// (staging.cuh, which does without for older devices). The rest of all kernels is C++, so that
-/// they can also be compiled for a CPU: tests/cuda_on_cpu has a header in place of this one.
+/// Wrappers of PTX instructions without a CUDA C++ name (PTX ISA), except the copy engine's
+/// (staging.cuh, with a fallback for older devices). All other kernel code is C++, so that it also
+/// compiles for a CPU: tests/cuda_on_cpu replaces this header.
 namespace hypotrack::cuda {
 
-/// 1 / x within a unit of the last digit, for x whose reciprocal is a normal number.
+/// Returns 1 / x within one unit of the last digit; 1 / x must be a normal number.
 __device__ __forceinline__ float reciprocal(float x) {
   float r;
   asm("rcp.approx.ftz.f32 %0, %1;" : "=f"(r) : "f"(x));
   return r;
 }
 
-/// The root within 3e-7 relative; of subnormal numbers 0.
+/// Returns the square root within 3e-7 relative; 0 for subnormal numbers.
 __device__ __forceinline__ float approximate_sqrt(float x) {
   float root;
   asm("sqrt.approx.ftz.f32 %0, %1;" : "=f"(root) : "f"(x));
   return root;
 }
 
-/// 2^x within 2^-22 relative; subnormal results are 0.
+/// Returns 2^x within 2^-22 relative; subnormal results are 0.
 __device__ __forceinline__ float approximate_exp2(float x) {
   float power;
   asm("ex2.approx.ftz.f32 %0, %1;" : "=f"(power) : "f"(x));
   return power;
 }
 
-/// Where something lies in shared memory, bytes.
+/// An address in shared memory, bytes.
 using SharedAddress = unsigned;
 __device__ __forceinline__ SharedAddress shared_address(const void* object) {
   return static_cast<SharedAddress>(__cvta_generic_to_shared(object));
 }
 
-/// The int at an address becomes the larger one of itself and `value`, atomically, if `wanted`:
-/// without a branch.
+/// Replaces the int at an address by its maximum with `value`, atomically and without a branch, if
+/// `wanted`.
 __device__ __forceinline__ void shared_max(SharedAddress address, int value, bool wanted) {
   asm volatile(
       "{\n"
@@ -47,7 +47,7 @@ __device__ __forceinline__ void shared_max(SharedAddress address, int value, boo
       : "memory");
 }
 
-/// Access to device memory past a multiprocessor's own cache, in no order with other accesses.
+/// Access device memory in the L2 cache, unordered with other accesses.
 __device__ __forceinline__ void store_relaxed(double* to, double value) {
   asm volatile("st.relaxed.gpu.global.f64 [%0], %1;" ::"l"(to), "d"(value) : "memory");
 }

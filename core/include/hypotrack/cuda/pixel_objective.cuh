@@ -14,51 +14,51 @@
 
 namespace hypotrack::cuda {
 
-/// An objective that is a sum over pixels, on the device. A plugin writes a Term and derives from
+/// A device objective that is a sum over pixels. A plugin writes a Term and derives from
 /// PixelObjective<Term> in a .cu file:
 ///
 ///   struct MyTerm {                                    // trivially copyable
-///     static constexpr bool kStereo = true;            // pixels of a reference view and what they
-///                                                      // see in the other; false: of each view
-///     static constexpr bool kVisitsUncovered = false;  // whether pixels that the hypothesis does
-///                                                      // not cover are visited, too
+///     static constexpr bool kStereo = true;            // true: pixels of a reference view with
+///                                                      // their match in the other
+///     static constexpr bool kVisitsUncovered = false;  // true: visit uncovered pixels as well
 ///     static constexpr int kSums = 2;
 ///     const float* feature;                            // device memory
-///     float tolerance;                                 // kStereo: depths that differ by this many
-///                                                      // metres or less are the same surface
-///     __device__ int directions() const;               // kStereo: bit v: view v is the reference
+///     float tolerance;                                 // kStereo: largest depth difference of one
+///                                                      // surface in both views, metres
+///     __device__ int directions() const;               // kStereo: bit v: view v is a reference
 ///     template <int kReference>
 ///     __device__ void pixel(const StereoPixel& p, float (&sums)[kSums]) const;
-///     // kStereo, if it looks things up per pixel of the tiles; the block then has them at hand,
-///     and
-///     // pixel() is called with a third argument: texels.template at<view>(x, y), for pixels that
-///     are
-///     // covered in that view, and for their neighbours within its tile in x
+///
+///     // kStereo, with a lookup per pixel of the tiles. The block caches these texels and passes
+///     // them to pixel() as `texels`. texels.template at<view>(x, y) is valid for pixels covered
+///     // in that view and their neighbours in x within its tile.
 ///     using Texel = uint2;                             // 4, 8 or 16 bytes
-///     __device__ const Texel* texels(int view) const;  // row by row without gaps, aligned to 16
-///     bytes template <int kReference, class Texels>
-///     __device__ void pixel(const StereoPixel& p, const Texels& texels, float (&sums)[kSums])
-///     const;
-///     // not kStereo, instead of these:
-///     __device__ int views() const;                    // bit v: view v is looked at
+///     __device__ const Texel* texels(int view) const;  // rows without gaps, aligned to 16 bytes
+///     template <int kReference, class Texels>
+///     __device__ void pixel(const StereoPixel& p, const Texels& texels,
+///                           float (&sums)[kSums]) const;
+///
+///     // Instead of these if kStereo is false:
+///     __device__ int views() const;                    // bit v: view v is visited
 ///     __device__ void pixel(const ViewPixel& p, float (&sums)[kSums]) const;
-///     // once per hypothesis, `state` decoded and normalised:
+///
+///     // Called once per hypothesis; `state` is decoded and normalised:
 ///     __device__ double cost(const double (&sums)[kSums], const float* state) const;
 ///
-///     // if the objective has residuals (ResidualTerm), one per pixel of the views that it looks
-///     // at: pixel() returns that of its pixel, float in place of void, and this is that of one
-///     // that is not covered, the i-th of the view's tile row by row. views() or directions() are
-///     // HYPOTRACK_PIXEL, for the host as well.
+///     // If the objective has residuals (ResidualTerm): one per pixel of the visited views.
+///     // pixel() then returns that of its pixel as a float. uncovered_residual() returns that of
+///     // an uncovered pixel, the i-th of the view's tile row by row. views() or directions() are
+///     // then HYPOTRACK_PIXEL, for the host as well.
 ///     __device__ float uncovered_residual(int view, int i) const;
-///     // and behind them, if it has some of the state:
+///     // If the state has residuals; they follow those of the pixels:
 ///     HYPOTRACK_PIXEL int state_residual_count() const;
 ///     __device__ float state_residual(int i, const float* state) const;
 ///   };
 ///
-/// Sums of one thread are single precision; those of threads are joined in a fixed order in double
-/// precision, so that equal hypotheses have equal costs. A Term whose bytes change makes searches
-/// that were captured into a graph be captured again: what changes with every frame belongs into
-/// device memory that a kernel of make_term() writes.
+/// A thread sums in single precision. The block joins its threads' sums in a fixed order in double
+/// precision, so that equal hypotheses have equal costs. A change of a Term's bytes forces captured
+/// graphs to be captured again. So data that changes every frame belongs in device memory that a
+/// kernel of make_term() writes.
 template <class Term>
 class PixelObjective : public DeviceObjective {
  public:
@@ -192,7 +192,7 @@ class PixelObjective : public DeviceObjective {
   void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
                      Stream stream) final {
     constexpr unsigned kThreads = 512;
-    const auto bytes = sizeof(float) * static_cast<std::size_t>(plan_.list);  // what lies before it
+    const auto bytes = sizeof(float) * static_cast<std::size_t>(plan_.list);  // all before `list`
     launch(&score_drawn_hypotheses<Term>, dim3(static_cast<unsigned>(drawn.count)), dim3(kThreads),
            bytes, stream, false, scene, frame_, batch, plan_, drawn, term_);
   }
@@ -200,8 +200,8 @@ class PixelObjective : public DeviceObjective {
   std::uint64_t revision() const final { return revision_; }
 
  protected:
-  /// Enqueues what makes features of a frame and returns the Term that looks at them. Throws
-  /// DataError if it cannot work with what it is given.
+  /// Enqueues the kernels that make a frame's features and returns the Term that reads them. Throws
+  /// DataError if the observation does not suit.
   virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
 
  private:
@@ -223,12 +223,12 @@ class PixelObjective : public DeviceObjective {
     }
   }
 
-  /// Of rectified pairs and of views.
+  /// Returns the search kernel for rectified pairs and for views.
   static auto search_kernel() {
     return &search_with_swarm < Term, Term::kStereo ? Walk::pair : Walk::views > ;
   }
 
-  /// Lets a kernel have all the shared memory that a plan may ask for.
+  /// Raises a kernel's shared-memory limit to the most that a plan may use.
   template <class AnyKernel>
   void allow_shared(AnyKernel* kernel) {
     if (!allowed_.insert(reinterpret_cast<const void*>(kernel)).second) return;
@@ -240,7 +240,7 @@ class PixelObjective : public DeviceObjective {
           "choosing shared memory over cache");
   }
 
-  /// View by view, in the order of the CPU's residuals.
+  /// Returns the residuals' addresses, view by view, in the order of the CPU's residuals.
   ResidualPlaces places(const ResidualLayout& layout) const {
     ResidualPlaces to{};
     to.stride = layout.stride;
@@ -275,12 +275,12 @@ class PixelObjective : public DeviceObjective {
 
   Term term_{};
   const FrameLayout* frame_ = nullptr;
-  std::array<TileLayout, kMaxViews> tiles_{};  // of views that are not there: empty
+  std::array<TileLayout, kMaxViews> tiles_{};  // absent views are empty
   int width_ = 0, height_ = 0;
   bool rectified_ = false;
   DeviceLimits limits_;
   std::int64_t reserved_ = 0;
-  std::int64_t searching_blocks_ = 0;  ///< of a search in one kernel, at most; 0: there is none
+  std::int64_t searching_blocks_ = 0;  ///< most blocks of a search in one kernel; 0 = unavailable
   std::uint64_t revision_ = 0;
   BlockPlan plan_, search_plan_;
   DeviceBuffer<float> vertex_scratch_, depth_scratch_;

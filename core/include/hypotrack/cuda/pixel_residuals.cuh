@@ -7,7 +7,7 @@
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/cuda/texels.cuh"
 
-/// Residuals of PixelObjective: its kernel with a Term that also writes what pixel() returns.
+/// Residuals of a PixelObjective: its kernel runs with a Term that stores what pixel() returns.
 namespace hypotrack::cuda {
 
 /// A Term whose pixel() returns the pixel's residual.
@@ -16,7 +16,7 @@ concept HasResiduals = requires(const Term& term) {
   { term.uncovered_residual(0, 0) } -> std::same_as<float>;
 };
 
-/// One that has residuals of the state behind those of the pixels.
+/// A Term that also has residuals of the state; they follow those of the pixels.
 template <class Term>
 concept HasStateResiduals = requires(const Term& term, const float* state) {
   { term.state_residual_count() } -> std::same_as<int>;
@@ -32,11 +32,11 @@ __host__ __device__ inline int state_residual_count(const Term& term) {
   }
 }
 
-/// Where the residuals of a batch belong.
+/// Addresses of a batch's residuals.
 struct ResidualPlaces {
-  float* views[kMaxViews];  ///< of the first hypothesis; null for views that have none
+  float* views[kMaxViews];  ///< of the first hypothesis; null for views without residuals
   int width[kMaxViews], height[kMaxViews];
-  float* state;  ///< behind those of all views
+  float* state;  ///< after those of all views
   std::int64_t stride;
   float factor;
   int bands;  ///< blocks per hypothesis
@@ -49,7 +49,7 @@ struct ResidualPlaces {
   }
 };
 
-/// A Term for BlockEvaluation that writes residuals on the way.
+/// A Term for BlockEvaluation that also writes the residuals.
 template <class Term>
 struct WithResiduals : Term {
   static constexpr int kSums = Term::kSums;
@@ -69,7 +69,7 @@ struct WithResiduals : Term {
     to.put(p.view, p.x, p.y, Term::pixel(p, sums));
   }
 
-  /// Called by one thread per hypothesis.
+  /// Writes the state's residuals and returns the cost; called by one thread per hypothesis.
   __device__ __forceinline__ double cost(const double (&sums)[kSums], const float* state) const {
     if constexpr (HasStateResiduals<Term>) {
       for (int i = 0; i < Term::state_residual_count(); ++i) {
@@ -82,8 +82,8 @@ struct WithResiduals : Term {
 
 inline constexpr int kFillThreads = 128;
 
-/// Writes the residuals of hypotheses that cover nothing. A thread per pixel, a row of blocks per
-/// view.
+/// Writes the residuals of uncovered pixels for all hypotheses: one thread per pixel, one row of
+/// blocks per view.
 template <class Term>
 __global__ void __launch_bounds__(kFillThreads)
     write_uncovered(const __grid_constant__ Term term, const __grid_constant__ ResidualPlaces to,

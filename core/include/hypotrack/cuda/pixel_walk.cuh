@@ -9,29 +9,29 @@
 
 namespace hypotrack::cuda {
 
-/// A pixel of the reference view and what it sees in the other one. Exactly one of `seen`,
+/// A pixel of the reference view ("here") and its match in the other view. Exactly one of `seen`,
 /// `occluded` and `uncovered` is true.
 struct StereoPixel {
   int x, y;
-  float inverse_depth;  ///< here, 1/m; 0 where uncovered
+  float inverse_depth;  ///< here, 1/m; 0 if uncovered
   bool seen, occluded, uncovered;
-  float u, v;         ///< where the surface point is in the other view, pixels; if seen
-  int column, row;    ///< the same, the nearest pixel; if seen
-  int width, height;  ///< of the other view's tile
-  bool same_row;      ///< rectified: row == y
+  float u, v;         ///< position of the surface point in the other view, pixels; if seen
+  int column, row;    ///< nearest pixel to (u, v); if seen
+  int width, height;  ///< size of the other view's tile
+  bool same_row;      ///< true for a rectified pair: row == y
 };
 
-/// A pixel of one view by itself.
+/// A pixel of one view alone.
 struct ViewPixel {
   int view;
   int x, y;
-  float inverse_depth;  ///< 1/m; 0 where not covered
+  float inverse_depth;  ///< 1/m; 0 if not covered
   bool covered;
 };
 
-/// What the pixel (x, y) of the reference tile with inverse depth w sees. `there(column, row)` is
-/// the inverse depth in the other view, 0 where nothing is drawn; there.in_row(column, row) the
-/// same for a row of the reference view's pixels.
+/// Classifies pixel (x, y) of the reference tile, with inverse depth w. `there(column, row)`
+/// returns the other view's inverse depth, 0 where nothing is drawn. `there.in_row(column, row)`
+/// does so for a row of the reference view.
 template <bool kRectified, class Depth>
 __device__ __forceinline__ StereoPixel stereo_pixel(const StereoMap& map, float tolerance, int x,
                                                     int y, float w, const Depth& there) {

@@ -5,12 +5,12 @@
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/sine_cosine.hpp"
 
-/// From search points to bone matrices: what SearchSpace::states and Scene::normalize do on the
-/// CPU, and then the same operations as in core/src/evaluate/pose_kernel.cpp, so that states that
-/// are normalised have the same matrices.
+/// Decodes search points to bone matrices. The first step equals SearchSpace::states and
+/// Scene::normalize on the CPU. The next uses the operations of core/src/evaluate/pose_kernel.cpp,
+/// so that normalised states give equal matrices.
 namespace hypotrack::cuda {
 
-/// Models with larger parameters, or NaN, are not drawn.
+/// Largest magnitude of a parameter. A model with a larger one, or NaN, is not drawn.
 inline constexpr double kLargestParameter = 1e6;
 
 template <class T>
@@ -31,6 +31,7 @@ __device__ __forceinline__ Quaternion<Real> multiply(const Quaternion<Real>& a,
       a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z, a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x};
 }
 
+/// Returns the unit quaternion of a rotation vector.
 template <class Real>
 __device__ __forceinline__ Quaternion<Real> rotation_exp(Real x, Real y, Real z) {
   const Real angle = sqrt(x * x + y * y + z * z);
@@ -39,30 +40,30 @@ __device__ __forceinline__ Quaternion<Real> rotation_exp(Real x, Real y, Real z)
   return {cos(angle / 2), x * factor, y * factor, z * factor};
 }
 
-/// 1 / the norm of four numbers whose squares are not out of range.
+/// Returns 1 / norm of four numbers whose squares are in range.
 __device__ __forceinline__ double inverse_norm(double w, double x, double y, double z) {
   return rsqrt(w * w + x * x + y * y + z * z);
 }
 __device__ __forceinline__ float inverse_norm(float w, float x, float y, float z) {
   const float square = fmaf(w, w, fmaf(x, x, fmaf(y, y, z * z))), excess = square - 1.0f;
-  // As on the CPU, which gets states only: they are normalised but for rounding.
+  // As on the CPU, whose states are always normalised up to rounding.
   if (fabsf(excess) < 1e-3f) return fmaf(excess, fmaf(excess, 0.375f, -0.5f), 1.0f);
   return rsqrtf(square);
 }
 
-/// Four numbers as a unit quaternion; zeros are the identity.
+/// Returns four numbers as a unit quaternion; zeros give the identity.
 template <class Real>
 __device__ __forceinline__ Quaternion<Real> unit_quaternion(Real w, Real x, Real y, Real z) {
   const Real scale = fmax(fmax(fabs(w), fabs(x)), fmax(fabs(y), fabs(z)));
   if (scale == Real(0)) return {Real(1), Real(0), Real(0), Real(0)};
-  if (!(scale > Real(1e-3) && scale < Real(1e3))) {  // the sum of squares might leave the range
+  if (!(scale > Real(1e-3) && scale < Real(1e3))) {  // the squares' sum might leave the range
     w /= scale, x /= scale, y /= scale, z /= scale;
   }
   const Real inverse = inverse_norm(w, x, y, z);
   return {w * inverse, x * inverse, y * inverse, z * inverse};
 }
 
-/// The unit quaternion of a model whose parameters in the search point are `p`.
+/// Returns the unit quaternion of a model whose parameters in the search point start at `p`.
 template <class Real>
 __device__ __forceinline__ Quaternion<Real> decode_rotation(const Real* p, const double* prior,
                                                             int offset) {
@@ -74,26 +75,26 @@ __device__ __forceinline__ Quaternion<Real> decode_rotation(const Real* p, const
   return multiply(start, rotation_exp(p[3], p[4], p[5]));
 }
 
-/// Writes a number of a search point; a barrier must follow. One that cannot be drawn becomes NaN.
+/// Writes a number of a search point, or NaN if it cannot be drawn; a barrier must follow.
 __device__ __forceinline__ void put_in_point(int index, double number, const PoseMemory& at) {
   shared_floats()[at.point + index] =
       fabs(number) <= kLargestParameter ? static_cast<float>(number) : nanf("");
 }
 
-/// Reads a search point, as every thread of the block calls it; a barrier must follow.
+/// Reads a search point with the whole block; a barrier must follow.
 __device__ __forceinline__ void load_point(const double* point, int size, const PoseMemory& at) {
   for (int i = static_cast<int>(threadIdx.x); i < size; i += static_cast<int>(blockDim.x)) {
     put_in_point(i, __ldcg(point + i), at);
   }
 }
 
-/// Where a model's parameters begin in a search point.
+/// Returns the index of a model's first parameter in a search point.
 __device__ __forceinline__ int first_in_point(const ModelLayout& model, int index, bool shorter) {
   return model.offset - (shorter ? index : 0);
 }
 
-/// Copies a model's parameters behind its pose to the state with the threads of a warp, and marks a
-/// model that cannot be drawn.
+/// Copies a model's parameters after its pose to the state, with one warp. Marks a model that
+/// cannot be drawn.
 __device__ __forceinline__ void copy_angles(const ModelLayout& model, int index,
                                             const double* prior, const PoseMemory& at) {
   const int pose = prior ? 6 : 7, lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -109,7 +110,7 @@ __device__ __forceinline__ void copy_angles(const ModelLayout& model, int index,
   if (lane == 0) shared_floats()[at.drawable + index] = drawable ? 0.0f : nanf("");
 }
 
-/// A row of first_from_model; the first also writes the pose to the state.
+/// Computes a row of first_from_model; row 0 also writes the pose to the state.
 __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, int row,
                                            const FrameLayout& frame, const double* prior,
                                            const PoseMemory& at) {
@@ -136,7 +137,7 @@ __device__ __forceinline__ void decode_row(const ModelLayout& model, int index, 
   state[6] = q.z;
 }
 
-/// See hypotrack/sine_cosine.hpp.
+/// Computes the sine and cosine of an angle as in hypotrack/sine_cosine.hpp.
 __device__ __forceinline__ void sine_and_cosine(float angle, float& sine, float& cosine) {
   using namespace hypotrack::sine_cosine;
   const float biased = angle * kQuartersPerRadian + kRoundingBias;
@@ -152,7 +153,7 @@ __device__ __forceinline__ void sine_and_cosine(float angle, float& sine, float&
   if (((bits + 1) & 2) != 0) cosine = -cosine;
 }
 
-/// A row of a transform whose frame is turned about a unit axis.
+/// Rotates the frame of a transform about a unit axis; computes one row.
 __device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float value) {
   float s, c;
   sine_and_cosine(t.scale * (value - t.zero), s, c);
@@ -166,8 +167,8 @@ __device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float
           along(fmaf(dx, z, s * y), fmaf(dy, z, -s * x), fmaf(dz, z, c)), row.w};
 }
 
-/// A row of parent_from_bone with all turns of the bone. The parameters that turn bones are the
-/// same in a search point as in the state, but for their place.
+/// Computes a row of parent_from_bone with all rotations of the bone. Joint angles have the same
+/// values in a search point as in the state, at other indices.
 __device__ __forceinline__ void place_row(int bone, int row, const double* prior,
                                           const PoseMemory& at) {
   const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
@@ -181,7 +182,7 @@ __device__ __forceinline__ void place_row(int bone, int row, const double* prior
   reinterpret_cast<float4*>(shared_floats() + at.locals)[3 * bone + row] = out;
 }
 
-/// m * (x, y, z, w) for a 3x4 matrix of shared memory.
+/// Returns m * (x, y, z, w) for a 3x4 matrix in shared memory.
 __device__ __forceinline__ float3 transform(int matrix, const float3& v, float w) {
   const auto* rows = reinterpret_cast<const float4*>(shared_floats() + matrix);
   const float4 a = rows[0], b = rows[1], c = rows[2];
@@ -190,7 +191,8 @@ __device__ __forceinline__ float3 transform(int matrix, const float3& v, float w
           fmaf(c.x, v.x, fmaf(c.y, v.y, fmaf(c.z, v.z, c.w * w)))};
 }
 
-/// A column of a bone's matrix: from the bind pose through the bone and all above it to the camera.
+/// Computes a column of a bone's matrix: from the bind pose through the chain of bones to the
+/// camera.
 __device__ __forceinline__ void chain_column(int bone, int column, const PoseMemory& at) {
   const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
   const float* bind = layout.bone_from_model + column;
@@ -207,11 +209,11 @@ __device__ __forceinline__ void chain_column(int bone, int column, const PoseMem
   out[8] = v.z;
 }
 
-/// Decodes a point that load_point() read, with the whole block: state, models and what cannot be
-/// drawn; a barrier must follow.
+/// Decodes a loaded point with the whole block into state, model poses and drawable flags; a
+/// barrier must follow.
 __device__ __forceinline__ void decode(const SceneLayout& scene, const FrameLayout& frame,
                                        const double* prior, const PoseMemory& at) {
-  // The last threads: the first are busy with bones.
+  // Use the last warps, because the first ones are busy with bones.
   const int warps = static_cast<int>(blockDim.x) / kWarp;
   const int warp = warps - 1 - static_cast<int>(threadIdx.x) / kWarp;
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -225,7 +227,7 @@ __device__ __forceinline__ void decode(const SceneLayout& scene, const FrameLayo
   }
 }
 
-/// Poses the hypothesis of a search point that is there with the whole block; ends with a barrier.
+/// Poses the hypothesis of a loaded search point with the whole block; ends with a barrier.
 __device__ __forceinline__ void pose(const SceneLayout& scene, const FrameLayout& frame,
                                      const double* prior, const PoseMemory& at) {
   const int thread = static_cast<int>(threadIdx.x), threads = static_cast<int>(blockDim.x);

@@ -11,14 +11,14 @@
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
 
-/// The few lines of the CUDA runtime that every device plugin needs. Also for C++ sources that see
-/// the toolkit's headers.
+/// Wrappers of the CUDA runtime for device plugins, also for C++ sources with the toolkit's
+/// headers.
 namespace hypotrack::cuda {
 
-/// Throws DeviceError if a call failed: `doing` says what was being done.
+/// Throws DeviceError if a call failed; `doing` says in the message what was being done.
 inline void check(cudaError_t status, const char* doing) {
   if (status == cudaSuccess) return;
-  (void)cudaGetLastError();  // a failed launch is reported once
+  (void)cudaGetLastError();  // clears the error of a failed launch
   std::string message = std::string("CUDA: ") + doing + " failed: " + cudaGetErrorString(status) +
                         " (" + cudaGetErrorName(status) + ")";
   if (status == cudaErrorMemoryAllocation) {
@@ -35,16 +35,17 @@ inline void check(cudaError_t status, const char* doing) {
   throw DeviceError(message);
 }
 
+/// Returns the CUDA stream of a Stream.
 inline cudaStream_t native(Stream stream) { return static_cast<cudaStream_t>(stream.handle); }
 
-/// Device memory for `size()` objects of T; never shrinks.
+/// Device memory for `size()` objects of T; it never shrinks.
 template <class T>
 class DeviceBuffer {
  public:
   DeviceBuffer() = default;
   explicit DeviceBuffer(std::size_t size) { reserve(size); }
   ~DeviceBuffer() {
-    if (data_) cudaFree(data_);  // freeing nothing would open the device
+    if (data_) cudaFree(data_);  // cudaFree(nullptr) would initialise the device
   }
   DeviceBuffer(DeviceBuffer&& other) noexcept { swap(other); }
   DeviceBuffer& operator=(DeviceBuffer&& other) noexcept {
@@ -52,7 +53,8 @@ class DeviceBuffer {
     return *this;
   }
 
-  /// Room for `size` objects; true if the memory is a new one (its content is then undefined).
+  /// Makes room for `size` objects. Returns true if it allocated new memory, with undefined
+  /// content.
   bool reserve(std::size_t size) {
     if (size <= size_) return false;
     cudaFree(data_);
@@ -74,7 +76,7 @@ class DeviceBuffer {
   std::size_t size_ = 0;
 };
 
-/// Host memory that the device copies from and to without detours.
+/// Page-locked host memory, which the device copies directly.
 template <class T>
 class PinnedBuffer {
  public:
@@ -86,7 +88,7 @@ class PinnedBuffer {
   PinnedBuffer(const PinnedBuffer&) = delete;
   PinnedBuffer& operator=(const PinnedBuffer&) = delete;
 
-  /// Room for `size` objects; their content is lost if there was less.
+  /// Makes room for `size` objects; growing loses the content.
   void reserve(std::size_t size) {
     if (size <= size_) return;
     cudaFreeHost(data_);
@@ -103,13 +105,13 @@ class PinnedBuffer {
   std::size_t size_ = 0;
 };
 
-/// Whether the device can start a kernel while the one before it still runs.
+/// Returns true if the device can start a kernel while the previous one still runs.
 inline bool overlaps_launches(const DeviceLimits& limits) {
   return limits.compute_capability >= 90;
 }
 
-/// Whether wait_for_previous() does something in the code of a kernel that the current device runs:
-/// not if that was made from code for devices before 9.0, whatever the device.
+/// Returns true if wait_for_previous() works in the kernel code that the current device runs. It
+/// does not in code built for devices before 9.0, on any device.
 inline bool waits_for_previous(const void* kernel) {
   int device = 0;
   check(cudaGetDevice(&device), "asking for the device");
@@ -123,8 +125,8 @@ inline bool waits_for_previous(const void* kernel) {
   return it->second;
 }
 
-/// Enqueues a kernel. With `overlap` it may start before the kernel in front of it on the stream
-/// has ended, and must call wait_for_previous() before it touches what that one writes.
+/// Enqueues a kernel. With `overlap` it may start before the previous kernel of the stream has
+/// ended; it must then call wait_for_previous() before it touches that kernel's results.
 template <class... Parameters, class... Arguments>
 void launch(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::size_t shared_bytes,
             Stream stream, bool overlap, Arguments&&... arguments) {
@@ -142,8 +144,8 @@ void launch(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::size_t sh
         "launching a kernel");
 }
 
-/// The same for a kernel whose blocks wait for one another, so that all of them must be on the
-/// device at once: fails where they do not fit (blocks_at_once()). It does not start early.
+/// Enqueues a cooperative kernel, whose blocks wait for one another. Throws DeviceError unless all
+/// blocks fit on the device at once (blocks_at_once()). It does not start early.
 template <class... Parameters, class... Arguments>
 void launch_together(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::size_t shared_bytes,
                      Stream stream, Arguments&&... arguments) {
@@ -161,7 +163,8 @@ void launch_together(void (*kernel)(Parameters...), dim3 grid, dim3 block, std::
         "launching a kernel");
 }
 
-/// How many blocks of a kernel fit on the current device at once; 0 if it cannot promise that.
+/// Returns how many blocks of a kernel fit on the current device at once; 0 without cooperative
+/// launch.
 template <class... Parameters>
 std::int64_t blocks_at_once(void (*kernel)(Parameters...), int threads, std::size_t shared_bytes,
                             int multiprocessors) {
@@ -176,17 +179,17 @@ std::int64_t blocks_at_once(void (*kernel)(Parameters...), int threads, std::siz
 }
 
 #ifdef __CUDACC__
-/// Waits until everything that the kernels before wrote is visible: in the L2 cache. Where kernels
-/// start early, read what changes from launch to launch with __ldcg(): a multiprocessor's own cache
-/// may still hold what a kernel before the last one read.
+/// Waits until all writes of the previous kernels are visible in the L2 cache. If kernels start
+/// early, read data that changes between launches with __ldcg(): a multiprocessor's own cache may
+/// hold older values.
 __device__ __forceinline__ void wait_for_previous() {
 #if __CUDA_ARCH__ >= 900
   cudaGridDependencySynchronize();
 #endif
 }
-/// Lets the next kernel start; it still waits for this one's results. Call it after
-/// wait_for_previous(): then what runs in front of the next kernel's wait finds what the kernel
-/// before this one wrote.
+/// Lets the next kernel start; its own wait still covers this one's results. Call it after
+/// wait_for_previous(). Then code before the next kernel's wait already sees what the previous
+/// kernel wrote.
 __device__ __forceinline__ void let_next_start() {
 #if __CUDA_ARCH__ >= 900
   cudaTriggerProgrammaticLaunchCompletion();

@@ -3,11 +3,11 @@
 #include "hypotrack/cuda/pixel_walk.cuh"
 #include "hypotrack/cuda/texels.cuh"
 
-/// A Term's pixels, looked at by a block of threads.
+/// Visits the pixels of a Term with a block of threads.
 namespace hypotrack::cuda {
 
-/// Calls pixel(x, y) for the pixels of a box, each by one thread of the block: side by side in a
-/// row and on in the next one, so that all threads have something to do.
+/// Calls pixel(x, y) once per pixel of a box. Threads take consecutive pixels and continue in the
+/// next row, so that all stay busy.
 template <class Pixel>
 __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixel) {
   const int width = box.width();
@@ -16,7 +16,7 @@ __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixe
   const int row = small_quotient(thread, width), rows_on = small_quotient(threads, width);
   const int columns_on = threads - rows_on * width;
   int x = box.x0 + thread - row * width, y = box.y0 + row;
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
   while (y < box.y1) {
     pixel(x, y);
     x += columns_on;
@@ -28,7 +28,7 @@ __device__ __forceinline__ void for_each_pixel(const Box& box, const Pixel& pixe
   }
 }
 
-/// Adds the pixels of `here` within its box to the sums.
+/// Adds the reference view's pixels within a box to the sums of a stereo Term.
 template <int kReference, bool kRectified, class Term, class Here, class There, class Texels>
 __device__ __forceinline__ void score_stereo(const Term& term, const StereoMap map, const Box& box,
                                              const Here& here, const There& there,
@@ -41,7 +41,7 @@ __device__ __forceinline__ void score_stereo(const Term& term, const StereoMap m
   });
 }
 
-/// Adds the pixels of one view to the sums.
+/// Adds one view's pixels within a box to the sums.
 template <class Term, class Here>
 __device__ __forceinline__ void score_view(const Term& term, int view, const Box& box,
                                            const Here& here, float (&sums)[Term::kSums]) {

@@ -7,16 +7,16 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 
-/// Copies of whole objects from device memory to a block's shared memory.
+/// Asynchronous copies of whole objects from device memory to a block's shared memory.
 namespace hypotrack::cuda {
 
-/// Where a block's copies report, in shared memory.
+/// The barrier in shared memory that a block's copies complete on (mbarrier).
 using StagingBarrier = std::uint64_t;
 
-/// The copies of one block, begun one after the other and then waited for together. Both memories
-/// are aligned to 16 bytes and go on to a multiple of 16. From compute capability 9.0 on one
-/// thread leaves them to the copy engine of its multiprocessor (PTX ISA, cp.async.bulk), and
-/// before, all threads copy. All threads call everything.
+/// A set of copies by one block, which waits for all of them together. Both addresses are aligned
+/// to 16 bytes, and both memories extend to a multiple of 16. From compute capability 9.0 on, one
+/// thread uses the multiprocessor's copy engine (PTX ISA, cp.async.bulk). On older devices, all
+/// threads copy. All threads must call every function.
 class Staging {
  public:
   __device__ __forceinline__ explicit Staging(StagingBarrier& barrier)
@@ -51,21 +51,21 @@ class Staging {
 #endif
   }
 
-  /// Waits for all of them, and until all threads have come here.
+  /// Waits for all copies, and for all threads of the block.
   __device__ __forceinline__ void finish() {
     expect();
-    __syncthreads();  // before, the barrier may not be there
+    __syncthreads();  // the mbarrier may not be initialised before
     wait(0);
   }
 
-  /// Of a block that copies anew, with its first `threads` threads, more than a warp: all of them
-  /// call add() and then expect(), after a barrier behind whatever touched what is overwritten.
-  /// Another barrier must follow, and wait().
+  /// Starts another set of copies with the first `threads` threads (more than a warp). A barrier
+  /// must separate it from earlier access to the overwritten memory. Those threads call add() and
+  /// then expect(); another barrier and wait() must follow.
   __device__ __forceinline__ Staging(StagingBarrier& barrier, int threads)
-      : leader_(kWarp), threads_(threads) {  // the first warp may have other things to do
+      : leader_(kWarp), threads_(threads) {  // the first warp may be busy
 #if __CUDA_ARCH__ >= 900
     barrier_ = shared_address(&barrier);
-    // What threads did to the memory comes before what the copy engine does.
+    // Orders earlier accesses by threads before the copy engine's writes.
     if (leads()) asm volatile("fence.proxy.async.shared::cta;" ::: "memory");
 #endif
   }
@@ -80,7 +80,7 @@ class Staging {
     __pipeline_wait_prior(0);
 #endif
   }
-  /// Waits for the copies of the barrier's use number `use`, of which the first is 0.
+  /// Waits for the copies of the barrier's use number `use`, counted from 0.
   __device__ __forceinline__ static void wait(StagingBarrier& barrier, unsigned use) {
 #if __CUDA_ARCH__ >= 900
     await(shared_address(&barrier), use % 2);
@@ -111,10 +111,10 @@ class Staging {
   }
 
   unsigned barrier_ = 0;
-  unsigned bytes_ = 0;  ///< that were added
+  unsigned bytes_ = 0;  ///< total of add()
 #endif
-  int leader_ = 0;  ///< the thread that leaves copies to the copy engine
-  int threads_;     ///< that copy, where there is none
+  int leader_ = 0;  ///< index of the thread that starts the copies
+  int threads_;     ///< number of copying threads on older devices
 };
 
 }  // namespace hypotrack::cuda

@@ -10,12 +10,12 @@
 
 namespace hypotrack::cuda {
 
-/// Numbers of a search point.
+/// Returns the length of a search point.
 __host__ __device__ inline int point_size(const SceneLayout& scene, const BatchLayout& batch) {
   return scene.dimension - (batch.prior ? scene.model_count : 0);
 }
 
-/// Decodes one search point with one warp: `state` gets the scene's normalised state.
+/// Decodes one search point with one warp into the scene's normalised state.
 __device__ inline void decode_state(const SceneLayout& scene, const BatchLayout& batch,
                                     const double* point, double* state) {
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
@@ -41,7 +41,7 @@ struct WarpTeam {
   __device__ int rank() const { return static_cast<int>(threadIdx.x) % kWarp; }
   __device__ int size() const { return kWarp; }
   __device__ void sync() const { __syncwarp(); }
-  /// Of all threads' values, for all of them; always added in the same order.
+  /// Returns the sum over all threads, in each of them; always added in the same order.
   __device__ double sum(double value) const {
     for (int distance = kWarp / 2; distance > 0; distance /= 2) {
       value += __shfl_xor_sync(kWholeWarp, value, distance);
@@ -50,13 +50,13 @@ struct WarpTeam {
   }
 };
 
-/// A Term whose cost a team of threads finds together.
+/// A Term whose cost a team of threads computes together.
 template <class Term>
 concept TeamTerm = requires(const Term& term) {
   term.scratch_floats();
 };
 
-/// Floats of shared memory that a warp works in besides the state.
+/// Returns the floats of shared memory that a warp needs besides the state.
 template <class Term>
 __host__ __device__ inline int scratch_floats(const Term& term) {
   if constexpr (TeamTerm<Term>) {
@@ -82,7 +82,7 @@ concept HasStateTermResiduals = requires(const Term& term) {
   { term.residual_count() } -> std::convertible_to<std::int64_t>;
 };
 
-/// A Term for score_states() that writes residuals on the way.
+/// A Term for score_states() that also writes residuals.
 template <class Term>
 struct WithStateResiduals : Term {
   ResidualLayout to;
@@ -101,7 +101,7 @@ struct WithStateResiduals : Term {
   }
 };
 
-/// One warp per hypothesis.
+/// Computes the costs of states with one warp per hypothesis.
 template <class Term>
 __global__ void __launch_bounds__(kWarp)
     score_states(const __grid_constant__ SceneLayout scene,
@@ -118,18 +118,18 @@ __global__ void __launch_bounds__(kWarp)
   out = batch.add ? __ldcg(&out) + cost : cost;
 }
 
-/// An objective that looks at the state only (joint limits, priors), on the device. Its Term can be
-/// the very struct that Objective::cost asks on the CPU:
+/// A device objective that reads only the state (joint limits, priors). Objective::cost can use its
+/// Term on the CPU:
 ///
 ///   struct MyTerm {  // trivially copyable
 ///     float stiffness;
 ///     HYPOTRACK_PIXEL double cost(const double* state, int dimension) const;
 ///   };
 ///
-/// or, for more work than one thread should do, one that a team of threads shares (the CPU's is
-/// OneThread of skeleton_pose.hpp, whose pose_bones() says where the state puts bones):
+/// If one thread is too slow, the Term can share its work among a team of threads. On the CPU, the
+/// team is OneThread of skeleton_pose.hpp; pose_bones() there computes the bones of a state.
 ///
-///   HYPOTRACK_PIXEL int scratch_floats() const;  // shared memory that a team works in
+///   HYPOTRACK_PIXEL int scratch_floats() const;  // shared memory of a team
 ///   template <class Team>
 ///   HYPOTRACK_PIXEL double cost(const double* state, int dimension, const Team& team,
 ///                               float* scratch) const;  // aligned to 8 bytes; undefined at first
@@ -138,21 +138,21 @@ __global__ void __launch_bounds__(kWarp)
 ///
 ///   HYPOTRACK_PIXEL std::int64_t residual_count() const;
 ///
-/// and, the first kind,
+/// and, without a team,
 ///
 ///   HYPOTRACK_PIXEL float residual(std::int64_t i, const double* state) const;
 ///
-/// the second
+/// or, with a team,
 ///
-///   // what cost() returns; calls put(i, residual) once for every one of them, on any thread
+///   // returns cost() and calls put(i, residual) once per residual, on any thread
 ///   template <class Team, class Put>
 ///   HYPOTRACK_PIXEL double cost_and_residuals(const double* state, int dimension,
 ///                                             const Team& team, float* scratch,
 ///                                             const Put& put) const;
 ///
-/// `state` is the scene's, normalised. Objective::on_device() returns a StateObjective<MyTerm>. One
-/// whose Term depends on the frame overrides make_term(); as with PixelObjective, a Term whose
-/// bytes change makes captured searches be captured again.
+/// `state` is the scene's normalised state. Objective::on_device() returns a
+/// StateObjective<MyTerm>. Override make_term() if the Term depends on the frame. As with
+/// PixelObjective, a change of the Term's bytes forces captured graphs to be captured again.
 template <class Term>
 class StateObjective : public DeviceObjective {
  public:
@@ -211,8 +211,8 @@ class StateObjective : public DeviceObjective {
   std::uint64_t revision() const final { return revision_; }
 
  protected:
-  /// The Term for a frame; may enqueue what it needs in device memory. Throws DataError if it
-  /// cannot work with what it is given.
+  /// Returns the Term for a frame; may enqueue kernels that fill its device memory. Throws
+  /// DataError if the observation does not suit.
   virtual Term make_term(const DeviceObservation& /*observation*/, Stream /*stream*/) {
     return term_;
   }

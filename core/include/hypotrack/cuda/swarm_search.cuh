@@ -7,17 +7,17 @@
 #include "hypotrack/cuda/evaluate.cuh"
 #include "hypotrack/cuda/swarm_search.hpp"
 
-/// A search by a particle swarm in one kernel: the blocks of a particle evaluate it, learn from
-/// slots what the others cost, and move it, all of them alike. The same arithmetic as the kernels
-/// of plugins/optimizers/pso_cuda, which take every other objective; nothing is staged anew, and no
-/// kernel waits for the end of another.
+/// A particle swarm search in one kernel. The blocks of a particle evaluate it, read the other
+/// particles' costs from slots, and move it. The arithmetic equals that of the kernels of
+/// plugins/optimizers/pso_cuda, which serve all other objectives. Nothing is staged again, and no
+/// kernel waits for another.
 namespace hypotrack::cuda {
 
-/// The random numbers of a dimension's move.
+/// The random numbers of one dimension's move.
 struct SwarmDraw {
   std::array<double, 4> uniform;
-  bool anew = false;  ///< it does not move, but is placed
-  double offset = 0;  ///< from the swarm's best, where it is
+  bool anew = false;  ///< true if the dimension is resampled instead of moved
+  double offset = 0;  ///< from the swarm's best, if resampled
 
   __device__ SwarmDraw(const SwarmSearch& swarm, int d, const RandomIndex& index) {
     uniform = uniform4(swarm.seed, index);
@@ -30,19 +30,19 @@ struct SwarmDraw {
   }
 };
 
-/// A particle in one of its blocks: a thread per dimension, the last ones of the block in whole
-/// warps (movers()), which remember it in shared memory. Generations are numbered from 0 on.
+/// A particle in one of its blocks. The block's last threads, in whole warps (movers()), handle one
+/// dimension each and keep it in shared memory. Generations count from 0.
 class SwarmParticle {
  public:
   __device__ SwarmParticle(const SwarmSearch& swarm, const BlockPlan& plan)
       : swarm_(swarm), plan_(plan) {}
 
-  /// Threads that call what follows.
+  /// Returns the number of threads that call the functions below.
   __device__ static int movers(const SwarmSearch& swarm) {
     return (swarm.dimension + kWarp - 1) / kWarp * kWarp;
   }
 
-  /// Places it in generation 0. A barrier must follow.
+  /// Places the particle in generation 0. A barrier must follow.
   __device__ void begin() const {
     if (dimension() >= swarm_.dimension) return;
     const SwarmDimension& d = swarm_.dimensions[dimension()];
@@ -63,10 +63,10 @@ class SwarmParticle {
     place(0, x);
   }
 
-  /// Moves it to a generation from 1 on, once all costs of the one before are known. A barrier must
-  /// follow.
+  /// Moves the particle to a generation >= 1, once all costs of the previous one are known. A
+  /// barrier must follow.
   __device__ void move_to(std::int32_t generation) const {
-    const int d = min(dimension(), swarm_.dimension - 1);  // the threads of a warp stay together
+    const int d = min(dimension(), swarm_.dimension - 1);  // keeps the threads of a warp together
     const SwarmDraw draw(swarm_, d,
                          {static_cast<std::uint32_t>(d), static_cast<std::uint32_t>(number()),
                           static_cast<std::uint32_t>(generation), kMoveStream});
@@ -82,15 +82,14 @@ class SwarmParticle {
     mine(kVelocity) = motion.velocity;
   }
 
-  /// Writes the best of all generations, of which `last` is the last. A barrier must follow, and
-  /// clear().
+  /// Writes the best point of all generations up to `last`. A barrier and clear() must follow.
   __device__ void answer(std::int32_t last) const {
     learn(last);
     const int d = dimension();
     if (d < swarm_.dimension) swarm_.answer[1 + d] = mine(kBest);
     if (d == 0) swarm_.answer[0] = mine(kBestCost);
   }
-  /// Leaves all slots empty.
+  /// Empties all slots.
   __device__ void clear(std::int32_t last) const {
     for (std::int32_t generation = max(last - 1, 0); generation <= last; ++generation) {
       for (int p = dimension(); p < swarm_.particles; p += movers(swarm_)) {
@@ -99,8 +98,8 @@ class SwarmParticle {
     }
   }
 
-  /// By the thread that will tell(), after a barrier behind the movers, and well before, because it
-  /// takes its time: whoever has heard of the cost then finds the position.
+  /// Makes the position visible before tell() publishes its cost. The thread that will call tell()
+  /// calls it well before, after a barrier behind the movers, because a fence takes time.
   __device__ void before_telling() const { __threadfence(); }
   __device__ void tell(std::int32_t generation, double cost) const {
     fill_slot(slot(generation, number()), cost);
@@ -119,13 +118,13 @@ class SwarmParticle {
   };
   static_assert(kUpper + 1 == kParticleNumbers);
 
-  // Asked for anew every time: registers are scarce between the generations.
+  // Recomputed at every use, because registers are scarce.
   __device__ std::int32_t number() const {
     return static_cast<std::int32_t>(blockIdx.x / static_cast<unsigned>(plan_.bands));
   }
-  /// Whether the block is the one that tells the others.
+  /// Returns true in the block that publishes the particle's cost.
   __device__ bool tells() const { return blockIdx.x % static_cast<unsigned>(plan_.bands) == 0; }
-  /// The thread's, or one beyond the last.
+  /// Returns this thread's dimension; may lie beyond the last.
   __device__ int dimension() const {
     return static_cast<int>(threadIdx.x) - (static_cast<int>(blockDim.x) - movers(swarm_));
   }
@@ -133,7 +132,8 @@ class SwarmParticle {
     auto* numbers = reinterpret_cast<double*>(shared_floats() + plan_.particle);
     return numbers[number * swarm_.dimension + dimension()];
   }
-  /// Where generations take turns: those of one are read until the costs of the next are known.
+  /// Returns one of two alternating buffers. The previous generation is read until the next one's
+  /// costs are known.
   __device__ double* positions(std::int32_t generation) const {
     return swarm_.positions + generation % 2 * (swarm_.particles * swarm_.dimension);
   }
@@ -148,17 +148,17 @@ class SwarmParticle {
     }
   }
 
-  /// Takes in the costs of a generation, once they are there; returns the thread's number of the
-  /// swarm's best point.
+  /// Waits for all costs of a generation and updates the own and the swarm's best. Returns this
+  /// thread's coordinate of the swarm's best point.
   __device__ double learn(std::int32_t generation) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
-    // Every thread looks at its own numbers only; those without a dimension have none.
+    // A thread uses only its own numbers; threads without a dimension have none.
     const bool has_dimension = dimension() < swarm_.dimension;
-    // A warp's first thread has one.
+    // The first thread of a warp always has a dimension.
     const double known = __shfl_sync(kWholeWarp, has_dimension ? mine(kBestCost) : 0, 0);
     double best = has_dimension ? mine(kBest) : 0, own = 0;
     Candidate of_lane, found;
-    int next = lane;  // of the particles that the lane looks after
+    int next = lane;  // particle that this lane reads next
     bool is_last = false;
 #pragma unroll 1
     while (!is_last) {
@@ -172,9 +172,9 @@ class SwarmParticle {
       }
       is_last = !__any_sync(kWholeWarp, next < swarm_.particles);
       const Candidate now = best_of_few(of_lane);
-      // Its position is on its way while others are waited for. It is read from the L2 cache, at a
-      // place that only the slot tells, and so after the slot. (PTX's memory model itself promises
-      // that behind a fence only.)
+      // Fetch its position while waiting for others. The read goes to the L2 cache, at an address
+      // that depends on the slot, and so comes after it. (PTX's memory model guarantees this only
+      // behind a fence.)
       if (now.particle != found.particle && has_dimension) {
         best = __ldcg(positions(generation) + (now.particle * swarm_.dimension + dimension()));
       }
@@ -190,14 +190,14 @@ class SwarmParticle {
       mine(kBest) = best;
       mine(kBestCost) = found.cost;
     }
-    // All blocks have read the costs of the generation before, or this one's would not be there.
+    // All blocks have read the previous generation's costs; otherwise this one's would not exist.
     if (tells() && dimension() == 0 && generation > 0) {
       clear_slot(slot(generation - 1, number()));
     }
     return best;
   }
 
-  /// The best of the candidates of a warp, of which most lanes have none, in all its lanes.
+  /// Returns the best candidate of a warp, in all lanes; fast if few lanes have one.
   __device__ static Candidate best_of_few(const Candidate& mine) {
     const unsigned lanes = __ballot_sync(kWholeWarp, mine.cost < Candidate().cost);
     if (lanes == 0) return {};
@@ -210,7 +210,7 @@ class SwarmParticle {
   const BlockPlan& plan_;
 };
 
-/// Hands over what its block's particle costs.
+/// Publishes the cost of its block's particle.
 struct Telling {
   const SwarmParticle& particle;
   std::int32_t generation;
@@ -218,7 +218,7 @@ struct Telling {
   __device__ void put(double cost) const { particle.tell(generation, cost); }
 };
 
-/// All blocks must be on the device at once (launch_together()).
+/// Runs a whole search. All blocks must be on the device at once (launch_together()).
 template <class Term, Walk kWalk>
 __global__ void __launch_bounds__(kMostThreads)
     search_with_swarm(const __grid_constant__ SceneLayout scene, const FrameLayout* frame,

@@ -6,22 +6,22 @@
 
 namespace hypotrack::cuda {
 
-/// Most dimensions of a SwarmSearch: it is handed to the kernel by value.
+/// Most dimensions of a SwarmSearch, which is passed to the kernel by value.
 inline constexpr int kMostSwarmDimensions = 64;
 
-/// From slot to slot of SwarmSearch::costs: a sector of the L2 cache each, for all blocks look at
-/// all of them at the same time.
+/// Distance between slots of SwarmSearch::costs, doubles. Each slot has its own L2 sector, because
+/// all blocks read all slots at the same time.
 inline constexpr int kSlotStride = 4;
 
-/// Where a dimension of a search begins and how far it may go.
+/// Start, bounds, spread and groups of one dimension.
 struct SwarmDimension {
   double start, lower, upper, spread;
   std::int32_t group;
-  std::int32_t limb;  ///< -1: none
+  std::int32_t limb;  ///< index of its limb; -1 = none
 };
 
-/// A whole search by a particle swarm (plugins/optimizers/pso), for a kernel that evaluates and
-/// moves its particles without leaving the device in between.
+/// A whole particle swarm search (plugins/optimizers/pso) for one kernel that evaluates and moves
+/// all particles.
 struct SwarmSearch {
   std::int32_t particles;
   std::int32_t generations;
@@ -32,8 +32,8 @@ struct SwarmSearch {
   LimbReset reset;
   StartSpread start;
   SwarmDimension dimensions[kMostSwarmDimensions];
-  double* positions;  ///< device memory: room for 2 generations
-  double* costs;      ///< device memory: 3 slots per particle (bands.cuh), kSlotStride apart, empty
+  double* positions;  ///< device memory for 2 generations
+  double* costs;      ///< device memory, 3 slots per particle (bands.cuh), kSlotStride apart; empty
                       ///< before and after
   double* answer;     ///< page-locked host memory: cost, then position
 };

@@ -8,15 +8,16 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/layout.hpp"
 
-/// What a Term looks up per pixel of a pair's tiles: `texels.template at<view>(x, y)`.
+/// Per-pixel features that a Term reads from a pair's tiles: `texels.template at<view>(x, y)`.
 namespace hypotrack::cuda {
 
+/// A Term that reads a Texel per pixel.
 template <class Term>
 concept HasTexels = requires {
   typename Term::Texel;
 };
 
-/// For Terms without texels.
+/// Texel of a Term that has none.
 struct NoTexel {};
 template <class Term>
 struct TexelOf {
@@ -27,7 +28,7 @@ struct TexelOf<Term> {
   using Type = typename Term::Texel;
 };
 
-/// Texels of whole tiles, in global memory.
+/// Texels of whole tiles in global memory.
 template <class Term>
 class TileTexels {
  public:
@@ -57,25 +58,25 @@ class TileTexels {
   int pitch_[2];
 };
 
-/// Which texels of a pair of boxes with the same rows lie where in a block's shared memory: a row
-/// of both views at a time, behind the one before. Places in shared memory count texels.
+/// Layout of the texels of a pair of boxes with equal rows in a block's shared memory. Each row
+/// holds the columns of both views; rows follow one another. Offsets count texels.
 struct TexelLayout {
   bool fits;
-  int begin;       ///< of all
-  int pitch;       ///< of a row of both views
-  int y0, rows;    ///< rows of the tiles
-  int columns[2];  ///< the first of each view
-  int in_left;     ///< columns of the first view
-  int first[2];    ///< where the tiles' pixel (0, 0) would be
+  int begin;       ///< offset of the first texel
+  int pitch;       ///< texels per row of both views
+  int y0, rows;    ///< first tile row and number of rows
+  int columns[2];  ///< first tile column of each view
+  int in_left;     ///< number of columns of the first view
+  int first[2];    ///< offset where the tiles' pixel (0, 0) would be
 };
 
-/// Texels of a box per view and of a column beside it, copied to the block's shared memory.
+/// Texels of one box per view, with a margin of one column, in the block's shared memory.
 template <class Term>
 class SharedTexels {
  public:
   using Texel = typename TexelOf<Term>::Type;
 
-  /// How texels of the boxes fit between the offsets `begin` and `end` of shared_floats().
+  /// Computes the layout of the boxes' texels between offsets `begin` and `end` of shared_floats().
   __device__ __forceinline__ static TexelLayout lay_out(const FrameLayout& frame, const Box& left,
                                                         const Box& right, int begin, int end) {
     TexelLayout layout{};
@@ -100,7 +101,7 @@ class SharedTexels {
   __device__ __forceinline__ explicit SharedTexels(const TexelLayout& layout)
       : first_{layout.first[0], layout.first[1]}, pitch_(layout.pitch) {}
 
-  /// Begins to copy them with the whole block, if they fit.
+  /// Starts an asynchronous copy of the texels by the whole block, if they fit.
   __device__ __forceinline__ static void fetch(const Term& term, const FrameLayout& frame,
                                                const TexelLayout& layout) {
     if constexpr (HasTexels<Term>) {
@@ -113,7 +114,7 @@ class SharedTexels {
       __pipeline_commit();
     }
   }
-  /// Until this thread's copies are there; a barrier must follow.
+  /// Waits for this thread's copies; a barrier must follow.
   __device__ __forceinline__ static void wait() {
     if constexpr (HasTexels<Term>) __pipeline_wait_prior(0);
   }
@@ -124,10 +125,10 @@ class SharedTexels {
 
  private:
   static constexpr int kSize = static_cast<int>(sizeof(Texel));
-  static constexpr int kPiece = 16;  // bytes that a thread copies at a time
+  static constexpr int kPiece = 16;  // bytes per copy of a thread
   static constexpr int kInPiece = kPiece / kSize;
 
-  /// Those of a box and one on either side, within the tile, rounded to whole pieces.
+  /// Columns of a box and one on either side, within the tile, rounded to whole pieces.
   struct Columns {
     int first, count;
     __device__ __forceinline__ Columns(const Box& box, int width)
@@ -147,11 +148,11 @@ class SharedTexels {
     auto* out = reinterpret_cast<Texel*>(shared_floats()) + layout.begin;
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     const int warps = static_cast<int>(blockDim.x) / kWarp;
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
     for (int row = static_cast<int>(threadIdx.x) / kWarp; row < rows; row += warps) {
       const Texel* const in_left_row = left + row * widths[0];
       const Texel* const in_right_row = right + row * widths[1];
-#pragma unroll 1  // the code is long enough
+#pragma unroll 1  // keeps the code short
       for (int x = kTexels * lane; x < pitch; x += kTexels * kWarp) {
         __pipeline_memcpy_async(out + row * pitch + x,
                                 (x < in_left ? in_left_row : in_right_row) + x, kTexels * kSize);
@@ -163,7 +164,7 @@ class SharedTexels {
   int pitch_;
 };
 
-/// A pixel's part of a Term's sums.
+/// Adds a pixel to a Term's sums, with texels if the Term has them.
 template <int kReference, class Term, class Pixel, class Texels>
 __device__ __forceinline__ void add_pixel(const Term& term, const Pixel& p, const Texels& texels,
                                           float (&sums)[Term::kSums]) {

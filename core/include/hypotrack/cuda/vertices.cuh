@@ -3,21 +3,21 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/layout.hpp"
 
-/// Skinning and projection by a block of threads.
-/// The same operations as in the CPU's kernel (core/src/evaluate/skin_kernel.cpp), so that the same
-/// pixels are covered and have the same depth.
+/// Skins and projects vertices with a block of threads. The operations equal those of the CPU
+/// kernel (core/src/evaluate/skin_kernel.cpp), so that both cover the same pixels with the same
+/// depth.
 namespace hypotrack::cuda {
 
-// The CPU's simd_kernels.hpp explains these.
+// Explained in core/src/evaluate/simd_kernels.hpp.
 inline constexpr float kNearest = 0.01f;
 inline constexpr float kFarthest = 1000.0f;
 inline constexpr float kFarthestPixel = 1 << 20;
 
-/// Projected vertices: x, y (pixels), 1/z (0: not to be drawn) and x in the second view of a pair.
+/// Projected vertices: x, y (pixels), 1/z (0 = do not draw) and x in the second view of a pair.
 template <bool kShared>
 struct Vertices {
   Floats<kShared> records;  ///< four floats per vertex
-  int heights;              ///< from the records on: every vertex's y once more; -1: nowhere else
+  int heights;  ///< offset of a second copy of every y, relative to the records; -1 = none
   __device__ __forceinline__ float4& operator[](int index) const {
     return *reinterpret_cast<float4*>(records.at(4 * index));
   }
@@ -27,7 +27,7 @@ struct Vertices {
   }
 };
 
-/// The vertices' y, from where it is read fastest.
+/// Reads the vertices' y from where access is fastest.
 template <bool kShared>
 class Heights {
  public:
@@ -41,7 +41,7 @@ class Heights {
   int step_;
 };
 
-/// How the second view of a rectified pair sees a projected vertex of the first.
+/// Maps a projected vertex of a rectified pair's first view to its x in the second.
 struct Parallax {
   float shift, factor;
   __device__ float operator()(float x, float w) const { return fmaf(factor, w, x + shift); }
@@ -49,7 +49,7 @@ struct Parallax {
 
 /// Pixel bounds of a hypothesis, shared by a block.
 struct Bounds {
-  int low_x, high_x, low_y, high_y, low_x2, high_x2;  ///< high ones: minus the largest
+  int low_x, high_x, low_y, high_y, low_x2, high_x2;  ///< high ones: minus the largest value
   __device__ void reset() { low_x = high_x = low_x2 = high_x2 = low_y = high_y = 1 << 30; }
   __device__ Box box(int width, int height) const {
     return {max(low_x, 0), max(low_y, 0), min(1 - high_x, width), min(1 - high_y, height)};
@@ -59,17 +59,17 @@ struct Bounds {
   }
 };
 
-/// A VertexLayout as it is loaded.
+/// The words of a VertexLayout, as loaded from memory.
 struct VertexWords {
   uint2 words[sizeof(VertexLayout) / sizeof(uint2)];
 };
 
-/// A row of a 3x4 matrix times (x y z 1).
+/// Returns a row of a 3x4 matrix times (x y z 1).
 __device__ __forceinline__ float affine(const float4& row, float x, float y, float z) {
   return fmaf(row.x, x, fmaf(row.y, y, fmaf(row.z, z, row.w)));
 }
 
-/// Linear blend skinning of one vertex.
+/// Computes linear blend skinning of one vertex.
 __device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* bones) {
   const uint2 xy = vertex.words[0], z_bones = vertex.words[1], weights = vertex.words[2];
   const float x = __uint_as_float(xy.x), y = __uint_as_float(xy.y), z = __uint_as_float(z_bones.x);
@@ -89,8 +89,8 @@ __device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* b
   return {sum.x * kUnit, sum.y * kUnit, sum.z * kUnit};
 }
 
-/// Projects a vertex, given in the frame of the first view's camera, into a view; of a pair it is
-/// the first.
+/// Projects a vertex, in the frame of the first view's camera, into a view. For a pair, `view` is
+/// the first one.
 template <bool kPair>
 __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool first) {
   if (!kPair && !first) {
@@ -107,7 +107,7 @@ __device__ __forceinline__ float3 project(float3 p, const ViewLayout& view, bool
   return {x, y, valid ? w : 0.0f};
 }
 
-/// Bounds of a thread's vertices.
+/// Bounds of one thread's vertices.
 struct ThreadBounds {
   static constexpr float kNone = kFarthestPixel;
   float low_x = kNone, high_x = -kNone, low_x2 = kNone, high_x2 = -kNone, low_y = kNone,
@@ -121,7 +121,7 @@ struct ThreadBounds {
     low_y = fminf(low_y, y);
     high_y = fmaxf(high_y, y);
   }
-  /// Joins those of the whole block; called by all its threads.
+  /// Joins the bounds of all threads of the block; all must call it.
   __device__ __forceinline__ void join(Bounds& all, bool pair) const {
     const int lane = static_cast<int>(threadIdx.x) % kWarp;
     int least = warp_min(round_up(low_x));
@@ -136,7 +136,7 @@ struct ThreadBounds {
       next(4, round_up(low_x2));
       next(5, -round_down(high_x2));
     }
-    // One instruction for all of them.
+    // One atomic instruction for all bounds.
     if (lane < (pair ? 6 : 4)) atomicMin(&all.low_x + lane, least);
   }
 };

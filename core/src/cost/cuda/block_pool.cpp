@@ -8,7 +8,7 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// Four sizes from one power of two to the next.
+/// A size class; there are four between two powers of two.
 struct SizeClass {
   std::size_t index;
   std::size_t capacity;
@@ -37,7 +37,7 @@ void* BlockPool::take(std::size_t bytes) {
   }
   if (size.capacity > bound_ || reserved_ > bound_ - size.capacity) return nullptr;
   reserved_ += size.capacity;
-  lock.unlock();  // others need not wait for what is slow
+  lock.unlock();  // other threads need not wait for the slow allocation
   void* block = allocate_(size.capacity);
   if (block) return block;
   lock.lock();

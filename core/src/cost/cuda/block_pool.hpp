@@ -7,21 +7,21 @@
 
 namespace hypotrack::cuda {
 
-/// Blocks of memory that is slow to get: what is given back is kept and handed out again, never
-/// released. Block sizes are rounded up by a quarter at most. Threads may share one.
+/// A pool of memory blocks that are slow to allocate. It keeps returned blocks for reuse and never
+/// releases them. Block sizes are rounded up by at most a quarter. Thread-safe.
 class BlockPool {
  public:
-  /// Gets memory, aligned to 64 bytes; null if there is none. Does not throw.
+  /// Allocates memory aligned to 64 bytes; returns null on failure and does not throw.
   using Allocate = std::function<void*(std::size_t bytes)>;
 
-  /// Gets at most `bound` bytes altogether, and no more once `allocate` has failed.
+  /// Allocates at most `bound` bytes in total, and nothing more once `allocate` has failed.
   BlockPool(Allocate allocate, std::size_t bound);
 
-  /// At least `bytes` (1 or more) of undefined content; null where none is kept and no more may be
-  /// had.
+  /// Returns a block of at least `bytes` (1 or more) with undefined content, or null if no memory
+  /// is left.
   void* take(std::size_t bytes);
 
-  /// Gives a block back that was taken with `bytes`.
+  /// Returns a block to the pool; `bytes` must be the number passed to take().
   void give_back(void* block, std::size_t bytes) noexcept;
 
  private:
@@ -31,7 +31,7 @@ class BlockPool {
   std::mutex mutex_;
   std::size_t bound_;
   std::size_t reserved_ = 0;
-  std::array<void*, kClasses> kept_{};  // lists: a kept block begins with where the next one is
+  std::array<void*, kClasses> kept_{};  // linked lists: a block starts with the next address
 };
 
 }  // namespace hypotrack::cuda

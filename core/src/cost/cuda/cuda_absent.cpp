@@ -1,4 +1,4 @@
-// Stands in for the GPU backend in a build without a CUDA toolkit.
+// Replaces the GPU backend in a build without a CUDA toolkit.
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/egl_cuda_evaluation.hpp"
 #include "cost/cuda/page_locked_images.hpp"

@@ -17,7 +17,7 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// Everything on the GPU: hypotheses go up (or are there already), costs come down.
+/// The evaluation on the GPU: uploads hypotheses unless they are there already, downloads costs.
 class CudaEvaluation final : public Evaluation, public DeviceCost {
  public:
   CudaEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
@@ -46,7 +46,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
     };
     if (!work_) work_ = work();
     frame_.prepare(cutter_->cut(frame, plan, stream(), *work_));
-    work_ = work();  // for the next frame, in which it is much the same, while the GPU has to do
+    work_ = work();  // for the next frame, which is similar; runs while the GPU works
   }
 
   void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -106,7 +106,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   }
 
   FrameOnDevice frame_;
-  std::unique_ptr<TileCutter> cutter_;  // of the first frame's cameras; there are no others
+  std::unique_ptr<TileCutter> cutter_;  // for the first frame's cameras; they never change
   std::optional<WorkEnds> work_;
   HostBatch batch_;
   bool sum_of_squares_;

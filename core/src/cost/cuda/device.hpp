@@ -10,22 +10,23 @@
 
 namespace hypotrack::cuda {
 
-/// Why the GPU backend cannot be used on this machine: built without CUDA, no driver, driver too
-/// old, no such device. Empty if it can.
+/// Returns why this machine cannot use the GPU backend: built without CUDA, no driver, driver too
+/// old, or no such device. Empty if it can.
 HYPOTRACK_API std::string why_no_device(int index = 0);
 
-/// Why this GPU, for which why_no_device() has no reason, cannot be used all the same: it does not
-/// answer, or hypotrack was built for other ones. Empty if it can. Takes some of its memory.
+/// Returns why this GPU cannot be used although why_no_device() is empty: it does not answer, or
+/// hypotrack was not built for it. Empty if it can. Takes some of the GPU's memory.
 std::string why_not_this_device(int index);
 
-/// Bytes of a GPU's memory that no process uses; nothing where there is no such GPU or it does not
+/// Returns the free bytes of a GPU's memory, or nothing if there is no such GPU or it does not
 /// answer. Makes it the GPU of this thread.
 HYPOTRACK_API std::optional<std::size_t> free_memory(int index = 0);
 
-/// A GPU and the stream that everything of one evaluator is enqueued on.
+/// A GPU and the stream for all work of one evaluator.
 class HYPOTRACK_API Device {
  public:
-  /// Makes `index` the GPU of this thread. Throws DeviceError where one of the two has a reason.
+  /// Makes `index` the GPU of this thread. Throws DeviceError with the reason of why_no_device() or
+  /// why_not_this_device(), if there is one.
   explicit Device(int index);
   ~Device();
   Device(const Device&) = delete;
@@ -33,7 +34,7 @@ class HYPOTRACK_API Device {
 
   Stream stream() const { return stream_; }
   const DeviceLimits& limits() const { return limits_; }
-  /// `NVIDIA H200`
+  /// Returns the device's name: `NVIDIA H200`.
   const std::string& name() const { return name_; }
   /// Makes it the GPU of the calling thread again.
   void use() const;

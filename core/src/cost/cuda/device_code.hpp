@@ -2,7 +2,7 @@
 
 namespace hypotrack::cuda {
 
-/// Whether the architectures that this library was built for include the GPU of this thread.
+/// Returns true if this library was built for the architecture of this thread's GPU.
 bool has_code_for_current_device();
 
 }  // namespace hypotrack::cuda

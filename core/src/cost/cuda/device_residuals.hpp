@@ -9,13 +9,13 @@
 
 namespace hypotrack::cuda {
 
-/// Residuals of hypotheses in GPU memory: states (normalised, DxN) go up, and costs, normal
-/// equations or, if need be, the residuals themselves come down. Frame and batch outlive it.
+/// Residuals of hypotheses in GPU memory. It uploads states (normalised, DxN) and downloads costs,
+/// normal equations or, if required, residuals. Frame and batch must outlive it.
 class DeviceResiduals final : public ResidualDifferences {
  public:
   DeviceResiduals(FrameOnDevice& frame, HostBatch& batch) : frame_(frame), batch_(batch) {}
 
-  // ResidualDifferences, with states in place of points
+  // ResidualDifferences; takes states instead of points.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                 Eigen::Ref<Eigen::VectorXd> costs) override;
   void move_to(Eigen::Index i) override;
@@ -23,8 +23,8 @@ class DeviceResiduals final : public ResidualDifferences {
                                    const Eigen::Ref<const Eigen::VectorXd>& scale,
                                    Eigen::Ref<Eigen::VectorXd> costs) override;
 
-  /// The residuals too (residual_count() x N). Computed in several goes where they take more than
-  /// kMostBytes.
+  /// Computes costs and residuals (residual_count() x N) and downloads both. Splits batches that
+  /// would take more than kMostBytes.
   void download(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
                 Eigen::Ref<Eigen::VectorXd> costs);
 
@@ -32,7 +32,7 @@ class DeviceResiduals final : public ResidualDifferences {
   static constexpr Eigen::Index kMostBytes = Eigen::Index{1} << 26;
 
   void reserve(Eigen::Index states);
-  /// Enqueues everything up to the download of costs.
+  /// Enqueues all work except the download of costs.
   void enqueue(const Eigen::MatrixXd& states);
   void finish(Eigen::Ref<Eigen::VectorXd> costs);
 
@@ -46,7 +46,7 @@ class DeviceResiduals final : public ResidualDifferences {
   PinnedBuffer<float> residuals_staging_;
 };
 
-/// Takes the matrix of inner products apart that enqueue_gram() leaves, for columns times `scale`.
+/// Extracts the normal equations from the matrix of enqueue_gram(), for columns times `scale`.
 HYPOTRACK_API NormalEquations unpack_gram(const double* sums,
                                           const Eigen::Ref<const Eigen::VectorXd>& scale);
 

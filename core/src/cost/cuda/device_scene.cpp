@@ -14,7 +14,7 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// The surfaces of a scene's models one after the other, on the host.
+/// The concatenated surfaces of a scene's models, on the host.
 struct HostSurface {
   std::size_t bones = 0;
   std::vector<VertexLayout> vertices;
@@ -25,7 +25,7 @@ struct HostSurface {
   void add_triangles(const Mesh& mesh, const std::vector<int>& order, std::size_t first_vertex);
 };
 
-/// By the number of their bones, the largest first; among equals neighbours share bones.
+/// Returns the vertices by falling number of bones; among equals, neighbours share bones.
 std::vector<int> order_by_work(const Mesh& mesh) {
   std::vector<int> order = order_by_bones(mesh);
   const auto bones = [&](int v) { return (mesh.bone_weights.col(v).array() > 0).count(); };

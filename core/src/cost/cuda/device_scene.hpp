@@ -8,14 +8,15 @@
 
 namespace hypotrack::cuda {
 
-/// Why a scene cannot be posed and drawn on the GPU: a model that poses itself, too many vertices
-/// or bones. Empty if it can.
+/// Returns why the GPU cannot pose and draw a scene: a model that poses itself, or too many
+/// vertices or bones. Empty if it can.
 std::string why_not_on_device(const Scene& scene);
 
 /// A scene's models in device memory.
 class DeviceScene {
  public:
-  /// Uploads; returns when it is done. Throws DeviceError where why_not_on_device() has a reason.
+  /// Uploads the scene and waits. Throws DeviceError with the reason of why_not_on_device(), if
+  /// there is one.
   explicit DeviceScene(const Scene& scene);
 
   const SceneLayout& layout() const { return layout_; }

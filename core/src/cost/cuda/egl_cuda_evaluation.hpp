@@ -8,9 +8,9 @@
 
 namespace hypotrack::cuda {
 
-/// The paper's way: OpenGL draws hypotheses into the layers of a texture, all of a batch at once,
-/// and CUDA scores them there; costs come down. Null where that cannot be, and `why_not` then has
-/// the reason: no device, an objective without the device capability, OpenGL on another GPU. Throws
+/// Makes the paper's evaluation: OpenGL draws a batch of hypotheses into the layers of a texture,
+/// CUDA scores them there, and costs are downloaded. Returns null, with the reason in `why_not`, if
+/// there is no device, an objective has no device capability, or OpenGL uses another GPU. Throws
 /// DeviceError if there is no OpenGL.
 std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
                                                 const std::vector<ObjectiveTerm>& terms,

@@ -6,8 +6,8 @@
 
 namespace hypotrack::cuda {
 
-/// The cameras of an observation as kernels see them. Throws DeviceError on more than kMaxViews
-/// views.
+/// Returns the cameras of an observation in the kernels' form. Throws DeviceError on more than
+/// kMaxViews views.
 FrameLayout frame_layout(const Observation& observation, const WorkEnds& work = even_work());
 
 }  // namespace hypotrack::cuda

@@ -13,10 +13,11 @@
 
 namespace hypotrack::cuda {
 
-/// A frame on the GPU and the terms that score hypotheses of it, all on one stream.
+/// A frame on the GPU and the terms that score its hypotheses, all on one stream.
 class FrameOnDevice {
  public:
-  /// All terms have a device part. Throws DeviceError if the GPU or the scene cannot be used.
+  /// All terms must have a device objective. Throws DeviceError if the GPU or the scene is
+  /// unusable.
   FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                 const EvaluateSettings& settings);
   ~FrameOnDevice();
@@ -27,39 +28,41 @@ class FrameOnDevice {
   Stream stream() const { return device_.stream(); }
   const std::vector<ObjectiveTerm>& terms() const { return terms_; }
 
-  /// Makes the GPU the calling thread's and waits for the frame before: its uploads may still read
-  /// staging memory if it was never searched, or if an error ended that.
+  /// Makes the GPU the calling thread's and waits for the previous frame's work. Its uploads may
+  /// still read staging memory if the frame was never searched or its search failed.
   void finish();
 
-  /// Takes a frame in whose tiles the CPU cut; finish() comes first.
+  /// Uploads a frame whose tiles are on the CPU; call finish() first.
   void prepare(const Observation& observation);
-  /// The same for tiles that are on the GPU already.
+  /// Prepares a frame whose tiles are already on the GPU.
   void prepare(const DeviceObservation& observation);
 
-  /// Makes room for batches of `count` hypotheses. Throws DeviceError, saying how many there is
-  /// room for, if there is too little memory.
+  /// Allocates memory for batches of `count` hypotheses. If there is too little, throws
+  /// DeviceError, which says how many would fit.
   void reserve(std::int64_t count);
-  /// The same with `more`, which reserves what else such a batch takes.
+  /// Allocates memory for batches of `count` hypotheses, and calls `more` to allocate whatever else
+  /// such a batch needs.
   void reserve(std::int64_t count, const std::function<void(std::int64_t)>& more);
 
-  /// Enqueues all terms for a batch; `batch.weight` and `batch.add` are set here.
+  /// Enqueues all terms for a batch; sets `batch.weight` and `batch.add`.
   void enqueue(BatchLayout batch);
-  /// DeviceCost::enqueue_search(), which a single term can do; `batch.weight` is set here.
+  /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
+  /// `batch.weight`.
   bool enqueue_search(BatchLayout batch, const SwarmSearch& search);
-  /// The same with the residuals of all terms, one after the other, each times the root of its
-  /// weight: residual_count() of every hypothesis. The terms are a sum of squares (TermResiduals).
+  /// Enqueues all terms with their residuals: residual_count() per hypothesis, term after term,
+  /// each times the root of its weight. The terms must be a sum of squares (TermResiduals).
   void enqueue(BatchLayout batch, float* residuals);
-  /// The same for hypotheses that are drawn already.
+  /// Enqueues all terms for hypotheses that are already drawn.
   void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
 
-  /// Whether every term has residuals on the GPU.
+  /// Returns true if every term has residuals on the GPU.
   bool has_residuals() const;
-  /// Of every hypothesis of the prepared frame.
+  /// Returns the number of residuals per hypothesis of the prepared frame.
   std::int64_t residual_count() const;
-  /// Evaluator::pose_only_residuals().
+  /// See Evaluator::pose_only_residuals().
   std::vector<ResidualRows> pose_only_residuals() const;
 
-  /// Grows whenever a term's does.
+  /// Returns a number that grows whenever a term's revision() does.
   std::uint64_t revision() const;
 
  private:

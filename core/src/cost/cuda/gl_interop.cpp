@@ -1,7 +1,7 @@
 #include "cost/cuda/gl_interop.hpp"
 
 // clang-format off
-#include <epoxy/gl.h>  // before CUDA's header, which otherwise brings another one
+#include <epoxy/gl.h>  // before CUDA's header, which would include another one
 #include <cuda_gl_interop.h>
 // clang-format on
 #include <fmt/format.h>
@@ -65,8 +65,8 @@ SharedLayers::~SharedLayers() {
 
 MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
     : resource_(layers.resource()), stream_(stream) {
-  // Taking over should wait for OpenGL by itself, but has been seen to wait for ever (driver
-  // 580.159) half the time, and rarely to fail since OpenGL finishes first.
+  // Mapping should wait for OpenGL by itself. But with driver 580.159 it hung half the time; after
+  // glFinish() it only rarely fails.
   glFinish();
   check(cudaGraphicsMapResources(1, &resource_, native(stream)), "taking over from OpenGL");
   try {
@@ -78,7 +78,7 @@ MappedLayers::MappedLayers(const SharedLayers& layers, Stream stream)
 }
 
 MappedLayers::~MappedLayers() {
-  cudaStreamSynchronize(native(stream_));  // kernels still read what is given back
+  cudaStreamSynchronize(native(stream_));  // kernels may still read the layers
   cudaDestroyTextureObject(texture_);
   cudaGraphicsUnmapResources(1, &resource_, native(stream_));
 }

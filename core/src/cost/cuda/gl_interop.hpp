@@ -10,10 +10,10 @@ struct cudaGraphicsResource;
 
 namespace hypotrack::cuda {
 
-/// Why CUDA's device `index` cannot read what an OpenGL context draws; empty if it can.
+/// Returns why CUDA device `index` cannot read what an OpenGL context draws; empty if it can.
 std::string why_not_shared(const gl::Context& context, int index);
 
-/// Layers that OpenGL draws to and CUDA reads. The device must be the calling thread's one.
+/// Texture layers that OpenGL draws to and CUDA reads. Their device must be the calling thread's.
 class SharedLayers {
  public:
   /// The context must outlive it. Throws DeviceError if there is not enough memory.
@@ -28,12 +28,11 @@ class SharedLayers {
  private:
   const gl::Context& context_;
   EglLayers layers_;
-  cudaGraphicsResource* resource_ = nullptr;  // ends before the texture does
+  cudaGraphicsResource* resource_ = nullptr;  // must be released before the texture
 };
 
-/// The layers in the hands of CUDA, once OpenGL is done with what it was told before; the context
-/// must be current. OpenGL must not touch them until the end of this object's life, which waits for
-/// the stream.
+/// Maps layers for CUDA, once OpenGL's earlier commands are done; the context must be current.
+/// OpenGL must not access them during this object's lifetime. The destructor waits for the stream.
 class MappedLayers {
  public:
   MappedLayers(const SharedLayers& layers, Stream stream);
@@ -41,7 +40,7 @@ class MappedLayers {
   MappedLayers(const MappedLayers&) = delete;
   MappedLayers& operator=(const MappedLayers&) = delete;
 
-  /// A layered cudaTextureObject_t: texel (x, y) is at (x + 0.5, y + 0.5).
+  /// Returns a layered cudaTextureObject_t; texel (x, y) is at (x + 0.5, y + 0.5).
   std::uint64_t texture() const { return texture_; }
 
  private:

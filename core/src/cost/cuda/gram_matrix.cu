@@ -15,11 +15,11 @@ __device__ double warp_sum(double x) {
   return x;
 }
 
-/// Four neighbouring columns, one of which may be r itself, and others beyond it nothing.
+/// Four neighbouring columns: differences, r itself as the last, and zeros after it.
 struct Columns {
   const float* first;
   std::int64_t pitch;
-  int differences, columns;  ///< of the four
+  int differences, columns;  ///< how many of the four
 
   __device__ Columns(const GramJob& job, int side)
       : first(job.beside + job.rows * (kGramSide * side)),
@@ -36,7 +36,7 @@ struct Columns {
   }
 };
 
-/// A warp adds up one square of the matrix over the block's rows.
+/// Sums one square of the matrix over the block's rows, with one warp.
 __device__ void add_square(const GramJob& job, int square, std::int64_t begin, std::int64_t end) {
   int a = 0, b = square;
   for (int sides = (job.dimension + kGramSide) / kGramSide; b >= sides - a; ++a) b -= sides - a;
@@ -64,7 +64,7 @@ __device__ void add_square(const GramJob& job, int square, std::int64_t begin, s
   }
 }
 
-/// A column of blocks for every few squares, a row for every few rows.
+/// Sums the parts: blocks in y for groups of squares, blocks in x for groups of rows.
 __global__ void __launch_bounds__(kThreads)
     add_parts(const __grid_constant__ GramJob job, int squares) {
   const std::int64_t begin = kGramRows * blockIdx.x;
@@ -77,7 +77,7 @@ __global__ void __launch_bounds__(kThreads)
   }
 }
 
-/// A warp per number.
+/// Adds up the parts of each number, one warp per number.
 __global__ void __launch_bounds__(kThreads)
     join_parts(const __grid_constant__ GramJob job, int numbers, std::int64_t parts) {
   const int number = static_cast<int>(blockIdx.x) * kWarps + static_cast<int>(threadIdx.x) / kWarp;

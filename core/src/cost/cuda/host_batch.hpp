@@ -8,17 +8,17 @@
 
 namespace hypotrack::cuda {
 
-/// A batch of hypotheses that comes from the host: states go up, costs come down.
+/// A batch of hypotheses from the host: uploads states and downloads costs.
 class HostBatch {
  public:
-  /// Enqueues the upload of states (DxN). Costs of an earlier batch are lost.
+  /// Enqueues the upload of states (DxN); discards the costs of an earlier batch.
   void upload(const Eigen::MatrixXd& states, Stream stream);
-  /// The batch on the device: normalised states.
+  /// Returns the batch on the device; its points are normalised states.
   BatchLayout layout() const;
-  /// Enqueues the download of `count` costs from number `first` on.
+  /// Enqueues the download of `count` costs, starting at number `first`.
   void download(Eigen::Index first, Eigen::Index count, Stream stream);
-  /// What was downloaded, once the stream has been waited for. Throws by refuse_cost(), naming the
-  /// first of `terms`, if a cost is NaN.
+  /// Copies the downloaded costs; the stream must have been waited for. Throws by refuse_cost(),
+  /// naming the first of `terms`, if a cost is NaN.
   void read(Eigen::Ref<Eigen::VectorXd> costs, const std::vector<ObjectiveTerm>& terms) const;
 
  private:

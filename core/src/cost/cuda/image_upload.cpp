@@ -22,15 +22,15 @@ bool page_locked(const void* address) {
   return attributes.type == cudaMemoryTypeHost;
 }
 
-/// Whether rows of `width` bytes lie in page-locked memory, as images from the pool do: asking the
+/// Returns true if rows of `width` bytes are page-locked. Images from the pool are; asking the
 /// driver takes longer.
 bool page_locked(const cv::Mat& rows, std::size_t width) {
   if (rows.u && dynamic_cast<const PooledMatAllocator*>(rows.u->currAllocator)) return true;
   return page_locked(rows.ptr()) && page_locked(rows.ptr(rows.rows - 1) + width - 1);
 }
 
-/// Rows without gaps. One core reads images that it has not in its cache at a fraction of what the
-/// memory gives.
+/// Copies rows without gaps, in parallel: one core reads uncached images at a fraction of the
+/// memory's bandwidth.
 void copy_rows(const cv::Mat& rows, std::size_t width, unsigned char* to) {
   constexpr int kPieces = 4;
   const int grain = (rows.rows + kPieces - 1) / kPieces;

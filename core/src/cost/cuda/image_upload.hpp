@@ -6,17 +6,17 @@
 
 namespace hypotrack::cuda {
 
-/// Takes parts of one view's images to the device, one after the other in one piece of memory.
+/// Uploads parts of one view's images, one after the other, into one block of device memory.
 class ImageUpload {
  public:
-  /// Room for `bytes` on either side. What was enqueued before must have been waited for.
+  /// Allocates `bytes` on host and device. Earlier work must have been waited for.
   void begin(std::size_t bytes);
 
-  /// Where the part will lie, row by row without gaps. An image in page-locked memory is copied
-  /// from where it is, any other into page-locked memory first.
+  /// Adds a part of an image and returns its device address, row by row without gaps. Page-locked
+  /// images are copied directly, others through page-locked memory.
   const unsigned char* add(const cv::Mat& image, const cv::Rect& part, Stream stream);
 
-  /// Enqueues the copy of what begin() and add() have gathered.
+  /// Enqueues the remaining copies of add().
   void finish(Stream stream);
 
  private:
@@ -24,8 +24,8 @@ class ImageUpload {
 
   DeviceBuffer<unsigned char> device_;
   PinnedBuffer<unsigned char> staging_;
-  std::size_t end_ = 0;    // of what was added
-  std::size_t first_ = 0;  // of what was gathered and not yet copied
+  std::size_t end_ = 0;    // end of the added parts
+  std::size_t first_ = 0;  // start of the parts not yet copied
 };
 
 }  // namespace hypotrack::cuda

@@ -22,8 +22,8 @@ void* page_locked(std::size_t bytes, int device) {
     if (!done) block = nullptr;
   };
   try {
-    // On a thread of its own: images are made by threads that may have chosen another GPU, or
-    // capture a graph, and must not notice.
+    // Use a separate thread: the threads that make images may use another GPU or capture a graph,
+    // which this must not disturb.
     std::thread(reserve).join();
   } catch (const std::system_error&) {
     block = nullptr;
@@ -31,7 +31,7 @@ void* page_locked(std::size_t bytes, int device) {
   return block;
 }
 
-/// Never destroyed: there are images that outlive everything.
+/// Makes the allocator, which is never destroyed because some images outlive everything else.
 PooledMatAllocator* make_allocator(int device) {
   auto* pool = new BlockPool([device](std::size_t n) { return page_locked(n, device); }, kBound);
   return new PooledMatAllocator(*pool);

@@ -4,10 +4,10 @@
 
 namespace hypotrack::cuda {
 
-/// From now on, images of 64 KiB or more that anything in this process makes lie in page-locked
-/// memory, which a GPU reads from where it is: up to 1 GiB, kept and reused, never given back.
-/// Makes `device` the GPU of this thread. Does nothing where it cannot be used; once is enough.
-/// Forked children must exec before they touch such an image.
+/// Makes OpenCV allocate all later images of 64 KiB or more in page-locked memory, which a GPU
+/// reads directly. It takes up to 1 GiB, reuses it and never releases it. Makes `device` the GPU of
+/// this thread. Does nothing if the device is unusable; one call is enough. Forked children must
+/// exec before they touch such an image.
 HYPOTRACK_API void page_lock_images(int device);
 
 }  // namespace hypotrack::cuda

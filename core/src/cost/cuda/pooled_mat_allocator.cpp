@@ -6,7 +6,7 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// Of an image without gaps; 0 if that is no number of bytes.
+/// Returns the bytes of an image without gaps; 0 if it is empty or too large.
 std::size_t bytes_of(int dims, const int* sizes, int type) {
   std::size_t bytes = static_cast<std::size_t>(CV_ELEM_SIZE(type));
   for (int i = 0; i < dims; ++i) {
@@ -18,7 +18,7 @@ std::size_t bytes_of(int dims, const int* sizes, int type) {
   return bytes;
 }
 
-/// Bytes from one element of a dimension to the next, without gaps.
+/// Computes the bytes between elements of each dimension, without gaps.
 void set_steps(int dims, const int* sizes, int type, std::size_t* step) {
   std::size_t bytes = static_cast<std::size_t>(CV_ELEM_SIZE(type));
   for (int i = dims - 1; i >= 0; --i) {

@@ -6,13 +6,14 @@
 
 namespace hypotrack::cuda {
 
-/// Makes images in the blocks of a pool. What is small, what the pool has no block for and what
-/// lies in the caller's memory is left to OpenCV's own allocator. Outlives the images it makes.
+/// An OpenCV allocator that takes images from a BlockPool. OpenCV's own allocator handles small
+/// images, images in the caller's memory, and all others if the pool is empty. It must outlive its
+/// images.
 class PooledMatAllocator final : public cv::MatAllocator {
  public:
-  static constexpr std::size_t kSmallest = 64 << 10;  // bytes of an image from the pool
+  static constexpr std::size_t kSmallest = 64 << 10;  // bytes
 
-  /// The pool outlives it.
+  /// The pool must outlive the allocator.
   explicit PooledMatAllocator(BlockPool& pool) : pool_(pool) {}
 
   cv::UMatData* allocate(int dims, const int* sizes, int type, void* data, std::size_t* step,

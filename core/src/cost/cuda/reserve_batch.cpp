@@ -7,7 +7,7 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// The largest of count / 2, count / 4, ... 1 that can be reserved; 0 if none can.
+/// Returns the largest of count / 2, count / 4, ... 1 that can be reserved; 0 if none can.
 std::int64_t what_fits(std::int64_t count, const std::function<void(std::int64_t)>& reserve) {
   for (count /= 2; count > 0; count /= 2) {
     try {

@@ -5,8 +5,8 @@
 
 namespace hypotrack::cuda {
 
-/// Calls `reserve` with a number of hypotheses. If it throws DeviceError for so many but not for
-/// fewer (a half, a quarter, ...), adds to the message how many there is room for.
+/// Calls `reserve` with a number of hypotheses. If that throws DeviceError but a half, a quarter,
+/// ... succeeds, adds to the message how many hypotheses fit.
 void reserve_batch(std::int64_t count, const std::function<void(std::int64_t)>& reserve);
 
 }  // namespace hypotrack::cuda

@@ -18,7 +18,7 @@ std::size_t area(cv::Size size) {
   return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
 }
 
-/// Bytes of a view's whole images.
+/// Returns the bytes of a view's whole images.
 std::size_t image_bytes(const View& view, cv::Size size) {
   const std::size_t bytes =
       (view.color.empty() ? 0 : 3) + (view.mask.empty() ? 0 : 1) + (view.depth.empty() ? 0 : 4);
@@ -28,7 +28,7 @@ std::size_t image_bytes(const View& view, cv::Size size) {
 }  // namespace
 
 struct TileCutter::Impl {
-  /// One view's memory on the device.
+  /// The memory of one view on the device.
   struct Buffers {
     ImageUpload images;
     DeviceBuffer<std::uint32_t> means, tile_pixels;

@@ -11,22 +11,22 @@
 
 namespace hypotrack::cuda {
 
-/// Cuts tiles on the device, as TileMaker::cut does on the CPU: the same pixels but for rounding.
+/// Resamples tiles on the GPU; the pixels equal those of TileMaker::cut up to rounding.
 class HYPOTRACK_API TileCutter {
  public:
-  /// `cameras` are TileMaker::resamplers(). Throws DeviceError on more than kMaxViews of them, or
-  /// if the memory is not to be had: 4 bytes per pixel of every camera's image, and what the images
-  /// take that frames bring, on the device and as page-locked memory.
+  /// Takes TileMaker::resamplers(). Throws DeviceError on more than kMaxViews cameras, or if there
+  /// is not enough memory. It needs 4 bytes per pixel of every camera's image. The frames' images
+  /// need their size on the device and in page-locked memory.
   TileCutter(std::span<const Resampler> cameras, const DeviceLimits& limits);
   ~TileCutter();
   TileCutter(const TileCutter&) = delete;
   TileCutter& operator=(const TileCutter&) = delete;
 
-  /// Enqueues the upload of what the plan touches of the frame's images, and the kernels that make
-  /// tiles of it. Does not wait, and allocates nothing after the first frame. Everything that the
-  /// call before enqueued must have been waited for. Images in page-locked memory are copied from
-  /// where they are: they must stay until the work is done. The tiles lie where they did as long as
-  /// the tile size stays the same. The observation's header is the plan's.
+  /// Enqueues the upload of the image parts that the plan needs, and the resampling kernels. Does
+  /// not wait, and allocates nothing after the first frame. All work of the previous call must have
+  /// been waited for.
+  /// Page-locked images are copied directly and must live until the work is done. Tiles keep their
+  /// addresses as long as the tile size stays the same. The observation's header is the plan's.
   DeviceObservation cut(const Frame& frame, const TilePlan& plan, Stream stream,
                         const WorkEnds& work = even_work());
 

@@ -7,8 +7,8 @@
 namespace hypotrack::cuda {
 namespace {
 
-constexpr int kSide = 16;         // of the square of pixels that a thread block makes
-constexpr int kWide = kSide + 2;  // with the pixel around it
+constexpr int kSide = 16;         // side of the square of pixels per thread block
+constexpr int kWide = kSide + 2;  // including a margin of one pixel
 
 __global__ void __launch_bounds__(kSide* kSide) reduce(const __grid_constant__ FrameCut frame) {
   let_next_start();
@@ -21,7 +21,7 @@ __global__ void __launch_bounds__(kSide* kSide) reduce(const __grid_constant__ F
   cut.means[row * columns + column] = block_mean(cut, column, row);
 }
 
-/// With a whole thread block.
+/// Writes the frame's layout with a whole thread block.
 __device__ void write_layout(const FrameCut& frame, int thread) {
   static_assert(sizeof(FrameLayout) % sizeof(uint4) == 0);
   constexpr int kPieces = sizeof(FrameLayout) / sizeof(uint4);

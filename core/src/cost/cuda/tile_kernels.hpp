@@ -5,17 +5,16 @@
 
 namespace hypotrack::cuda {
 
-/// What tiles of a frame are cut from, and what else goes up with it; pointers are to device
-/// memory.
+/// Everything that the tile kernels of a frame read and write; pointers are to device memory.
 struct FrameCut {
   ViewCut views[kMaxViews];
   std::int32_t view_count;
   FrameLayout layout;
-  FrameLayout* layout_to;  ///< where the kernels of a search look for it
+  FrameLayout* layout_to;  ///< address from which search kernels read the layout
 };
 
-/// Enqueues the cutting of all tiles, and the layout. Everything that the cuts point to was
-/// enqueued before.
+/// Enqueues the resampling of all tiles and the copy of the layout. All uploads that the views
+/// point to must be enqueued before.
 void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream stream);
 
 }  // namespace hypotrack::cuda

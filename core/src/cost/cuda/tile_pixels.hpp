@@ -7,9 +7,9 @@
 #include "hypotrack/pixel.hpp"
 #include "tile/color_map.hpp"
 
-/// A tile's pixels, one by one, for kernels and for tests on the host. They repeat what
-/// Resampler::cut does with OpenCV (means by INTER_AREA, lookups by remap with INTER_LINEAR), down
-/// to its rounding: lookups to 1/32 of a pixel, results to whole numbers after each step.
+/// Computes a tile's pixels one by one, in kernels and in host tests. The functions repeat the
+/// OpenCV calls of Resampler::cut (INTER_AREA means, remap with INTER_LINEAR) with their rounding:
+/// lookups to 1/32 pixel, results to integers after each step.
 namespace hypotrack::cuda {
 
 /// A rectangle of an image.
@@ -17,8 +17,8 @@ struct ImagePart {
   std::int32_t x, y, width, height;
 };
 
-/// How a tile is cut out of one view, and what it is cut from. Images are parts of the view's, row
-/// by row without gaps.
+/// The parameters, input and output of a tile's resampling. Images are parts of the view's, row by
+/// row without gaps.
 struct ViewCut {
   LensMap lens;
   TileIntrinsics camera;
@@ -29,17 +29,17 @@ struct ViewCut {
   float means_scale;     ///< from image coordinates to those of the means
   float means_x, means_y;
   ColorMap colors;
-  ImagePart touched;           ///< what `color` and `mask` hold, whole blocks
-  ImagePart measured;          ///< what `depth` holds
+  ImagePart touched;           ///< the part in `color` and `mask`, whole blocks
+  ImagePart measured;          ///< the part in `depth`
   const unsigned char* color;  ///< BGR; null if the view has none
   const unsigned char* mask;   ///< null if the view has none
   const float* depth;          ///< null if the view has none
-  std::uint32_t* means;        ///< of the blocks of `touched`; null without colour and mask
+  std::uint32_t* means;        ///< over the blocks of `touched`; null without colour and mask
   std::uint32_t* tile_pixels;  ///< TileLayout
   float* tile_depth;           ///< TileLayout; null without depth
 };
 
-/// Four channels of 8 bits in a word, the first lowest: blue, green, red and the mask.
+/// Sums of the four 8-bit channels of words: blue, green, red and mask, lowest first.
 struct Channels {
   std::uint32_t sum[4] = {};
 
@@ -53,7 +53,7 @@ struct Channels {
   }
 };
 
-/// The mean of `blocks` x `blocks` numbers.
+/// Returns the rounded mean of `blocks` x `blocks` numbers, given their sum.
 HYPOTRACK_PIXEL std::uint32_t rounded_mean(std::uint32_t sum, int blocks) {
   if (blocks == 1) return sum;
   if (blocks == 2) return (sum + 2) >> 2;
@@ -61,7 +61,7 @@ HYPOTRACK_PIXEL std::uint32_t rounded_mean(std::uint32_t sum, int blocks) {
   return static_cast<std::uint32_t>(pixel::round(static_cast<float>(sum) * scale));
 }
 
-/// The means over a block of the touched part.
+/// Returns the channel means over a block of the touched part.
 HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewCut& cut, int column, int row) {
   const int blocks = cut.blocks;
   std::uint32_t b = 0, g = 0, r = 0, mask = 0;
@@ -80,15 +80,15 @@ HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewCut& cut, int column, int row
          rounded_mean(mask, blocks) << 24;
 }
 
-/// A coordinate in units of 1/32 pixel.
+/// Converts a coordinate to units of 1/32 pixel.
 HYPOTRACK_PIXEL int in_fixed_point(float coordinate) {
-  constexpr float kFar = 1e5f;  // beyond any image, and whole numbers far beyond stay exact
+  constexpr float kFar = 1e5f;  // beyond any image; larger integers are still exact
   return static_cast<int>(pixel::round(pixel::min(pixel::max(coordinate, -kFar), kFar) * 32.0f));
 }
 
 HYPOTRACK_PIXEL int clamped(int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; }
 
-/// Bilinear lookup in the means, which continue beyond their border.
+/// Samples the means bilinearly; their border is repeated outside.
 HYPOTRACK_PIXEL std::uint32_t look_up(const ViewCut& cut, ImagePoint p) {
   const int columns = cut.touched.width / cut.blocks;
   const int rows = cut.touched.height / cut.blocks;
@@ -107,18 +107,18 @@ HYPOTRACK_PIXEL std::uint32_t look_up(const ViewCut& cut, ImagePoint p) {
   return c.rounded(512, 10);
 }
 
-/// Where a point of the image lies in the means.
+/// Converts image coordinates to those of the means.
 HYPOTRACK_PIXEL ImagePoint in_means(const ViewCut& cut, ImagePoint p) {
   return {std::fma(p.x, cut.means_scale, cut.means_x), std::fma(p.y, cut.means_scale, cut.means_y)};
 }
 
-/// A quarter of the way from `b` to `a`.
+/// Returns the point a quarter of the way from `b` to `a`.
 HYPOTRACK_PIXEL ImagePoint quarter(ImagePoint a, ImagePoint b) {
   return {a.x * 0.25f + b.x * 0.75f, a.y * 0.25f + b.y * 0.75f};
 }
 
-/// Colour and mask of a tile's pixel. `map(column, row)` is image_point() of the pixel and its
-/// neighbours.
+/// Samples the colour and mask of a tile's pixel. `map(column, row)` returns the image_point() of
+/// the pixel and its neighbours.
 template <class Map>
 HYPOTRACK_PIXEL std::uint32_t sampled(const ViewCut& cut, const Map& map, int u, int v) {
   const ImagePoint centre = in_means(cut, map(u, v));
@@ -135,14 +135,14 @@ HYPOTRACK_PIXEL std::uint32_t sampled(const ViewCut& cut, const Map& map, int u,
   return c.rounded(2, 2);
 }
 
-/// Blue, green and red of a word, mapped; without what lies above them.
+/// Maps the blue, green and red of a word; the highest byte becomes 0.
 HYPOTRACK_PIXEL std::uint32_t mapped_colors(const ColorMap& map, std::uint32_t word) {
   std::uint32_t out = 0;
   for (int i = 0; i < 3; ++i) out |= mapped_channel(map, i, (word >> (8 * i)) & 255) << (8 * i);
   return out;
 }
 
-/// A tile's pixel as TileLayout has it.
+/// Returns a tile's pixel in the format of TileLayout.
 template <class Map>
 HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int u, int v) {
   const bool valid = inside_image(map(u, v), cut.image_width, cut.image_height);
@@ -153,8 +153,8 @@ HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int
   return cut.color ? word | mapped_colors(cut.colors, color_and_mask) : word;
 }
 
-/// Depth of a tile's pixel that lies at `p` in the image: that of the nearest pixel; 0 where there
-/// is none.
+/// Returns the depth of a tile's pixel at image point `p`, from the nearest pixel; 0 if there is
+/// none.
 HYPOTRACK_PIXEL float tile_depth(const ViewCut& cut, ImagePoint p, int u, int v) {
   if (!inside_image(p, cut.image_width, cut.image_height)) return 0.0f;
   const ImagePart& part = cut.measured;

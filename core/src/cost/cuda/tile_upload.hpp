@@ -7,10 +7,10 @@
 
 namespace hypotrack::cuda {
 
-/// Takes tiles that the CPU cut to the device.
+/// Uploads tiles that the CPU has resampled.
 class TileUpload {
  public:
-  /// Enqueues the copies. What an earlier call enqueued must have been waited for.
+  /// Enqueues the copies. Those of an earlier call must have been waited for.
   DeviceObservation upload(const Observation& observation, Stream stream);
 
  private:

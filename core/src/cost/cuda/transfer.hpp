@@ -4,7 +4,7 @@
 
 namespace hypotrack::cuda {
 
-/// Enqueues a copy of the first `count` objects.
+/// Enqueues the upload of the first `count` objects.
 template <class T>
 void to_device(DeviceBuffer<T>& to, const PinnedBuffer<T>& from, std::size_t count, Stream stream) {
   check(cudaMemcpyAsync(to.data(), from.data(), count * sizeof(T), cudaMemcpyHostToDevice,
@@ -12,7 +12,7 @@ void to_device(DeviceBuffer<T>& to, const PinnedBuffer<T>& from, std::size_t cou
         "uploading");
 }
 
-/// Enqueues a copy of `count` objects from number `first` on, to the same place.
+/// Enqueues the download of `count` objects, starting at number `first`, to the same indices.
 template <class T>
 void to_host(PinnedBuffer<T>& to, const DeviceBuffer<T>& from, std::size_t first, std::size_t count,
              Stream stream) {

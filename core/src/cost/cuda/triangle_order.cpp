@@ -7,16 +7,16 @@
 namespace hypotrack::cuda {
 namespace {
 
-constexpr int kBits = 10;  // of a coordinate
+constexpr int kBits = 10;  // per coordinate
 
-/// The bits of `x` with two free places behind each.
+/// Spreads the bits of `x` with two zero bits between them (Morton code).
 std::uint32_t spread_bits(std::uint32_t x) {
   std::uint32_t out = 0;
   for (int bit = 0; bit < kBits; ++bit) out |= (x >> bit & 1u) << (3 * bit);
   return out;
 }
 
-/// A triangle's centre, moved outwards so that the two sides of something thin are apart.
+/// Returns a triangle's centre, moved outwards so that the two sides of a thin part are apart.
 Eigen::Vector3f place(const Mesh& mesh, int triangle, float outwards) {
   const auto corner = [&](int k) -> Eigen::Vector3f {
     return mesh.vertices.col(mesh.triangles(k, triangle));
@@ -42,7 +42,7 @@ std::vector<int> order_by_place(const Mesh& mesh) {
     std::uint32_t code = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const float steps = p[axis] / unit * ((1 << kBits) - 1);
-      const bool valid = steps >= 0 && steps < (1 << kBits);  // a point has no extent
+      const bool valid = steps >= 0 && steps < (1 << kBits);  // false for a mesh without extent
       code |= spread_bits(valid ? static_cast<std::uint32_t>(steps) : 0u) << axis;
     }
     codes.push_back(code);

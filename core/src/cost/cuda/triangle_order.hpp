@@ -6,8 +6,8 @@
 
 namespace hypotrack::cuda {
 
-/// Triangle numbers in an order in which neighbours lie close together on the same side of the
-/// surface, so that the warp that looks at them mostly finds all of them visible or none.
+/// Returns the triangle indices sorted so that neighbours are close and face the same way. A warp
+/// then usually finds all of its triangles visible or none.
 std::vector<int> order_by_place(const Mesh& mesh);
 
 }  // namespace hypotrack::cuda

@@ -5,7 +5,8 @@
 
 namespace hypotrack::cuda {
 
-/// Depth is not reduced, so that the image's last pixels that fill no block count as well.
+/// Returns the part of an image that depth is read from. Depth is not reduced, so it includes the
+/// last pixels that fill no block.
 inline ImagePart measured_part(const CutPlan& plan, cv::Size image) {
   const int blocks = plan.reduction.blocks;
   const cv::Point end = plan.touched.br();
@@ -15,7 +16,7 @@ inline ImagePart measured_part(const CutPlan& plan, cv::Size image) {
   return part;
 }
 
-/// The cut of a tile out of a camera's view, without the pointers.
+/// Returns the parameters of a tile's resampling; all pointers are null.
 inline ViewCut view_cut(const Resampler& camera, const TileCamera& tile, const CutPlan& plan) {
   const cv::Size image = camera.image_size();
   ViewCut cut{};

@@ -6,21 +6,21 @@
 namespace hypotrack::cuda {
 namespace {
 
-constexpr int kRows = 64;  // that the scene's height is divided into
+constexpr int kRows = 64;  // number of parts of the scene's height
 
-/// Pixels that take as long as what a triangle takes whatever its size (measured on an H200).
+/// Fixed cost of a triangle, in pixels (measured on an H200).
 constexpr float kPerTriangle = 1.5f;
-/// What a row takes without any surface, as a share of what an average row has of it.
+/// Fixed cost of a row, as a share of the average row's surface pixels.
 constexpr float kPerRow = 0.5f;
 
-/// What the surface that the first camera may see takes in each row, and in all of them.
+/// Work of the surface that the first camera may see, per row and in total.
 struct Work {
   std::array<float, kRows> rows{};
   float pixels = 0, all = 0;
 };
 
 Work work_of_surface(const PosedScene& scene, const TileCamera& tile) {
-  constexpr std::size_t kEnough = 512;  // triangles
+  constexpr std::size_t kEnough = 512;  // triangles to sample
   const ScenePlan& plan = scene.plan();
   const float *x = scene.vertices().x(), *y = scene.vertices().y(), *z = scene.vertices().z();
   const Bounds& bounds = scene.bounds()[0];
@@ -66,7 +66,7 @@ WorkEnds work_of(const PosedScene& scene, const TileCamera& tile) {
   work.all += kPerRow * work.pixels;
   WorkEnds ends{};
   int row = 0;
-  float before = 0;  // the rows above
+  float before = 0;  // work of the rows above
   for (int k = 1; k < kMostBands; ++k) {
     const float wanted = work.all * static_cast<float>(k) / kMostBands;
     while (row < kRows - 1 && before + work.rows[row] < wanted) before += work.rows[row++];

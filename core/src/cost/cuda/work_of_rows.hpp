@@ -9,15 +9,15 @@
 
 namespace hypotrack::cuda {
 
-/// FrameLayout::work_ends.
+/// The type of FrameLayout::work_ends.
 using WorkEnds = std::array<float, kMostBands + 1>;
 
-/// Every row takes the same.
+/// Returns equal work for every row.
 HYPOTRACK_API WorkEnds even_work();
 
-/// That of hypotheses like a posed scene, as the first camera sees it in its tile: a row takes as
-/// much as it has pixels of the surface and triangles, each of which takes as much as some pixels,
-/// and half as much as an average row has of the surface. From a sample of the surface.
+/// Estimates the work per row of hypotheses like a posed scene in the first camera's tile, from a
+/// sample of its triangles. A row's work is its surface pixels, a constant per triangle, and half
+/// of the average row's pixels.
 WorkEnds work_of(const PosedScene& scene, const TileCamera& tile);
 
 }  // namespace hypotrack::cuda

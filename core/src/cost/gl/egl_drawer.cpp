@@ -30,7 +30,7 @@ EglView make_view(const TileCamera& c, const Eigen::Isometry3d& first_from_world
   return {(clip * camera_from_first.matrix()).cast<float>(), c.width, c.height};
 }
 
-/// Large enough for every view; rows as long as objectives like to read them.
+/// Returns a size that holds every view, with rows padded to whole blocks.
 LayerSize tile_size(const Observation& observation) {
   LayerSize size;
   for (const TileView& view : observation.views) {
@@ -45,7 +45,7 @@ LayerSize tile_size(const Observation& observation) {
 struct EglDrawer::Impl {
   explicit Impl(const Scene& s) {
     const gl::CurrentContext current(context);
-    EglScene made(s);  // if anything fails, OpenGL objects go while their context is current
+    EglScene made(s);  // on failure, OpenGL objects are deleted while their context is current
     most_hypotheses = made.most_hypotheses();
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &most_layers);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);

@@ -9,31 +9,31 @@
 
 namespace hypotrack {
 
-/// Draws batches of hypotheses with OpenGL, as the paper did: skinning in the vertex shader,
-/// inverse depth in a texture array where the larger value wins, a layer per hypothesis and view.
+/// Draws batches of hypotheses with OpenGL, as in the paper. The vertex shader skins. Inverse depth
+/// goes to a texture array, one layer per hypothesis and view, where the larger value wins.
 class EglDrawer {
  public:
-  /// The scene must outlive the drawer. Throws DeviceError if no context can be made, or it cannot
-  /// choose layers in the vertex shader.
+  /// The scene must outlive the drawer. Throws DeviceError if no context can be made or its vertex
+  /// shader cannot select layers.
   explicit EglDrawer(const Scene& scene);
   ~EglDrawer();
   EglDrawer(const EglDrawer&) = delete;
   EglDrawer& operator=(const EglDrawer&) = delete;
 
-  /// Takes a frame's cameras. Throws DeviceError on tiles beyond what OpenGL can do.
+  /// Sets a frame's cameras. Throws DeviceError on tiles beyond OpenGL's limits.
   void prepare(const Observation& observation);
 
   int views() const;
-  /// The most hypotheses of the frame that one draw() takes.
+  /// Returns the most hypotheses of the frame that one draw() accepts.
   Eigen::Index largest_batch() const;
-  /// What a batch of hypotheses is drawn to.
+  /// Returns the size of the texture array for a number of hypotheses.
   LayerSize layers_for(Eigen::Index hypotheses) const;
 
-  /// Draws the columns of `states` (normalised). View v of the i-th goes to layer
-  /// i * views() + v, its pixel (x, y) to texel (x, y); all other texels are 0.
+  /// Draws the columns of `states` (normalised). View v of column i goes to layer i * views() + v,
+  /// its pixel (x, y) to texel (x, y). All other texels are 0.
   void draw(const Eigen::Ref<const Eigen::MatrixXd>& states, const EglLayers& to);
 
-  /// Where the layers must be made.
+  /// Returns the context in which the layers must be made.
   const gl::Context& context() const;
 
  private:

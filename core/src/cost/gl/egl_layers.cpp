@@ -19,7 +19,7 @@ struct EglLayers::Impl {
 
 EglLayers::EglLayers(const gl::Context& context, const LayerSize& size) {
   const gl::CurrentContext current(context);
-  // If anything fails, OpenGL objects go while their context is current.
+  // On failure, OpenGL objects are deleted while their context is current.
   std::unique_ptr<Impl> made(
       new Impl{context, size, gl::make_texture(), gl::make_framebuffer(), gl::make_framebuffer()});
   glBindTexture(GL_TEXTURE_2D_ARRAY, made->texture);
@@ -37,7 +37,7 @@ EglLayers::EglLayers(const gl::Context& context, const LayerSize& size) {
 
 EglLayers::~EglLayers() {
   const gl::CurrentContext current(impl_->context);
-  impl_.reset();  // OpenGL objects go while their context is current
+  impl_.reset();  // deletes OpenGL objects while their context is current
 }
 
 bool EglLayers::holds(const LayerSize& size) const {

@@ -8,14 +8,14 @@ namespace gl {
 class Context;
 }
 
-/// Extent of a texture array.
+/// Size of a texture array.
 struct LayerSize {
   int width = 0;
   int height = 0;
   int layers = 0;
 };
 
-/// A texture array of floats, all layers of which can be drawn to at once.
+/// A texture array of floats with a framebuffer that draws to all of its layers.
 class EglLayers {
  public:
   /// The context must outlive it. Throws DeviceError if there is not enough memory.
@@ -24,15 +24,15 @@ class EglLayers {
   EglLayers(const EglLayers&) = delete;
   EglLayers& operator=(const EglLayers&) = delete;
 
-  /// Whether something of this size can be drawn to the first of its layers.
+  /// Returns true if a drawing of this size fits.
   bool holds(const LayerSize& size) const;
 
-  /// Name of the GL_TEXTURE_2D_ARRAY (R32F).
+  /// Returns the name of the GL_TEXTURE_2D_ARRAY (R32F).
   unsigned texture() const;
 
-  /// Makes it what is drawn to and sets every layer to 0; the context must be current.
+  /// Binds it as the render target and clears every layer to 0; the context must be current.
   void begin() const;
-  /// Copies the first `layers` layers, one after the other and row by row without gaps.
+  /// Copies the first `layers` layers to memory, consecutively and row by row without gaps.
   void read(int layers, float* pixels) const;
 
  private:

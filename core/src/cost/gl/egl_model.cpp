@@ -46,18 +46,18 @@ EglModel::EglModel(const Scene::Item& item)
 }
 
 std::span<const double> EglModel::drawable_part(std::span<const double> state) const {
-  constexpr double kLargest = 1e6;  // as on the CPU, larger parameters make no sense
+  constexpr double kLargest = 1e6;  // as on the CPU: larger parameters are meaningless
   const auto part = state.subspan(static_cast<std::size_t>(item_->offset),
                                   static_cast<std::size_t>(item_->model->dimension()));
   const bool drawable = std::all_of(part.begin(), part.end(), [](double p) {
-    return std::abs(p) <= kLargest;  // NaN: false
+    return std::abs(p) <= kLargest;  // false for NaN
   });
   return drawable ? part : std::span<const double>{};
 }
 
 void EglModel::pose(std::span<const double> parameters, const Eigen::Isometry3d& first_from_world,
                     BonePoser::Workspace& workspace, float* matrices) const {
-  if (poses_itself()) {  // its vertices are in the world
+  if (poses_itself()) {  // its vertices are in world coordinates
     for (int b = 0; b < this->matrices(); ++b) {
       Eigen::Map<Rows>(matrices + 12 * b) = first_from_world.matrix().topRows<3>().cast<float>();
     }

@@ -9,8 +9,8 @@
 
 namespace hypotrack {
 
-/// One model of a scene as OpenGL draws it. A context must be current for everything but posing,
-/// and for the end of its life.
+/// A model on the OpenGL side, for drawing hypotheses. A context must be current for every call
+/// except pose(), and for the destructor.
 class EglModel {
  public:
   /// The item must outlive the model.
@@ -19,18 +19,17 @@ class EglModel {
   int matrices() const { return poser_.bones(); }
   bool poses_itself() const { return item_->model->poses_itself(); }
 
-  /// Its parameters; empty if they are out of reach, so that it is not to be drawn.
+  /// Returns the model's parameters; empty if they are out of range, so that it is not drawn.
   std::span<const double> drawable_part(std::span<const double> state) const;
 
   /// Writes first_from_model of every bone, 3x4 row by row.
   void pose(std::span<const double> parameters, const Eigen::Isometry3d& first_from_world,
             BonePoser::Workspace& workspace, float* matrices) const;
 
-  /// Replaces the vertices with those of a model that poses itself. Throws PluginError if their
-  /// number changes.
+  /// Uploads the vertices of a model that poses itself. Throws PluginError if their number changes.
   void upload_vertices(std::span<const double> parameters) const;
 
-  /// Chooses what draw() draws.
+  /// Binds the buffers for draw().
   void bind() const;
   void draw(int instances) const;
 

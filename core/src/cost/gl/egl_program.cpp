@@ -5,7 +5,8 @@
 namespace hypotrack {
 namespace {
 
-/// Linear blend skinning with the rows of 3x4 matrices from a buffer. An instance is a hypothesis.
+/// Vertex shader for linear blend skinning with 3x4 matrices from a buffer; one instance per
+/// hypothesis.
 constexpr const char* kVertexShader = R"(#version 330 core
 #extension GL_ARB_shader_viewport_layer_array : enable
 #extension GL_AMD_vertex_shader_layer : enable
@@ -35,7 +36,8 @@ void main() {
 }
 )";
 
-/// The reciprocal of the clip coordinate w, which is the depth, is what OpenGL interpolates anyway.
+/// Fragment shader. It writes the reciprocal of clip w (the depth), which OpenGL interpolates
+/// anyway.
 constexpr const char* kFragmentShader = R"(#version 330 core
 out float inverse_depth;
 void main() { inverse_depth = gl_FragCoord.w; }

@@ -6,18 +6,19 @@
 
 namespace hypotrack {
 
-/// The shaders that draw hypotheses, and what all vertices of a draw call share. The context that
-/// it was made in must be current throughout.
+/// The shader program that draws hypotheses, with its uniforms. The context of its construction
+/// must be current for every call.
 class EglProgram {
  public:
   EglProgram() = default;
-  /// `matrix_stride`: matrices per hypothesis. Throws DeviceError if it does not compile.
+  /// Compiles the program for `matrix_stride` matrices per hypothesis. Throws DeviceError if that
+  /// fails.
   explicit EglProgram(int matrix_stride);
 
   void set_view_count(int count) const;
-  /// `first_matrix`: of the model, among those of a hypothesis.
+  /// Sets the index of the model's first matrix among those of a hypothesis.
   void set_model(int first_matrix) const;
-  /// The hypothesis that the first instance is.
+  /// Sets the hypothesis that instance 0 draws.
   void set_first_hypothesis(int hypothesis) const;
   void set_view(int view, const Eigen::Matrix4f& clip_from_first) const;
 

@@ -15,10 +15,10 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kMostRows = 8192;  // that are read back at once, unless a hypothesis has more
+constexpr int kMostRows = 8192;  // read back at once, unless one hypothesis has more
 
-/// Draws with OpenGL in the thread that calls render(), whichever it is, reads the tiles back and
-/// hands them on over several threads.
+/// Draws with OpenGL in the thread that calls render(), reads the tiles back and visits them on
+/// several threads.
 class EglRenderer : public HypothesisRenderer {
  public:
   EglRenderer(const Scene& scene, int threads)

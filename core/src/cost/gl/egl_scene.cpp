@@ -25,12 +25,12 @@ void check_extensions() {
                   reinterpret_cast<const char*>(glGetString(GL_RENDERER))));
 }
 
-/// What stays as it is for as long as the context lives.
+/// Sets the OpenGL state that never changes in this context.
 void set_state() {
   glDisable(GL_DEPTH_TEST);
   glEnable(GL_BLEND);
   glBlendEquation(GL_MAX);
-  glFrontFace(GL_CW);  // rows run downwards, OpenGL's run upwards
+  glFrontFace(GL_CW);  // image rows run downwards, OpenGL's upwards
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ int EglScene::most_hypotheses() const {
 }
 
 void EglScene::pose(const States& states, const Eigen::Isometry3d& first_from_world) {
-  // A model that is not to be drawn keeps matrices of zeros, which make it a single point.
+  // A model that is not drawn keeps zero matrices, which collapse it to a single point.
   matrices_.assign(static_cast<std::size_t>(12 * matrix_stride_ * states.cols()), 0.0F);
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
     for (std::size_t m = 0; m < models_.size(); ++m) {
@@ -83,7 +83,7 @@ void EglScene::draw(const States& states, std::span<const EglView> views) const 
       draw_instances(model, 0, states.cols(), views);
       continue;
     }
-    for (Eigen::Index i = 0; i < states.cols(); ++i) {  // each with vertices of its own
+    for (Eigen::Index i = 0; i < states.cols(); ++i) {  // each hypothesis has its own vertices
       const auto parameters = model.drawable_part(column(states, i));
       if (parameters.empty()) continue;
       model.upload_vertices(parameters);

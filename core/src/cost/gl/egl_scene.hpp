@@ -11,29 +11,29 @@
 
 namespace hypotrack {
 
-/// One view of a frame as OpenGL draws it.
+/// The projection and size of a view for OpenGL.
 struct EglView {
   Eigen::Matrix4f clip_from_first;  ///< from the frame of the first view's camera
   int width = 0;
   int height = 0;
 };
 
-/// A scene as OpenGL draws hypotheses of it. The context that it was made in must be current
-/// throughout.
+/// A scene on the OpenGL side, for drawing hypotheses. The context of its construction must be
+/// current for every call.
 class EglScene {
  public:
-  /// The scene must outlive it. Throws DeviceError if the context cannot choose layers in the
-  /// vertex shader.
+  /// The scene must outlive it. Throws DeviceError if the vertex shader cannot select layers in
+  /// this context.
   explicit EglScene(const Scene& scene);
 
-  /// The most hypotheses that pose() takes.
+  /// Returns the most hypotheses that pose() accepts.
   int most_hypotheses() const;
 
   /// Poses the columns of `states`.
   void pose(const Eigen::Ref<const Eigen::MatrixXd>& states,
             const Eigen::Isometry3d& first_from_world);
-  /// Draws them, once posed, to the current framebuffer: view v of column i to layer
-  /// i * views.size() + v.
+  /// Draws the posed states to the current framebuffer: view v of column i to layer i *
+  /// views.size() + v.
   void draw(const Eigen::Ref<const Eigen::MatrixXd>& states, std::span<const EglView> views) const;
 
  private:

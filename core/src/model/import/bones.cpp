@@ -9,7 +9,7 @@
 namespace hypotrack {
 namespace {
 
-/// The bone's bind transform without its scale, which rigs of glTF exporters carry.
+/// Returns the bone's bind transform without scale, which glTF exporters put into rigs.
 Eigen::Isometry3d bone_transform(const MeshFile& file, const mesh_wire::BoneNode& node) {
   using Rows = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   const Rows matrix = Eigen::Map<const Rows>(node.file_from_bone.data());

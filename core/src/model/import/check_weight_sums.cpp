@@ -11,7 +11,7 @@ constexpr double kWeightSumTolerance = 0.02;  // weights stored as bytes are off
 
 }  // namespace
 
-// The importer passes over negative, NaN and misdirected weights: their vertices lack something.
+// The importer skips negative, NaN and misdirected weights, so their vertices lack weight.
 void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, const Soup& soup,
                        std::size_t first) {
   std::vector<bool> used(part.positions.size());

@@ -6,9 +6,9 @@
 
 namespace hypotrack {
 
-/// Throws DataError unless `file` exists, is at most 256 MiB, is OBJ, PLY, STL, glTF or GLB by its
-/// name, and begins (and, for GLB, PLY and binary STL, ends) like one. Nothing else is given to the
-/// importer.
+/// Throws DataError unless `file` exists, is at most 256 MiB and looks like OBJ, PLY, STL, glTF or
+/// GLB. Checks the file name, the beginning and, for GLB, PLY and binary STL, the end. The importer
+/// gets no other files.
 HYPOTRACK_API void check_mesh_format(const std::filesystem::path& file);
 
 }  // namespace hypotrack

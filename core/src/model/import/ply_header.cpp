@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostLines = 1000;
 constexpr std::uint64_t kMostElements = std::uint64_t{1} << 32;
-constexpr std::uint64_t kCorners = 3;  // of a face, at least
+constexpr std::uint64_t kCorners = 3;  // least number per face
 
 using Words = std::vector<std::string>;
 
@@ -25,7 +25,7 @@ Words words_of(const std::string& line) {
   return {std::istream_iterator<std::string>(in), {}};
 }
 
-/// Bytes of a number; 0: no type of PLY's.
+/// Returns the bytes of a PLY number type; 0 for an unknown type.
 std::uint64_t size_of(std::string_view type) {
   constexpr std::array<std::pair<std::string_view, std::uint64_t>, 16> kSizes = {{{"char", 1},
                                                                                   {"uchar", 1},
@@ -49,7 +49,7 @@ std::uint64_t size_of(std::string_view type) {
 
 class Header {
  public:
-  /// Whether there is more to read.
+  /// Returns true if there is more to read.
   bool take(const std::string& line) {
     const Words words = words_of(line);
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
@@ -104,7 +104,7 @@ class Header {
 
   PlyHeader out_;
   bool known_format_ = false;
-  std::string name_;  ///< of the element that properties belong to
+  std::string name_;  ///< element of the following properties
   std::uint64_t count_ = 0, bytes_ = 0;
 };
 

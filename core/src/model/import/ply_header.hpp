@@ -6,16 +6,16 @@
 
 namespace hypotrack {
 
-/// What the header of a PLY file (Turk 1994) says of the rest.
+/// The header of a PLY file (Turk 1994).
 struct PlyHeader {
-  std::string problem;  ///< in words, if this is no such header; then nothing else is known
+  std::string problem;  ///< why the header is invalid; then nothing else is set
   bool is_text = false;
   std::string elements;     ///< "8 vertex, 12 face"
-  std::uint64_t count = 0;  ///< of all elements; in a text each has a line
-  std::uint64_t least = 0;  ///< bytes that they take at least, in a binary file
+  std::uint64_t count = 0;  ///< number of all elements; a text file has one line for each
+  std::uint64_t least = 0;  ///< least size of all elements in a binary file, bytes
 };
 
-/// Reads up to and with the line `end_header`.
+/// Reads a header up to and including the line `end_header`.
 PlyHeader read_ply_header(std::istream& in);
 
 }  // namespace hypotrack

@@ -28,7 +28,7 @@ DataError unreadable(const std::filesystem::path& mesh, const std::string& why) 
   return DataError(fmt::format("{}: the mesh could not be read: {}", mesh.string(), why));
 }
 
-/// A file descriptor that is closed with the object.
+/// A file descriptor that its destructor closes.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
@@ -45,12 +45,12 @@ class Descriptor {
   int value_;
 };
 
-/// A child process that does not outlive the object.
+/// A child process that its destructor kills.
 class Child {
  public:
   Child(const MeshReader& reader, const std::filesystem::path& mesh, int output) {
     const std::string program = reader.program.string();
-    // An absolute path can never be taken for an option.
+    // An absolute path cannot be mistaken for an option.
     const std::string file = std::filesystem::absolute(mesh).string();
     const std::string seconds = std::to_string(std::max<long>(1, reader.time_limit.count()));
     std::array<char*, 4> arguments = {const_cast<char*>(program.c_str()),
@@ -77,7 +77,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Status as waitpid gives it; nothing where somebody else has taken it (SIGCHLD is ignored).
+  /// Returns waitpid's status, or nothing if another waiter took it (SIGCHLD is ignored).
   std::optional<int> wait() {
     int status = 0;
     pid_t ended;
@@ -142,7 +142,7 @@ void check_status(int status, const MeshReader& reader, const std::filesystem::p
 }  // namespace
 
 MeshReader default_mesh_reader(const std::filesystem::path& mesh) {
-  // Beside libhypotrack.so, in the build tree as in an installation.
+  // Beside libhypotrack.so, in the build tree and in an installation.
   Dl_info library{};
   std::filesystem::path folder;
   if (dladdr(reinterpret_cast<const void*>(&default_mesh_reader), &library) && library.dli_fname) {
@@ -163,7 +163,7 @@ std::string run_mesh_reader(const MeshReader& reader, const std::filesystem::pat
   const Descriptor input(ends[0]);
   Descriptor output(ends[1]);
   Child child(reader, mesh, output.get());
-  output.reset();  // so that the end of the child is the end of the pipe
+  output.reset();  // so that the pipe ends with the child
   std::string answer = read_until_end(input.get(), reader, mesh);
   if (const std::optional<int> status = child.wait()) check_status(*status, reader, mesh);
   return answer;

@@ -9,7 +9,7 @@
 #include "model/import/weld.hpp"
 #include "model/import/wire.hpp"
 
-// What import_mesh() does with a file that the reader program has read, one step after the other.
+// The steps of import_mesh() after the reader program has read the file, in their order.
 namespace hypotrack {
 
 struct MeshFile {
@@ -21,7 +21,7 @@ struct MeshFile {
   [[noreturn]] void fail(const std::string& what) const;
 };
 
-/// All parts of a file one after the other, in metres, with the copies of vertices that it has.
+/// All parts of a file concatenated, in metres, before vertices are welded.
 struct Soup {
   Eigen::Matrix3Xf points;
   Eigen::Matrix3Xi triangles;
@@ -29,37 +29,37 @@ struct Soup {
   std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
 };
 
-/// Which points of a soup are one vertex, and which of its triangles are faces.
+/// The result of welding a soup: its vertices and non-degenerate triangles.
 struct Welded {
-  std::vector<int> same;       // per point: the point that stands for it (weld_points())
-  std::vector<int> triangles;  // those with three different corners and an area
-  std::vector<int> points;     // per vertex of the mesh: its point
-  std::vector<int> vertex;     // per point that stands for itself: its vertex, or -1
+  std::vector<int> same;       // per point: index of its representative (weld_points())
+  std::vector<int> triangles;  // indices of the triangles with distinct corners and an area
+  std::vector<int> points;     // per vertex of the mesh: index of its point
+  std::vector<int> vertex;     // per representative point: index of its vertex, or -1
 };
 
 std::vector<ImportedBone> convert_bones(const MeshFile& file);
 
-/// Indices in range, everything finite, weights not negative.
+/// Throws DataError on indices out of range, numbers that are not finite and negative weights.
 void check_part(const MeshFile& file, const mesh_wire::MeshPart& part);
 
-/// Checks every part, then lays them one after the other.
+/// Checks every part and concatenates them.
 Soup join_parts(const MeshFile& file);
 
-/// The vertices of a skinned mesh's part, which begins at the point `first`, are held by bones,
-/// with weights that sum to 1.
+/// Throws DataError unless bones move every vertex of a skinned part, with weights that sum to 1.
+/// The part begins at point `first`.
 void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, const Soup& soup,
                        std::size_t first);
 
-/// Vertices and triangles. Says in the answer which they were in the soup.
+/// Fills the mesh's vertices and triangles and returns how they relate to the soup.
 Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
 
-/// Bone influences: a welded vertex has the mean of its copies.
+/// Fills the bone influences; a welded vertex has the mean of its copies' influences.
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
-/// Texture coordinates, each once.
+/// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
 void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 
-/// Texture or colour. Takes the texture coordinates away again if there is no texture.
+/// Fills texture or colour; removes the texture coordinates if there is no texture.
 void fill_appearance(const MeshFile& file, Mesh& mesh);
 
 }  // namespace hypotrack

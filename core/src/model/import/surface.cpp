@@ -13,7 +13,7 @@ bool is_degenerate(const Soup& soup, const Eigen::Vector3i& corners) {
   return (b - a).cross(c - a).norm() == 0;
 }
 
-/// Which triangles are faces, and the vertices that these have, in the order of their first use.
+/// Welds the points, drops degenerate triangles and numbers the remaining vertices by first use.
 Welded weld(const Soup& soup) {
   Welded welded{.same = weld_points(soup.points), .triangles = {}, .points = {}, .vertex = {}};
   welded.vertex.assign(welded.same.size(), -1);

@@ -8,11 +8,11 @@
 
 namespace hypotrack {
 
-/// Reads an image as 8-bit BGR. Throws DataError, saying that `where` wants it, if it is missing or
-/// damaged.
+/// Reads an image as 8-bit BGR. Throws DataError if it is missing or damaged; `where` names the
+/// user of the image in the message.
 cv::Mat read_texture(const std::filesystem::path& image, const std::string& where);
 
-/// The texture that a mesh file names: one of its embedded ones (`*N`) or a file beside it.
+/// Loads the texture that a mesh file names: an embedded one (`*N`) or a file beside it.
 cv::Mat load_texture(const mesh_wire::Scene& scene, const std::string& name,
                      const std::filesystem::path& mesh);
 

@@ -9,8 +9,8 @@ namespace {
 
 using Corners = Eigen::Matrix<float, 2, 3>;
 
-/// Texture coordinates outside [0, 1] mean a repeated image. A triangle within one repetition
-/// moves to the first; one that spans several is clamped.
+/// Moves texture coordinates into [0, 1]; those outside mean a repeated image. A triangle within
+/// one repetition moves to the first; one that spans several is clamped.
 Corners corners_in_image(const Soup& soup, int triangle) {
   Corners corners;
   for (int k = 0; k < 3; ++k) {

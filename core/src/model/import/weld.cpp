@@ -7,14 +7,14 @@
 namespace hypotrack {
 namespace {
 
-/// Points by grid cell. A cell is much wider than the tolerance, so that the ball around a point
+/// A grid of points. Its cells are much wider than the tolerance, so that the ball around a point
 /// rarely touches more than one.
 class Grid {
  public:
   Grid(const Eigen::Vector3f& origin, float tolerance)
       : origin_(origin.cast<double>()), tolerance_(tolerance), cell_(64.0 * tolerance) {}
 
-  /// The first point in the grid within the tolerance of `p`, or -1.
+  /// Returns the first point in the grid within the tolerance of `p`, or -1.
   int find(const Eigen::Matrix3Xf& points, const Eigen::Vector3f& p) const {
     const Eigen::Vector3d relative = p.cast<double>() - origin_;
     const auto low = cell(relative.array() - tolerance_);
@@ -45,7 +45,7 @@ class Grid {
   Cell cell(const Eigen::Array3d& relative) const {
     return (relative / cell_).floor().cast<std::int64_t>().matrix();
   }
-  // At most 1 / (64 * 1e-6) cells per axis, one more at either end: 21 bits are plenty.
+  // At most 1 / (64 * 1e-6) cells per axis plus one at either end; 21 bits are enough.
   static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
     return static_cast<std::uint64_t>(x + 1) << 42 | static_cast<std::uint64_t>(y + 1) << 21 |
            static_cast<std::uint64_t>(z + 1);
@@ -64,7 +64,7 @@ std::vector<int> weld_points(const Eigen::Matrix3Xf& points) {
   const Eigen::Vector3f low = points.rowwise().minCoeff();
   const double diagonal = (points.rowwise().maxCoeff() - low).cast<double>().norm();
   const auto tolerance = static_cast<float>(kWeldTolerance * diagonal);
-  if (!(tolerance > 0)) return representative;  // all in one place
+  if (!(tolerance > 0)) return representative;  // all points coincide
   Grid grid(low, tolerance);
   for (int i = 0; i < points.cols(); ++i) {
     const Eigen::Vector3f p = points.col(i);

@@ -7,12 +7,12 @@
 
 namespace hypotrack {
 
-/// Distance within which vertices are one, as a part of the bounding box's diagonal. Exporters
-/// split vertices along seams and round their copies at most in the last digits.
+/// Welding distance, as a share of the bounding box's diagonal. Exporters split vertices along
+/// seams and round the copies at most in the last digits.
 inline constexpr float kWeldTolerance = 1e-6f;
 
-/// For every point (3xN, finite) the index of the point that stands for it: the first one of the
-/// list within the tolerance, itself if there is none.
+/// Returns for every point (3xN, finite) the index of its representative: the first point within
+/// the tolerance, or itself.
 HYPOTRACK_API std::vector<int> weld_points(const Eigen::Matrix3Xf& points);
 
 struct BoneWeight {
@@ -20,8 +20,8 @@ struct BoneWeight {
   float weight = 0;
 };
 
-/// The four strongest influences, strongest first, made to sum to 1. Several entries of one bone
-/// are added up first; the sum of all must be positive.
+/// Returns the four strongest influences, strongest first, scaled to sum to 1. Adds up several
+/// entries of one bone first. The sum of all must be positive.
 HYPOTRACK_API std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences);
 
 }  // namespace hypotrack

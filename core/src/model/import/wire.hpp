@@ -10,8 +10,8 @@
 #include <type_traits>
 #include <vector>
 
-// What the reader process tells the program about a mesh file: plain data, written and read field
-// by field in the machine's own byte order (both ends are the same build on the same machine).
+// The data that the reader process sends to the program: plain data, field by field, in the
+// machine's byte order. Both ends are the same build on the same machine.
 namespace hypotrack::mesh_wire {
 
 struct Weight {
@@ -23,7 +23,7 @@ struct Weight {
 struct MeshPart {
   std::string name;
   std::vector<std::array<float, 3>> positions;  ///< file frame, bind pose
-  std::vector<std::array<float, 2>> uvs;        ///< one per vertex, v upwards; or none
+  std::vector<std::array<float, 2>> uvs;        ///< one per vertex, v upwards; or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Weight> weights;
   std::uint32_t material = 0;
@@ -31,24 +31,24 @@ struct MeshPart {
 
 struct BoneNode {
   std::string name;
-  std::string parent;                       ///< nearest ancestor that is a bone, or empty
-  std::array<double, 16> file_from_bone{};  ///< row-major, with whatever scale the file has
+  std::string parent;                       ///< nearest ancestor that is a bone; empty if none
+  std::array<double, 16> file_from_bone{};  ///< row-major, with the file's scale
 };
 
 struct Material {
   std::array<float, 3> color{};  ///< RGB
-  std::string texture;           ///< path as the file has it, `*N` for embedded texture N, or empty
+  std::string texture;           ///< path in the file, `*N` for embedded texture N, or empty
 };
 
-/// A texture inside the file: a compressed image, or `width` x `height` pixels BGRA.
+/// A texture embedded in the file: a compressed image, or `width` x `height` BGRA pixels.
 struct Texture {
-  std::uint32_t width = 0;  ///< 0: compressed
+  std::uint32_t width = 0;  ///< 0 = compressed
   std::uint32_t height = 0;
   std::string bytes;
 };
 
 struct Scene {
-  std::string error;  ///< why the file cannot be read; everything else is then empty
+  std::string error;  ///< why the file cannot be read; all else is then empty
   std::vector<MeshPart> meshes;
   std::vector<BoneNode> bones;
   std::vector<Material> materials;
@@ -57,7 +57,7 @@ struct Scene {
 
 inline constexpr std::string_view kMagic = "hypotrack mesh 1";
 
-/// Appends values to a buffer.
+/// Appends values to a byte buffer.
 class Writer {
  public:
   template <class T>
@@ -84,7 +84,7 @@ class Writer {
   std::string bytes_;
 };
 
-/// Takes the same values out of a buffer; throws std::runtime_error where it ends too early.
+/// Reads values back from a byte buffer. Throws std::runtime_error if the buffer ends too early.
 class Reader {
  public:
   explicit Reader(std::string_view bytes) : bytes_(bytes) {}
@@ -126,7 +126,7 @@ class Reader {
   std::string_view bytes_;
 };
 
-// One list of fields per struct serves both directions.
+// One list of fields per struct serves writing and reading.
 template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, MeshPart>
 void fields(Archive& archive, T& part) {
@@ -178,7 +178,7 @@ inline std::string encode(const Scene& scene) {
   return writer.take();
 }
 
-/// Throws std::runtime_error on anything that encode() did not write.
+/// Parses the bytes of encode(). Throws std::runtime_error on any others.
 inline Scene decode(std::string_view bytes) {
   Reader reader(bytes);
   std::string magic;

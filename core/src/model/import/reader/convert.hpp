@@ -8,24 +8,24 @@
 
 #include "model/import/wire.hpp"
 
-// From assimp's data to ours.
+// Conversion from assimp's data to mesh_wire's.
 namespace hypotrack::mesh_wire {
 
 using Bones = std::map<std::string, std::uint32_t, std::less<>>;  ///< name to index
 
 aiMatrix4x4 global_transform(const aiNode* node);
 
-/// Appends the bones of a mesh that are not known yet. Throws std::runtime_error if one stands
-/// elsewhere than for a mesh before.
+/// Appends the bones of a mesh that are not known yet. Throws std::runtime_error if a known bone
+/// has another bind pose.
 void add_bones(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, Bones& known, Scene& out);
 
-/// Gives every bone its nearest ancestor that is a bone.
+/// Sets the parent of every bone to its nearest ancestor that is a bone.
 void find_parents(const aiScene& scene, const Bones& known, Scene& out);
 
-/// All meshes where their nodes place them, and their bones.
+/// Converts all meshes, placed by their nodes, and their bones.
 void convert_meshes(const aiScene& scene, Scene& out);
 
-/// Materials and embedded textures.
+/// Converts materials and embedded textures.
 void convert_materials(const aiScene& scene, Scene& out);
 
 }  // namespace hypotrack::mesh_wire

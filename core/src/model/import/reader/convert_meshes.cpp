@@ -17,8 +17,9 @@ bool similar(const aiMatrix4x4& a, const aiMatrix4x4& b) {
   return true;
 }
 
-/// Where a skinned mesh lies in the file's frame at its bind pose: its bones say so, not its node
-/// (glTF 2.0 section 3.7.3.3). Bones that do not stand as at the bind pose say nothing.
+/// Returns the transform of a skinned mesh to the file's frame at the bind pose. Its bones define
+/// it, not its node (glTF 2.0 section 3.7.3.3). The result is the identity if the bones disagree,
+/// because they are then not at the bind pose.
 aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
   std::optional<aiMatrix4x4> common;
   for (unsigned i = 0; i < mesh.mNumBones; ++i) {
@@ -45,7 +46,7 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, con
   const bool flipped = file_from_mesh.Determinant() < 0;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     const aiFace& face = mesh.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines
+    if (face.mNumIndices != 3) continue;  // skip points and lines
     part.triangles.push_back(
         {face.mIndices[0], face.mIndices[flipped ? 2 : 1], face.mIndices[flipped ? 1 : 2]});
   }

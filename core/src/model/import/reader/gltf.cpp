@@ -15,7 +15,7 @@ Json read_json(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   if (!bytes.starts_with("glTF")) return Json::parse(bytes);
-  // GLB: a header of 12 bytes, then chunks of length, type and data; the first one is the JSON.
+  // GLB: a header of 12 bytes, then chunks of length, type and data; the first chunk is the JSON.
   std::uint32_t length = 0;
   if (bytes.size() < 20) throw std::runtime_error("the GLB file ends within its header");
   std::memcpy(&length, bytes.data() + 12, sizeof(length));

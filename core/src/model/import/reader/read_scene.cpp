@@ -16,8 +16,8 @@
 namespace hypotrack::mesh_wire {
 namespace {
 
-/// Leaves only the importers of one file name extension: assimp otherwise looks into a file that
-/// the right importer refuses and may hand it to one that does not survive it.
+/// Keeps only the importers of one file name extension. Otherwise assimp inspects a file that the
+/// right importer refuses and may pass it to one that crashes on it.
 void keep_importers(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const aiImporterDesc* about = importer.GetImporterInfo(i);
@@ -29,7 +29,7 @@ void keep_importers(Assimp::Importer& importer, const std::string& extension) {
   }
 }
 
-/// The glTF importer passes over triangles whose vertices do not exist.
+/// Throws if the glTF importer skipped triangles, which it does if their vertices do not exist.
 void check_triangle_count(const aiScene& scene, const std::string& file) {
   std::uint64_t found = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {

@@ -6,8 +6,8 @@
 
 namespace hypotrack::mesh_wire {
 
-/// Everything in a mesh file, by assimp. What assimp refuses is in the answer's `error`; throws
-/// std::runtime_error on what assimp accepts and should not.
+/// Reads a mesh file with assimp. Files that assimp refuses set the result's `error`. Throws
+/// std::runtime_error on files that assimp accepts but should not.
 Scene read_scene(const std::string& file);
 
 }  // namespace hypotrack::mesh_wire

@@ -1,6 +1,6 @@
-// hypotrack_mesh_reader FILE SECONDS: reads a mesh file with assimp and writes what it holds to the
-// standard output (wire.hpp). It is a program of its own because assimp may crash on or
-// never return from a damaged file, and because a fork of a program with threads may not allocate.
+// hypotrack_mesh_reader FILE SECONDS: reads a mesh file with assimp and writes its content to
+// standard output (wire.hpp). It is a separate program because assimp may crash or hang on a
+// damaged file, and a forked process of a program with threads may not allocate.
 
 #include <sys/resource.h>
 #include <unistd.h>
