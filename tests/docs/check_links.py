@@ -88,7 +88,7 @@ def main():
         name = str(page.relative_to(root))
         if name.startswith(GENERATED):
             continue
-        words = len(COMMENT.sub("", texts[page]).split())
+        words = sum(1 for w in COMMENT.sub("", texts[page]).split() if re.search(r"\w", w))
         of_page = sorted(sentences(texts[page]))
         counts = [n for n, _ in of_page] or [0]
         print(f"{words:6d} words  p50 {counts[len(counts) // 2]:3d}  p90 {counts[len(counts) * 9 // 10]:3d}  {name}")
