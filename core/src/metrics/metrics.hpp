@@ -19,8 +19,8 @@ inline constexpr double kAucLowMm = 20;
 inline constexpr double kAucHighMm = 50;
 inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
 
-/// How good a sequence of solutions is; docs/metrics.md defines every number. NaN: unknown, because
-/// no frame has what it takes.
+/// How good a sequence of solutions is; docs/reference/metrics.md defines every number. NaN: unknown,
+/// because no frame has what it takes.
 struct Metrics {
   int frames = 0;
   int evaluated_frames = 0;  ///< those with an error

@@ -25,8 +25,8 @@ enum class FrameVerdict {
 /// The verdict that a word of a status column means, all but `solved`; nothing for another word.
 HYPOTRACK_API std::optional<FrameVerdict> verdict_named(std::string_view word);
 
-/// How true it is what a tracker says of its frames, and how it comes back; docs/metrics.md defines
-/// every number. NaN: unknown, because no frame has what it takes.
+/// How true it is what a tracker says of its frames, and how it comes back;
+/// docs/reference/metrics.md defines every number. NaN: unknown, because no frame has what it takes.
 struct StatusMetrics {
   int judged_frames = 0;  ///< with a verdict, missing ones included
   int tracked_frames = 0;

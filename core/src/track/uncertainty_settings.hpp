@@ -5,7 +5,7 @@
 namespace hypotrack {
 
 /// `tracker.uncertainty:` of a scene. Widths are one standard deviation. What the defaults were
-/// found on is in docs/confidence.md.
+/// found on is in docs/results/uncertainty.md.
 struct UncertaintySettings {
   bool enabled = false;
   double noise = 1;
