@@ -14,8 +14,8 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "evaluate/hypothesis_drawer.hpp"
+#include "cost/evaluator.hpp"
+#include "cost/hypothesis_drawer.hpp"
 #include "hypotrack/plugin.hpp"
 #include "test_models.hpp"
 

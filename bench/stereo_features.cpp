@@ -2,7 +2,7 @@
 // pixel's weight, by the device's clock.
 #include <benchmark/benchmark.h>
 
-#include "cuda/device.hpp"
+#include "cost/cuda/device.hpp"
 #include "cuda/feature_maps.hpp"
 #include "made_up_frame.hpp"
 

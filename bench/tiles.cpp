@@ -1,6 +1,6 @@
 // What a frame's tiles take: planning them, matching their colours, and cutting them on the CPU and
 // on the GPU.
-#include "geometry/tiles.hpp"
+#include "tile/tiles.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -9,11 +9,11 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "cuda/device.hpp"
-#include "cuda/tile_cutter.hpp"
+#include "cost/cuda/device.hpp"
+#include "cost/cuda/tile_cutter.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "test_models.hpp"
-#include "track/photometric.hpp"
+#include "track/color/photometric.hpp"
 
 namespace hypotrack {
 namespace {

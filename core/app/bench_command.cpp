@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "bench/bench_plan.hpp"
-#include "bench/bench_table.hpp"
-#include "bench/frames.hpp"
-#include "bench/machine.hpp"
-#include "bench/measure.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
+#include "lab/bench/bench_plan.hpp"
+#include "lab/bench/bench_table.hpp"
+#include "lab/bench/frames.hpp"
+#include "lab/bench/machine.hpp"
+#include "lab/bench/measure.hpp"
 #include "progress.hpp"
 #include "tell.hpp"
 

@@ -11,18 +11,18 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/machine.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "lab/bench/machine.hpp"
+#include "lab/study/check_cells.hpp"
+#include "lab/study/execute.hpp"
+#include "lab/study/plan.hpp"
+#include "lab/study/recordings.hpp"
+#include "lab/study/study_file.hpp"
+#include "lab/study/study_folder.hpp"
+#include "lab/study/tables.hpp"
 #include "progress.hpp"
-#include "study/check_cells.hpp"
-#include "study/execute.hpp"
-#include "study/plan.hpp"
-#include "study/recordings.hpp"
-#include "study/study_file.hpp"
-#include "study/study_folder.hpp"
-#include "study/tables.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

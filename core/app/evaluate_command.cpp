@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "base/text_file.hpp"
 #include "commands.hpp"
 #include "output/evaluation.hpp"
-#include "output/text_file.hpp"
 
 namespace hypotrack::app {
 namespace {

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/text_file.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
-#include "output/text_file.hpp"
 #include "progress.hpp"
 #include "session/session.hpp"
 #include "shape/shape_estimate.hpp"

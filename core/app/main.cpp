@@ -10,8 +10,8 @@
 #include <system_error>
 #include <vector>
 
+#include "base/suggest.hpp"
 #include "commands.hpp"
-#include "config/suggest.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "geometry/pair_check.hpp"
+#include "camera/pair_check.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.hpp"
+#include "base/text_file.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
-#include "metrics/statistics.hpp"
+#include "lab/report/reliability_plot.hpp"
 #include "output/reliability_tables.hpp"
-#include "output/text_file.hpp"
-#include "report/reliability_plot.hpp"
 
 namespace hypotrack::app {
 namespace {

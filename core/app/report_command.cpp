@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "report/report.hpp"
+#include "lab/report/report.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {

@@ -2,7 +2,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "app_test.hpp"
-#include "cuda/device.hpp"
+#include "cost/cuda/device.hpp"
 
 namespace hypotrack::test {
 namespace {

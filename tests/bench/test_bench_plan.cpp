@@ -2,9 +2,9 @@
 
 #include <fstream>
 
-#include "bench/bench_plan.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
+#include "lab/bench/bench_plan.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -4,10 +4,10 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "bench/bench_numbers.hpp"
-#include "bench/bench_table.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
+#include "lab/bench/bench_numbers.hpp"
+#include "lab/bench/bench_table.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "bench/schedule.hpp"
+#include "lab/bench/schedule.hpp"
 
 namespace hypotrack::test {
 namespace {

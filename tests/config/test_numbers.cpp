@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "config/numbers.hpp"
+#include "base/numbers.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::detail {

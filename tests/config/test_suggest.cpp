@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "config/suggest.hpp"
+#include "base/suggest.hpp"
 
 namespace hypotrack::detail {
 namespace {

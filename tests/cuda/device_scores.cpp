@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "evaluate/normal_equations.hpp"
+#include "cost/normal_equations.hpp"
 #include "made_up_frame.hpp"
 #include "test_models.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 
 namespace hypotrack::test {
 

@@ -8,9 +8,9 @@
 #include <thread>
 #include <vector>
 
+#include "cost/evaluator.hpp"
+#include "cost/hypothesis_renderer.hpp"
 #include "device.hpp"
-#include "evaluate/evaluator.hpp"
-#include "evaluate/hypothesis_renderer.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
 #include "probes.hpp"

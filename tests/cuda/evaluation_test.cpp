@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cost/evaluator.hpp"
 #include "device.hpp"
-#include "evaluate/evaluator.hpp"
 #include "every_target.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"

@@ -1,11 +1,11 @@
-#include "cuda/gram_matrix.hpp"
+#include "cost/cuda/gram_matrix.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 #include <vector>
 
-#include "cuda/device_residuals.hpp"
+#include "cost/cuda/device_residuals.hpp"
 #include "device.hpp"
 
 namespace hypotrack::cuda {

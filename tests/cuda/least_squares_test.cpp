@@ -6,7 +6,7 @@
 #include "device.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "metrics/landmark_errors.hpp"
+#include "output/metrics/landmark_errors.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
 

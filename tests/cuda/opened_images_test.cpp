@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "cuda/device.hpp"
-#include "cuda/page_locked_images.hpp"
+#include "cost/cuda/device.hpp"
+#include "cost/cuda/page_locked_images.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
 

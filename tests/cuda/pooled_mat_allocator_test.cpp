@@ -1,4 +1,4 @@
-#include "cuda/pooled_mat_allocator.hpp"
+#include "cost/cuda/pooled_mat_allocator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
-#include "bench/frames.hpp"
 #include "image_work.hpp"
 #include "pool_on_host.hpp"
 
@@ -120,24 +119,6 @@ TEST_F(PooledMats, CanBeSeenAsUMats) {
     EXPECT_EQ(cv::countNonZero(seen.getMat(cv::ACCESS_READ) != 9), 0);
   }
   EXPECT_EQ(cv::countNonZero(image != 9), 0);
-}
-
-TEST_F(PooledMats, AreWhatFramesOfABenchBecomeOnce) {
-  cv::MatAllocator* allocator = cv::Mat::getDefaultAllocator();
-  cv::Mat::setDefaultAllocator(cv::Mat::getStdAllocator());
-  std::vector<Frame> frames(2);
-  frames[1].views.push_back({.color = cv::Mat(300, 400, CV_8UC3, cv::Scalar::all(5)),
-                             .mask = cv::Mat(300, 400, CV_8U, cv::Scalar(6))});
-  cv::Mat::setDefaultAllocator(allocator);
-  View& view = frames[1].views[0];
-  EXPECT_FALSE(pooled(view.color));
-  bench::renew_images(frames);
-  EXPECT_TRUE(pooled(view.color) && pooled(view.mask) && view.depth.empty());
-  EXPECT_EQ(cv::countNonZero(view.color.reshape(1) != 5), 0);
-  EXPECT_EQ(cv::countNonZero(view.mask != 6), 0);
-  const unsigned char* data = view.color.data;
-  bench::renew_images(frames);
-  EXPECT_EQ(view.color.data, data);
 }
 
 TEST_F(PooledMats, OutliveTheirTimeAsTheDefault) {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "device.hpp"
-#include "evaluate/simd_kernels.hpp"
 #include "every_target.hpp"
 #include "recorded_search.hpp"
+#include "scene/simd_kernels.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <iosfwd>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "session/session.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack::test {
 

@@ -1,4 +1,4 @@
-#include "cuda/reserve_batch.hpp"
+#include "cost/cuda/reserve_batch.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "cuda/tile_cutter.hpp"
+#include "cost/cuda/tile_cutter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "cuda/triangle_order.hpp"
+#include "cost/cuda/triangle_order.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

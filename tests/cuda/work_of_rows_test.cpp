@@ -1,4 +1,4 @@
-#include "cuda/work_of_rows.hpp"
+#include "cost/cuda/work_of_rows.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "dataset.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/params.hpp"
-#include "metrics/motion_speeds.hpp"
+#include "output/metrics/motion_speeds.hpp"
 #include "penetration.hpp"
 
 namespace hypotrack::test {

@@ -1,12 +1,12 @@
-#include "evaluate/bone_poser.hpp"
+#include "scene/bone_poser.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "evaluate/simd_kernels.hpp"
 #include "every_target.hpp"
 #include "hypotrack/kinematics.hpp"
+#include "scene/simd_kernels.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {

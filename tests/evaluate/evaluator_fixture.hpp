@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"

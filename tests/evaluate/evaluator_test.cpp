@@ -1,4 +1,4 @@
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 
 #include <gmock/gmock.h>
 #include <oneapi/tbb/parallel_for.h>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"

@@ -1,4 +1,4 @@
-#include "evaluate/mesh_topology.hpp"
+#include "scene/mesh_topology.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "evaluate/hypothesis_drawer.hpp"
+#include "cost/hypothesis_drawer.hpp"
 #include "every_target.hpp"
 #include "observations.hpp"
 #include "reference_rasterizer.hpp"

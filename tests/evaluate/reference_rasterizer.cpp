@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "evaluate/simd_kernels.hpp"
+#include "cost/raster_kernels.hpp"
 #include "hypotrack/kinematics.hpp"
 
 namespace hypotrack::test {

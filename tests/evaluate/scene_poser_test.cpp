@@ -1,4 +1,4 @@
-#include "evaluate/scene_poser.hpp"
+#include "scene/scene_poser.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "evaluate/whole_weights.hpp"
+#include "scene/whole_weights.hpp"
 
 #include <gtest/gtest.h>
 

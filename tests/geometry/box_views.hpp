@@ -4,8 +4,8 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "geometry/tiles.hpp"
 #include "hypotrack/scene.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack::test {
 

@@ -5,7 +5,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "geometry/distortion.hpp"
+#include "camera/distortion.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"

@@ -2,9 +2,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "geometry/cut_plan.hpp"
-#include "geometry/resample.hpp"
 #include "test_cameras.hpp"
+#include "tile/cut_plan.hpp"
+#include "tile/resample.hpp"
 
 namespace hypotrack {
 namespace {

@@ -5,11 +5,11 @@
 #include <memory>
 #include <opencv2/calib3d.hpp>
 
-#include "geometry/resample.hpp"
-#include "geometry/tiles.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
 #include "test_models.hpp"
+#include "tile/resample.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack {
 namespace {

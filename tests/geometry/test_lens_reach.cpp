@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "geometry/lens_reach.hpp"
+#include "scene/lens_reach.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "geometry/tiles.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "test_models.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack {
 namespace {

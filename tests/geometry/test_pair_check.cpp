@@ -3,7 +3,7 @@
 #include <array>
 #include <numbers>
 
-#include "geometry/pair_check.hpp"
+#include "camera/pair_check.hpp"
 
 namespace hypotrack {
 namespace {

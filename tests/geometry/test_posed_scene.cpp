@@ -4,13 +4,13 @@
 #include <memory>
 #include <random>
 
-#include "evaluate/simd_kernels.hpp"
 #include "every_target.hpp"
-#include "geometry/posed_scene.hpp"
-#include "geometry/tiles.hpp"
 #include "hypotrack/error.hpp"
+#include "scene/posed_scene.hpp"
+#include "scene/simd_kernels.hpp"
 #include "test_cameras.hpp"
 #include "test_models.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack {
 namespace {

@@ -4,7 +4,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "geometry/rectification.hpp"
+#include "camera/rectification.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

@@ -2,9 +2,9 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "geometry/rectification.hpp"
-#include "geometry/resample.hpp"
+#include "camera/rectification.hpp"
 #include "test_cameras.hpp"
+#include "tile/resample.hpp"
 
 namespace hypotrack {
 namespace {

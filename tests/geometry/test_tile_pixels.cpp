@@ -1,5 +1,5 @@
-#include "cuda/tile_pixels.hpp"
-#include "cuda/view_cut.hpp"
+#include "cost/cuda/tile_pixels.hpp"
+#include "cost/cuda/view_cut.hpp"
 #include "tile_cases.hpp"
 
 namespace hypotrack {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "box_views.hpp"
-#include "geometry/tiles.hpp"
 #include "test_cameras.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack {
 namespace {

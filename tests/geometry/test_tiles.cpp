@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "box_views.hpp"
-#include "geometry/resample.hpp"
-#include "geometry/tiles.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
+#include "tile/resample.hpp"
+#include "tile/tiles.hpp"
 #include "tile_cases.hpp"
 
 namespace hypotrack {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <random>
 
-#include "geometry/tiles.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "test_models.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack {
 namespace {

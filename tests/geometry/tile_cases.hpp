@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "geometry/resample.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "test_cameras.hpp"
+#include "tile/resample.hpp"
 
 namespace hypotrack::test {
 

@@ -1,4 +1,4 @@
-#include "hindsight/hindsight.hpp"
+#include "track/smooth/hindsight.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "hindsight/motion_prior.hpp"
+#include "track/smooth/motion_prior.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "hindsight/tile_highlights.hpp"
+#include "track/smooth/tile_highlights.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <memory>
 
-#include "hindsight/hindsight.hpp"
 #include "hypotrack/objective.hpp"
 #include "shiny_ball.hpp"
+#include "track/smooth/hindsight.hpp"
 
 namespace hypotrack {
 namespace {

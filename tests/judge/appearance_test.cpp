@@ -1,4 +1,4 @@
-#include "judge/appearance.hpp"
+#include "track/judge/appearance.hpp"
 
 #include <gtest/gtest.h>
 

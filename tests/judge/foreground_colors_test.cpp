@@ -1,4 +1,4 @@
-#include "judge/foreground_colors.hpp"
+#include "track/judge/foreground_colors.hpp"
 
 #include <gtest/gtest.h>
 

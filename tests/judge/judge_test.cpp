@@ -1,4 +1,4 @@
-#include "judge/judge.hpp"
+#include "track/judge/judge.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "judge/surface_points.hpp"
+#include "track/judge/surface_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,9 +34,7 @@ TEST(SurfacePoints, FollowTheVertices) {
   EXPECT_TRUE(shift.isApprox(Eigen::Vector3f(1, 2, 3).replicate(1, 50), 1e-5f));
 }
 
-TEST(SurfacePoints, AMeshWithoutAreaHasNone) {
-  EXPECT_EQ(spread_points(Mesh{}, 50).count(), 0);
-}
+TEST(SurfacePoints, AMeshWithoutAreaHasNone) { EXPECT_EQ(spread_points(Mesh{}, 50).count(), 0); }
 
 }  // namespace
 }  // namespace hypotrack

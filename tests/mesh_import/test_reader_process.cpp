@@ -4,8 +4,8 @@
 
 #include "hypotrack/error.hpp"
 #include "mesh_files.hpp"
-#include "mesh_import/process.hpp"
-#include "mesh_import/wire.hpp"
+#include "model/import/process.hpp"
+#include "model/import/wire.hpp"
 
 namespace hypotrack::test {
 namespace {

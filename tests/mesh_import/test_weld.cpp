@@ -2,7 +2,7 @@
 
 #include "hypotrack/mesh_io.hpp"
 #include "mesh_files.hpp"
-#include "mesh_import/weld.hpp"
+#include "model/import/weld.hpp"
 
 namespace hypotrack::test {
 namespace {

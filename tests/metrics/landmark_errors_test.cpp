@@ -1,4 +1,4 @@
-#include "metrics/landmark_errors.hpp"
+#include "output/metrics/landmark_errors.hpp"
 
 #include <gmock/gmock.h>
 

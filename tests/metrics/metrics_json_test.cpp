@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/metrics.hpp"
+#include "output/metrics/metrics.hpp"
 
 namespace hypotrack {
 namespace {

@@ -1,4 +1,4 @@
-#include "metrics/metrics.hpp"
+#include "output/metrics/metrics.hpp"
 
 #include <gmock/gmock.h>
 

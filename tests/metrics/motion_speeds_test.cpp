@@ -1,4 +1,4 @@
-#include "metrics/motion_speeds.hpp"
+#include "output/metrics/motion_speeds.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "metrics/reliability.hpp"
+#include "output/metrics/reliability.hpp"
 
 #include <gtest/gtest.h>
 

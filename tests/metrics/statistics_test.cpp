@@ -1,4 +1,4 @@
-#include "metrics/statistics.hpp"
+#include "base/statistics.hpp"
 
 #include <gmock/gmock.h>
 

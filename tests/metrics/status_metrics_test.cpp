@@ -1,11 +1,11 @@
-#include "metrics/status_metrics.hpp"
+#include "output/metrics/status_metrics.hpp"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <vector>
 
-#include "metrics/metrics.hpp"
+#include "output/metrics/metrics.hpp"
 
 namespace hypotrack {
 namespace {

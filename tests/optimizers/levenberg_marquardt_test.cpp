@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "evaluate/normal_equations.hpp"
+#include "cost/normal_equations.hpp"
 #include "hypotrack/error.hpp"
 #include "limb_search.hpp"
 #include "multi_start.hpp"

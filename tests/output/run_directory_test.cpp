@@ -4,9 +4,9 @@
 
 #include <fstream>
 
+#include "base/text_file.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "output/text_file.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "metrics/landmark_errors.hpp"
+#include "output/metrics/landmark_errors.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
 

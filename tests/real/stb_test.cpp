@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "hypotrack/landmark_fit.hpp"
-#include "metrics/landmark_errors.hpp"
+#include "output/metrics/landmark_errors.hpp"
 #include "session/session.hpp"
 #include "test_paths.hpp"
 

@@ -1,4 +1,4 @@
-#include "recover/background_model.hpp"
+#include "track/recover/background_model.hpp"
 
 #include <gtest/gtest.h>
 

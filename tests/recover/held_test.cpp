@@ -1,4 +1,4 @@
-#include "recover/held.hpp"
+#include "track/recover/held.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "recover/place_finder.hpp"
+#include "track/recover/place_finder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,8 +68,7 @@ TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
 
 TEST(PlaceFinder, FindsSeveralPlacesApart) {
   const std::vector<Eigen::Vector3d> centers{{0.14, -0.04, 0.6}, {-0.08, 0.06, 0.6}};
-  const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4);
+  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4);
   for (const Eigen::Vector3d& center : centers)
     EXPECT_TRUE(std::ranges::any_of(
         places.best, [&](const Place& place) { return (place.center - center).norm() < 0.04; }));
@@ -105,8 +104,7 @@ TEST(PlaceFinder, LeavesOutPixelsOfWeightZero) {
 }
 
 TEST(PlaceFinder, SeesNothingInPicturesWithoutTheColors) {
-  const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4);
+  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4);
   EXPECT_TRUE(places.best.empty());
   EXPECT_LT(places.seen, 0.1);
 }

@@ -1,4 +1,4 @@
-#include "recover/postures.hpp"
+#include "track/recover/postures.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "recover/searched_places.hpp"
+#include "track/recover/searched_places.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "recover/silhouette.hpp"
+#include "track/recover/silhouette.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "render/comparison.hpp"
+#include "picture/comparison.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {

@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "evaluate/hypothesis_renderer.hpp"
+#include "cost/hypothesis_renderer.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "test_models.hpp"

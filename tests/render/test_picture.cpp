@@ -3,7 +3,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "render/picture.hpp"
+#include "picture/picture.hpp"
 
 namespace hypotrack::test {
 namespace {

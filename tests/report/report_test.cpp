@@ -1,4 +1,4 @@
-#include "report/report.hpp"
+#include "lab/report/report.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,11 +10,11 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "report/packed.hpp"
-#include "report/page.hpp"
-#include "report/replay.hpp"
-#include "report/replay_shape.hpp"
-#include "report/run_series.hpp"
+#include "lab/report/packed.hpp"
+#include "lab/report/page.hpp"
+#include "lab/report/replay.hpp"
+#include "lab/report/replay_shape.hpp"
+#include "lab/report/run_series.hpp"
 #include "study_fixture.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

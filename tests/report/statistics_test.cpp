@@ -1,4 +1,4 @@
-#include "report/statistics.hpp"
+#include "lab/report/statistics.hpp"
 
 #include <gmock/gmock.h>
 

@@ -6,11 +6,11 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "report/comparison.hpp"
-#include "report/plot_data.hpp"
-#include "report/report_data.hpp"
-#include "report/study_data.hpp"
-#include "report/table_data.hpp"
+#include "lab/report/comparison.hpp"
+#include "lab/report/plot_data.hpp"
+#include "lab/report/report_data.hpp"
+#include "lab/report/study_data.hpp"
+#include "lab/report/table_data.hpp"
 #include "study_fixture.hpp"
 #include "test_paths.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/renderer.hpp"
 #include "rgbd_depth.hpp"
 #include "test_models.hpp"

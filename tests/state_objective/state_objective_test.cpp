@@ -2,8 +2,8 @@
 
 #include <random>
 
+#include "cost/evaluator.hpp"
 #include "device.hpp"
-#include "evaluate/evaluator.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "test_models.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/renderer.hpp"
 #include "test_models.hpp"
 

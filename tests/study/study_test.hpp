@@ -6,8 +6,8 @@
 #include <iterator>
 #include <string>
 
-#include "study/plan.hpp"
-#include "study/study_file.hpp"
+#include "lab/study/plan.hpp"
+#include "lab/study/study_file.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -5,7 +5,7 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "study/recordings.hpp"
+#include "lab/study/recordings.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

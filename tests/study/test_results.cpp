@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "study/results.hpp"
-#include "study/study_folder.hpp"
-#include "study/tables.hpp"
+#include "lab/study/results.hpp"
+#include "lab/study/study_folder.hpp"
+#include "lab/study/tables.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

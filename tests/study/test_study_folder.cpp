@@ -4,9 +4,9 @@
 
 #include <csignal>
 
-#include "hypotrack/error.hpp"
 #include "expect_error.hpp"
-#include "study/study_folder.hpp"
+#include "hypotrack/error.hpp"
+#include "lab/study/study_folder.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cuda/device.hpp"
+#include "cost/cuda/device.hpp"
 
 /// Skips a test where no GPU can be used, and says why.
 #define SKIP_WITHOUT_DEVICE()                                                 \

@@ -6,10 +6,10 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "geometry/tiles.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "test_models.hpp"
+#include "tile/tiles.hpp"
 
 namespace hypotrack::test {
 

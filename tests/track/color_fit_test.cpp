@@ -1,4 +1,4 @@
-#include "track/color_fit.hpp"
+#include "track/color/color_fit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "track/highlights.hpp"
+#include "track/color/highlights.hpp"
 
 #include <gtest/gtest.h>
 

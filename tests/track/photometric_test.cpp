@@ -1,4 +1,4 @@
-#include "track/photometric.hpp"
+#include "track/color/photometric.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,11 +16,11 @@
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/search.hpp"
-#include "judge/judge.hpp"
-#include "recover/recovery.hpp"
-#include "session/displace.hpp"
 #include "session/session.hpp"
-#include "track/photometric.hpp"
+#include "track/color/photometric.hpp"
+#include "track/displace.hpp"
+#include "track/judge/judge.hpp"
+#include "track/recover/recovery.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Fits the weights of core/src/judge/weights.hpp to tables of collect_evidence.
+"""Fits the weights of core/src/track/judge/weights.hpp to tables of collect_evidence.
 
-    fit.py TABLE.csv... > core/src/judge/weights.hpp
+    fit.py TABLE.csv... > core/src/track/judge/weights.hpp
 
 A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
 more than 20 mm or nothing there; what lies between is left out. A quarter of the tables is held out, and

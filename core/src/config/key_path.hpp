@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "config/yaml_node.hpp"
+#include "hypotrack/export.hpp"
 
 namespace hypotrack::detail {
 
 /// The steps of a path: `models.0.type`.
-std::vector<std::string> split_path(std::string_view path);
+HYPOTRACK_API std::vector<std::string> split_path(std::string_view path);
 
 /// A step into a list; nothing if it is no number.
 std::optional<std::size_t> as_index(std::string_view step);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "config/yaml_node.hpp"
+#include "hypotrack/export.hpp"
 
 namespace hypotrack::detail {
 
@@ -14,8 +15,9 @@ void apply_override(YamlNode& root, const std::string& assignment);
 
 /// The value of an assignment to `path`, with the parts that it takes from other scenes. Throws
 /// ConfigError.
-std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
-                                        const std::shared_ptr<const YamlOrigin>& origin);
+HYPOTRACK_API std::unique_ptr<YamlNode> read_assigned(
+    const std::string& path, std::string_view text,
+    const std::shared_ptr<const YamlOrigin>& origin);
 
 /// Puts a value at a path below `root`, creating what is missing on the way. `say` is how messages
 /// name the assignment.

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <vector>
 
-#include "config/numbers.hpp"
+#include "base/numbers.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "hypotrack/params.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "config/numbers.hpp"
+#include "base/numbers.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {

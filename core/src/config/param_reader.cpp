@@ -5,9 +5,9 @@
 #include <set>
 #include <utility>
 
-#include "config/numbers.hpp"
+#include "base/numbers.hpp"
+#include "base/suggest.hpp"
 #include "config/read_value.hpp"
-#include "config/suggest.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {

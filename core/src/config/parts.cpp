@@ -9,8 +9,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/suggest.hpp"
 #include "config/key_path.hpp"
-#include "config/suggest.hpp"
 #include "config/yaml_file.hpp"
 #include "config/yaml_text.hpp"
 #include "config/yaml_writer.hpp"

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "config/numbers.hpp"
-#include "config/suggest.hpp"
+#include "base/numbers.hpp"
+#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail {

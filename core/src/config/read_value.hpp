@@ -4,18 +4,19 @@
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::detail {
 
 /// Throws ConfigError: `scene.yaml:3:5: optimizer.particles: problem`.
-[[noreturn]] void fail_at(const ConfigNode& node, std::string_view problem);
+[[noreturn]] HYPOTRACK_API void fail_at(const ConfigNode& node, std::string_view problem);
 
 /// What a node holds, for "found ..." in messages.
 std::string describe_value(const ConfigNode& node);
 
 /// Throws ConfigError: `expected` and what was found instead.
-[[noreturn]] void fail_type(const ConfigNode& node, std::string_view expected);
+[[noreturn]] HYPOTRACK_API void fail_type(const ConfigNode& node, std::string_view expected);
 
 /// Throws ConfigError: unknown key, the nearest name and all allowed ones.
 [[noreturn]] void fail_unknown(const ConfigNode& map, const std::string& key,

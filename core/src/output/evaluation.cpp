@@ -9,9 +9,9 @@
 #include <set>
 #include <string_view>
 
+#include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
-#include "output/csv.hpp"
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"
 

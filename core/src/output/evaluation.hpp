@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
-#include "metrics/metrics.hpp"
+#include "output/metrics/metrics.hpp"
 
 namespace hypotrack {
 

@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "hindsight/hindsight.hpp"
 #include "hypotrack/export.hpp"
 #include "output/run_output.hpp"
+#include "track/smooth/hindsight.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {

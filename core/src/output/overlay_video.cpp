@@ -7,8 +7,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
-#include "render/overlay.hpp"
-#include "render/picture.hpp"
+#include "picture/overlay.hpp"
+#include "picture/picture.hpp"
 
 namespace hypotrack {
 namespace {

@@ -6,10 +6,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/text_file.hpp"
 #include "config/yaml_document.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
-#include "output/text_file.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {

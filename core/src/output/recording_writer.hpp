@@ -11,8 +11,8 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
-#include "metrics/motion_speeds.hpp"
 #include "output/image_writer.hpp"
+#include "output/metrics/motion_speeds.hpp"
 
 namespace hypotrack {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
-#include "metrics/landmark_errors.hpp"
-#include "output/csv.hpp"
+#include "output/metrics/landmark_errors.hpp"
 #include "output/sigma_table.hpp"
 
 namespace hypotrack {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
-#include "metrics/reliability.hpp"
+#include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
 

@@ -9,7 +9,7 @@
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
 #include "output/verdicts.hpp"
-#include "render/picture.hpp"
+#include "picture/picture.hpp"
 
 namespace hypotrack {
 namespace {

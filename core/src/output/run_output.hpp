@@ -6,13 +6,13 @@
 #include <optional>
 #include <string>
 
+#include "base/text_file.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
-#include "metrics/metrics.hpp"
+#include "output/metrics/metrics.hpp"
 #include "output/run_directory.hpp"
 #include "output/summary.hpp"
-#include "output/text_file.hpp"
 #include "output/truth_output.hpp"
 #include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "output/csv.hpp"
+#include "base/csv.hpp"
 
 namespace hypotrack {
 

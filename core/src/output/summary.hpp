@@ -4,8 +4,8 @@
 #include <string>
 
 #include "hypotrack/export.hpp"
-#include "metrics/metrics.hpp"
-#include "metrics/reliability.hpp"
+#include "output/metrics/metrics.hpp"
+#include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
 

@@ -9,11 +9,11 @@
 #include <map>
 #include <optional>
 
-#include "config/suggest.hpp"
+#include "base/csv.hpp"
+#include "base/suggest.hpp"
+#include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
-#include "output/csv.hpp"
 #include "output/table_text.hpp"
-#include "output/text_file.hpp"
 
 namespace hypotrack {
 namespace {

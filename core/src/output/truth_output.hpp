@@ -4,11 +4,11 @@
 #include <optional>
 #include <string_view>
 
+#include "base/text_file.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
-#include "metrics/landmark_errors.hpp"
+#include "output/metrics/landmark_errors.hpp"
 #include "output/run_directory.hpp"
-#include "output/text_file.hpp"
 
 namespace hypotrack {
 

@@ -3,10 +3,10 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/text_file.hpp"
 #include "hypotrack/scene.hpp"
-#include "metrics/reliability.hpp"
+#include "output/metrics/reliability.hpp"
 #include "output/run_directory.hpp"
-#include "output/text_file.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {

@@ -2,7 +2,7 @@
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
-#include "metrics/status_metrics.hpp"
+#include "output/metrics/status_metrics.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {

@@ -9,7 +9,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/renderer.hpp"
 #include "output/run_directory.hpp"
-#include "render/comparison.hpp"
+#include "picture/comparison.hpp"
 
 namespace hypotrack {
 

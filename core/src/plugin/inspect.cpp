@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "config/suggest.hpp"
+#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/child.hpp"
 #include "plugin/folders.hpp"

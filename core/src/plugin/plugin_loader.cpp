@@ -7,8 +7,8 @@
 #include <mutex>
 #include <typeinfo>
 
+#include "base/suggest.hpp"
 #include "config/read_value.hpp"
-#include "config/suggest.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "plugin/crash_note.hpp"

@@ -7,16 +7,16 @@
 #include <string_view>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
-#include "hindsight/hindsight_settings.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
-#include "shape/shape_settings.hpp"
+#include "session/shape_settings.hpp"
+#include "tile/tiles.hpp"
+#include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
-#include "track/photometric.hpp"
 #include "track/search_space.hpp"
+#include "track/smooth/hindsight_settings.hpp"
 #include "track/status.hpp"
 
 namespace hypotrack {

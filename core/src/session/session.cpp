@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "config/yaml_document.hpp"
-#include "cuda/page_locked_images.hpp"
-#include "evaluate/evaluation.hpp"
+#include "cost/cuda/page_locked_images.hpp"
+#include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
 #include "session/checked_source.hpp"
-#include "session/displace.hpp"
+#include "track/displace.hpp"
 
 namespace hypotrack {
 namespace {

@@ -7,13 +7,13 @@
 #include <span>
 #include <string>
 
-#include "hindsight/hindsight.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
 #include "session/scene_file.hpp"
+#include "track/smooth/hindsight.hpp"
 #include "track/tracker.hpp"
 
 namespace hypotrack {

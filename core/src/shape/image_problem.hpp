@@ -3,14 +3,14 @@
 #include <memory>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "shape/coverage.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"
-#include "track/photometric.hpp"
+#include "tile/tiles.hpp"
+#include "track/color/photometric.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {

@@ -8,7 +8,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "session/session.hpp"
-#include "shape/shape_settings.hpp"
+#include "session/shape_settings.hpp"
 #include "shape/shape_targets.hpp"
 #include "track/tracker.hpp"
 

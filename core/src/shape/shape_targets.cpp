@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "config/suggest.hpp"
+#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {

@@ -6,7 +6,7 @@
 
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
-#include "session/displace.hpp"
+#include "track/displace.hpp"
 
 namespace hypotrack {
 namespace {

@@ -10,9 +10,9 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
-#include "judge/judge.hpp"
-#include "recover/recovery.hpp"
 #include "track/frame_search.hpp"
+#include "track/judge/judge.hpp"
+#include "track/recover/recovery.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
-#include "track/photometric.hpp"
+#include "tile/tiles.hpp"
+#include "track/color/photometric.hpp"
 #include "track/search_space.hpp"
 #include "track/tracker_parts.hpp"
 

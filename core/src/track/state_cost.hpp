@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/search_space.hpp"
 

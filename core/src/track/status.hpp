@@ -3,11 +3,11 @@
 #include <deque>
 #include <string_view>
 
-#include "geometry/on_foreground.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
-#include "recover/recovery_settings.hpp"
+#include "tile/on_foreground.hpp"
 #include "track/motion_limits.hpp"
+#include "track/recover/recovery_settings.hpp"
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {

@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
-#include "hindsight/hindsight_settings.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/candidate_finder.hpp"
+#include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
-#include "track/photometric.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
+#include "track/smooth/hindsight_settings.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/uncertainty.hpp"

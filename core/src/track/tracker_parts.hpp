@@ -3,14 +3,14 @@
 #include <memory>
 #include <vector>
 
-#include "evaluate/evaluator.hpp"
-#include "geometry/tiles.hpp"
-#include "hindsight/hindsight_settings.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "tile/tiles.hpp"
+#include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
-#include "track/photometric.hpp"
 #include "track/search_space.hpp"
+#include "track/smooth/hindsight_settings.hpp"
 #include "track/status.hpp"
 
 namespace hypotrack {

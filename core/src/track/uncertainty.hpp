@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "evaluate/evaluator.hpp"
+#include "cost/evaluator.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/uncertainty_settings.hpp"

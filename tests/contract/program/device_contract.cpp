@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "cuda/device.hpp"
+#include "cost/cuda/device.hpp"
+#include "cost/evaluator.hpp"
 #include "drawn_tiles.hpp"
-#include "evaluate/evaluator.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::contract {

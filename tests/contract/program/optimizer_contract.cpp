@@ -4,7 +4,7 @@
 #include <memory>
 #include <sstream>
 
-#include "cuda/device.hpp"
+#include "cost/cuda/device.hpp"
 #include "device_twin.hpp"
 #include "random_search.hpp"
 #include "search_problems.hpp"

@@ -1,0 +1,39 @@
+// Stands in for the lab's commands in a program that was built without the lab.
+#include <fmt/format.h>
+
+#include <string>
+
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+/// Adds a command that takes any arguments and says what is missing.
+void add_absent(CLI::App& app, const std::string& name, const std::string& summary) {
+  CLI::App* command = app.add_subcommand(name, summary + " (not in this build)");
+  command->allow_extras();
+  command->callback([name] {
+    throw ConfigError(
+        fmt::format("`hypotrack {}` is not in this program, because {}; install libboost-dev, "
+                    "libjs-three and libjs-vega, and configure with -DHYPOTRACK_LAB=ON",
+                    name, HYPOTRACK_WHY_NO_LAB));
+  });
+}
+
+}  // namespace
+
+void add_reliability_command(CLI::App& app, int&) {
+  add_absent(app, "reliability", "Compare sigmas with true errors");
+}
+void add_compare_command(CLI::App& app, CommonOptions&, int&) {
+  add_absent(app, "compare", "Run a study: scenes, settings and seeds, and tabulate it");
+}
+void add_bench_command(CLI::App& app, CommonOptions&, int&) {
+  add_absent(app, "bench", "Measure how fast scenes are tracked");
+}
+void add_report_command(CLI::App& app, CommonOptions&, int&) {
+  add_absent(app, "report", "Write one page about a study or a run");
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+
+namespace hypotrack {
+
+/// A cell of a comma-separated table to write: in quotes where it has a comma or a quote (RFC
+/// 4180); a line break becomes a space.
+HYPOTRACK_API std::string csv_cell(std::string_view text);
+
+/// The cells of a comma-separated table with a header, as text.
+class HYPOTRACK_API CsvTable {
+ public:
+  struct Row {
+    int line = 0;  ///< of the file, from 1
+    std::vector<std::string_view> cells;
+  };
+
+  /// Throws DataError on unreadable or empty files, files over 256 MiB, NUL characters, duplicate
+  /// or empty column names and rows whose length is not the header's.
+  explicit CsvTable(const std::filesystem::path& file);
+  CsvTable(const CsvTable&) = delete;
+  CsvTable& operator=(const CsvTable&) = delete;
+
+  const std::vector<std::string_view>& columns() const { return columns_; }
+  const std::vector<Row>& rows() const { return rows_; }
+  /// Index of a column, -1 if there is none.
+  int find(std::string_view column) const;
+
+  /// A cell as a number; "nan" and, if `empty_is_nan`, an empty cell are NaN. Throws DataError.
+  double number(const Row& row, int column, bool empty_is_nan) const;
+  /// A cell as a frame number, 0 .. 2^31 - 1. Throws DataError.
+  int frame(const Row& row, int column) const;
+  /// `poses.csv:12`
+  std::string where(const Row& row) const;
+
+ private:
+  void read_line(std::string_view line, int number);
+
+  std::string name_;
+  std::string text_;
+  std::vector<std::string_view> columns_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,152 @@
+#include "hypotrack/camera.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "camera/distort.hpp"
+#include "camera/distortion.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr double kRotationTolerance = 1e-4;
+
+std::string_view model_name(DistortionModel model) {
+  switch (model) {
+    case DistortionModel::none:
+      return "none";
+    case DistortionModel::brown:
+      return "brown";
+    case DistortionModel::fisheye:
+      return "fisheye";
+  }
+  return "unknown";
+}
+
+void check_distortion(const Camera& camera, std::string_view where) {
+  const std::size_t n = camera.distortion.size();
+  const char* expected = nullptr;
+  switch (camera.distortion_model) {
+    case DistortionModel::none:
+      if (n != 0) expected = "none at all";
+      break;
+    case DistortionModel::brown:
+      if (n != 4 && n != 5 && n != 8) expected = "4, 5 or 8 (k1 k2 p1 p2 [k3 [k4 k5 k6]])";
+      break;
+    case DistortionModel::fisheye:
+      if (n != 4) expected = "4 (k1 k2 k3 k4)";
+      break;
+  }
+  if (expected) {
+    throw DataError(
+        fmt::format("{}: {} distortion coefficients for the lens model '{}'; expected {}", where, n,
+                    model_name(camera.distortion_model), expected));
+  }
+  for (const double k : camera.distortion) {
+    if (!std::isfinite(k)) {
+      throw DataError(
+          fmt::format("{}: a distortion coefficient is {}; expected finite numbers", where, k));
+    }
+  }
+}
+
+void check_pose(const Camera& camera, std::string_view where) {
+  const Eigen::Matrix3d r = camera.camera_from_world.linear();
+  const Eigen::Vector3d t = camera.camera_from_world.translation();
+  if (!r.allFinite() || !t.allFinite()) {
+    throw DataError(fmt::format("{}: the pose holds NaN or infinite numbers", where));
+  }
+  const double error = (r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (error > kRotationTolerance) {
+    throw DataError(
+        fmt::format("{}: R is no rotation: R * R^T differs from the identity by {:.3g}; expected "
+                    "an orthonormal "
+                    "matrix within {:g}",
+                    where, error, kRotationTolerance));
+  }
+  if (r.determinant() < 0) {
+    throw DataError(fmt::format(
+        "{}: R is a mirrored rotation (determinant -1); expected determinant +1. One axis of the "
+        "calibration points the wrong way: OpenCV's are x right, y down, z forward",
+        where));
+  }
+}
+
+}  // namespace
+
+DistortionCoefficients distortion_coefficients(const Camera& camera) {
+  DistortionCoefficients k{};
+  std::copy_n(camera.distortion.begin(), std::min(camera.distortion.size(), k.size()), k.begin());
+  return k;
+}
+
+double monotonic_radius(const Camera& camera) {
+  constexpr double kStep = 1.0 / 1024;                        // radians
+  constexpr double kLast = std::numbers::pi / 2 - 4 * kStep;  // tan() = 256
+  const DistortionCoefficients k = distortion_coefficients(camera);
+  double previous = 0;
+  for (double angle = kStep; angle < kLast; angle += kStep) {
+    const double r = std::tan(angle);
+    double distorted = r;
+    if (camera.distortion_model == DistortionModel::fisheye) {
+      distorted = r * fisheye_factor(k.data(), r);
+    } else if (camera.distortion_model == DistortionModel::brown) {
+      const double r2 = r * r;
+      const double below = 1 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+      if (below <= 0) return std::tan(angle - kStep);
+      distorted = r * (1 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]))) / below;
+    }
+    if (distorted <= previous) return std::tan(angle - kStep);
+    previous = distorted;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world) {
+  const Eigen::Vector3d p = camera.camera_from_world * p_world;
+  if (!(p.z() > 0)) return Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  double x = p.x() / p.z();
+  double y = p.y() / p.z();
+  if (camera.distortion_model != DistortionModel::none) {
+    const DistortionCoefficients k = distortion_coefficients(camera);
+    if (camera.distortion_model == DistortionModel::brown) {
+      double xd = 0;
+      double yd = 0;
+      distort_brown(k.data(), x, y, xd, yd);
+      x = xd;
+      y = yd;
+    } else {
+      const double factor = fisheye_factor(k.data(), std::hypot(x, y));
+      x *= factor;
+      y *= factor;
+    }
+  }
+  return {camera.fx * x + camera.cx, camera.fy * y + camera.cy};
+}
+
+void validate(const Camera& camera, std::string_view where) {
+  if (camera.width <= 0 || camera.height <= 0) {
+    throw DataError(fmt::format("{}: the image size is {}x{} pixels; expected positive numbers",
+                                where, camera.width, camera.height));
+  }
+  if (!(std::isfinite(camera.fx) && std::isfinite(camera.fy) && camera.fx > 0 && camera.fy > 0)) {
+    throw DataError(fmt::format(
+        "{}: the focal lengths are fx = {:g}, fy = {:g} pixels; expected positive numbers", where,
+        camera.fx, camera.fy));
+  }
+  if (!std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
+    throw DataError(fmt::format("{}: the principal point is ({:g}, {:g}); expected finite numbers",
+                                where, camera.cx, camera.cy));
+  }
+  check_distortion(camera, where);
+  check_pose(camera, where);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,172 @@
+#include "camera/opencv_yaml.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr std::size_t kLargestFile = std::size_t{8} << 20;
+constexpr int kLargestSide = 65536;
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) {
+    throw DataError(fmt::format("{}: no such file; expected a calibration", file.string()));
+  }
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension == ".xml" || extension == ".json" || extension == ".gz") {
+    throw DataError(
+        fmt::format("{}: calibrations are read as YAML only; expected a .yml or .yaml "
+                    "file as cv::FileStorage writes it",
+                    file.string()));
+  }
+  if (std::filesystem::file_size(file, error) > kLargestFile || error) {
+    throw DataError(
+        fmt::format("{}: is larger than 8 MiB, which no calibration is", file.string()));
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw DataError(fmt::format("{}: cannot be read; check its permissions", file.string()));
+  }
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Blanks what is OpenCV's own and no YAML 1.2, without moving anything: positions stay true.
+void blank_opencv_marks(std::string& text) {
+  const std::size_t start = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  if (text.compare(start, 5, "%YAML") == 0) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    std::fill(text.begin() + static_cast<std::ptrdiff_t>(start),
+              text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+  }
+  constexpr std::string_view kTag = "!!opencv-matrix";
+  for (std::size_t at = text.find(kTag); at != std::string::npos; at = text.find(kTag, at)) {
+    text.replace(at, kTag.size(), kTag.size(), ' ');
+  }
+}
+
+std::string name_at(const ConfigNode& node, std::string_view name) {
+  return fmt::format("{}: {}", node.where(), name);
+}
+
+double read_number(const ConfigNode& node, std::string_view name) {
+  const std::string& text = node.scalar();
+  std::string_view rest = text;
+  if (rest.starts_with('+')) rest.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const bool read =
+      node.is_scalar() && !rest.empty() && error == std::errc{} && end == rest.data() + rest.size();
+  if (!read || !std::isfinite(value)) {
+    throw DataError(fmt::format("{} holds '{}'; expected finite numbers", name_at(node, name),
+                                node.is_scalar() ? text.substr(0, 40) : "a map or list"));
+  }
+  return value;
+}
+
+void append_numbers(const ConfigNode& list, std::string_view name, std::vector<double>& values) {
+  for (std::size_t i = 0; i < list.size(); ++i) values.push_back(read_number(list.at(i), name));
+}
+
+YamlMatrix read_opencv_matrix(const ConfigNode& node, std::string_view name) {
+  for (const char* key : {"rows", "cols", "dt", "data"}) {
+    if (!node.get(key).defined()) {
+      throw DataError(fmt::format("{} has no '{}'; expected a matrix with rows, cols, dt and data",
+                                  name_at(node, name), key));
+    }
+  }
+  YamlMatrix matrix;
+  matrix.rows = read_count(node.get("rows"), name);
+  matrix.cols = read_count(node.get("cols"), name);
+  const std::string& type = node.get("dt").scalar();
+  if (type != "d" && type != "f") {
+    throw DataError(
+        fmt::format("{} has elements of type '{}'; expected d or f (one channel of "
+                    "floating-point numbers)",
+                    name_at(node.get("dt"), name), type.substr(0, 40)));
+  }
+  const ConfigNode data = node.get("data");
+  if (!data.is_list()) {
+    throw DataError(fmt::format("{} has data that is no list of numbers", name_at(data, name)));
+  }
+  append_numbers(data, name, matrix.values);
+  const auto expected =
+      static_cast<std::size_t>(matrix.rows) * static_cast<std::size_t>(matrix.cols);
+  if (matrix.values.size() != expected) {
+    throw DataError(fmt::format("{} has {} numbers; expected {} x {} = {}", name_at(data, name),
+                                matrix.values.size(), matrix.rows, matrix.cols, expected));
+  }
+  return matrix;
+}
+
+YamlMatrix read_plain_matrix(const ConfigNode& node, std::string_view name) {
+  YamlMatrix matrix;
+  matrix.rows = 1;
+  if (node.size() > 0 && node.at(0).is_list()) {
+    matrix.rows = static_cast<int>(node.size());
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      if (node.at(i).size() != node.at(0).size() || !node.at(i).is_list()) {
+        throw DataError(fmt::format("{} has rows of unequal length", name_at(node.at(i), name)));
+      }
+      append_numbers(node.at(i), name, matrix.values);
+    }
+    matrix.cols = static_cast<int>(node.at(0).size());
+  } else {
+    append_numbers(node, name, matrix.values);
+    matrix.cols = static_cast<int>(matrix.values.size());
+  }
+  return matrix;
+}
+
+}  // namespace
+
+ConfigNode read_opencv_yaml(const std::filesystem::path& file) {
+  std::string text = read_text(file);
+  blank_opencv_marks(text);
+  try {
+    return ConfigNode::parse(text, file.string(), file.parent_path());
+  } catch (const ConfigError& e) {
+    throw DataError(e.what());
+  }
+}
+
+YamlMatrix read_matrix(const ConfigNode& node, std::string_view name) {
+  if (!node.is_map() && !node.is_list()) {
+    throw DataError(fmt::format("{} is no matrix; expected `!!opencv-matrix` or a list of numbers",
+                                name_at(node, name)));
+  }
+  YamlMatrix matrix =
+      node.is_map() ? read_opencv_matrix(node, name) : read_plain_matrix(node, name);
+  matrix.where = name_at(node, name);
+  return matrix;
+}
+
+void expect_shape(const YamlMatrix& matrix, int rows, int cols) {
+  const bool same = matrix.rows == rows && matrix.cols == cols;
+  const bool turned = (rows == 1 || cols == 1) && matrix.rows == cols && matrix.cols == rows;
+  const bool listed = matrix.rows == 1 && matrix.cols == rows * cols;
+  if (same || turned || listed) return;
+  throw DataError(fmt::format("{} is {} x {}; expected {} x {}", matrix.where, matrix.rows,
+                              matrix.cols, rows, cols));
+}
+
+int read_count(const ConfigNode& node, std::string_view name) {
+  const double value = read_number(node, name);
+  if (value < 1 || value > kLargestSide || value != std::floor(value)) {
+    throw DataError(fmt::format("{} is {}; expected a whole number from 1 to {}",
+                                name_at(node, name), value, kLargestSide));
+  }
+  return static_cast<int>(value);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "cost/hypothesis_drawer.hpp"
+#include "cost/hypothesis_renderer.hpp"
+
+namespace hypotrack {
+namespace {
+
+class CpuRenderer : public HypothesisRenderer {
+ public:
+  CpuRenderer(const Scene& scene, bool draws, int threads)
+      : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
+        limit_(tbb::global_control::max_allowed_parallelism,
+               static_cast<std::size_t>(std::max(threads_, tbb::info::default_concurrency()))),
+        arena_(threads_) {
+    if (!draws) return;
+    plan_ = std::make_unique<ScenePlan>(scene);
+    for (int i = 0; i < threads_; ++i) {
+      drawers_.push_back(std::make_unique<HypothesisDrawer>(*plan_));
+    }
+  }
+
+  void prepare(const Observation& observation) override {
+    frame_ = FrameProjection(observation);
+    for (const auto& drawer : drawers_) drawer->prepare(frame_);
+  }
+
+  void render(const Eigen::MatrixXd& states, const Visit& visit) override {
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, states.cols()),
+                        [&](const tbb::blocked_range<Eigen::Index>& range) {
+                          // An objective that is parallel itself must not pick up another
+                          // hypothesis while it waits: it would draw over its own tiles.
+                          tbb::this_task_arena::isolate([&] {
+                            for (auto i = range.begin(); i < range.end(); ++i) {
+                              visit_one(states, i, visit);
+                            }
+                          });
+                        });
+    });
+  }
+
+  std::string description() const override {
+    return fmt::format("cpu ({}, {} thread{})", simd_target(), threads_, threads_ == 1 ? "" : "s");
+  }
+
+ private:
+  void visit_one(const Eigen::MatrixXd& states, Eigen::Index i, const Visit& visit) {
+    const std::span<const double> state(states.col(i).data(),
+                                        static_cast<std::size_t>(states.rows()));
+    if (drawers_.empty()) return visit(i, {state, {}});
+    const int thread = tbb::this_task_arena::current_thread_index();
+    visit(i, {state, drawers_[static_cast<std::size_t>(thread)]->draw(state)});
+  }
+
+  int threads_;
+  tbb::global_control limit_;  // more threads than cores, if somebody asks for them
+  tbb::task_arena arena_;
+  std::unique_ptr<const ScenePlan> plan_;
+  FrameProjection frame_;
+  std::vector<std::unique_ptr<HypothesisDrawer>> drawers_;  // one per slot of the arena
+};
+
+}  // namespace
+
+std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool draws, int threads) {
+  return std::make_unique<CpuRenderer>(scene, draws, threads);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,56 @@
+#include "cost/cuda/block_pool.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+namespace hypotrack::cuda {
+namespace {
+
+/// Four sizes from one power of two to the next.
+struct SizeClass {
+  std::size_t index;
+  std::size_t capacity;
+};
+
+SizeClass size_class(std::size_t bytes) {
+  constexpr std::size_t kSmallest = 64;
+  const std::size_t last = std::max(bytes, kSmallest) - 1;
+  const auto bits = static_cast<std::size_t>(std::bit_width(last));
+  const std::size_t quarters = last >> (bits - 3);  // 4 to 7
+  return {4 * bits + quarters - 8, (quarters + 1) << (bits - 3)};
+}
+
+}  // namespace
+
+BlockPool::BlockPool(Allocate allocate, std::size_t bound)
+    : allocate_(std::move(allocate)), bound_(bound) {}
+
+void* BlockPool::take(std::size_t bytes) {
+  std::unique_lock lock(mutex_);
+  if (bytes > bound_) return nullptr;
+  const SizeClass size = size_class(bytes);
+  if (void* block = kept_[size.index]) {
+    std::memcpy(&kept_[size.index], block, sizeof(void*));
+    return block;
+  }
+  if (size.capacity > bound_ || reserved_ > bound_ - size.capacity) return nullptr;
+  reserved_ += size.capacity;
+  lock.unlock();  // others need not wait for what is slow
+  void* block = allocate_(size.capacity);
+  if (block) return block;
+  lock.lock();
+  reserved_ -= size.capacity;
+  bound_ = std::min(bound_, reserved_);
+  return nullptr;
+}
+
+void BlockPool::give_back(void* block, std::size_t bytes) noexcept {
+  const SizeClass size = size_class(bytes);
+  const std::scoped_lock lock(mutex_);
+  std::memcpy(block, &kept_[size.index], sizeof(void*));
+  kept_[size.index] = block;
+}
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,40 @@
+// Stands in for the GPU backend in a build without a CUDA toolkit.
+#include "cost/cuda/device.hpp"
+#include "cost/cuda/egl_cuda_evaluation.hpp"
+#include "cost/cuda/page_locked_images.hpp"
+#include "cost/evaluation.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::cuda {
+
+std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
+
+std::optional<std::size_t> free_memory(int) { return std::nullopt; }
+
+void page_lock_images(int) {}
+
+Device::Device(int index) : index_(index) {
+  throw DeviceError("evaluate.backend: cuda: " + why_no_device() +
+                    ". Write `backend: cpu`, or build with -DHYPOTRACK_CUDA=ON");
+}
+Device::~Device() = default;
+void Device::use() const {}
+
+std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
+                              const EvaluateSettings&, bool) {
+  return why_no_device();
+}
+
+std::unique_ptr<Evaluation> make_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
+                                            const EvaluateSettings& settings, bool) {
+  const Device device(settings.device);
+  return nullptr;
+}
+
+std::unique_ptr<Evaluation> make_egl_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
+                                                const EvaluateSettings&, std::string& why_not) {
+  why_not = why_no_device();
+  return nullptr;
+}
+
+}  // namespace hypotrack::cuda

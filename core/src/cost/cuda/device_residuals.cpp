@@ -1,0 +1,103 @@
+#include "cost/cuda/device_residuals.hpp"
+
+#include <algorithm>
+
+#include "cost/cuda/gram_matrix.hpp"
+#include "cost/cuda/transfer.hpp"
+#include "cost/normal_equations.hpp"
+
+namespace hypotrack::cuda {
+
+void DeviceResiduals::reserve(Eigen::Index states) {
+  frame_.reserve(states, [&](std::int64_t count) {
+    residuals_.reserve(static_cast<std::size_t>(count * frame_.residual_count()));
+  });
+}
+
+void DeviceResiduals::enqueue(const Eigen::MatrixXd& states) {
+  frame_.device().use();
+  reserve(states.cols());
+  batch_.upload(states, frame_.stream());
+  frame_.enqueue(batch_.layout(), residuals_.data());
+  batch_.download(0, states.cols(), frame_.stream());
+}
+
+void DeviceResiduals::finish(Eigen::Ref<Eigen::VectorXd> costs) {
+  check(cudaStreamSynchronize(native(frame_.stream())), "evaluating residuals");
+  batch_.read(costs, frame_.terms());
+}
+
+void DeviceResiduals::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                               Eigen::Ref<Eigen::VectorXd> costs) {
+  if (states.cols() == 0) return;
+  enqueue(states);
+  finish(costs);
+}
+
+void DeviceResiduals::move_to(Eigen::Index i) {
+  const auto rows = static_cast<std::size_t>(frame_.residual_count());
+  if (rows == 0) return;
+  here_.reserve(rows);
+  check(cudaMemcpyAsync(here_.data(), residuals_.data() + static_cast<std::size_t>(i) * rows,
+                        rows * sizeof(float), cudaMemcpyDeviceToDevice, native(frame_.stream())),
+        "copying residuals");
+}
+
+NormalEquations DeviceResiduals::normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                                                  const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                                  Eigen::Ref<Eigen::VectorXd> costs) {
+  const auto dimension = static_cast<int>(states.cols());
+  const std::int64_t rows = frame_.residual_count();
+  const auto numbers = static_cast<std::size_t>(gram_numbers(dimension));
+  frame_.device().use();
+  parts_.reserve(numbers * static_cast<std::size_t>(gram_blocks(rows)));
+  sums_.reserve(numbers);
+  sums_staging_.reserve(numbers);
+  enqueue(states);
+  enqueue_gram({here_.data(), residuals_.data(), rows, dimension, parts_.data(), sums_.data()},
+               frame_.stream());
+  to_host(sums_staging_, sums_, 0, numbers, frame_.stream());
+  finish(costs);
+  return unpack_gram(sums_staging_.data(), scale_of_finite(scale, costs));
+}
+
+void DeviceResiduals::download(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
+                               Eigen::Ref<Eigen::VectorXd> costs) {
+  const Eigen::Index rows = residuals.rows();
+  const Eigen::Index most =
+      std::max<Eigen::Index>(kMostBytes / std::max<Eigen::Index>(4 * rows, 1), 1);
+  for (Eigen::Index first = 0; first < states.cols(); first += most) {
+    const Eigen::Index count = std::min(most, states.cols() - first);
+    enqueue(states.middleCols(first, count));
+    const auto size = static_cast<std::size_t>(rows * count);
+    residuals_staging_.reserve(size);
+    if (size > 0) to_host(residuals_staging_, residuals_, 0, size, frame_.stream());
+    finish(costs.segment(first, count));
+    residuals.middleCols(first, count) =
+        Eigen::Map<const Eigen::MatrixXf>(residuals_staging_.data(), rows, count);
+  }
+}
+
+NormalEquations unpack_gram(const double* sums, const Eigen::Ref<const Eigen::VectorXd>& scale) {
+  const auto dimension = static_cast<int>(scale.size());
+  NormalEquations out{Eigen::MatrixXd::Zero(dimension, dimension),
+                      Eigen::VectorXd::Zero(dimension)};
+  const auto put = [&](int row, int column, double sum) {
+    if (row >= dimension || column > dimension || scale[row] == 0) return;
+    if (column == dimension) {
+      out.g[row] = scale[row] * sum;
+    } else if (scale[column] != 0) {
+      out.a(row, column) = out.a(column, row) = scale[row] * scale[column] * sum;
+    }
+  };
+  for (int a = 0; a < gram_sides(dimension); ++a) {
+    for (int b = a; b < gram_sides(dimension); ++b) {
+      for (int k = 0; k < kGramSquare; ++k) {
+        put(kGramSide * a + k / kGramSide, kGramSide * b + k % kGramSide, *sums++);
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace hypotrack::cuda

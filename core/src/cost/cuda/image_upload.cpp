@@ -1,0 +1,84 @@
+#include "cost/cuda/image_upload.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+
+#include <cstring>
+
+#include "cost/cuda/pooled_mat_allocator.hpp"
+
+namespace hypotrack::cuda {
+namespace {
+
+constexpr std::size_t kAlignment = 256;
+
+bool page_locked(const void* address) {
+  cudaPointerAttributes attributes{};
+  if (cudaPointerGetAttributes(&attributes, address) != cudaSuccess) {
+    (void)cudaGetLastError();
+    return false;
+  }
+  return attributes.type == cudaMemoryTypeHost;
+}
+
+/// Whether rows of `width` bytes lie in page-locked memory, as images from the pool do: asking the
+/// driver takes longer.
+bool page_locked(const cv::Mat& rows, std::size_t width) {
+  if (rows.u && dynamic_cast<const PooledMatAllocator*>(rows.u->currAllocator)) return true;
+  return page_locked(rows.ptr()) && page_locked(rows.ptr(rows.rows - 1) + width - 1);
+}
+
+/// Rows without gaps. One core reads images that it has not in its cache at a fraction of what the
+/// memory gives.
+void copy_rows(const cv::Mat& rows, std::size_t width, unsigned char* to) {
+  constexpr int kPieces = 4;
+  const int grain = (rows.rows + kPieces - 1) / kPieces;
+  tbb::parallel_for(
+      tbb::blocked_range<int>(0, rows.rows, grain),
+      [&](const tbb::blocked_range<int>& range) {
+        for (int y = range.begin(); y < range.end(); ++y) {
+          std::memcpy(to + static_cast<std::size_t>(y) * width, rows.ptr(y), width);
+        }
+      },
+      tbb::simple_partitioner());
+}
+
+}  // namespace
+
+void ImageUpload::begin(std::size_t bytes) {
+  bytes += 4 * kAlignment;
+  device_.reserve(bytes);
+  staging_.reserve(bytes);
+  end_ = first_ = 0;
+}
+
+const unsigned char* ImageUpload::add(const cv::Mat& image, const cv::Rect& part, Stream stream) {
+  const cv::Mat rows = image(part);
+  const std::size_t width = rows.elemSize() * static_cast<std::size_t>(rows.cols);
+  const auto height = static_cast<std::size_t>(rows.rows);
+  const std::size_t at = end_;
+  if (page_locked(rows, width)) {
+    flush(stream);
+    check(cudaMemcpy2DAsync(device_.data() + at, width, rows.ptr(), rows.step, width, height,
+                            cudaMemcpyHostToDevice, native(stream)),
+          "uploading an image");
+    end_ = first_ = (at + width * height + kAlignment - 1) / kAlignment * kAlignment;
+    return device_.data() + at;
+  }
+  copy_rows(rows, width, staging_.data() + at);
+  end_ = (at + width * height + kAlignment - 1) / kAlignment * kAlignment;
+  return device_.data() + at;
+}
+
+void ImageUpload::flush(Stream stream) {
+  if (end_ == first_) return;
+  check(cudaMemcpyAsync(device_.data() + first_, staging_.data() + first_, end_ - first_,
+                        cudaMemcpyHostToDevice, native(stream)),
+        "uploading an image");
+  first_ = end_;
+}
+
+void ImageUpload::finish(Stream stream) { flush(stream); }
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,169 @@
+#pragma once
+
+#include <cstdint>
+
+#include "camera/lens_map.hpp"
+#include "hypotrack/cuda/layout.hpp"
+#include "hypotrack/pixel.hpp"
+#include "tile/color_map.hpp"
+
+/// A tile's pixels, one by one, for kernels and for tests on the host. They repeat what
+/// Resampler::cut does with OpenCV (means by INTER_AREA, lookups by remap with INTER_LINEAR), down
+/// to its rounding: lookups to 1/32 of a pixel, results to whole numbers after each step.
+namespace hypotrack::cuda {
+
+/// A rectangle of an image.
+struct ImagePart {
+  std::int32_t x, y, width, height;
+};
+
+/// How a tile is cut out of one view, and what it is cut from. Images are parts of the view's, row
+/// by row without gaps.
+struct ViewCut {
+  LensMap lens;
+  TileIntrinsics camera;
+  std::int32_t width, height;  ///< of the tile
+  std::int32_t image_width, image_height;
+  std::int32_t blocks;   ///< ReductionPlan
+  std::int32_t samples;  ///< ReductionPlan: 1 or 2
+  float means_scale;     ///< from image coordinates to those of the means
+  float means_x, means_y;
+  ColorMap colors;
+  ImagePart touched;           ///< what `color` and `mask` hold, whole blocks
+  ImagePart measured;          ///< what `depth` holds
+  const unsigned char* color;  ///< BGR; null if the view has none
+  const unsigned char* mask;   ///< null if the view has none
+  const float* depth;          ///< null if the view has none
+  std::uint32_t* means;        ///< of the blocks of `touched`; null without colour and mask
+  std::uint32_t* tile_pixels;  ///< TileLayout
+  float* tile_depth;           ///< TileLayout; null without depth
+};
+
+/// Four channels of 8 bits in a word, the first lowest: blue, green, red and the mask.
+struct Channels {
+  std::uint32_t sum[4] = {};
+
+  HYPOTRACK_PIXEL void add(std::uint32_t word, std::uint32_t weight) {
+    for (int i = 0; i < 4; ++i) sum[i] += ((word >> (8 * i)) & 255) * weight;
+  }
+  HYPOTRACK_PIXEL std::uint32_t rounded(std::uint32_t half, int shift) const {
+    std::uint32_t word = 0;
+    for (int i = 0; i < 4; ++i) word |= ((sum[i] + half) >> shift) << (8 * i);
+    return word;
+  }
+};
+
+/// The mean of `blocks` x `blocks` numbers.
+HYPOTRACK_PIXEL std::uint32_t rounded_mean(std::uint32_t sum, int blocks) {
+  if (blocks == 1) return sum;
+  if (blocks == 2) return (sum + 2) >> 2;
+  const float scale = 1.0f / static_cast<float>(blocks * blocks);
+  return static_cast<std::uint32_t>(pixel::round(static_cast<float>(sum) * scale));
+}
+
+/// The means over a block of the touched part.
+HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewCut& cut, int column, int row) {
+  const int blocks = cut.blocks;
+  std::uint32_t b = 0, g = 0, r = 0, mask = 0;
+  for (int y = row * blocks; y < (row + 1) * blocks; ++y) {
+    for (int x = column * blocks; x < (column + 1) * blocks; ++x) {
+      const int at = y * cut.touched.width + x;
+      if (cut.color) {
+        b += cut.color[3 * at];
+        g += cut.color[3 * at + 1];
+        r += cut.color[3 * at + 2];
+      }
+      if (cut.mask) mask += cut.mask[at] ? 255u : 0u;
+    }
+  }
+  return rounded_mean(b, blocks) | rounded_mean(g, blocks) << 8 | rounded_mean(r, blocks) << 16 |
+         rounded_mean(mask, blocks) << 24;
+}
+
+/// A coordinate in units of 1/32 pixel.
+HYPOTRACK_PIXEL int in_fixed_point(float coordinate) {
+  constexpr float kFar = 1e5f;  // beyond any image, and whole numbers far beyond stay exact
+  return static_cast<int>(pixel::round(pixel::min(pixel::max(coordinate, -kFar), kFar) * 32.0f));
+}
+
+HYPOTRACK_PIXEL int clamped(int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; }
+
+/// Bilinear lookup in the means, which continue beyond their border.
+HYPOTRACK_PIXEL std::uint32_t look_up(const ViewCut& cut, ImagePoint p) {
+  const int columns = cut.touched.width / cut.blocks;
+  const int rows = cut.touched.height / cut.blocks;
+  const int x = in_fixed_point(p.x);
+  const int y = in_fixed_point(p.y);
+  const int x0 = clamped(x >> 5, columns), x1 = clamped((x >> 5) + 1, columns);
+  const int y0 = clamped(y >> 5, rows), y1 = clamped((y >> 5) + 1, rows);
+  const std::uint32_t a = x & 31, b = y & 31;
+  const std::uint32_t* top = cut.means + y0 * columns;
+  const std::uint32_t* bottom = cut.means + y1 * columns;
+  Channels c;
+  c.add(top[x0], (32 - a) * (32 - b));
+  c.add(top[x1], a * (32 - b));
+  c.add(bottom[x0], (32 - a) * b);
+  c.add(bottom[x1], a * b);
+  return c.rounded(512, 10);
+}
+
+/// Where a point of the image lies in the means.
+HYPOTRACK_PIXEL ImagePoint in_means(const ViewCut& cut, ImagePoint p) {
+  return {std::fma(p.x, cut.means_scale, cut.means_x), std::fma(p.y, cut.means_scale, cut.means_y)};
+}
+
+/// A quarter of the way from `b` to `a`.
+HYPOTRACK_PIXEL ImagePoint quarter(ImagePoint a, ImagePoint b) {
+  return {a.x * 0.25f + b.x * 0.75f, a.y * 0.25f + b.y * 0.75f};
+}
+
+/// Colour and mask of a tile's pixel. `map(column, row)` is image_point() of the pixel and its
+/// neighbours.
+template <class Map>
+HYPOTRACK_PIXEL std::uint32_t sampled(const ViewCut& cut, const Map& map, int u, int v) {
+  const ImagePoint centre = in_means(cut, map(u, v));
+  if (cut.samples == 1) return look_up(cut, centre);
+  Channels c;
+  for (int j = -1; j <= 1; j += 2) {
+    const ImagePoint beyond = in_means(cut, map(u, v + j));
+    for (int i = -1; i <= 1; i += 2) {
+      const ImagePoint row = quarter(in_means(cut, map(u + i, v)), centre);
+      const ImagePoint next = quarter(in_means(cut, map(u + i, v + j)), beyond);
+      c.add(look_up(cut, quarter(next, row)), 1);
+    }
+  }
+  return c.rounded(2, 2);
+}
+
+/// Blue, green and red of a word, mapped; without what lies above them.
+HYPOTRACK_PIXEL std::uint32_t mapped_colors(const ColorMap& map, std::uint32_t word) {
+  std::uint32_t out = 0;
+  for (int i = 0; i < 3; ++i) out |= mapped_channel(map, i, (word >> (8 * i)) & 255) << (8 * i);
+  return out;
+}
+
+/// A tile's pixel as TileLayout has it.
+template <class Map>
+HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int u, int v) {
+  const bool valid = inside_image(map(u, v), cut.image_width, cut.image_height);
+  std::uint32_t word = valid ? kValidFlag : 0;
+  if (!cut.means) return word;
+  const std::uint32_t color_and_mask = sampled(cut, map, u, v);
+  if (valid && (color_and_mask >> 31) != 0) word |= kForegroundFlag;
+  return cut.color ? word | mapped_colors(cut.colors, color_and_mask) : word;
+}
+
+/// Depth of a tile's pixel that lies at `p` in the image: that of the nearest pixel; 0 where there
+/// is none.
+HYPOTRACK_PIXEL float tile_depth(const ViewCut& cut, ImagePoint p, int u, int v) {
+  if (!inside_image(p, cut.image_width, cut.image_height)) return 0.0f;
+  const ImagePart& part = cut.measured;
+  const int column = clamped(nearest_pixel(p.x, cut.image_width) - part.x, part.width);
+  const int row = clamped(nearest_pixel(p.y, cut.image_height) - part.y, part.height);
+  const float depth = cut.depth[row * part.width + column];
+  const float along = depth_along_tile(cut.lens, cut.camera, u, v, depth);
+  constexpr float kLargest = 3.4e38f;
+  return along > 0.0f && along < kLargest ? along : 0.0f;
+}
+
+}  // namespace hypotrack::cuda

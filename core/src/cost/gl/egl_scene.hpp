@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "cost/gl/egl_model.hpp"
+#include "cost/gl/egl_program.hpp"
+#include "gl/gl_objects.hpp"
+#include "hypotrack/scene.hpp"
+
+namespace hypotrack {
+
+/// One view of a frame as OpenGL draws it.
+struct EglView {
+  Eigen::Matrix4f clip_from_first;  ///< from the frame of the first view's camera
+  int width = 0;
+  int height = 0;
+};
+
+/// A scene as OpenGL draws hypotheses of it. The context that it was made in must be current
+/// throughout.
+class EglScene {
+ public:
+  /// The scene must outlive it. Throws DeviceError if the context cannot choose layers in the
+  /// vertex shader.
+  explicit EglScene(const Scene& scene);
+
+  /// The most hypotheses that pose() takes.
+  int most_hypotheses() const;
+
+  /// Poses the columns of `states`.
+  void pose(const Eigen::Ref<const Eigen::MatrixXd>& states,
+            const Eigen::Isometry3d& first_from_world);
+  /// Draws them, once posed, to the current framebuffer: view v of column i to layer
+  /// i * views.size() + v.
+  void draw(const Eigen::Ref<const Eigen::MatrixXd>& states, std::span<const EglView> views) const;
+
+ private:
+  void draw_instances(const EglModel& model, Eigen::Index first, Eigen::Index count,
+                      std::span<const EglView> views) const;
+
+  std::vector<EglModel> models_;
+  std::vector<int> first_matrix_;  // of each model, among those of a hypothesis
+  int matrix_stride_ = 0;          // matrices per hypothesis
+  EglProgram program_;
+  gl::Buffer matrix_buffer_;
+  gl::Texture matrix_texture_;
+  std::vector<float> matrices_;
+  BonePoser::Workspace workspace_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <span>
+#include <vector>
+
+#include "cost/raster_kernels.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/observation.hpp"
+#include "scene/scene_plan.hpp"
+#include "scene/scene_poser.hpp"
+
+namespace hypotrack {
+
+/// The cameras of a frame's tiles as the kernels see them.
+struct HYPOTRACK_API FrameProjection {
+  FrameProjection() = default;
+  explicit FrameProjection(const Observation& observation);
+
+  Eigen::Isometry3d first_from_world = Eigen::Isometry3d::Identity();
+  std::vector<ViewProjection> views;
+  bool pair = false;  ///< the views share y and 1/z
+};
+
+/// Poses and draws one hypothesis at a time into tiles of its own; one per thread. draw() runs the
+/// stages in their order; they are separate so that each can be measured.
+class HYPOTRACK_API HypothesisDrawer {
+ public:
+  /// The plan must outlive the drawer.
+  explicit HypothesisDrawer(const ScenePlan& plan);
+
+  /// Takes a frame's cameras, which must outlive the drawing.
+  void prepare(const FrameProjection& frame);
+
+  /// Depth of a normalised state in every view, valid until the next call.
+  std::span<const DepthTile> draw(std::span<const double> state);
+
+  std::span<const DepthTile> tiles() const { return tiles_; }
+  /// Projected vertices of the posed state as a view sees them: of one view, or of both views of a
+  /// rectified pair (kRecord).
+  const float* records(std::size_t view) const { return records_[frame_->pair ? 0 : view].get(); }
+  const VisibleTriangles& visible(std::size_t view) const { return visible_[view]; }
+  void clear();                              ///< empties what was drawn before
+  void pose(std::span<const double> state);  ///< kinematics and skinning
+  void project();
+  void cull();
+  void fill();
+
+ private:
+  void set_bounds(std::size_t view, const PixelRange& range);
+  VisibleTriangles empty_lists(std::size_t view);
+  void cull_view(std::size_t view);
+
+  const ScenePlan* plan_;
+  const FrameProjection* frame_ = nullptr;
+  ScenePoser poser_;
+  std::vector<AlignedFloats> records_;  // one per view, or one for a rectified pair
+  std::vector<std::uint32_t> list_storage_;
+  std::vector<VisibleTriangles> visible_;
+  std::vector<AlignedFloats> tile_storage_;
+  std::vector<std::size_t> tile_size_;
+  std::vector<DepthTile> tiles_;
+};
+
+}  // namespace hypotrack

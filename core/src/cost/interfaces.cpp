@@ -1,0 +1,54 @@
+// Out-of-line destructors anchor vtables in libhypotrack.so, so that dynamic casts work across
+// plugin libraries.
+#include "cost/host_differences.hpp"
+#include "hypotrack/cuda/device_cost.hpp"
+#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/objective.hpp"
+#include "hypotrack/optimizer.hpp"
+#include "hypotrack/source.hpp"
+
+namespace hypotrack {
+
+ResidualTerm::~ResidualTerm() = default;
+std::span<const int> ResidualTerm::pixel_views() const {
+  throw Error("this objective has no slopes of residuals");
+}
+
+void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::span<float>,
+                                std::span<float>) const {
+  throw Error("this objective has no slopes of residuals");
+}
+Objective::~Objective() = default;
+const ResidualTerm* Objective::residual_term() const { return nullptr; }
+double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                     std::span<float> residuals) const {
+  residual_term()->write_residuals(hypothesis, residuals);
+  return cost(hypothesis);
+}
+std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
+cuda::DeviceObjective::~DeviceObjective() = default;
+bool cuda::DeviceObjective::enqueue_search(const SceneLayout&, const BatchLayout&,
+                                           const SwarmSearch&, Stream) {
+  return false;
+}
+void cuda::DeviceObjective::enqueue_residuals(const SceneLayout&, const BatchLayout&,
+                                              const ResidualLayout&, Stream) {
+  throw Error("this objective has no residuals on the GPU");
+}
+cuda::DeviceCost::~DeviceCost() = default;
+bool cuda::DeviceCost::enqueue_search(const SwarmSearch&) { return false; }
+ResidualDifferences::~ResidualDifferences() = default;
+ResidualCost::~ResidualCost() = default;
+std::unique_ptr<ResidualDifferences> ResidualCost::differences() {
+  return std::make_unique<HostDifferences>(*this);
+}
+NormalEquations ResidualCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>&,
+                                        const Eigen::Ref<const Eigen::VectorXd>&, double) {
+  throw Error("this cost cannot be linearised");
+}
+CostFunction::~CostFunction() = default;
+Optimizer::~Optimizer() = default;
+Source::~Source() = default;
+
+}  // namespace hypotrack

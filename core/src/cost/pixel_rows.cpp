@@ -1,0 +1,268 @@
+#include "cost/pixel_rows.hpp"
+
+#define HWY_TARGET_INCLUDE "cost/pixel_rows.cpp"
+#include <algorithm>
+#include <cmath>
+#include <hypotrack/foreach_target-inl.hpp>
+
+#include "scene/block_vectors-inl.hpp"
+
+#ifndef HYPOTRACK_PIXEL_ROWS_ONCE
+#define HYPOTRACK_PIXEL_ROWS_ONCE
+namespace hypotrack {
+namespace {
+
+/// What the kernel works on.
+struct Work {
+  const DrawnView& drawn;
+  const PixelSlopes& term;
+  std::size_t columns;
+  std::uint8_t* taken;
+  std::uint8_t* known;
+  float* motion;
+  float* sums;
+};
+
+}  // namespace
+}  // namespace hypotrack
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace hypotrack::HWY_NAMESPACE {
+namespace {
+
+constexpr std::size_t kRows = 64;  // that are multiplied together
+// Beyond this step in depth (metres) a neighbour is another surface, behind this one.
+constexpr float kStep = 0.006f;
+// Of the rasteriser, with some room for its other order of operations.
+constexpr float kInclusive = 2e-5f;
+constexpr float kSameDepth = 1e-5f;
+
+struct Point {
+  float x, y, w;
+};
+
+/// sums += rows^T rows, above the diagonal in blocks of kBlock.
+HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t columns, float* sums) {
+  constexpr std::size_t kSide = 8;
+  constexpr std::size_t kWide = kBlock / kLanes;
+  for (std::size_t r = 0; r < columns; r += kSide) {
+    for (std::size_t c = r / kBlock * kBlock; c < columns; c += kBlock) {
+      for (std::size_t v = 0; v < kWide; ++v) {
+        const std::size_t at = c + v * kLanes;
+        Vec sum[kSide];
+#pragma GCC unroll 8
+        for (std::size_t i = 0; i < kSide; ++i) sum[i] = hn::Zero(f);
+        for (std::size_t k = 0; k < count; ++k) {
+          const float* row = rows + k * columns;
+          const Vec right = hn::Load(f, row + at);
+#pragma GCC unroll 8
+          for (std::size_t i = 0; i < kSide; ++i) {
+            sum[i] = hn::MulAdd(hn::Set(f, row[r + i]), right, sum[i]);
+          }
+        }
+#pragma GCC unroll 8
+        for (std::size_t i = 0; i < kSide; ++i) {
+          float* to = sums + (r + i) * columns + at;
+          hn::StoreU(hn::Add(hn::LoadU(f, to), sum[i]), f, to);
+        }
+      }
+    }
+  }
+}
+
+class Walk {
+ public:
+  explicit Walk(const Work& work)
+      : work_(work),
+        d_(work.drawn),
+        rows_(hwy::AllocateAligned<float>((kRows + 3) * work.columns)),
+        surface_(rows_.get() + kRows * work.columns) {
+    std::fill_n(rows_.get(), (kRows + 3) * work.columns, 0.0f);
+    root_blur_ = std::sqrt(work.term.blur);
+  }
+
+  void run() {
+    for (int i = 0; i < kSizeClasses; ++i) {
+      for (std::size_t t = 0; t < d_.visible->count[i]; ++t) triangle(d_.visible->list[i][t]);
+    }
+    flush();
+  }
+
+ private:
+  Point point(std::uint32_t corner) const {
+    const float* record = d_.records + corner;
+    return {d_.second ? record[3] : record[0], record[1], record[2]};
+  }
+
+  /// The motion of a vertex: x, y and 1/z, a row each.
+  const float* motion(std::uint32_t corner) {
+    const std::size_t vertex = corner / kRecord;
+    float* rows = work_.motion + 3 * work_.columns * vertex;
+    if (work_.known[vertex]) return rows;
+    work_.known[vertex] = 1;
+    const Point here = point(corner);
+    const int x = d_.second ? 3 : 0;
+    for (int i = 0; i < d_.dimension; ++i) {
+      const float* record = d_.beside[i] + corner;
+      const float per_step = record[2] > 0 ? d_.per_step[i] : 0;
+      rows[i] = (record[x] - here.x) * per_step;
+      rows[work_.columns + i] = (record[1] - here.y) * per_step;
+      rows[2 * work_.columns + i] = (record[2] - here.w) * per_step;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::fill(rows + k * work_.columns + d_.dimension, rows + (k + 1) * work_.columns, 0.0f);
+    }
+    return rows;
+  }
+
+  void triangle(std::uint32_t number) {
+    const std::uint32_t* corners = d_.plan->corners.data() + 4 * std::size_t{number};
+    const Point a = point(corners[0]), b = point(corners[1]), c = point(corners[2]);
+    const ViewProjection& view = *d_.view;
+    const int x0 = static_cast<int>(std::ceil(std::max(std::min({a.x, b.x, c.x}), 0.0f)));
+    const int y0 = static_cast<int>(std::ceil(std::max(std::min({a.y, b.y, c.y}), 0.0f)));
+    const float last_x = std::min(std::max({a.x, b.x, c.x}), static_cast<float>(view.width - 1));
+    const float last_y = std::min(std::max({a.y, b.y, c.y}), static_cast<float>(view.height - 1));
+    const auto ox = static_cast<float>(x0), oy = static_cast<float>(y0);
+    const float ax = a.x - ox, bx = b.x - ox, cx = c.x - ox;
+    const float ay = a.y - oy, by = b.y - oy, cy = c.y - oy;
+    const float scale = 1.0f / ((bx - ax) * (cy - ay) - (cx - ax) * (by - ay));
+    const float a_dx = (by - cy) * scale, a_dy = (cx - bx) * scale;
+    const float b_dx = (cy - ay) * scale, b_dy = (ax - cx) * scale;
+    const float a_0 = (bx * cy - cx * by) * scale, b_0 = (cx * ay - ax * cy) * scale;
+    corners_ = corners;
+    share_dx_ = a_dx * (a.w - c.w) + b_dx * (b.w - c.w);
+    share_dy_ = a_dy * (a.w - c.w) + b_dy * (b.w - c.w);
+    has_surface_ = false;
+    for (int y = y0; static_cast<float>(y) <= last_y; ++y) {
+      for (int x = x0; static_cast<float>(x) <= last_x; ++x) {
+        const auto dx = static_cast<float>(x - x0), dy = static_cast<float>(y - y0);
+        const float share_a = a_0 + dx * a_dx + dy * a_dy, share_b = b_0 + dx * b_dx + dy * b_dy;
+        const float share_c = 1 - share_a - share_b;
+        if (std::min({share_a, share_b, share_c}) < -kInclusive) continue;
+        const float w = c.w + share_a * (a.w - c.w) + share_b * (b.w - c.w);
+        const float nearest = d_.tile[y * view.stride + x];
+        if (!(w >= nearest * (1 - kSameDepth))) continue;
+        std::uint8_t& taken = work_.taken[y * view.width + x];
+        if (taken) continue;
+        taken = 1;
+        const float shares[3] = {share_a, share_b, share_c};
+        pixel(x, y, w, shares);
+      }
+    }
+  }
+
+  void pixel(int x, int y, float w, const float (&shares)[3]) {
+    const int width = d_.view->width, height = d_.view->height;
+    const int at = y * width + x;
+    const float slope = work_.term.slopes[at];
+    // Seen along the surface, a small motion moves the pixel far along it.
+    const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
+    if (slope != 0 && !steep) add_surface(slope, work_.term.residuals[at], shares);
+    if (x > 0) edge(at, at - 1, x - 1, y, w, shares, 0, -1);
+    if (x + 1 < width) edge(at, at + 1, x + 1, y, w, shares, 0, 1);
+    if (y > 0) edge(at, at - width, x, y - 1, w, shares, 1, -1);
+    if (y + 1 < height) edge(at, at + width, x, y + 1, w, shares, 1, 1);
+  }
+
+  /// Motion of 1/z on the rays through the three corners.
+  void find_surface() {
+    has_surface_ = true;
+    const Vec dx = hn::Set(f, share_dx_), dy = hn::Set(f, share_dy_);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* m = motion(corners_[k]);
+      for (std::size_t i = 0; i < work_.columns; i += kLanes) {
+        const Vec across =
+            hn::MulAdd(dx, hn::Load(f, m + i), hn::Mul(dy, hn::Load(f, m + work_.columns + i)));
+        hn::Store(hn::Sub(hn::Load(f, m + 2 * work_.columns + i), across), f,
+                  surface_ + k * work_.columns + i);
+      }
+    }
+  }
+
+  void add_surface(float slope, float residual, const float (&shares)[3]) {
+    if (!has_surface_) find_surface();
+    add_row(surface_, surface_ + work_.columns, surface_ + 2 * work_.columns, slope, residual,
+            shares);
+  }
+
+  void edge(int p, int q, int x, int y, float w, const float (&shares)[3], std::size_t axis,
+            float outwards) {
+    const float behind = d_.tile[y * d_.view->stride + x];
+    if (w - behind <= kStep * w * behind) return;
+    const float r_p = work_.term.residuals[p], r_q = work_.term.residuals[q];
+    const float change = (r_p - r_q) * outwards / root_blur_;
+    if (change == 0) return;
+    const std::size_t offset = axis * work_.columns;
+    add_row(motion(corners_[0]) + offset, motion(corners_[1]) + offset,
+            motion(corners_[2]) + offset, change, 0.5f * (r_p + r_q) * root_blur_, shares);
+  }
+
+  void add_row(const float* a, const float* b, const float* c, float factor, float residual,
+               const float (&shares)[3]) {
+    float* row = rows_.get() + count_ * work_.columns;
+    const Vec fa = hn::Set(f, factor * shares[0]), fb = hn::Set(f, factor * shares[1]);
+    const Vec fc = hn::Set(f, factor * shares[2]);
+    for (std::size_t i = 0; i < work_.columns; i += kLanes) {
+      const Vec sum =
+          hn::MulAdd(fa, hn::Load(f, a + i),
+                     hn::MulAdd(fb, hn::Load(f, b + i), hn::Mul(fc, hn::Load(f, c + i))));
+      hn::Store(sum, f, row + i);
+    }
+    row[d_.dimension] = residual;
+    if (++count_ == kRows) flush();
+  }
+
+  void flush() {
+    multiply(rows_.get(), count_, work_.columns, work_.sums);
+    count_ = 0;
+  }
+
+  const Work& work_;
+  const DrawnView& d_;
+  AlignedFloats rows_;
+  float* surface_;  // three rows
+  std::size_t count_ = 0;
+  float root_blur_ = 1;
+
+  // The triangle at hand.
+  const std::uint32_t* corners_ = nullptr;
+  float share_dx_ = 0, share_dy_ = 0;  // gradient of 1/z on the screen
+  bool has_surface_ = false;
+};
+
+void walk(const Work& work) { Walk(work).run(); }
+
+}  // namespace
+}  // namespace hypotrack::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hypotrack {
+namespace {
+HWY_EXPORT(walk);
+}  // namespace
+
+void PixelRows::begin(const DrawnView& drawn) {
+  drawn_ = drawn;
+  columns_ = (static_cast<std::size_t>(drawn.dimension) + 1 + kBlock - 1) / kBlock * kBlock;
+  sums_.assign(columns_ * columns_, 0.0f);
+  known_.assign(drawn.plan->vertex_count, 0);
+  const std::size_t size = 3 * columns_ * drawn.plan->vertex_count;
+  if (motion_size_ < size) {
+    motion_ = hwy::AllocateAligned<float>(size);
+    motion_size_ = size;
+  }
+}
+
+void PixelRows::add(const PixelSlopes& term) {
+  taken_.assign(
+      static_cast<std::size_t>(drawn_.view->width) * static_cast<std::size_t>(drawn_.view->height),
+      0);
+  HWY_DYNAMIC_DISPATCH(walk)
+  ({drawn_, term, columns_, taken_.data(), known_.data(), motion_.get(), sums_.data()});
+}
+
+}  // namespace hypotrack
+#endif

@@ -1,0 +1,41 @@
+#include <fmt/format.h>
+
+#include <set>
+
+#include "model/import/steps.hpp"
+#include "model/import/texture.hpp"
+
+namespace hypotrack {
+
+void fill_appearance(const MeshFile& file, Mesh& mesh) {
+  std::set<std::string> textures;
+  std::size_t most = 0;
+  for (const mesh_wire::MeshPart& part : file.scene.meshes) {
+    if (part.triangles.empty() || part.material >= file.scene.materials.size()) continue;
+    const mesh_wire::Material& material = file.scene.materials[part.material];
+    textures.insert(material.texture);
+    if (part.triangles.size() <= most) continue;
+    most = part.triangles.size();
+    const Eigen::Map<const Eigen::Vector3f> color(material.color.data());
+    if (color.allFinite()) mesh.color = color.cwiseMax(0.0f).cwiseMin(1.0f);
+  }
+  const bool own = file.options.texture.empty();
+  if (own && (textures.empty() || *textures.rbegin() == "")) {
+    mesh.uv.resize(2, 0);
+    mesh.uv_triangles.resize(3, 0);
+    return;
+  }
+  if (own && textures.size() > 1) {
+    file.fail(
+        fmt::format("the mesh has {} different textures or textures on some faces only; "
+                    "hypotrack draws one: bake them into one image, or name one with `texture`",
+                    textures.size()));
+  }
+  if (mesh.uv.cols() == 0) {
+    file.fail("there is a texture, but not every part of the mesh has texture coordinates");
+  }
+  mesh.texture = own ? load_texture(file.scene, *textures.begin(), file.path)
+                     : read_texture(file.options.texture, file.path.string());
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,47 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/mesh_io.hpp"
+#include "model/import/format.hpp"
+#include "model/import/process.hpp"
+#include "model/import/steps.hpp"
+
+namespace hypotrack {
+namespace {
+
+void read_scene(MeshFile& file) {
+  check_mesh_format(file.path);
+  try {
+    file.scene = mesh_wire::decode(run_mesh_reader(default_mesh_reader(file.path), file.path));
+  } catch (const std::runtime_error& error) {
+    if (dynamic_cast<const Error*>(&error)) throw;
+    file.fail(fmt::format("the mesh could not be read: {}", error.what()));
+  }
+  if (!file.scene.error.empty()) file.fail("the mesh could not be read: " + file.scene.error);
+}
+
+}  // namespace
+
+void MeshFile::fail(const std::string& what) const { throw DataError(path.string() + ": " + what); }
+
+ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options) {
+  if (!(options.scale > 0) || !std::isfinite(options.scale)) {
+    throw DataError(fmt::format("{}: the scale of a mesh must be positive, not {}", path.string(),
+                                options.scale));
+  }
+  MeshFile file{path, options, {}};
+  read_scene(file);
+  ImportedMesh imported;
+  imported.bones = convert_bones(file);
+  const Soup soup = join_parts(file);
+  const Welded welded = fill_surface(file, soup, imported.mesh);
+  fill_weights(soup, welded, imported.mesh);
+  if (!soup.uvs.empty()) fill_uvs(soup, welded.triangles, imported.mesh);
+  fill_appearance(file, imported.mesh);
+  return imported;
+}
+
+}  // namespace hypotrack

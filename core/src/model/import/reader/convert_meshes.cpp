@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "model/import/reader/convert.hpp"
+
+namespace hypotrack::mesh_wire {
+namespace {
+
+bool similar(const aiMatrix4x4& a, const aiMatrix4x4& b) {
+  for (unsigned row = 0; row < 4; ++row) {
+    for (unsigned column = 0; column < 4; ++column) {
+      const float tolerance = 1e-3f * std::max(1.0f, std::abs(a[row][column]));
+      if (!(std::abs(a[row][column] - b[row][column]) <= tolerance)) return false;
+    }
+  }
+  return true;
+}
+
+/// Where a skinned mesh lies in the file's frame at its bind pose: its bones say so, not its node
+/// (glTF 2.0 section 3.7.3.3). Bones that do not stand as at the bind pose say nothing.
+aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
+  std::optional<aiMatrix4x4> common;
+  for (unsigned i = 0; i < mesh.mNumBones; ++i) {
+    const aiNode* node = scene.mRootNode->FindNode(mesh.mBones[i]->mName);
+    if (!node) return {};
+    const aiMatrix4x4 here = global_transform(node) * mesh.mBones[i]->mOffsetMatrix;
+    if (!common) common = here;
+    if (!similar(*common, here)) return {};
+  }
+  return common.value_or(aiMatrix4x4());
+}
+
+MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, const Bones& bones) {
+  MeshPart part;
+  part.name = mesh.mName.C_Str();
+  part.material = mesh.mMaterialIndex;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+    const aiVector3D p = file_from_mesh * mesh.mVertices[i];
+    part.positions.push_back({p.x, p.y, p.z});
+    if (mesh.HasTextureCoords(0)) {
+      part.uvs.push_back({mesh.mTextureCoords[0][i].x, mesh.mTextureCoords[0][i].y});
+    }
+  }
+  const bool flipped = file_from_mesh.Determinant() < 0;
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    part.triangles.push_back(
+        {face.mIndices[0], face.mIndices[flipped ? 2 : 1], face.mIndices[flipped ? 1 : 2]});
+  }
+  for (unsigned i = 0; i < mesh.mNumBones; ++i) {
+    const aiBone& bone = *mesh.mBones[i];
+    const std::uint32_t index = bones.at(bone.mName.C_Str());
+    for (unsigned k = 0; k < bone.mNumWeights; ++k) {
+      const aiVertexWeight& weight = bone.mWeights[k];
+      if (weight.mWeight != 0) part.weights.push_back({index, weight.mVertexId, weight.mWeight});
+    }
+  }
+  return part;
+}
+
+void add_meshes(const aiScene& scene, const aiNode& node, Bones& bones, Scene& out) {
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    const aiMatrix4x4 file_from_mesh =
+        mesh.HasBones() ? file_from_skinned_mesh(scene, mesh) : global_transform(&node);
+    add_bones(mesh, file_from_mesh, bones, out);
+    out.meshes.push_back(convert_mesh(mesh, file_from_mesh, bones));
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) {
+    add_meshes(scene, *node.mChildren[i], bones, out);
+  }
+}
+
+}  // namespace
+
+void convert_meshes(const aiScene& scene, Scene& out) {
+  Bones bones;
+  add_meshes(scene, *scene.mRootNode, bones, out);
+  find_parents(scene, bones, out);
+}
+
+}  // namespace hypotrack::mesh_wire

@@ -1,0 +1,54 @@
+#include "model/import/reader/gltf.hpp"
+
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace hypotrack::mesh_wire {
+namespace {
+
+using Json = nlohmann::json;
+
+Json read_json(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!bytes.starts_with("glTF")) return Json::parse(bytes);
+  // GLB: a header of 12 bytes, then chunks of length, type and data; the first one is the JSON.
+  std::uint32_t length = 0;
+  if (bytes.size() < 20) throw std::runtime_error("the GLB file ends within its header");
+  std::memcpy(&length, bytes.data() + 12, sizeof(length));
+  if (length > bytes.size() - 20) throw std::runtime_error("the GLB file ends within its JSON");
+  return Json::parse(bytes.substr(20, length));
+}
+
+/// glTF 2.0, "mesh.primitive.mode".
+std::uint64_t triangles_of(std::int64_t mode, std::uint64_t corners) {
+  constexpr int kTriangles = 4;
+  constexpr int kStrip = 5;
+  constexpr int kFan = 6;
+  if (mode == kTriangles) return corners / 3;
+  return (mode == kStrip || mode == kFan) && corners > 2 ? corners - 2 : 0;
+}
+
+}  // namespace
+
+std::uint64_t count_gltf_triangles(const std::string& file) {
+  const Json json = read_json(file);
+  std::uint64_t triangles = 0;
+  if (!json.contains("meshes")) return 0;
+  for (const Json& mesh : json.at("meshes")) {
+    for (const Json& primitive : mesh.at("primitives")) {
+      const Json& corners = primitive.contains("indices")
+                                ? primitive.at("indices")
+                                : primitive.at("attributes").at("POSITION");
+      const Json& accessor = json.at("accessors").at(corners.get<std::size_t>());
+      triangles += triangles_of(primitive.value("mode", std::int64_t{4}),
+                                accessor.at("count").get<std::uint64_t>());
+    }
+  }
+  return triangles;
+}
+
+}  // namespace hypotrack::mesh_wire

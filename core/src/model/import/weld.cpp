@@ -1,0 +1,99 @@
+#include "model/import/weld.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+
+namespace hypotrack {
+namespace {
+
+/// Points by grid cell. A cell is much wider than the tolerance, so that the ball around a point
+/// rarely touches more than one.
+class Grid {
+ public:
+  Grid(const Eigen::Vector3f& origin, float tolerance)
+      : origin_(origin.cast<double>()), tolerance_(tolerance), cell_(64.0 * tolerance) {}
+
+  /// The first point in the grid within the tolerance of `p`, or -1.
+  int find(const Eigen::Matrix3Xf& points, const Eigen::Vector3f& p) const {
+    const Eigen::Vector3d relative = p.cast<double>() - origin_;
+    const auto low = cell(relative.array() - tolerance_);
+    const auto high = cell(relative.array() + tolerance_);
+    int found = -1;
+    for (std::int64_t x = low.x(); x <= high.x(); ++x) {
+      for (std::int64_t y = low.y(); y <= high.y(); ++y) {
+        for (std::int64_t z = low.z(); z <= high.z(); ++z) {
+          const auto entry = cells_.find(key(x, y, z));
+          if (entry == cells_.end()) continue;
+          for (const int candidate : entry->second) {
+            const bool near = (points.col(candidate) - p).norm() <= tolerance_;
+            if (near && (found < 0 || candidate < found)) found = candidate;
+          }
+        }
+      }
+    }
+    return found;
+  }
+
+  void add(const Eigen::Vector3f& p, int index) {
+    const auto at = cell((p.cast<double>() - origin_).array());
+    cells_[key(at.x(), at.y(), at.z())].push_back(index);
+  }
+
+ private:
+  using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
+  Cell cell(const Eigen::Array3d& relative) const {
+    return (relative / cell_).floor().cast<std::int64_t>().matrix();
+  }
+  // At most 1 / (64 * 1e-6) cells per axis, one more at either end: 21 bits are plenty.
+  static std::uint64_t key(std::int64_t x, std::int64_t y, std::int64_t z) {
+    return static_cast<std::uint64_t>(x + 1) << 42 | static_cast<std::uint64_t>(y + 1) << 21 |
+           static_cast<std::uint64_t>(z + 1);
+  }
+  Eigen::Vector3d origin_;
+  double tolerance_;
+  double cell_;
+  std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+};
+
+}  // namespace
+
+std::vector<int> weld_points(const Eigen::Matrix3Xf& points) {
+  std::vector<int> representative(static_cast<std::size_t>(points.cols()), 0);
+  if (points.cols() == 0) return representative;
+  const Eigen::Vector3f low = points.rowwise().minCoeff();
+  const double diagonal = (points.rowwise().maxCoeff() - low).cast<double>().norm();
+  const auto tolerance = static_cast<float>(kWeldTolerance * diagonal);
+  if (!(tolerance > 0)) return representative;  // all in one place
+  Grid grid(low, tolerance);
+  for (int i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3f p = points.col(i);
+    const int found = grid.find(points, p);
+    representative[static_cast<std::size_t>(i)] = found < 0 ? i : found;
+    if (found < 0) grid.add(p, i);
+  }
+  return representative;
+}
+
+std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences) {
+  std::sort(influences.begin(), influences.end(),
+            [](const BoneWeight& a, const BoneWeight& b) { return a.bone < b.bone; });
+  std::vector<BoneWeight> merged;
+  for (const BoneWeight& influence : influences) {
+    if (!merged.empty() && merged.back().bone == influence.bone) {
+      merged.back().weight += influence.weight;
+    } else {
+      merged.push_back(influence);
+    }
+  }
+  std::stable_sort(merged.begin(), merged.end(),
+                   [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
+  merged.resize(std::min<std::size_t>(merged.size(), 4));
+  std::erase_if(merged, [](const BoneWeight& influence) { return influence.weight <= 0; });
+  float sum = 0;
+  for (const BoneWeight& influence : merged) sum += influence.weight;
+  for (BoneWeight& influence : merged) influence.weight /= sum;
+  return merged;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/statistics.hpp"
+#include "hypotrack/export.hpp"
+#include "output/metrics/landmark_errors.hpp"
+#include "output/metrics/status_metrics.hpp"
+
+namespace hypotrack {
+
+inline constexpr double kLostErrorMm = 40;
+inline constexpr double kAucLowMm = 20;
+inline constexpr double kAucHighMm = 50;
+inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
+
+/// How good a sequence of solutions is; docs/reference/metrics.md defines every number. NaN: unknown,
+/// because no frame has what it takes.
+struct Metrics {
+  int frames = 0;
+  int evaluated_frames = 0;  ///< those with an error
+  int missing_frames = 0;
+  double mean_error_mm = 0;
+  double sd_error_mm = 0;
+  double median_error_mm = 0;
+  double p75_error_mm = 0;
+  double p90_error_mm = 0;
+  double p95_error_mm = 0;
+  double max_error_mm = 0;
+  double auc_20_50 = 0;
+  std::array<double, kSuccessThresholdsMm.size()> success{};  ///< share below each threshold
+  int lost_frames = 0;
+  double lost_share = 0;  ///< of the frames that are not missing
+  std::optional<int> frames_to_loss;
+  double time_to_loss_s = 0;
+  double jitter_mm = 0;
+  StatusMetrics status;
+  std::vector<std::pair<std::string, double>> models;       ///< name, mean error in mm
+  std::vector<std::pair<std::string, double>> landmarks;    ///< name, mean error in mm
+  std::array<double, kSuccessCurvePoints> success_curve{};  ///< share below 0, 1, ..., 100 mm
+};
+
+/// metrics.json: the numbers, then `models`, `landmarks` and `success_curve`. NaN becomes null.
+HYPOTRACK_API std::string to_json(const Metrics& metrics);
+
+/// The numbers' keys there, in their order.
+HYPOTRACK_API std::vector<std::string> metric_names();
+
+/// Collects Metrics frame by frame.
+class HYPOTRACK_API MetricsCollector {
+ public:
+  explicit MetricsCollector(LandmarkLayout layout) : layout_(std::move(layout)) {}
+
+  const LandmarkLayout& layout() const { return layout_; }
+
+  /// Adds the next frame; frame numbers ascend. `estimate` and `truth` are 3xL in metres, NaN where
+  /// a landmark is unknown; `truth` is empty where nothing is known. `time` is in seconds, NaN if
+  /// unknown. `absent` says of each model whether the truth knows that it is in no picture (empty:
+  /// none), `sigma` how far off each landmark may be as the tracker says (L, metres; empty: it says
+  /// nothing). Returns the errors in metres, NaN for a missing frame.
+  FrameError add(int frame, double time, const FrameVerdicts& verdicts,
+                 const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
+                 const std::vector<bool>& absent = {}, const Eigen::VectorXd& sigma = {});
+
+  Metrics metrics() const;
+
+ private:
+  /// Error vectors, estimate minus truth, of a frame.
+  struct Offsets {
+    int frame = 0;
+    Eigen::Matrix3Xd vectors;
+  };
+  /// What is known of each model.
+  std::vector<StatusCollector::Judged> judged(const FrameVerdicts& verdicts,
+                                              const FrameError& error,
+                                              const Eigen::Matrix3Xd& truth,
+                                              const std::vector<bool>& absent,
+                                              const Eigen::VectorXd& sigma) const;
+  void add_jitter(int frame, const Eigen::Matrix3Xd& vectors);
+
+  LandmarkLayout layout_;
+  Metrics counts_;
+  StatusCollector status_;
+  double first_time_ = 0;
+  std::vector<double> errors_mm_;  ///< of the frames that have one
+  std::vector<std::vector<double>> model_errors_mm_;
+  Eigen::VectorXd landmark_sums_mm_, landmark_counts_;
+  std::vector<Offsets> last_;  ///< of up to two frames, newest last
+  std::vector<double> jitter_mm_;
+};
+
+}  // namespace hypotrack

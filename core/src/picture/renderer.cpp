@@ -1,0 +1,113 @@
+#include "hypotrack/renderer.hpp"
+
+#include <fmt/format.h>
+
+#include <deque>
+
+#include "hypotrack/error.hpp"
+#include "picture/lens.hpp"
+#include "picture/scene_drawer.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr std::size_t kLensesKept = 4;  // a lens with distortion holds a ray for every pixel
+
+void check_arguments(const Scene& scene, const Eigen::VectorXd& state, const Camera& camera,
+                     const cv::Mat& background) {
+  if (state.size() != scene.dimension()) {
+    throw DataError(fmt::format("cannot render a state of {} numbers: the scene has {} parameters",
+                                state.size(), scene.dimension()));
+  }
+  if (!state.allFinite()) throw DataError("cannot render a state that is not finite");
+  validate(camera, "the camera to render for");
+  if (background.empty()) return;
+  if (background.type() != CV_8UC3 || background.cols != camera.width ||
+      background.rows != camera.height) {
+    throw DataError(
+        fmt::format("cannot render before a background of {}x{} pixels, {} channels of {} bytes: "
+                    "expected an 8-bit "
+                    "BGR image of the camera's size, {}x{}",
+                    background.cols, background.rows, background.channels(), background.elemSize1(),
+                    camera.width, camera.height));
+  }
+}
+
+/// The camera with every pixel split into scale x scale.
+TileCamera finer(TileCamera camera, int scale) {
+  camera.width *= scale;
+  camera.height *= scale;
+  camera.fx *= scale;
+  camera.fy *= scale;
+  camera.cx = scale * (camera.cx + 0.5) - 0.5;
+  camera.cy = scale * (camera.cy + 0.5) - 0.5;
+  return camera;
+}
+
+/// Puts a picture with coverage (colour already multiplied by it) over another.
+void put_over(const cv::Mat& layer, cv::Mat target) {
+  for (int y = 0; y < layer.rows; ++y) {
+    const auto* from = layer.ptr<cv::Vec4b>(y);
+    auto* to = target.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < layer.cols; ++x) {
+      const int uncovered = 255 - from[x][3];
+      if (uncovered == 255) continue;
+      for (int c = 0; c < 3; ++c) {
+        const int behind = (to[x][c] * uncovered + 127) / 255;
+        to[x][c] = cv::saturate_cast<unsigned char>(from[x][c] + behind);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  explicit Impl(const Scene& s) : scene(s), drawer(s) {}
+
+  const Lens& lens_of(const Camera& camera) {
+    for (const Lens& lens : lenses) {
+      if (lens.fits(camera)) return lens;
+    }
+    if (lenses.size() == kLensesKept) lenses.pop_front();
+    return lenses.emplace_back(camera);
+  }
+
+  const Scene& scene;
+  SceneDrawer drawer;
+  std::deque<Lens> lenses;
+};
+
+Renderer::Renderer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+
+Renderer::~Renderer() = default;
+
+std::string Renderer::device() const { return impl_->drawer.device(); }
+
+RenderedView Renderer::render(const Eigen::VectorXd& state, const Camera& camera,
+                              const RenderStyle& style, const cv::Mat& background) {
+  check_arguments(impl_->scene, state, camera, background);
+  const cv::Size size(camera.width, camera.height);
+  RenderedView rendered;
+  rendered.color = background.empty() ? cv::Mat::zeros(size, CV_8UC3) : background.clone();
+  rendered.depth = cv::Mat::zeros(size, CV_32FC1);
+  rendered.label = cv::Mat::zeros(size, CV_8UC1);
+
+  impl_->drawer.pose(state, style.hidden);
+  const LensView view = impl_->lens_of(camera).view(impl_->drawer.extent(camera.camera_from_world),
+                                                    camera.camera_from_world);
+  if (view.roi.empty()) return rendered;
+  cv::Mat color = impl_->drawer.draw_color(view.pinhole, style);
+  Geometry geometry = impl_->drawer.draw_geometry(finer(view.pinhole, view.geometry_scale));
+  if (!view.map.empty()) {
+    color = sample_linear(color, view);
+    geometry.depth = sample_nearest(geometry.depth, view);
+    geometry.label = sample_nearest(geometry.label, view);
+  }
+  put_over(color, rendered.color(view.roi));
+  geometry.depth.copyTo(rendered.depth(view.roi));
+  geometry.label.copyTo(rendered.label(view.roi));
+  return rendered;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "camera/rectification.hpp"
+#include "hypotrack/camera.hpp"
+#include "scene/posed_scene.hpp"
+
+namespace hypotrack {
+
+/// How much of a scene its cameras see, whatever hides it.
+class VisibleShare {
+ public:
+  /// The cameras, at least one, and their rig.
+  VisibleShare(std::span<const Camera> cameras, const IdealRig& rig);
+
+  /// Returns the share of the models' vertices that every image shows. Models that the scene leaves
+  /// out do not count. 0 if any vertex lies at or behind a camera: no tile can be cut then. The
+  /// scene is posed for the same rig.
+  double of(const PosedScene& scene) const;
+
+ private:
+  /// A camera, looked at from the first ideal one.
+  struct SeenBy {
+    Camera camera;
+    Eigen::Matrix3d camera_from_ideal;  ///< from its own ideal camera
+    Eigen::Matrix<float, 3, 4> camera_from_first;
+    std::array<float, 8> distortion;
+    float fx, fy, cx, cy;
+    float right, bottom;  ///< the image's ends
+  };
+
+  bool shown_entirely(const PosedScene& scene) const;
+  static bool keep_shown(const SeenBy& view, const ScenePoser& vertices, std::size_t first,
+                         Eigen::Array<bool, kBlock, 1>& mask);
+
+  std::vector<SeenBy> views_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,147 @@
+#include "tile/resample.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+namespace hypotrack {
+namespace {
+
+cv::Mat inside_mask(const ImageMap& map, int size, cv::Size image) {
+  cv::Mat valid(size, size, CV_8U);
+  for (int v = 0; v < size; ++v) {
+    const float* x = map.x.ptr<float>(v + 1) + 1;
+    const float* y = map.y.ptr<float>(v + 1) + 1;
+    auto* out = valid.ptr<unsigned char>(v);
+    for (int u = 0; u < size; ++u) {
+      out[u] = inside_image({x[u], y[u]}, image.width, image.height) ? 255 : 0;
+    }
+  }
+  return valid;
+}
+
+/// Depth at the nearest image pixel of every tile pixel, never a mixture of two, turned from the
+/// camera's optical axis to the tile's. What is not a positive number counts as not measured.
+cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap& map,
+                      const TileCamera& tile, const LensMap& lens) {
+  const TileIntrinsics camera = intrinsics(tile);
+  cv::Mat out = cv::Mat::zeros(valid.size(), CV_32F);
+  for (int v = 0; v < valid.rows; ++v) {
+    const float* x = map.x.ptr<float>(v + 1) + 1;
+    const float* y = map.y.ptr<float>(v + 1) + 1;
+    const auto* inside = valid.ptr<unsigned char>(v);
+    auto* to = out.ptr<float>(v);
+    for (int u = 0; u < valid.cols; ++u) {
+      if (inside[u] == 0) continue;
+      const float z =
+          depth.at<float>(nearest_pixel(y[u], depth.rows), nearest_pixel(x[u], depth.cols));
+      const float along = depth_along_tile(lens, camera, u, v, z);
+      if (along > 0 && std::isfinite(along)) to[u] = along;
+    }
+  }
+  return out;
+}
+
+/// Where the samples of a tile lie in the means over blocks of what the plan touches.
+std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const CutPlan& plan) {
+  // Pixel centres are at integers, so a block's centre is half a block less half a pixel in.
+  const double factor = 1.0 / plan.reduction.blocks;
+  const int samples = plan.reduction.samples;
+  cv::Mat x, y;
+  map.x.convertTo(x, CV_32F, factor, (0.5 - plan.touched.x) * factor - 0.5);
+  map.y.convertTo(y, CV_32F, factor, (0.5 - plan.touched.y) * factor - 0.5);
+  if (samples > 1) {
+    // Linear interpolation of the map is exact to about 0.001 pixels: lenses are smooth.
+    const cv::Size fine(x.cols * samples, x.rows * samples);
+    cv::resize(x, x, fine, 0, 0, cv::INTER_LINEAR);
+    cv::resize(y, y, fine, 0, 0, cv::INTER_LINEAR);
+  }
+  const cv::Rect inner(samples, samples, size * samples, size * samples);
+  return {x(inner), y(inner)};
+}
+
+/// The colours of a tile (8-bit BGR), mapped.
+cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
+  if (keeps_colors(map)) return color;
+  cv::Mat table(1, 256, CV_8UC3);
+  for (int value = 0; value < 256; ++value) {
+    for (int i = 0; i < 3; ++i) {
+      table.at<cv::Vec3b>(value)[i] =
+          static_cast<unsigned char>(mapped_channel(map, i, static_cast<std::uint32_t>(value)));
+    }
+  }
+  cv::Mat out;
+  cv::LUT(color, table, out);
+  return out;
+}
+
+cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int size, int samples) {
+  cv::Mat out;
+  cv::remap(image, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  if (samples > 1) cv::resize(out, out, cv::Size(size, size), 0, 0, cv::INTER_AREA);
+  return out;
+}
+
+}  // namespace
+
+cv::Mat brightened(const cv::Mat& color, const cv::Mat& by) {
+  if (by.empty()) return color;
+  cv::Mat all, out;
+  cv::merge(std::array{by, by, by}, all);
+  cv::add(color, all, out, cv::noArray(), CV_8UC3);
+  return out;
+}
+
+Resampler::Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal)
+    : lens_(make_lens_map(camera, camera_from_ideal)), image_(camera.width, camera.height) {}
+
+ImageMap Resampler::map(const TileCamera& tile) const {
+  const int columns = tile.width + 2;
+  const int rows = tile.height + 2;
+  ImageMap map{cv::Mat(rows, columns, CV_32F), cv::Mat(rows, columns, CV_32F)};
+  const TileIntrinsics camera = intrinsics(tile);
+  for (int row = 0; row < rows; ++row) {
+    auto* x = map.x.ptr<float>(row);
+    auto* y = map.y.ptr<float>(row);
+    for (int column = 0; column < columns; ++column) {
+      const ImagePoint p =
+          image_point(lens_, camera, static_cast<float>(column - 1), static_cast<float>(row - 1));
+      x[column] = p.x;
+      y[column] = p.y;
+    }
+  }
+  return map;
+}
+
+TileView Resampler::cut(const View& view, const TileCamera& tile, const CutPlan& plan) const {
+  const int size = tile.width;
+  const ImageMap map = this->map(tile);
+  TileView out;
+  out.camera = tile;
+  out.valid = inside_mask(map, size, image_);
+  if (!view.depth.empty()) out.depth = nearest_depth(view.depth, out.valid, map, tile, lens_);
+  if (view.color.empty() && view.mask.empty()) return out;
+  const auto [x, y] = lookups(map, size, plan);
+  const auto take = [&, &x = x, &y = y](cv::Mat part) {
+    const int blocks = plan.reduction.blocks;
+    if (blocks > 1) {
+      cv::Mat means;
+      cv::resize(part, means, part.size() / blocks, 0, 0, cv::INTER_AREA);
+      part = means;
+    }
+    return look_up(part, x, y, size, plan.reduction.samples);
+  };
+  if (!view.color.empty()) {
+    const cv::Mat color = with_colors(take(view.color(plan.touched)), plan.colors);
+    out.color = brightened(color, plan.brightness);
+  }
+  if (!view.mask.empty()) {
+    out.mask = take(view.mask(plan.touched) != 0) >= 128;
+    out.mask &= out.valid;
+  }
+  return out;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,173 @@
+#include "tile/tiles.hpp"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <utility>
+
+#include "camera/rectification.hpp"
+#include "hypotrack/error.hpp"
+#include "scene/posed_scene.hpp"
+#include "scene/visible_share.hpp"
+#include "tile/crop.hpp"
+#include "tile/on_foreground.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr double kLargestZoom = 16.0;  // tile pixels per image pixel
+
+void check_image(const cv::Mat& image, int type, const char* what, const char* expected,
+                 const Camera& camera, const Frame& frame, std::size_t view) {
+  if (image.empty()) return;
+  if (image.cols != camera.width || image.rows != camera.height) {
+    throw DataError(
+        fmt::format("frame {}, view {}: the {} is {}x{} pixels, its camera {}x{}; expected the "
+                    "same size",
+                    frame.index, view, what, image.cols, image.rows, camera.width, camera.height));
+  }
+  if (image.type() != type) {
+    throw DataError(fmt::format("frame {}, view {}: the {} is of OpenCV type {}; expected {}",
+                                frame.index, view, what, cv::typeToString(image.type()), expected));
+  }
+}
+
+void check_view(const Frame& frame, std::size_t index, const Camera& camera) {
+  const View& view = frame.views[index];
+  if (view.color.empty() && view.depth.empty()) {
+    throw DataError(
+        fmt::format("frame {}, view {}: there is neither colour nor depth; expected at least one "
+                    "of them",
+                    frame.index, index));
+  }
+  const auto check = [&](const cv::Mat& image, int type, const char* what, const char* expected) {
+    check_image(image, type, what, expected, camera, frame, index);
+  };
+  check(view.color, CV_8UC3, "image", "8-bit BGR");
+  check(view.mask, CV_8UC1, "mask", "8 bits and one channel");
+  check(view.depth, CV_32FC1, "depth image", "metres as 32-bit floats, one channel");
+}
+
+std::vector<Camera> checked(std::vector<Camera> cameras) {
+  if (cameras.empty()) throw DataError("the source has no cameras; expected at least one");
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    validate(cameras[i], fmt::format("camera {}", i));
+  return cameras;
+}
+
+double sharpest(const std::vector<Camera>& cameras) {
+  double focal = 0;
+  for (const Camera& camera : cameras) focal = std::max({focal, camera.fx, camera.fy});
+  return focal;
+}
+
+}  // namespace
+
+struct TileMaker::Impl {
+  Impl(const Scene& s, std::vector<Camera> c, const TileSettings& t)
+      : scene(s),
+        cameras(checked(std::move(c))),
+        settings(t),
+        rig(make_ideal_rig(cameras)),
+        posed(scene, rig),
+        visible(cameras, rig) {
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+      resamplers.emplace_back(cameras[i], rig.camera_from_ideal[i]);
+    }
+  }
+
+  void check(const Frame& frame) const;
+  std::vector<CutPlan> plan_cuts(const std::vector<TileCamera>& tiles) const;
+
+  const Scene& scene;
+  std::vector<Camera> cameras;
+  TileSettings settings;
+  IdealRig rig;
+  PosedScene posed;
+  VisibleShare visible;
+  std::vector<Resampler> resamplers;
+};
+
+void TileMaker::Impl::check(const Frame& frame) const {
+  if (frame.views.size() != cameras.size()) {
+    throw DataError(fmt::format("frame {} has {} views; expected {}, one per camera", frame.index,
+                                frame.views.size(), cameras.size()));
+  }
+  for (std::size_t i = 0; i < cameras.size(); ++i) check_view(frame, i, cameras[i]);
+}
+
+std::vector<CutPlan> TileMaker::Impl::plan_cuts(const std::vector<TileCamera>& tiles) const {
+  std::vector<double> scales;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    scales.push_back(scale_at_centre(resamplers[i].lens(), tiles[i]));
+  }
+  // A pair is compared pixel by pixel: both views must be smoothed the same way.
+  if (rig.rectified) scales[0] = scales[1] = std::sqrt(scales[0] * scales[1]);
+  std::vector<CutPlan> cuts;
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    cuts.push_back(plan_cut(resamplers[i].lens(), tiles[i], resamplers[i].image_size(), scales[i]));
+  }
+  return cuts;
+}
+
+TileMaker::TileMaker(const Scene& scene, std::vector<Camera> cameras, const TileSettings& settings)
+    : impl_(std::make_unique<Impl>(scene, std::move(cameras), settings)) {}
+TileMaker::~TileMaker() = default;
+
+bool TileMaker::rectifies() const { return impl_->rig.rectified; }
+std::span<const Resampler> TileMaker::resamplers() const { return impl_->resamplers; }
+
+const PosedScene& TileMaker::posed(const Eigen::VectorXd& state) const {
+  impl_->posed.pose(state);
+  return impl_->posed;
+}
+
+void TileMaker::leave_out(const std::vector<bool>& models) { impl_->posed.leave_out(models); }
+
+double TileMaker::visible_share(const Eigen::VectorXd& state) const {
+  return impl_->visible.of(posed(state));
+}
+
+OnForeground TileMaker::on_foreground(const Frame& frame, const Eigen::VectorXd& state) const {
+  impl_->check(frame);
+  return hypotrack::on_foreground(posed(state), impl_->rig.ideal_from_world[0].inverse(),
+                                  impl_->cameras, frame.views);
+}
+
+TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {
+  Impl& self = *impl_;
+  self.check(frame);
+  const double largest_focal = kLargestZoom * sharpest(self.cameras);
+  self.posed.pose(state);
+  self.posed.check_in_front();
+  const std::vector<TileCamera> tiles =
+      crop(self.posed.bounds(), self.rig, self.settings.size, self.settings.padding, largest_focal);
+  TilePlan plan;
+  plan.header.frame = frame.index;
+  plan.header.time = frame.time;
+  plan.header.scene = &self.scene;
+  plan.header.start = state;
+  plan.header.rectified = self.rig.rectified;
+  plan.header.views.resize(tiles.size());
+  for (std::size_t i = 0; i < tiles.size(); ++i) plan.header.views[i].camera = tiles[i];
+  plan.cuts = self.plan_cuts(tiles);
+  return plan;
+}
+
+Observation TileMaker::cut(const Frame& frame, const TilePlan& plan) const {
+  Observation observation = plan.header;
+  tbb::parallel_for(std::size_t{0}, plan.cuts.size(), [&](std::size_t i) {
+    const TileCamera& tile = plan.header.views[i].camera;
+    observation.views[i] = impl_->resamplers[i].cut(frame.views[i], tile, plan.cuts[i]);
+  });
+  return observation;
+}
+
+Observation TileMaker::make(const Frame& frame, const Eigen::VectorXd& state) const {
+  return cut(frame, plan(frame, state));
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,141 @@
+#include "track/color/photometric.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "track/color/color_fit.hpp"
+#include "track/color/spread.hpp"
+
+namespace hypotrack {
+namespace {
+
+// A line is known by its values at two places, which say how far maps are apart.
+constexpr float kLow = 64, kHigh = 192;
+// What both views see of a hand correlates by 0.7 and more if the pose is no more than 6 mm off,
+// and by less than 0.45 if it is 30 mm off.
+constexpr double kSameSurface = 0.5;
+// From then on the pose is one that a search has found, and a map may not leap.
+constexpr int kSettled = 3;
+
+float moved(float from, float to, float rate, float largest) {
+  return from + std::clamp(rate * (to - from), -largest, largest);
+}
+
+/// The colours of whole pictures, sorted: both views show about the same colours as often.
+ColorSamples of_pictures(const Frame& frame, std::size_t other) {
+  constexpr int kStep = 8;  // pixels
+  const auto sorted = [](const cv::Mat& picture, std::size_t channel) {
+    std::vector<float> out;
+    for (int y = kStep / 2; y < picture.rows; y += kStep)
+      for (int x = kStep / 2; x < picture.cols; x += kStep)
+        out.push_back(picture.at<cv::Vec3b>(y, x)[static_cast<int>(channel)]);
+    std::ranges::sort(out);
+    return out;
+  };
+  ColorSamples samples;
+  if (frame.views[0].color.size() != frame.views[other].color.size()) return samples;
+  for (std::size_t i = 0; i < 3; ++i) {
+    samples.first[i] = sorted(frame.views[0].color, i);
+    samples.other[i] = sorted(frame.views[other].color, i);
+  }
+  return samples;
+}
+
+/// The samples with the first view darker, in all channels.
+ColorSamples darkened(ColorSamples samples, const Eigen::VectorXf& by) {
+  for (std::vector<float>& channel : samples.first)
+    Eigen::Map<Eigen::VectorXf>(channel.data(), by.size()) -= by;
+  return samples;
+}
+
+}  // namespace
+
+PhotometricMatch::PhotometricMatch(const Scene& scene, const PhotometricSettings& settings)
+    : settings_(settings), sampler_(scene) {}
+
+void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
+                             const Eigen::VectorXd& state) {
+  if (!settings_.match || plan.cuts.size() < 2) return;
+  views_.resize(plan.cuts.size() - 1);
+  sampler_.draw(plan.header, state);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    learn(views_[i], sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights), i + 1);
+  }
+}
+
+void PhotometricMatch::begin(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
+                             const Eigen::VectorXd& start) {
+  if (!settings_.match || plan.cuts.size() < 2) return;
+  views_.resize(plan.cuts.size() - 1);
+  sampler_.draw(plan.header, start);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const ColorSamples samples =
+        sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights);
+    if (correlation(samples) >= kSameSurface) {
+      learn(views_[i], samples, i + 1);
+    } else if (const auto map = fit_color_map(of_pictures(frame, i + 1))) {
+      views_[i].map = *map;
+    }
+  }
+}
+
+void PhotometricMatch::learn(Learned& learned, const ColorSamples& samples,
+                             std::size_t view) const {
+  if (settings_.highlights) {
+    learn_both(learned, samples, sampler_.directions(view));
+  } else if (const auto found = fit_color_map(samples)) {
+    update(learned, *found, median_difference(samples, *found));
+  }
+}
+
+void PhotometricMatch::learn_both(Learned& learned, const ColorSamples& samples,
+                                  const ViewDirections& to) const {
+  Highlights& highlights = learned.highlights;
+  const auto found = fit_color_map(darkened(samples, highlights.expected(samples.normals, to)));
+  if (!found) return;
+  highlights.learn(samples.normals, gray_difference(samples, *found), to);
+  const ColorSamples matt = darkened(samples, highlights.expected(samples.normals, to));
+  update(learned, *found, median_difference(matt, *found));
+}
+
+void PhotometricMatch::update(Learned& learned, const ColorMap& found, double difference) const {
+  ++learned.frames;
+  const float rate =
+      std::max(static_cast<float>(settings_.rate), 1.0f / static_cast<float>(learned.frames));
+  learned.difference += double{rate} * (difference - learned.difference);
+  const float largest = learned.frames <= kSettled ? 255 : static_cast<float>(settings_.max_change);
+  for (int i = 0; i < 3; ++i) {
+    float& gain = learned.map.gain[i];
+    float& offset = learned.map.offset[i];
+    const auto value_at = [&](float level) {
+      return moved(gain * level + offset, found.gain[i] * level + found.offset[i], rate, largest);
+    };
+    const float low = value_at(kLow), high = value_at(kHigh);
+    gain = (high - low) / (kHigh - kLow);
+    offset = low - gain * kLow;
+  }
+}
+
+bool PhotometricMatch::knows() const {
+  return std::ranges::any_of(views_, [](const Learned& l) { return l.frames > 0; });
+}
+
+void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& state) {
+  if (!settings_.highlights || !knows()) return;
+  sampler_.draw(plan.header, state);
+  for (std::size_t i = 0; i < views_.size(); ++i) {
+    const ColorSampler::NormalGrid grid = sampler_.normals(i + 1);
+    const Eigen::VectorXf missing =
+        views_[i].highlights.expected(grid.normals, sampler_.directions(i + 1));
+    const TileCamera& camera = plan.header.views[i + 1].camera;
+    plan.cuts[i + 1].brightness = spread(grid.inside, missing, {camera.width, camera.height});
+  }
+}
+
+void PhotometricMatch::apply(TilePlan& plan) const {
+  for (std::size_t i = 0; i < views_.size(); ++i) plan.cuts[i + 1].colors = views_[i].map;
+  if (!views_.empty()) plan.header.color_difference = views_[0].difference;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "tile/color_map.hpp"
+
+namespace hypotrack {
+
+/// One view around a drawn model, on a grid of kSampleGrid x kSampleGrid points.
+struct SampledView {
+  cv::Mat3f color;   ///< B, G, R, 0 .. 255
+  cv::Mat1b inside;  ///< 255 where the model is the nearest surface and the picture shows it
+  cv::Mat1b ring;    ///< 255 beside its silhouette, where no model of the scene is drawn
+};
+
+/// What a stereo pair shows of one model and of what is around it.
+struct SurfaceSamples {
+  /// A point of the surface, always the same one.
+  struct Point {
+    cv::Point2f at;     ///< in the first view's grid
+    bool seen = false;  ///< false: hidden, turned away or out of the picture
+  };
+
+  std::array<SampledView, 2> views;
+  /// The second view's colour of the surface point at each point of the first view's grid. Beside
+  /// the silhouette the surface goes on at the depth of its nearest point.
+  cv::Mat3f other;
+  cv::Mat1b paired;  ///< 255 where `other` is known; inside, where both views see the point
+  std::vector<Point> points;
+  double points_per_metre = 0;  ///< of the grid, at the model's depth
+  double visible = 0;           ///< share of the model's vertices inside both pictures
+  double covered = 0;           ///< share of its drawn points that other models hide
+
+  bool empty() const { return other.empty(); }
+};
+
+inline constexpr int kSampleGrid = 64;
+
+/// Samples the first two views of a frame around one model of a scene. Keeps its memory: one per
+/// thread.
+class HYPOTRACK_API SurfaceSampler {
+ public:
+  /// The scene must outlive the sampler.
+  SurfaceSampler(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
+  ~SurfaceSampler();
+  SurfaceSampler(SurfaceSampler&&) noexcept;
+
+  /// Samples a frame with the scene posed in `state` (normalised). `colors` makes the second view's
+  /// colours the first's. Empty if a view has no colour or a camera does not see the model.
+  SurfaceSamples sample(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

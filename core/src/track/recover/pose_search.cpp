@@ -1,0 +1,180 @@
+#include "track/recover/pose_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr Eigen::Index kPose = 7;  // numbers of a model's pose
+constexpr double kPadding = 0.5;   // of a hypothesis, around it
+constexpr int kIterations = 6;
+
+std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
+  return {{item.name, item.model}};
+}
+
+/// A rotation from the uniform distribution (Shoemake, "Uniform random rotations", 1992).
+Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
+  std::normal_distribution<double> normal;
+  Eigen::Vector4d q(normal(random), normal(random), normal(random), normal(random));
+  return Eigen::Quaterniond(q.normalized());
+}
+
+Eigen::Quaterniond turned(const Eigen::Quaterniond& rotation, double sigma,
+                          std::mt19937_64& random) {
+  std::normal_distribution<double> normal(0, sigma);
+  return rotation * rotation_exp({normal(random), normal(random), normal(random)});
+}
+
+}  // namespace
+
+PoseSearch::PoseSearch(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras,
+                       const RecoverySettings& settings)
+    : scene_(scene),
+      item_(scene.items()[model]),
+      model_(model),
+      single_(only(item_)),
+      tiles_(single_, cameras, {settings.tile, kPadding}),
+      postures_(item_.model->data()),
+      behind_(cameras[0].camera_from_world.inverse() * Eigen::Vector3d(0, 0, -10)) {
+  const Eigen::Matrix3Xd vertices = item_.model->data().mesh.vertices.cast<double>();
+  const Eigen::Vector3d mean = vertices.rowwise().mean();
+  radius_ = std::sqrt((vertices.colwise() - mean).colwise().squaredNorm().mean());
+}
+
+Eigen::Vector3d PoseSearch::center(const Eigen::VectorXd& state) const {
+  const std::span<const double> own = scene_.part(item_, state);
+  return posed_landmarks(*item_.model, own).rowwise().mean();
+}
+
+Eigen::VectorXd PoseSearch::without(const Eigen::VectorXd& base,
+                                    const std::vector<bool>& hidden) const {
+  Eigen::VectorXd out = base;
+  for (std::size_t m = 0; m < hidden.size(); ++m)
+    if (hidden[m] || m == model_) out.segment<3>(scene_.items()[m].offset) = behind_;
+  return out;
+}
+
+Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
+                                       std::mt19937_64& random) const {
+  const Eigen::Index dimension = item_.model->dimension();
+  Eigen::MatrixXd out(dimension, count);
+  const Eigen::VectorXd& last = guess.pose;
+  const Eigen::Quaterniond last_rotation(last[3], last[4], last[5], last[6]);
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> scatter(0, guess.scatter);
+  const auto& postures = postures_.all();
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    const bool near = uniform(random) < guess.near_share;
+    const Eigen::Quaterniond q =
+        near ? turned(last_rotation, guess.rotation, random) : any_rotation(random);
+    Eigen::VectorXd one(dimension);
+    one.head<kPose>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
+    const bool keeps = uniform(random) < (near ? 0.6 : 0.2);
+    const auto k = static_cast<std::size_t>(uniform(random) * static_cast<double>(postures.size()));
+    one.tail(dimension - kPose) = keeps ? Eigen::VectorXd(last.tail(dimension - kPose))
+                                        : postures[std::min(k, postures.size() - 1)];
+    const Eigen::Vector3d at =
+        posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
+            .rowwise()
+            .mean();
+    const bool spread = !guess.points.empty() && uniform(random) < 0.5;
+    const auto point =
+        static_cast<std::size_t>(uniform(random) * static_cast<double>(guess.points.size()));
+    const Eigen::Vector3d& center =
+        spread ? guess.points[std::min(point, guess.points.size() - 1)] : guess.center;
+    one.head<3>() =
+        center - at + Eigen::Vector3d(scatter(random), scatter(random), 2 * scatter(random));
+    out.col(i) = one;
+  }
+  return out;
+}
+
+void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
+                         const Eigen::VectorXd& hypothesis) {
+  TilePlan plan = tiles_.plan(frame, hypothesis);
+  plan.header.scene = &scene_;
+  plan.header.start = base;
+  // Every model that moves is expected here, so that depths of the tile are those of the place.
+  for (const Scene::Item& item : scene_.items())
+    plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
+  plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
+  plan.header.in_hindsight = true;  // nobody knows the way here
+  search.take_in(tiles_, frame, std::move(plan));
+}
+
+std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
+                                      const Eigen::VectorXd& base, const std::vector<bool>& hidden,
+                                      const std::vector<Held>& held, const PoseGuess& guess,
+                                      const PoseEffort& effort, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const Eigen::MatrixXd own = hypotheses(guess, effort.hypotheses, random);
+  if (tiles_.visible_share(own.col(0)) == 0) return {};
+  take_in(search, frame, base, own.col(0));
+  Evaluator& evaluator = search.evaluator();
+  const Eigen::VectorXd others = without(base, hidden);
+  Eigen::MatrixXd states(base.size(), own.cols());
+  for (Eigen::Index i = 0; i < own.cols(); ++i) {
+    Eigen::VectorXd state = others;
+    state.segment(item_.offset, own.rows()) = own.col(i);
+    const Eigen::Isometry3d pose = pose_of(item_, state);
+    for (const Held& one : held) set_pose(scene_.items()[one.model], pose * one.pose, state);
+    states.col(i) = state;
+  }
+  Eigen::VectorXd costs(states.cols());
+  evaluator.evaluate(states, costs);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
+  order.resize(std::min(order.size(), static_cast<std::size_t>(effort.refined)));
+
+  std::vector<bool> free(hidden.size(), false);
+  free[model_] = true;
+  for (const Held& one : held) free[one.model] = true;
+  std::vector<Refined> all;
+  for (const Eigen::Index i : order)
+    if (std::isfinite(costs[i])) all.push_back({states.col(i), costs[i], 0});
+  const auto by_cost = [](const Refined& a, const Refined& b) { return a.cost < b.cost; };
+  if (evaluator.has_residuals()) {
+    LeastSquares least_squares(scene_, evaluator, free);
+    for (Refined& one : all) one = least_squares.refine(std::move(one), kIterations);
+    std::ranges::stable_sort(all, by_cost);
+    for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(effort.improved));
+         ++i)
+      improve_limbs(least_squares, evaluator, all[i]);
+  }
+  std::ranges::stable_sort(all, by_cost);
+  std::int64_t evaluations = states.cols();
+  for (Refined& one : all) evaluations += std::exchange(one.evaluations, 0);
+  if (!all.empty()) all.front().evaluations = evaluations;
+  return all;
+}
+
+void PoseSearch::improve_limbs(LeastSquares& least_squares, Evaluator& evaluator,
+                               Refined& pose) const {
+  constexpr int kLimbIterations = 3;
+  for (const Postures::Limb& limb : postures_.limbs()) {
+    Eigen::MatrixXd states = pose.state.replicate(1, std::ssize(limb.variants));
+    for (std::size_t i = 0; i < limb.variants.size(); ++i)
+      for (std::size_t k = 0; k < limb.parameters.size(); ++k)
+        states(item_.offset + limb.parameters[k], static_cast<Eigen::Index>(i)) =
+            limb.variants[i][static_cast<Eigen::Index>(k)];
+    Eigen::VectorXd costs(states.cols());
+    evaluator.evaluate(states, costs);
+    Eigen::Index best = 0;
+    Refined other{{}, costs.minCoeff(&best), 0};
+    other.state = states.col(best);
+    other = least_squares.refine(std::move(other), kLimbIterations);
+    const std::int64_t evaluations = pose.evaluations + states.cols() + other.evaluations;
+    if (other.cost < pose.cost) pose = std::move(other);
+    pose.evaluations = evaluations;
+  }
+}
+
+}  // namespace hypotrack

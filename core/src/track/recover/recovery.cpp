@@ -1,0 +1,221 @@
+#include "track/recover/recovery.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "hypotrack/search.hpp"
+#include "track/recover/silhouette.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr double kWindow = 0.75;     // of a model's radius: what a place is looked for by
+constexpr double kSeen = 0.35;       // of the colours that a tracked model shows: it is in view
+constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
+// Shares of hypotheses near the pose that a place is remembered with.
+constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
+constexpr double kHintTurn = 0.5;       // radians
+constexpr double kHopeless = 4;         // -log odds: no search makes such a candidate right
+constexpr double kPlaceScatter = 0.02;  // metres
+constexpr double kHeldCovered = 0.7;    // share of what a hand holds that may be hidden
+constexpr double kDistinct = 0.012;  // metres between candidates, mean over the model's landmarks
+constexpr double kHides = 0.35;      // share of another model that a candidate may newly hide
+
+/// The first of some states that are `near` metres or more apart, mean over landmarks; at most
+/// `count`.
+std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, double near,
+                              std::size_t count) {
+  std::vector<Refined> out;
+  std::vector<Eigen::Matrix3Xd> landmarks;
+  for (Refined& one : all) {
+    if (out.size() >= count) break;
+    const Eigen::Matrix3Xd here = scene.landmarks(one.state);
+    const bool known = std::ranges::any_of(landmarks, [&](const Eigen::Matrix3Xd& other) {
+      return (here - other).colwise().norm().mean() < near;
+    });
+    if (known) continue;
+    landmarks.push_back(here);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::span<const std::string_view> enum_names(RecoveryRun) {
+  static constexpr std::array<std::string_view, 2> names{"frame", "background"};
+  return names;
+}
+
+Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
+                   const RecoverySettings& settings)
+    : scene_(scene), cameras_(cameras), settings_(settings) {
+  for (std::size_t m = 0; m < scene.items().size(); ++m) {
+    searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
+    finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
+                          settings.farthest);
+    searched_.emplace_back(cameras, searches_[m]->radius());
+    searched_held_.push_back(searched_.back());
+  }
+}
+
+void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
+                        const std::vector<bool>& tracked) {
+  for (std::size_t m = 0; m < searches_.size(); ++m) {
+    if (!tracked[m]) continue;
+    searched_[m].forget();
+    searched_held_[m].forget();
+    const Scene::Item& item = scene_.items()[m];
+    searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
+  }
+  // A model that is lost may be anywhere.
+  if (std::ranges::find(tracked, false) == tracked.end()) learn_backgrounds(frame, state);
+}
+
+void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state) {
+  if (frame.views.size() < 2) return;
+  constexpr int kMargin = 3;  // reduced pixels around silhouettes
+  const cv::Mat square =
+      cv::getStructuringElement(cv::MORPH_RECT, {2 * kMargin + 1, 2 * kMargin + 1});
+  for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
+    if (frame.views[i].color.empty()) continue;
+    cv::Mat1b models = silhouettes(scene_, std::vector<bool>(searches_.size(), true), state,
+                                   cameras_[i], finders_[0].reduction(i));
+    cv::dilate(models, models, square);
+    backgrounds_[i].learn(finders_[0].reduced(frame.views[i].color, i), models);
+  }
+}
+
+Places Recovery::places(const Quest& quest) const {
+  const PlaceFinder& finder = finders_[quest.model];
+  const std::vector<View>& views = quest.frame.views;
+  std::vector<bool> others = quest.hidden;
+  others.flip();
+  std::array<cv::Mat1f, 2> weights;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, views.size()); ++i) {
+    if (views[i].color.empty()) continue;
+    weights[i] = backgrounds_[i].changed(finder.reduced(views[i].color, i));
+    weights[i].setTo(
+        0, silhouettes(scene_, others, quest.last.state, cameras_[i], finder.reduction(i)));
+  }
+  return finder.find(quest.frame, quest.judge.model(quest.model).colors(),
+                     quest.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
+                     weights);
+}
+
+std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& places,
+                                         const MotionLimits& limits) {
+  const Scene::Item& item = scene_.items()[quest.model];
+  const LastKnown& last = quest.last;
+  const auto own = [&](const Eigen::VectorXd& state) -> Eigen::VectorXd {
+    return state.segment(item.offset, item.model->dimension());
+  };
+  const PoseSearch& search = *searches_[quest.model];
+  const double turn = std::min(0.25 + last.seconds, 1.2);
+  const Eigen::Vector3d was = search.center(last.state);
+  std::vector<PoseGuess> out;
+  if (last.hint.size() > 0)
+    out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
+  if (last.near_hint_only) return out;
+  if (last.before.size() > 0)
+    for (std::size_t m = 0; m < quest.hidden.size(); ++m)
+      if (m != quest.model && !quest.hidden[m]) out.push_back(beside(quest, m));
+  SearchedPlaces& searched = (quest.held.empty() ? searched_ : searched_held_)[quest.model];
+  if (last.seconds < kRemembered && searched.is_worth(quest.frame, was))
+    out.push_back({was, own(last.state), kNearLast, turn});
+  const double reach = reach_within(limits, last.seconds).position + search.radius();
+  for (const Place& place : places.best)
+    if ((place.center - was).norm() <= reach && searched.is_worth(quest.frame, place.center))
+      out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter, place.points});
+  searched.end_frame();
+  return out;
+}
+
+PoseGuess Recovery::beside(const Quest& quest, std::size_t other) const {
+  constexpr double kShare = 0.9, kTurn = 0.15, kScatter = 0.006;
+  const Scene::Item& own = scene_.items()[quest.model];
+  const Eigen::VectorXd state =
+      moved_with(scene_, quest.model, other, quest.last.before, quest.last.state);
+  PoseGuess out{searches_[quest.model]->center(state),
+                state.segment(own.offset, own.model->dimension()), kShare, kTurn, kScatter};
+  out.covered = kHeldCovered;
+  return out;
+}
+
+bool Recovery::hides_others(const Quest& quest, const Eigen::VectorXd& state,
+                            const ColorMap& colors) {
+  for (std::size_t m = 0; m < quest.hidden.size(); ++m)
+    if (!quest.hidden[m] &&
+        quest.judge.model(m).look(quest.frame, state, colors).covered > quest.covered[m] + kHides)
+      return true;
+  return false;
+}
+
+Recovery::Quest Recovery::begin(FrameSearch& search, const Frame& frame, Judge& judge,
+                                LastKnown last, std::size_t model, const std::vector<bool>& shown,
+                                const std::vector<bool>& held, const MotionLimits& limits) {
+  Quest quest{search, frame, judge, model, std::move(last), shown};
+  quest.hidden[model] = false;
+  quest.hidden.flip();
+  for (std::size_t m = 0; m < held.size(); ++m)
+    if (held[m])
+      quest.held.push_back({m, pose_of(scene_.items()[model], quest.last.before).inverse() *
+                                   pose_of(scene_.items()[m], quest.last.before)});
+  const Places seen = places(quest);
+  const ModelJudge& of_model = judge.model(model);
+  quest.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
+  if (!quest.in_view) return quest;
+  quest.guesses = guesses(quest, seen, limits);
+  const Eigen::VectorXd others = searches_[model]->without(quest.last.state, quest.hidden);
+  for (std::size_t m = 0; m < shown.size(); ++m)
+    quest.covered.push_back(
+        quest.hidden[m] ? 0
+                        : judge.model(m).look(frame, others, search.second_view_colors()).covered);
+  return quest;
+}
+
+Candidates Recovery::find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+                          std::uint64_t seed) {
+  const Scene::Item& item = scene_.items()[quest.model];
+  const Eigen::VectorXd& base = quest.last.state;
+  const ColorMap colors = quest.search.second_view_colors();
+  const PoseEffort effort{settings_.hypotheses, settings_.refined, (settings_.refined + 3) / 4};
+  ModelJudge& judge = quest.judge.model(quest.model);
+  const Reach reach = reach_within(limits, quest.last.seconds);
+  Candidates out;
+  std::vector<Refined> seen;
+  for (Refined& one : searches_[quest.model]->find(quest.search, quest.frame, base, quest.hidden,
+                                                   quest.held, guess, effort, seed)) {
+    out.evaluations += std::exchange(one.evaluations, 0);
+    const Evidence evidence = judge.look(quest.frame, one.state, colors);
+    // Behind another model it may be anything.
+    if (evidence.covered > guess.covered || hides_others(quest, one.state, colors)) continue;
+    // What the pictures show tells more than costs in a coarse tile.
+    one.cost = -judge.log_odds(evidence);
+    if (one.cost > kHopeless) continue;
+    Eigen::VectorXd state = base;
+    state.segment(item.offset, item.model->dimension()) =
+        one.state.segment(item.offset, item.model->dimension());
+    Eigen::VectorXd from = base;
+    for (const Held& held : quest.held) {
+      const Scene::Item& with = scene_.items()[held.model];
+      for (Eigen::VectorXd* to : {&state, &from}) set_pose(with, pose_of(with, one.state), *to);
+    }
+    if (!is_within(scene_, reach, from, state)) continue;
+    one.state = std::move(state);
+    seen.push_back(std::move(one));
+  }
+  std::ranges::stable_sort(seen,
+                           [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
+  const double near = kDistinct / static_cast<double>(scene_.items().size());
+  for (Refined& one :
+       distinct(scene_, std::move(seen), near, static_cast<std::size_t>(settings_.searched)))
+    out.states.push_back(std::move(one.state));
+  return out;
+}
+
+}  // namespace hypotrack

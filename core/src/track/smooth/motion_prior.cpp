@@ -1,0 +1,41 @@
+#include "track/smooth/motion_prior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "track/tangent.hpp"
+
+namespace hypotrack {
+namespace {
+
+double seconds_between(const Moment& before, const Moment& after) {
+  return std::max(after.time - before.time, 1e-3);
+}
+
+}  // namespace
+
+MotionPrior::MotionPrior(const Scene& scene, const HindsightSettings& settings) : scene_(&scene) {
+  const std::vector<TangentPart> parts = tangent_parts(scene);
+  weight_.resize(parts.back().first + parts.back().size);
+  for (const TangentPart& part : parts) {
+    const double sigma = part.kind == ParameterKind::position     ? settings.position_change
+                         : part.kind == ParameterKind::quaternion ? settings.rotation_change
+                                                                  : settings.angle_change;
+    weight_.segment(part.first, part.size).setConstant(1 / (sigma * sigma));
+  }
+}
+
+MotionPrior::Change MotionPrior::change(const Moment& before, const Moment& here,
+                                        const Moment& after) const {
+  const double first = seconds_between(before, here), second = seconds_between(here, after);
+  const double scale = 1 / std::sqrt((first + second) / 2);
+  return {scale * (difference(*scene_, here.state, after.state) / second -
+                   difference(*scene_, before.state, here.state) / first),
+          {scale / first, -scale / first - scale / second, scale / second}};
+}
+
+double MotionPrior::cost(const Moment& before, const Moment& here, const Moment& after) const {
+  return weight_.dot(change(before, here, after).residual.cwiseAbs2());
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/params.hpp"
+#include "lab/report/read_run.hpp"
+#include "lab/report/study_data.hpp"
+
+namespace hypotrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const ConfigNode& map, const char* key) {
+  const ConfigNode node = map.get(key);
+  return node.is_scalar() && !node.is_null() ? node.scalar() : std::string();
+}
+
+/// The last part of a key; the whole key where two axes end alike.
+void label_axes(std::vector<StudyAxis>& axes) {
+  const auto last_part = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  for (StudyAxis& axis : axes) {
+    const auto alike = std::count_if(axes.begin(), axes.end(), [&](const StudyAxis& other) {
+      return last_part(other.key) == last_part(axis.key);
+    });
+    axis.label = alike == 1 ? last_part(axis.key) : axis.key;
+    std::replace(axis.label.begin(), axis.label.end(), '_', ' ');
+  }
+}
+
+StudyAxis read_axis(const std::string& key, const ConfigNode& values) {
+  StudyAxis axis{.key = key};
+  if (values.is_map()) axis.values = values.keys();  // named cases
+  for (std::size_t i = 0; values.is_list() && i < values.size(); ++i)
+    axis.values.push_back(
+        canonical_value(values.at(i).is_scalar() ? values.at(i).scalar() : values.at(i).to_yaml()));
+  return axis;
+}
+
+void read_plots(const ConfigNode& plots, std::vector<PlotRequest>& requests) {
+  for (std::size_t i = 0; i < plots.size(); ++i) {
+    const ConfigNode plot = plots.at(i);
+    requests.push_back({.kind = text_of(plot, "kind"),
+                        .x = text_of(plot, "x"),
+                        .y = text_of(plot, "y"),
+                        .value = text_of(plot, "value"),
+                        .color = text_of(plot, "color"),
+                        .facet = text_of(plot, "facet"),
+                        .title = text_of(plot, "title"),
+                        .x_label = text_of(plot, "x_label"),
+                        .y_label = text_of(plot, "y_label")});
+  }
+}
+
+std::size_t seeds_of(const ConfigNode& seeds) {
+  if (seeds.is_list()) return seeds.size();
+  double count = 1;
+  return seeds.is_scalar() && parse_number(seeds.scalar(), count) && count >= 1
+             ? static_cast<std::size_t>(count)
+             : 1;
+}
+
+void read_study_file(const fs::path& file, StudyData& study) {
+  const ConfigNode root = ConfigNode::load(file);
+  study.title = text_of(root, "title");
+  study.about = text_of(root, "about");
+  const ConfigNode scenes = root.get("scenes");
+  for (const std::string& name : scenes.keys()) {
+    const std::string label = text_of(scenes.get(name), "label");
+    study.scenes.push_back({name, label.empty() ? name : label});
+  }
+  const ConfigNode grid = root.get("grid");
+  study.planned = study.scenes.size() * seeds_of(root.get("seeds"));
+  for (const std::string& key : grid.keys()) {
+    study.axes.push_back(read_axis(key, grid.get(key)));
+    study.planned *= study.axes.back().values.size();
+  }
+  study.table_per = text_of(root, "table_per");
+  read_plots(root.get("plots"), study.plots);
+}
+
+/// Scenes, axes and values that runs have and study.yaml does not say, at the end.
+void add_what_runs_say(StudyData& study) {
+  const auto add_once = [](std::vector<std::string>& values, const std::string& value) {
+    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
+  };
+  for (const StudyRun& run : study.runs) {
+    const bool known =
+        std::any_of(study.scenes.begin(), study.scenes.end(),
+                    [&](const StudyScene& scene) { return scene.name == run.scene; });
+    if (!known) study.scenes.push_back({run.scene, run.scene});
+    for (const auto& [key, value] : run.settings) {
+      if (!study.axis(key)) study.axes.push_back({.key = key});
+      for (StudyAxis& axis : study.axes)
+        if (axis.key == key) add_once(axis.values, value);
+    }
+  }
+  for (StudyAxis& axis : study.axes) {
+    double ignored = 0;
+    axis.numeric = !axis.values.empty() && std::all_of(axis.values.begin(), axis.values.end(),
+                                                       [&](const std::string& value) {
+                                                         return parse_number(value, ignored);
+                                                       });
+  }
+  label_axes(study.axes);
+}
+
+void sort_runs(StudyData& study) {
+  const auto place = [&](const StudyRun& run) {
+    std::vector<std::ptrdiff_t> places;
+    const auto add = [&](const std::string& key) {
+      const auto values = study.values_of(key);
+      places.push_back(std::find(values.begin(), values.end(), run.on_axis(key)) - values.begin());
+    };
+    add("scene");
+    for (const StudyAxis& axis : study.axes) add(axis.key);
+    places.push_back(run.seed);
+    return std::make_tuple(std::move(places), run.id);
+  };
+  std::sort(study.runs.begin(), study.runs.end(),
+            [&](const StudyRun& a, const StudyRun& b) { return place(a) < place(b); });
+}
+
+StudyData single_run(const fs::path& directory) {
+  StudyData study;
+  study.title = fs::canonical(directory).filename().string();
+  study.planned = 1;
+  StudyRun run;
+  run.id = study.title;
+  read_results(directory, run);
+  study.runs.push_back(std::move(run));
+  return study;
+}
+
+}  // namespace
+
+StudyData read_study(const fs::path& directory) {
+  if (!fs::is_directory(directory))
+    throw DataError(fmt::format(
+        "{}: no such folder; expected a study folder (of `hypotrack compare`) or a run folder (of "
+        "`hypotrack run`)",
+        directory.string()));
+  if (!fs::exists(directory / "study.yaml")) {
+    if (fs::exists(directory / "track.csv") && fs::exists(directory / "run.yaml"))
+      return single_run(directory);
+    throw DataError(
+        fmt::format("{}: is neither a study folder (it has no study.yaml) nor a run folder (it "
+                    "has no track.csv and run.yaml); expected what `hypotrack compare` or "
+                    "`hypotrack run` wrote with --out",
+                    directory.string()));
+  }
+  StudyData study;
+  study.is_study = true;
+  read_study_file(directory / "study.yaml", study);
+  if (study.title.empty()) study.title = fs::canonical(directory).filename().string();
+  if (fs::is_directory(directory / "runs"))
+    for (const auto& entry : fs::directory_iterator(directory / "runs"))
+      if (!entry.path().filename().string().starts_with(".") &&
+          fs::exists(entry.path() / "cell.json"))
+        study.runs.push_back(read_study_run(entry.path()));
+  if (study.runs.empty())
+    throw DataError(
+        fmt::format("{}: has no finished run in {}; run `hypotrack compare` on the study first",
+                    directory.string(), (directory / "runs").string()));
+  add_what_runs_say(study);
+  sort_runs(study);
+  return study;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,99 @@
+#include "lab/report/reliability_plot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace hypotrack {
+namespace {
+
+constexpr double kLow = 0.125, kHigh = 128;  // mm, both axes
+constexpr double kLeft = 64, kTop = 44, kSide = 360;
+
+double along(double mm) {
+  return std::log(std::clamp(mm, kLow, kHigh) / kLow) / std::log(kHigh / kLow);
+}
+double x_of(double mm) { return kLeft + kSide * along(mm); }
+double y_of(double mm) { return kTop + kSide * (1 - along(mm)); }
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string line(double x1, double y1, double x2, double y2, const char* style) {
+  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)"
+                     "\n",
+                     x1, y1, x2, y2, style);
+}
+
+std::string text(double x, double y, const std::string& what, const char* more = "") {
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" {}>{}</text>)"
+                     "\n",
+                     x, y, more, what);
+}
+
+std::string axes() {
+  std::string out;
+  for (double mm = kLow; mm <= kHigh; mm *= 2) {
+    constexpr const char* kGrid = R"(stroke="#e4e4e4")";
+    out += line(x_of(mm), y_of(kLow), x_of(mm), y_of(kHigh), kGrid);
+    out += line(x_of(kLow), y_of(mm), x_of(kHigh), y_of(mm), kGrid);
+    out += text(x_of(mm), y_of(kLow) + 16, fmt::format("{:g}", mm));
+    out += text(x_of(kLow) - 22, y_of(mm) + 4, fmt::format("{:g}", mm));
+  }
+  out += line(x_of(kLow), y_of(kLow), x_of(kHigh), y_of(kHigh),
+              R"(stroke="#888" stroke-dasharray="5 4")");
+  out += text(kLeft + kSide / 2, kTop + kSide + 36, "sigma, root mean square (mm)");
+  const double middle = kTop + kSide / 2;
+  out += text(16, middle, "error, root mean square (mm)",
+              fmt::format(R"x(transform="rotate(-90 16 {:.1f})")x", middle).c_str());
+  return out;
+}
+
+std::string dots(const Reliability& reliability) {
+  std::string out;
+  std::string path;
+  for (const ReliabilityBin& bin : reliability.bins()) {
+    if (bin.count == 0) continue;
+    const double x = x_of(1000 * bin.sigma), y = y_of(1000 * bin.error);
+    const double share = static_cast<double>(bin.count) / static_cast<double>(reliability.count());
+    fmt::format_to(std::back_inserter(path), "{:.1f},{:.1f} ", x, y);
+    fmt::format_to(
+        std::back_inserter(out),
+        R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" fill="#1f6fb4" fill-opacity="0.8">)"
+        "<title>{} landmarks</title></circle>\n",
+        x, y, 3 + 18 * std::sqrt(share), bin.count);
+  }
+  return fmt::format(R"(<polyline points="{}" fill="none" stroke="#1f6fb4"/>)"
+                     "\n",
+                     path) +
+         out;
+}
+
+}  // namespace
+
+std::string reliability_svg(const Reliability& reliability, const std::string& title) {
+  const std::string shares = fmt::format(
+      "{} landmarks; {:.0f} % within one sigma, {:.0f} % two, {:.0f} % three", reliability.count(),
+      100 * reliability.within(1), 100 * reliability.within(2), 100 * reliability.within(3));
+  const double width = kLeft + kSide + 24, height = kTop + kSide + 52;
+  return fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" )"
+                     R"(viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="11">)"
+                     "\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+                     width, height) +
+         text(kLeft + kSide / 2, 18, escaped(title), R"(font-size="14")") +
+         text(kLeft + kSide / 2, 34, shares) + axes() + dots(reliability) + "</svg>\n";
+}
+
+}  // namespace hypotrack

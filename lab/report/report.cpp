@@ -1,0 +1,102 @@
+#include "lab/report/report.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "base/text_file.hpp"
+#include "hypotrack/error.hpp"
+#include "lab/report/page.hpp"
+#include "lab/report/plot_files.hpp"
+#include "lab/report/report_data.hpp"
+#include "lab/report/study_data.hpp"
+#include "lab/report/table_data.hpp"
+
+namespace hypotrack {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder beside the report in which it grows; removed at the end.
+class Workshop {
+ public:
+  explicit Workshop(const fs::path& page)
+      : folder_(page.string() + fmt::format(".{}.partial", ::getpid())) {
+    std::error_code error;
+    fs::create_directories(folder_ / "plots", error);
+    if (!error) fs::create_directories(folder_ / "tables", error);
+    if (error)
+      throw OutputError(fmt::format("{}: cannot be written ({}); name another file with --out",
+                                    page.string(), error.message()));
+  }
+  ~Workshop() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  Workshop(const Workshop&) = delete;
+  Workshop& operator=(const Workshop&) = delete;
+
+  fs::path operator/(const char* name) const { return folder_ / name; }
+
+ private:
+  fs::path folder_;
+};
+
+/// Puts what was made in place of what is there.
+void put_in_place(const fs::path& made, const fs::path& target) {
+  std::error_code error;
+  if (fs::is_directory(made)) fs::remove_all(target, error);
+  if (!error) fs::rename(made, target, error);
+  if (error)
+    throw OutputError(fmt::format("{}: cannot be written ({}); name another file with --out",
+                                  target.string(), error.message()));
+}
+
+fs::path page_path(const ReportOptions& options) {
+  const fs::path page = options.out.empty() ? options.directory / "report.html" : options.out;
+  if (fs::is_directory(page) || !page.has_filename())
+    throw OutputError(fmt::format("{}: is a folder; expected the name of an HTML file after --out",
+                                  page.string()));
+  if (page.extension() != ".html")
+    throw OutputError(fmt::format(
+        "{}: does not end in .html; expected the name of an HTML file after --out (a folder of the "
+        "same name without .html holds its plots and tables)",
+        page.string()));
+  return page;
+}
+
+}  // namespace
+
+ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) {
+  const StudyData study = read_study(options.directory);
+  ReportSummary summary;
+  summary.page = page_path(options);
+  summary.files = summary.page;
+  summary.files.replace_extension();
+  const Workshop workshop(summary.page);
+  const ReportData data = report_data(study, options.replays, plugins);
+  TextFile(workshop / "report.html").write(report_page(data.page));
+  if (study.is_study) write_table_files(study, data.tables, workshop / "tables");
+  if (options.plot_files != PlotFiles::none)
+    summary.skipped = write_plot_files(data.page, workshop / "plots");
+  if (options.plot_files == PlotFiles::required && !summary.skipped.empty())
+    throw OutputError(summary.skipped);
+
+  summary.bytes = fs::file_size(workshop / "report.html");
+  summary.runs = study.runs.size();
+  summary.failed = static_cast<std::size_t>(
+      std::count_if(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.failed; }));
+  summary.replays = data.replays;
+  std::error_code error;
+  fs::create_directories(summary.files, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: the folder cannot be made ({}); name another file with --out",
+                    summary.files.string(), error.message()));
+  for (const char* part : {"plots", "tables"}) put_in_place(workshop / part, summary.files / part);
+  put_in_place(workshop / "report.html", summary.page);
+  return summary;
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "base/csv.hpp"
+#include "base/text_file.hpp"
+#include "lab/report/json_file.hpp"
+#include "lab/report/table_data.hpp"
+
+namespace hypotrack {
+namespace {
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return csv_cell(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+/// Speed is left out: it differs from time to time, and the tables of a study should not.
+bool is_repeatable(const Json& column) { return column["key"] != "fps"; }
+
+std::string table_csv(const Json& table) {
+  const Json& columns = table["columns"];
+  std::string text;
+  for (const Json& key : table["keys"]) text += cell(key) + ",";
+  text += "runs,failed";
+  for (const Json& column : columns) {
+    if (!is_repeatable(column)) continue;
+    const std::string key = column["key"];
+    for (const char* suffix : {"mean", "sd", "p_against_best", "best"})
+      text += "," + csv_cell(fmt::format("{}_{}", key, suffix));
+  }
+  text += "\n";
+  for (const Json& row : table["rows"]) {
+    for (const Json& key : row["keys"]) text += cell(key) + ",";
+    text += cell(row["runs"]) + "," + cell(row["failed"]);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (!is_repeatable(columns[i])) continue;
+      const Json& entry = row["cells"][i];
+      text += fmt::format(",{},{},{},{}", cell(entry["mean"]), cell(entry["sd"]), cell(entry["p"]),
+                          entry["best"].get<bool>() ? 1 : 0);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+std::string runs_csv(const StudyData& study) {
+  std::vector<std::string> metrics;
+  for (const StudyRun& run : study.runs)
+    if (run.metrics.size() > metrics.size()) {
+      metrics.clear();
+      for (const auto& [key, value] : run.metrics) metrics.push_back(key);
+    }
+  std::string text = "run,scene,";
+  for (const StudyAxis& axis : study.axes) text += csv_cell(axis.key) + ",";
+  text += "seed,status,message";
+  for (const std::string& metric : metrics) text += "," + csv_cell(metric);
+  text += "\n";
+  for (const StudyRun& run : study.runs) {
+    text += csv_cell(run.id) + "," + csv_cell(run.scene) + ",";
+    for (const StudyAxis& axis : study.axes) text += csv_cell(run.on_axis(axis.key)) + ",";
+    text += fmt::format("{},{},{}", run.seed, run.failed ? "failed" : "ok", csv_cell(run.message));
+    for (const std::string& metric : metrics) {
+      const double value = run.number(metric);
+      text += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+void write_table_files(const StudyData& study, const Json& tables,
+                       const std::filesystem::path& directory) {
+  for (const Json& table : tables)
+    TextFile(directory / (table["id"].get<std::string>() + ".csv")).write(table_csv(table));
+  TextFile(directory / "runs.csv").write(runs_csv(study));
+}
+
+}  // namespace hypotrack

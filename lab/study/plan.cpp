@@ -1,0 +1,110 @@
+#include "lab/study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+#include "lab/study/hash.hpp"
+
+namespace hypotrack::study {
+namespace {
+
+constexpr std::size_t kMaxRuns = 100'000;
+
+/// The content of a scene's file and, where it takes parts from other scenes, what it comes to.
+std::string read_scene_text(const StudyScene& scene) {
+  std::ifstream in(scene.file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in)
+    throw ConfigError(fmt::format("{}: scene '{}': cannot read {}", scene.where, scene.name,
+                                  scene.file.string()));
+  try {
+    const std::string written = ConfigNode::load(scene.file).to_yaml();
+    const std::string whole = ConfigNode::load_scene(scene.file).to_yaml();
+    return whole == written ? text : text + whole;
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: {}: {}", scene.where, scene.name, error.what()));
+  }
+}
+
+std::vector<Cell> make_cells(const Study& study) {
+  std::size_t count = study.scenes.size();
+  for (const Axis& axis : study.axes) {
+    count *= axis.choices.size();
+    if (count * study.seeds.size() > kMaxRuns) break;
+  }
+  if (count * study.seeds.size() > kMaxRuns)
+    throw ConfigError(fmt::format("the study '{}' has more than {} runs; leave out some values",
+                                  study.title, kMaxRuns));
+  std::vector<Cell> cells;
+  cells.reserve(count);
+  for (std::size_t index = 0; index < count; ++index) {
+    Cell cell{0, std::vector<std::size_t>(study.axes.size())};
+    std::size_t rest = index;
+    for (std::size_t axis = study.axes.size(); axis-- > 0;) {
+      cell.choices[axis] = rest % study.axes[axis].choices.size();
+      rest /= study.axes[axis].choices.size();
+    }
+    cell.scene = rest;
+    cells.push_back(std::move(cell));
+  }
+  return cells;
+}
+
+std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
+  Hash hash;
+  hash.add(plan.scene_texts[cell.scene]);
+  for (const Change& change : plan.changes_of(cell)) hash.add(change.meaning());
+  for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
+    hash.add(plan.study.axes[axis].name);
+    hash.add(plan.choice_of(cell, axis).label);
+  }
+  hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
+  if (plan.study.recordings) hash.add("recordings");  // may round depths
+  return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, seed, hash.value());
+}
+
+}  // namespace
+
+std::vector<Change> Plan::changes_of(const Cell& cell) const {
+  std::vector<Change> changes = scene_of(cell).changes;
+  for (std::size_t axis = 0; axis < study.axes.size(); ++axis) {
+    const Choice& choice = choice_of(cell, axis);
+    changes.insert(changes.end(), choice.changes.begin(), choice.changes.end());
+  }
+  return changes;
+}
+
+std::string Plan::describe(const Cell& cell) const {
+  std::string text = scene_of(cell).name;
+  for (std::size_t axis = 0; axis < study.axes.size(); ++axis)
+    text += fmt::format(", {} {}", study.axes[axis].name, choice_of(cell, axis).label);
+  return text;
+}
+
+Plan make_plan(Study study) {
+  Plan plan;
+  plan.cells = make_cells(study);
+  plan.study = std::move(study);
+  for (const StudyScene& scene : plan.study.scenes)
+    plan.scene_texts.push_back(read_scene_text(scene));
+  for (const std::int64_t seed : plan.study.seeds)
+    for (std::size_t i = 0; i < plan.cells.size(); ++i)
+      plan.runs.push_back({i, seed, run_id(plan, plan.cells[i], seed)});
+  return plan;
+}
+
+std::vector<std::size_t> runs_of(const Plan& plan, Shard shard) {
+  std::vector<std::size_t> runs;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i) {
+    const std::size_t seed = i / plan.cells.size();
+    if ((plan.runs[i].cell + seed) % shard.count == shard.index) runs.push_back(i);
+  }
+  return runs;
+}
+
+}  // namespace hypotrack::study

@@ -1,0 +1,126 @@
+#include "lab/study/recordings.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "lab/study/hash.hpp"
+#include "lab/study/process_pool.hpp"
+
+namespace hypotrack::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kPoll{20};
+
+/// Whether a change is one of what a recording is made of.
+bool is_recorded(const Change& change) {
+  for (const std::string part : {"models", "source"})
+    if (change.key == part || change.key.starts_with(part + ".")) return true;
+  return false;
+}
+
+std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
+  std::vector<Change> selected;
+  for (const Change& change : changes)
+    if (is_recorded(change) == recorded) selected.push_back(change);
+  return selected;
+}
+
+/// Recordings that are yet to be made, by name, with a cell that needs each.
+using Wanted = std::map<std::string, std::size_t>;
+
+Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
+                      const RunFolder& folder) {
+  Command command{launch.program,          {}, plan.study.directory, folder.log(), launch.threads,
+                  folder.lock_descriptor()};
+  command.arguments = scene_arguments("synth", plan.scene_of(cell).file,
+                                      select(plan.changes_of(cell), true), plan, launch);
+  command.arguments.insert(command.arguments.end(),
+                           {"--out", (folder.working() / "recording").string()});
+  if (plan.study.frames)
+    command.arguments.insert(command.arguments.end(),
+                             {"--frames", fmt::format("{}", *plan.study.frames)});
+  return command;
+}
+
+class Recorder {
+ public:
+  Recorder(const StudyFolder& folder, const Plan& plan, const Launch& launch)
+      : folder_(folder), plan_(plan), launch_(launch) {}
+
+  void work(Wanted wanted, const std::function<bool()>& again) {
+    while (again() && (!wanted.empty() || pool_.size() > 0)) {
+      for (auto it = wanted.begin(); it != wanted.end();)
+        it = take_in_hand(it->first, it->second) ? wanted.erase(it) : std::next(it);
+      if (const auto ended = pool_.take_ended())
+        finish(*ended);
+      else
+        std::this_thread::sleep_for(kPoll);
+    }
+  }
+
+ private:
+  /// Starts a recording; false if it has to wait for a free place or another process.
+  bool take_in_hand(const std::string& id, std::size_t cell) {
+    if (std::filesystem::exists(folder_.recording_path(id))) return true;
+    if (pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
+    auto claimed = folder_.claim_recording(id);
+    if (!claimed) return false;
+    if (std::filesystem::exists(folder_.recording_path(id))) return true;
+    pool_.start(cell, synth_command(plan_, plan_.cells[cell], launch_, *claimed));
+    working_.emplace(cell, *std::move(claimed));
+    return true;
+  }
+
+  void finish(const Ended& ended) {
+    RunFolder& folder = working_.at(ended.key);
+    if (ended.exit_code != 0)
+      throw DataError(fmt::format("{}: {}: its source cannot be recorded: {}",
+                                  plan_.scene_of(plan_.cells[ended.key]).where,
+                                  plan_.describe(plan_.cells[ended.key]),
+                                  failure_message(folder.log(), ended.exit_code, ended.signal)));
+    folder.put_into_place();
+    working_.erase(ended.key);
+  }
+
+  const StudyFolder& folder_;
+  const Plan& plan_;
+  const Launch& launch_;
+  std::map<std::size_t, RunFolder> working_;  // outlived by no process: pool_ goes first
+  ProcessPool pool_;
+};
+
+}  // namespace
+
+std::string recording_id(const Plan& plan, const Cell& cell) {
+  Hash hash;
+  hash.add(plan.scene_texts[cell.scene]);
+  for (const Change& change : select(plan.changes_of(cell), true)) hash.add(change.meaning());
+  hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
+  return fmt::format("{}_{:016x}", plan.scene_of(cell).file.stem().string(), hash.value());
+}
+
+void make_recordings(const StudyFolder& folder, const Plan& plan,
+                     const std::vector<std::size_t>& cells, const Launch& launch,
+                     const std::function<bool()>& again) {
+  Wanted wanted;
+  for (const std::size_t cell : cells) wanted.emplace(recording_id(plan, plan.cells[cell]), cell);
+  Recorder(folder, plan, launch).work(std::move(wanted), again);
+}
+
+std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
+                                       const Cell& cell, const Launch& launch) {
+  const std::vector<Change> changes = plan.changes_of(cell);
+  if (!plan.study.recordings)
+    return scene_arguments("run", plan.scene_of(cell).file, changes, plan, launch);
+  const auto scene = folder.recording_path(recording_id(plan, cell)) / "recording" / "scene.yaml";
+  return scene_arguments("run", scene, select(changes, false), plan, launch);
+}
+
+}  // namespace hypotrack::study

@@ -1,0 +1,81 @@
+#include "lab/study/results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+#include <string_view>
+
+#include "lab/study/read_json.hpp"
+#include "lab/study/run_folder.hpp"
+
+namespace hypotrack::study {
+namespace {
+
+constexpr std::array<std::string_view, 3> kTimed = {"fps", "search_fps", "evaluations_per_second"};
+
+bool is_timed(const std::string& name) {
+  return std::find(kTimed.begin(), kTimed.end(), name) != kTimed.end();
+}
+
+/// The numbers at the top of a file. `null` is a number that is not defined.
+Metrics read_metrics(const std::filesystem::path& file) {
+  Metrics metrics;
+  const auto json = read_json(file);
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_number()) metrics.emplace_back(name, value.get<double>());
+    if (value.is_null()) metrics.emplace_back(name, std::nullopt);
+  }
+  return metrics;
+}
+
+RunResult read_result(const PlannedRun& run, const std::filesystem::path& folder) {
+  RunResult result;
+  result.run = &run;
+  if (const auto failure = read_failure(folder)) {
+    result.ok = false;
+    result.message = failure->message;
+    return result;
+  }
+  result.timing = read_metrics(folder / "timing.json");
+  // Without ground truth there are no metrics, but some of the summary is worth comparing.
+  Metrics summary = read_metrics(folder / "summary.json");
+  for (const auto& entry : summary)
+    if (is_timed(entry.first)) result.timing.push_back(entry);
+  std::erase_if(summary, [](const auto& entry) { return is_timed(entry.first); });
+  const bool has_metrics = std::filesystem::exists(folder / "metrics.json");
+  result.metrics = has_metrics ? read_metrics(folder / "metrics.json") : std::move(summary);
+  return result;
+}
+
+}  // namespace
+
+std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::path& runs) {
+  std::vector<std::size_t> order(plan.runs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return plan.runs[a].cell < plan.runs[b].cell;
+  });
+  std::vector<RunResult> results;
+  for (const std::size_t index : order) {
+    const PlannedRun& run = plan.runs[index];
+    const std::filesystem::path folder = runs / run.id;
+    if (std::filesystem::exists(folder)) results.push_back(read_result(run, folder));
+  }
+  return results;
+}
+
+Statistics statistics_of(const std::vector<double>& values) {
+  Statistics statistics{values.size(), 0, std::nullopt};
+  if (values.empty()) return statistics;
+  const auto count = static_cast<double>(values.size());
+  statistics.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  if (values.size() < 2) return statistics;
+  double squares = 0;
+  for (const double value : values) squares += std::pow(value - statistics.mean, 2);
+  statistics.sd = std::sqrt(squares / (count - 1));
+  return statistics;
+}
+
+}  // namespace hypotrack::study

@@ -1,0 +1,140 @@
+#include "lab/study/run_folder.hpp"
+
+#include <fmt/format.h>
+#include <string.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <utility>
+
+#include "base/numbers.hpp"
+#include "base/text_file.hpp"
+#include "hypotrack/error.hpp"
+#include "lab/study/read_json.hpp"
+
+namespace hypotrack::study {
+namespace {
+
+constexpr std::string_view kMessagePrefix = "hypotrack: ";
+constexpr const char* kFailureFile = "failure.json";
+
+nlohmann::ordered_json settings_of(const Plan& plan, const Cell& cell) {
+  auto settings = nlohmann::ordered_json::object();
+  for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
+    const Choice& choice = plan.choice_of(cell, axis);
+    auto& value = settings[plan.study.axes[axis].name];
+    const auto integer = detail::parse_integer(choice.label);
+    const auto number = detail::parse_number(choice.label);
+    if (choice.is_number && integer)
+      value = *integer;
+    else if (choice.is_number && number)
+      value = *number;
+    else
+      value = choice.label;
+  }
+  return settings;
+}
+
+void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  TextFile(file).write(json.dump(2, ' ', false, kReplace) + "\n");
+}
+
+void write_cell(const std::filesystem::path& folder, const Plan& plan, const PlannedRun& run) {
+  const Cell& cell = plan.cells[run.cell];
+  nlohmann::ordered_json json;
+  json["scene"] = plan.scene_of(cell).name;
+  json["settings"] = settings_of(plan, cell);
+  json["seed"] = run.seed;
+  write_json(folder / "cell.json", json);
+}
+
+std::string without(std::string text, const std::string& piece, const std::string& by) {
+  for (std::size_t at = 0; (at = text.find(piece, at)) != std::string::npos; at += by.size())
+    text.replace(at, piece.size(), by);
+  return text;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(FileLock lock, std::filesystem::path working, std::filesystem::path final)
+    : lock_(std::move(lock)), working_(std::move(working)), final_(std::move(final)) {
+  std::error_code error;
+  std::filesystem::remove_all(working_, error);  // of a process that was killed
+  std::filesystem::create_directories(working_, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: the folder cannot be made: {}", working_.string(), error.message()));
+}
+
+RunFolder::RunFolder(RunFolder&& other) noexcept
+    : lock_(std::move(other.lock_)),
+      working_(std::exchange(other.working_, {})),
+      final_(std::move(other.final_)) {}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (!working_.empty()) std::filesystem::remove_all(working_, ignored);
+}
+
+void RunFolder::rename() {
+  std::error_code error;
+  std::filesystem::remove_all(final_, error);  // a failure that was tried again
+  std::filesystem::rename(working_, final_, error);
+  if (error)
+    throw OutputError(fmt::format("{}: cannot be moved to {}: {}", working_.string(),
+                                  final_.string(), error.message()));
+}
+
+void RunFolder::put_into_place() {
+  std::filesystem::remove(log());
+  rename();
+}
+
+void RunFolder::finish(const Plan& plan, const PlannedRun& run, const RunCost& cost) {
+  write_cell(working_, plan, run);
+  nlohmann::ordered_json timing;
+  timing["seconds"] = cost.seconds;
+  timing["threads"] = cost.threads;
+  write_json(working_ / "timing.json", timing);
+  put_into_place();
+}
+
+void RunFolder::fail(const Plan& plan, const PlannedRun& run, const RunFailure& failure) {
+  for (const auto& entry : std::filesystem::directory_iterator(working_))
+    if (entry.path() != log()) std::filesystem::remove_all(entry.path());
+  write_cell(working_, plan, run);
+  nlohmann::ordered_json json;
+  json["message"] = without(failure.message, working_.string(), "the run's folder");
+  json["exit_code"] = failure.exit_code;
+  write_json(working_ / kFailureFile, json);
+  rename();
+}
+
+std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / kFailureFile)) return std::nullopt;
+  const nlohmann::json json = read_json(folder / kFailureFile);
+  return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
+}
+
+std::string failure_message(const std::filesystem::path& log, int exit_code, int signal) {
+  std::ifstream in(log);
+  std::string message;
+  bool goes_on = false;  // the further lines of a message are indented
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t text = line.find_first_not_of(' ');
+    if (line.starts_with(kMessagePrefix)) {
+      message = line.substr(kMessagePrefix.size());
+      goes_on = true;
+    } else if (goes_on && text > 0 && text != std::string::npos) {
+      message += " " + line.substr(text);
+    } else {
+      goes_on = false;
+    }
+  }
+  if (signal != 0) return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
+  return message.empty() ? fmt::format("ended with exit code {}", exit_code) : message;
+}
+
+}  // namespace hypotrack::study

@@ -1,0 +1,147 @@
+#include "lab/study/study_folder.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "base/text_file.hpp"
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::study {
+namespace {
+
+constexpr const char* kStudyFile = "study.yaml";
+constexpr const char* kPlanFile = "plan.txt";
+constexpr const char* kLockSuffix = ".lock";
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string plan_text(const Plan& plan) {
+  std::string text;
+  for (const PlannedRun& run : plan.runs) text += run.id + "\n";
+  return text;
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw OutputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
+                                  folder.string(),
+                                  error ? error.message() : "there is a file of that name"));
+}
+
+/// The parts of two studies that decide their runs and are not the same: `seeds, frames`.
+std::string differences(const std::string& old_text, const Plan& plan) {
+  const ConfigNode before = ConfigNode::parse(old_text, kStudyFile);
+  const ConfigNode now = ConfigNode::parse(to_yaml(plan.study), kStudyFile);
+  std::vector<std::string> keys;
+  for (const char* key : {"scenes", "grid", "seeds", "frames"})
+    if (before.get(key).to_yaml() != now.get(key).to_yaml()) keys.emplace_back(key);
+  if (keys.empty()) return "the content of its scene files differs";
+  return fmt::format("they differ in: {}", fmt::join(keys, ", "));
+}
+
+}  // namespace
+
+StudyFolder::StudyFolder(std::filesystem::path folder, const Plan& plan)
+    : folder_(std::filesystem::absolute(folder).lexically_normal()), plan_(&plan) {
+  if (!std::filesystem::exists(folder_)) return;
+  if (!std::filesystem::is_directory(folder_))
+    throw OutputError(folder_.string() + ": is a file; name a folder with --out");
+  if (std::filesystem::exists(folder_ / kPlanFile)) {
+    check_same_study();
+  } else if (!std::filesystem::is_empty(folder_) && !std::filesystem::exists(working())) {
+    throw OutputError(folder_.string() +
+                      ": is not empty and holds no study; name another folder with --out");
+  }
+}
+
+void StudyFolder::check_same_study() const {
+  std::set<std::string> planned;
+  for (const PlannedRun& run : plan_->runs) planned.insert(run.id);
+  std::ifstream in(folder_ / kPlanFile);
+  std::size_t all = 0;
+  std::size_t foreign = 0;
+  for (std::string id; std::getline(in, id); ++all) foreign += !planned.contains(id);
+  if (foreign == 0) return;
+  throw OutputError(fmt::format(
+      "{}: holds another study: {} of its {} runs are not part of this one; {}. A study may grow "
+      "in place (further seeds, values or scenes); for anything else name another folder with "
+      "--out, or remove this one",
+      folder_.string(), foreign, all, differences(read_text(folder_ / kStudyFile), *plan_)));
+}
+
+bool StudyFolder::begun() const { return read_text(folder_ / kPlanFile) == plan_text(*plan_); }
+
+void StudyFolder::begin() const {
+  make_folder(working());
+  make_folder(folder_ / "runs");
+  const FileLock guard = lock();
+  // Somebody else may have begun another study since the constructor looked.
+  if (std::filesystem::exists(folder_ / kPlanFile)) check_same_study();
+  write_whole(folder_ / kStudyFile, to_yaml(plan_->study));
+  write_whole(folder_ / kPlanFile, plan_text(*plan_));
+  remove_leftovers();
+}
+
+/// Whatever lies in the working folder and is not locked belongs to nobody any more.
+void StudyFolder::remove_leftovers() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(working()))
+    names.push_back(entry.path().filename().string());
+  for (const std::string& name : names) {
+    const bool is_lock = name.ends_with(kLockSuffix);
+    const std::filesystem::path lock_file = working() / (is_lock ? name : name + kLockSuffix);
+    if (is_lock && name == fmt::format("tables{}", kLockSuffix)) continue;
+    if (const auto unused = FileLock::try_take(lock_file); unused && !is_lock) {
+      std::error_code ignored;
+      std::filesystem::remove_all(working() / name, ignored);
+    }
+  }
+}
+
+std::filesystem::path StudyFolder::run_path(const PlannedRun& run) const {
+  return folder_ / "runs" / run.id;
+}
+
+RunState StudyFolder::state(const PlannedRun& run) const {
+  if (!std::filesystem::exists(run_path(run))) return RunState::missing;
+  return std::filesystem::exists(run_path(run) / "failure.json") ? RunState::failed : RunState::ok;
+}
+
+std::optional<RunFolder> StudyFolder::claim(const std::string& id,
+                                            const std::filesystem::path& final) const {
+  auto lock = FileLock::try_take(working() / (id + kLockSuffix));
+  if (!lock) return std::nullopt;
+  return std::optional<RunFolder>(std::in_place, *std::move(lock), working() / id, final);
+}
+
+std::optional<RunFolder> StudyFolder::claim(const PlannedRun& run) const {
+  return claim(run.id, run_path(run));
+}
+
+std::filesystem::path StudyFolder::recording_path(const std::string& id) const {
+  return folder_ / "recordings" / id;
+}
+
+std::optional<RunFolder> StudyFolder::claim_recording(const std::string& id) const {
+  make_folder(folder_ / "recordings");
+  return claim(id, recording_path(id));
+}
+
+FileLock StudyFolder::lock() const {
+  return FileLock::wait_for(working() / fmt::format("tables{}", kLockSuffix));
+}
+
+}  // namespace hypotrack::study
