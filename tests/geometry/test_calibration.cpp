@@ -318,7 +318,7 @@ TEST_F(Calibration, EndsWithAnErrorOrValidCamerasWhateverBytesAreDamaged) {
 }
 
 TEST_F(Calibration, IsWhatTheManualShows) {
-  std::ifstream manual(test::source_dir() / "docs/scenes.md");
+  std::ifstream manual(test::source_dir() / "docs/reference/recordings.md");
   std::string text, line;
   while (std::getline(manual, line) && line.find("%YAML:1.0") == std::string::npos) {
   }

@@ -1,5 +1,5 @@
 // A real stereo pair with labelled joints: configs/stb_pair.yaml. What the paper's objective makes
-// of it is recorded, not asserted; docs/real_data.md says what was found and why.
+// of it is recorded, not asserted; docs/results/real_pictures.md says what was found and why.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

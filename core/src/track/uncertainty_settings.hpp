@@ -4,8 +4,8 @@
 
 namespace hypotrack {
 
-/// `tracker.uncertainty:` of a scene. Widths are one standard deviation. docs/confidence.md says
-/// how the defaults were found.
+/// `tracker.uncertainty:` of a scene. Widths are one standard deviation.
+/// docs/results/uncertainty.md says what the defaults were fitted to.
 struct UncertaintySettings {
   bool enabled = false;
   double noise = 1;

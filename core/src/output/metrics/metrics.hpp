@@ -19,8 +19,8 @@ inline constexpr double kAucLowMm = 20;
 inline constexpr double kAucHighMm = 50;
 inline constexpr std::array<int, 6> kSuccessThresholdsMm{5, 10, 20, 30, 40, 50};
 
-/// Metrics of a sequence of solutions; docs/metrics.md defines every number. NaN: unknown, because
-/// no frame has the data for it.
+/// Metrics of a sequence of solutions; docs/reference/metrics.md defines every number. NaN:
+/// unknown, because no frame has the data for it.
 struct Metrics {
   int frames = 0;
   int evaluated_frames = 0;  ///< frames with an error

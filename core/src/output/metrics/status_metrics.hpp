@@ -26,8 +26,9 @@ enum class FrameVerdict {
 /// words.
 HYPOTRACK_API std::optional<FrameVerdict> verdict_named(std::string_view word);
 
-/// Metrics of how well a tracker's verdicts fit the truth, and of how it recovers; docs/metrics.md
-/// defines every number. NaN: unknown, because no frame has the data for it.
+/// Metrics of how well a tracker's verdicts fit the truth, and of how it recovers;
+/// docs/reference/metrics.md defines every number. NaN: unknown, because no frame has the data for
+/// it.
 struct StatusMetrics {
   int judged_frames = 0;  ///< with a verdict, missing ones included
   int tracked_frames = 0;
