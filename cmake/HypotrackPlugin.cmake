@@ -21,6 +21,20 @@ macro(hypotrack_add_plugin kind name)
   hypotrack_add_plugin_library(${kind} ${name} ${ARGN})
 endmacro()
 
+# hypotrack_compile_alone(SOURCES...): keeps sources that include themselves once per instruction set
+# (hypotrack/foreach_target-inl.hpp) out of unity builds.
+function(hypotrack_compile_alone)
+  foreach(source IN LISTS ARGN)
+    get_filename_component(file ${source} ABSOLUTE)
+    if(EXISTS ${file})
+      file(STRINGS ${file} includes_itself REGEX "define HWY_TARGET_INCLUDE" LIMIT_COUNT 1)
+      if(includes_itself)
+        set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+      endif()
+    endif()
+  endforeach()
+endfunction()
+
 function(hypotrack_add_plugin_library kind name)
   cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG"
     "LIBRARIES;CUDA_SOURCES;NO_CUDA_SOURCES" ${ARGN})
@@ -47,6 +61,7 @@ function(hypotrack_add_plugin_library kind name)
   list(FILTER ARG_UNPARSED_ARGUMENTS EXCLUDE REGEX "\\.cu$")
   list(APPEND cuda_sources ${ARG_CUDA_SOURCES})
   add_library(${target} MODULE ${ARG_UNPARSED_ARGUMENTS})
+  hypotrack_compile_alone(${ARG_UNPARSED_ARGUMENTS})
   if(cuda_sources)
     hypotrack_cuda_sources(${target} ${cuda_sources} NO_CUDA_SOURCES ${ARG_NO_CUDA_SOURCES})
   endif()
@@ -65,6 +80,7 @@ function(hypotrack_add_plugin_library kind name)
   endif()
   if(TARGET hypotrack_options)  # inside the project
     target_link_libraries(${target} PRIVATE hypotrack_options)
+    target_precompile_headers(${target} REUSE_FROM hypotrack_plugin_precompiled)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${HYPOTRACK_PLUGIN_DIR}
       INSTALL_RPATH "$ORIGIN/../..")

@@ -141,49 +141,40 @@ int run_bench(BenchOptions options, const CommonOptions& common) {
   return kInterruptedExitCode;
 }
 
-void add_limits(CLI::App& command, BenchOptions& options) {
-  command
-      .add_option("--frames", options.frames,
-                  "Frames to measure of each row (default: what the table says, or 50)")
-      ->check(whole_number(1, 100'000));
-  command.add_option("--warm-up", options.limits.warm_up, "Frames to track before those")
-      ->check(whole_number(0, 100'000))
-      ->capture_default_str();
-  command
-      .add_option("--seconds", options.limits.seconds,
-                  fmt::format("Time for a row; a slow one has fewer frames, at least {}, unless "
-                              "even those take {} times as long",
-                              bench::kFewestFrames, bench::kLongest))
-      ->check(positive_number())
-      ->capture_default_str();
-  command.add_option("--rounds", options.rounds, "Measure everything so many times")
-      ->check(whole_number(1, 1000))
-      ->capture_default_str();
+void add_limits(const Command& command, BenchOptions& options) {
+  command.add("--frames", &options.frames,
+              "Frames to measure of each row (default: what the table says, or 50)",
+              {.check = whole_number(1, 100'000)});
+  command.add("--warm-up", &options.limits.warm_up, "Frames to track before those",
+              {.show_default = true, .check = whole_number(0, 100'000)});
+  command.add("--seconds", &options.limits.seconds,
+              fmt::format("Time for a row; a slow one has fewer frames, at least {}, unless even "
+                          "those take {} times as long",
+                          bench::kFewestFrames, bench::kLongest),
+              {.show_default = true, .check = positive_number()});
+  command.add("--rounds", &options.rounds, "Measure everything so many times",
+              {.show_default = true, .check = whole_number(1, 1000)});
 }
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_bench_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<BenchOptions>();
-  CLI::App* command =
-      app.add_subcommand("bench", "Measure how fast scenes are tracked, backend beside backend");
-  command->add_option("scene", options->request.scenes,
-                      "Scene files, or names of the table's scenes (default: all of those)");
-  command->add_option("--table", options->request.table,
-                      "Study file with scenes and, as the axis 'backend' of its grid, the ways to "
-                      "track them (default: configs/bench.yaml of the installation)");
-  command->add_option("--variant", options->request.variant, "Variant of the table");
-  command
-      ->add_option("--backends", options->request.backends,
-                   "Cases of the axis 'backend' to measure, with commas between them (default: "
-                   "all)")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->take_all();
-  add_set_option(*command, options->request.set);
-  add_limits(*command, *options);
-  command->add_option("--out", options->out, "CSV or JSON file for the rows");
-  command->callback([=, &common, &exit_code] { exit_code = run_bench(*options, common); });
+  const Command command =
+      root.add_command("bench", "Measure how fast scenes are tracked, backend beside backend");
+  command.add("scene", &options->request.scenes,
+              "Scene files, or names of the table's scenes (default: all of those)");
+  command.add("--table", &options->request.table,
+              "Study file with scenes and, as the axis 'backend' of its grid, the ways to track "
+              "them (default: configs/bench.yaml of the installation)");
+  command.add("--variant", &options->request.variant, "Variant of the table");
+  command.add("--backends", &options->request.backends,
+              "Cases of the axis 'backend' to measure, with commas between them (default: all)",
+              {.commas = true});
+  add_set_option(command, options->request.set);
+  add_limits(command, *options);
+  command.add("--out", &options->out, "CSV or JSON file for the rows");
+  command.on_call([=, &common, &exit_code] { exit_code = run_bench(*options, common); });
 }
 
 }  // namespace hypotrack::app

@@ -167,23 +167,22 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_compare_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command =
-      app.add_subcommand("compare", "Run a study: scenes, settings and seeds, and tabulate it");
-  command->add_option("study", options->study, "Study file (YAML)")->required();
-  command->add_option("--out", options->out, "Folder for runs and tables")
-      ->required()
-      ->check(file_name());
-  command->add_option("--variant", options->variant, "Variant of the study, for example quick");
-  command->add_option("--jobs", options->jobs, "Runs at a time (default: one per core)")
-      ->check(whole_number(1));
-  command->add_option("--threads", options->threads, "Threads of each run (default: cores / jobs)")
-      ->check(whole_number(1));
-  command->add_option("--shard", options->shard,
-                      "Make a part of the runs: i/n, for one of n machines that share the folder");
-  command->add_flag("--retry-failed", options->retry_failed, "Make failed runs again");
-  command->callback([=, &common, &exit_code] { exit_code = compare(*options, common); });
+  const Command command =
+      root.add_command("compare", "Run a study: scenes, settings and seeds, and tabulate it");
+  command.add("study", &options->study, "Study file (YAML)", {.required = true});
+  command.add("--out", &options->out, "Folder for runs and tables",
+              {.required = true, .check = file_name()});
+  command.add("--variant", &options->variant, "Variant of the study, for example quick");
+  command.add("--jobs", &options->jobs, "Runs at a time (default: one per core)",
+              {.check = whole_number(1)});
+  command.add("--threads", &options->threads, "Threads of each run (default: cores / jobs)",
+              {.check = whole_number(1)});
+  command.add("--shard", &options->shard,
+              "Make a part of the runs: i/n, for one of n machines that share the folder");
+  command.add("--retry-failed", &options->retry_failed, "Make failed runs again");
+  command.on_call([=, &common, &exit_code] { exit_code = compare(*options, common); });
 }
 
 }  // namespace hypotrack::app

@@ -108,34 +108,26 @@ int evaluate_run(EvaluateOptions options) {
 
 }  // namespace
 
-void add_evaluate_command(CLI::App& app, int& exit_code) {
+void add_evaluate_command(const Command& root, int& exit_code) {
   auto options = std::make_shared<EvaluateOptions>();
-  const CLI::IsMember is_unit({"m", "cm", "mm"});
-  CLI::App* command = app.add_subcommand(
+  const OptionRules unit{.show_default = true, .check = one_of({"m", "cm", "mm"})};
+  const Command command = root.add_command(
       "evaluate", "Judge a run, or the landmarks of another tracker, by ground truth");
-  command
-      ->add_option("run", options->input.run,
-                   "Folder of a run, or a CSV of landmarks: frame,time,<landmark>_x,_y,_z,...")
-      ->required();
-  command->add_option("--truth", options->input.truth,
-                      "Recording, run or CSV of landmarks with the truth (default: the run's own)");
-  command->add_option("--out", options->out,
-                      "Where to write the metrics (default: metrics.json in the run's folder, "
-                      "NAME.metrics.json beside NAME.csv)");
-  command
-      ->add_option("--rename", options->input.rename,
-                   "For the run: NAME=LANDMARK gives a name of its table to a landmark of the "
-                   "truth, NAME= drops it (may be repeated)")
-      ->allow_extra_args(false)
-      ->take_all()
-      ->type_name("NAME=LANDMARK");
-  command->add_option("--units", options->units, "Unit of the run's table: m, cm or mm")
-      ->check(is_unit)
-      ->capture_default_str();
-  command->add_option("--truth-units", options->truth_units, "Unit of the truth: m, cm or mm")
-      ->check(is_unit)
-      ->capture_default_str();
-  command->callback([=, &exit_code] { exit_code = evaluate_run(*options); });
+  command.add("run", &options->input.run,
+              "Folder of a run, or a CSV of landmarks: frame,time,<landmark>_x,_y,_z,...",
+              {.required = true});
+  command.add("--truth", &options->input.truth,
+              "Recording, run or CSV of landmarks with the truth (default: the run's own)");
+  command.add("--out", &options->out,
+              "Where to write the metrics (default: metrics.json in the run's folder, "
+              "NAME.metrics.json beside NAME.csv)");
+  command.add("--rename", &options->input.rename,
+              "For the run: NAME=LANDMARK gives a name of its table to a landmark of the truth, "
+              "NAME= drops it (may be repeated)",
+              {.value_name = "NAME=LANDMARK"});
+  command.add("--units", &options->units, "Unit of the run's table: m, cm or mm", unit);
+  command.add("--truth-units", &options->truth_units, "Unit of the truth: m, cm or mm", unit);
+  command.on_call([=, &exit_code] { exit_code = evaluate_run(*options); });
 }
 
 }  // namespace hypotrack::app

@@ -126,23 +126,19 @@ int fit_shape(const FitShapeOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_fit_shape_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_fit_shape_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<FitShapeOptions>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = root.add_command(
       "fit-shape", "Find how the models of a scene are built and write it for their shape_file");
-  add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "File for the shape")
-      ->capture_default_str()
-      ->check(file_name());
-  command->add_option("--frames", options->frames, "Look at the first frames only")
-      ->check(whole_number(1));
-  command
-      ->add_option("--from", options->from,
-                   "images: track and fit in turn; truth: fit to the landmarks that the source "
-                   "knows")
-      ->check(CLI::IsMember({"images", "truth"}))
-      ->capture_default_str();
-  command->callback([=, &common, &exit_code] { exit_code = fit_shape(*options, common); });
+  add_scene_options(command, options->scene);
+  command.add("--out", &options->out, "File for the shape",
+              {.show_default = true, .check = file_name()});
+  command.add("--frames", &options->frames, "Look at the first frames only",
+              {.check = whole_number(1)});
+  command.add("--from", &options->from,
+              "images: track and fit in turn; truth: fit to the landmarks that the source knows",
+              {.show_default = true, .check = one_of({"images", "truth"})});
+  command.on_call([=, &common, &exit_code] { exit_code = fit_shape(*options, common); });
 }
 
 }  // namespace hypotrack::app

@@ -10,10 +10,10 @@ namespace hypotrack::app {
 namespace {
 
 /// Adds a command that takes any arguments and says what is missing.
-void add_absent(CLI::App& app, const std::string& name, const std::string& summary) {
-  CLI::App* command = app.add_subcommand(name, summary + " (not in this build)");
-  command->allow_extras();
-  command->callback([name] {
+void add_absent(const Command& root, const std::string& name, const std::string& summary) {
+  const Command command = root.add_command(name, summary + " (not in this build)");
+  command.ignore_others();
+  command.on_call([name] {
     throw ConfigError(
         fmt::format("`hypotrack {}` is not in this program, because {}; install libboost-dev, "
                     "libjs-three and libjs-vega, and configure with -DHYPOTRACK_LAB=ON",
@@ -23,17 +23,17 @@ void add_absent(CLI::App& app, const std::string& name, const std::string& summa
 
 }  // namespace
 
-void add_reliability_command(CLI::App& app, int&) {
-  add_absent(app, "reliability", "Compare sigmas with true errors");
+void add_reliability_command(const Command& root, int&) {
+  add_absent(root, "reliability", "Compare sigmas with true errors");
 }
-void add_compare_command(CLI::App& app, CommonOptions&, int&) {
-  add_absent(app, "compare", "Run a study: scenes, settings and seeds, and tabulate it");
+void add_compare_command(const Command& root, CommonOptions&, int&) {
+  add_absent(root, "compare", "Run a study: scenes, settings and seeds, and tabulate it");
 }
-void add_bench_command(CLI::App& app, CommonOptions&, int&) {
-  add_absent(app, "bench", "Measure how fast scenes are tracked");
+void add_bench_command(const Command& root, CommonOptions&, int&) {
+  add_absent(root, "bench", "Measure how fast scenes are tracked");
 }
-void add_report_command(CLI::App& app, CommonOptions&, int&) {
-  add_absent(app, "report", "Write one page about a study or a run");
+void add_report_command(const Command& root, CommonOptions&, int&) {
+  add_absent(root, "report", "Write one page about a study or a run");
 }
 
 }  // namespace hypotrack::app

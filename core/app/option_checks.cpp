@@ -1,12 +1,16 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
-#include "commands.hpp"
+#include "command_line.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -22,8 +26,8 @@ std::optional<T> parse(const std::string& text) {
 
 }  // namespace
 
-CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
-  const auto check = [=](std::string& text) {
+OptionCheck whole_number(std::int64_t lowest, std::int64_t highest) {
+  const auto check = [=](const std::string& text) {
     const auto value = parse<std::int64_t>(text);
     if (value && *value >= lowest && *value <= highest) return std::string();
     return fmt::format("expected a whole number from {} to {}, found '{}'", lowest, highest, text);
@@ -31,8 +35,8 @@ CLI::Validator whole_number(std::int64_t lowest, std::int64_t highest) {
   return {check, fmt::format("FROM {}", lowest)};
 }
 
-CLI::Validator positive_number() {
-  const auto check = [](std::string& text) {
+OptionCheck positive_number() {
+  const auto check = [](const std::string& text) {
     const auto value = parse<double>(text);
     if (value && std::isfinite(*value) && *value > 0) return std::string();
     return fmt::format("expected a number above 0, found '{}'", text);
@@ -40,11 +44,20 @@ CLI::Validator positive_number() {
   return {check, "ABOVE 0"};
 }
 
-CLI::Validator file_name() {
-  const auto check = [](std::string& text) {
+OptionCheck file_name() {
+  const auto check = [](const std::string& text) {
     return std::string(text.empty() ? "is empty, expected a name" : "");
   };
   return {check, ""};
+}
+
+OptionCheck one_of(std::vector<std::string> words) {
+  std::string hint = fmt::format("{{{}}}", fmt::join(words, ","));
+  const auto check = [=](const std::string& text) {
+    if (std::ranges::find(words, text) != words.end()) return std::string();
+    return fmt::format("{} not in {{{}}}", text, fmt::join(words, ","));
+  };
+  return {check, std::move(hint)};
 }
 
 }  // namespace hypotrack::app

@@ -41,28 +41,26 @@ int check(const std::vector<std::filesystem::path>& files) {
 
 }  // namespace
 
-void add_plugins_command(CLI::App& app, CommonOptions& common, int& exit_code) {
-  CLI::App* command = app.add_subcommand("plugins", "Look at plugins");
-  command->require_subcommand(1);
+void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code) {
+  const Command command = root.add_command("plugins", "Look at plugins");
+  command.need_command();
 
-  CLI::App* list_command = command->add_subcommand("list", "Every plugin on the search path");
-  list_command->callback([&] { exit_code = list(common); });
+  command.add_command("list", "Every plugin on the search path").on_call([&] {
+    exit_code = list(common);
+  });
 
   auto name = std::make_shared<std::string>();
-  CLI::App* info_command =
-      command->add_subcommand("info", "What a plugin is and which parameters it takes");
-  info_command->add_option("name", *name, "Name (pso), kind (optimizer) or both (optimizer/pso)")
-      ->required();
-  info_command->callback([&, name] { exit_code = info(common, *name); });
+  const Command info_command =
+      command.add_command("info", "What a plugin is and which parameters it takes");
+  info_command.add("name", name.get(), "Name (pso), kind (optimizer) or both (optimizer/pso)",
+                   {.required = true});
+  info_command.on_call([&, name] { exit_code = info(common, *name); });
 
   auto files = std::make_shared<std::vector<std::filesystem::path>>();
-  CLI::App* check_command =
-      command->add_subcommand("check", "Whether plugin libraries can be used by this build");
-  check_command->add_option("files", *files, "Plugin libraries")->required();
-  check_command->callback([&, files] { exit_code = check(*files); });
-
-  for (CLI::App* sub : {list_command, info_command, check_command}) sub->fallthrough();
-  command->fallthrough();
+  const Command check_command =
+      command.add_command("check", "Whether plugin libraries can be used by this build");
+  check_command.add("files", files.get(), "Plugin libraries", {.required = true});
+  check_command.on_call([&, files] { exit_code = check(*files); });
 }
 
 }  // namespace hypotrack::app

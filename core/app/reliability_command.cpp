@@ -63,19 +63,17 @@ int print_reliability(const ReliabilityOptions& options) {
 
 }  // namespace
 
-void add_reliability_command(CLI::App& app, int& exit_code) {
+void add_reliability_command(const Command& root, int& exit_code) {
   auto options = std::make_shared<ReliabilityOptions>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = root.add_command(
       "reliability", "Compare how far landmarks may be off, as runs say, with how far they are");
-  command
-      ->add_option("runs", options->runs,
-                   "Folders of runs with tracker.uncertainty.enabled and a known truth")
-      ->required();
-  command->add_option("--out", options->out, "Where to draw it (SVG)")
-      ->capture_default_str()
-      ->check(file_name());
-  command->add_option("--title", options->title, "What to write above the plot");
-  command->callback([=, &exit_code] { exit_code = print_reliability(*options); });
+  command.add("runs", &options->runs,
+              "Folders of runs with tracker.uncertainty.enabled and a known truth",
+              {.required = true});
+  command.add("--out", &options->out, "Where to draw it (SVG)",
+              {.show_default = true, .check = file_name()});
+  command.add("--title", &options->title, "What to write above the plot");
+  command.on_call([=, &exit_code] { exit_code = print_reliability(*options); });
 }
 
 }  // namespace hypotrack::app

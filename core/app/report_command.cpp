@@ -31,24 +31,22 @@ int report(const ReportCommand& command, const CommonOptions& common) {
 
 }  // namespace
 
-void add_report_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_report_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<ReportCommand>();
-  CLI::App* command = app.add_subcommand("report", "Write one HTML file about a study or a run");
-  command->add_option("directory", options->report.directory, "Folder of a study or of a run")
-      ->required();
-  command->add_option("--out", options->report.out,
-                      "HTML file [DIRECTORY/report.html]; a folder of the same name without .html "
-                      "gets plots and tables");
-  command->add_option("--replays", options->report.replays, "Runs with a 3D replay, at most")
-      ->capture_default_str()
-      ->check(whole_number(0));
-  CLI::Option* images = command->add_flag(
-      "--images", options->images,
-      "Fail if the plots cannot have files of their own (SVG, PNG), which need nodejs and "
-      "rsvg-convert");
-  command->add_flag("--no-images", options->no_images, "Leave the files of the plots out")
-      ->excludes(images);
-  command->callback([=, &common, &exit_code] { exit_code = report(*options, common); });
+  const Command command = root.add_command("report", "Write one HTML file about a study or a run");
+  command.add("directory", &options->report.directory, "Folder of a study or of a run",
+              {.required = true});
+  command.add("--out", &options->report.out,
+              "HTML file [DIRECTORY/report.html]; a folder of the same name without .html gets "
+              "plots and tables");
+  command.add("--replays", &options->report.replays, "Runs with a 3D replay, at most",
+              {.show_default = true, .check = whole_number(0)});
+  command.add("--images", &options->images,
+              "Fail if the plots cannot have files of their own (SVG, PNG), which need nodejs and "
+              "rsvg-convert");
+  command.add("--no-images", &options->no_images, "Leave the files of the plots out",
+              {.excludes = "--images"});
+  command.on_call([=, &common, &exit_code] { exit_code = report(*options, common); });
 }
 
 }  // namespace hypotrack::app

@@ -203,18 +203,17 @@ int run(const RunOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_run_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Track a scene and write the results");
-  add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "Folder for the results")
-      ->capture_default_str()
-      ->check(file_name());
-  command->add_option("--frames", options->frames, "Stop after this many frames")
-      ->check(whole_number(1));
-  command->add_option("--seed", options->seed, "Seed of all random numbers")
-      ->check(whole_number(0, std::numeric_limits<std::int64_t>::max()));
-  command->callback([=, &common, &exit_code] { exit_code = run(*options, common); });
+  const Command command = root.add_command("run", "Track a scene and write the results");
+  add_scene_options(command, options->scene);
+  command.add("--out", &options->out, "Folder for the results",
+              {.show_default = true, .check = file_name()});
+  command.add("--frames", &options->frames, "Stop after this many frames",
+              {.check = whole_number(1)});
+  command.add("--seed", &options->seed, "Seed of all random numbers",
+              {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
+  command.on_call([=, &common, &exit_code] { exit_code = run(*options, common); });
 }
 
 }  // namespace hypotrack::app

@@ -54,17 +54,16 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
 
 }  // namespace
 
-void add_synth_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_synth_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<SynthOptions>();
-  CLI::App* command = app.add_subcommand(
+  const Command command = root.add_command(
       "synth", "Write a scene's source as a recording: images, calibration, ground truth");
-  add_scene_options(*command, options->scene);
-  command->add_option("--out", options->out, "New folder for the recording")
-      ->required()
-      ->check(file_name());
-  command->add_option("--frames", options->frames, "Stop after this many frames")
-      ->check(whole_number(1));
-  command->callback([=, &common, &exit_code] { exit_code = synth(*options, common); });
+  add_scene_options(command, options->scene);
+  command.add("--out", &options->out, "New folder for the recording",
+              {.required = true, .check = file_name()});
+  command.add("--frames", &options->frames, "Stop after this many frames",
+              {.check = whole_number(1)});
+  command.on_call([=, &common, &exit_code] { exit_code = synth(*options, common); });
 }
 
 }  // namespace hypotrack::app

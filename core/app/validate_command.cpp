@@ -42,13 +42,13 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
 
 }  // namespace
 
-void add_validate_command(CLI::App& app, CommonOptions& common, int& exit_code) {
+void add_validate_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<SceneOptions>();
   auto print = std::make_shared<bool>(false);
-  CLI::App* command = app.add_subcommand("validate", "Check a scene without tracking");
-  add_scene_options(*command, *options);
-  command->add_flag("--print", *print, "Print the scene with every parameter resolved");
-  command->callback(
+  const Command command = root.add_command("validate", "Check a scene without tracking");
+  add_scene_options(command, *options);
+  command.add("--print", print.get(), "Print the scene with every parameter resolved");
+  command.on_call(
       [=, &common, &exit_code] { exit_code = validate_scene(*options, common, *print); });
 }
 

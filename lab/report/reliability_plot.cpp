@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace hypotrack {
 namespace {
@@ -68,9 +67,8 @@ std::string dots(const Reliability& reliability) {
     if (bin.count == 0) continue;
     const double x = x_of(1000 * bin.sigma), y = y_of(1000 * bin.error);
     const double share = static_cast<double>(bin.count) / static_cast<double>(reliability.count());
-    fmt::format_to(std::back_inserter(path), "{:.1f},{:.1f} ", x, y);
-    fmt::format_to(
-        std::back_inserter(out),
+    path += fmt::format("{:.1f},{:.1f} ", x, y);
+    out += fmt::format(
         R"(<circle cx="{:.1f}" cy="{:.1f}" r="{:.1f}" fill="#1f6fb4" fill-opacity="0.8">)"
         "<title>{} landmarks</title></circle>\n",
         x, y, 3 + 18 * std::sqrt(share), bin.count);

@@ -16,7 +16,7 @@
 namespace hypotrack::study {
 namespace {
 
-constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::milliseconds kCheckPoll{5};
 constexpr std::size_t kMostShown = 5;
 
 /// A temporary folder for the logs of the checks.
@@ -81,7 +81,7 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
       continue;
     }
     const auto ended = pool.take_ended();
-    if (!ended) std::this_thread::sleep_for(kPoll);
+    if (!ended) std::this_thread::sleep_for(kCheckPoll);
     if (ended && ended->exit_code != 0)
       problems[ended->key] =
           failure_message(scratch.log(ended->key), ended->exit_code, ended->signal);

@@ -15,7 +15,7 @@ namespace hypotrack::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kPoll{5};
+constexpr std::chrono::milliseconds kRunPoll{5};
 constexpr std::chrono::milliseconds kRetry{500};  // interval of looks at a run that another process
                                                   // is making
 constexpr int kInterrupted = 130;                 // exit code of a run that was told to stop
@@ -34,7 +34,7 @@ class Execution {
       const bool moved = start_next();
       const auto ended = pool_.take_ended();
       if (ended && !finish(*ended)) return false;
-      if (!moved && !ended) std::this_thread::sleep_for(kPoll);
+      if (!moved && !ended) std::this_thread::sleep_for(kRunPoll);
     }
     return true;
   }

@@ -16,7 +16,7 @@ namespace hypotrack::study {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kPoll{20};
+constexpr std::chrono::milliseconds kRecordingPoll{20};
 
 /// Returns whether a change affects the recording.
 bool is_recorded(const Change& change) {
@@ -61,7 +61,7 @@ class Recorder {
       if (const auto ended = pool_.take_ended())
         finish(*ended);
       else
-        std::this_thread::sleep_for(kPoll);
+        std::this_thread::sleep_for(kRecordingPoll);
     }
   }
 

@@ -15,7 +15,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 20;
+constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
 
 /// Returns true if a JPEG or PNG has its end marker. Decoders fill truncated images with grey.
 bool is_truncated(const std::vector<unsigned char>& bytes) {
@@ -32,7 +32,7 @@ ReadImage decode(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file, error)) return {{}, name + ": is missing"};
   if (!std::filesystem::is_regular_file(file, error)) return {{}, name + ": is no file"};
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > kLargestFile) return {{}, name + ": is larger than 512 MiB"};
+  if (error || size > kLargestImageFile) return {{}, name + ": is larger than 512 MiB"};
   std::ifstream in(file, std::ios::binary);
   // Unsigned: OpenCV's WebP decoder rejects a vector of char.
   const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)),

@@ -13,7 +13,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{8} << 20;
+constexpr std::size_t kLargestYamlFile = std::size_t{8} << 20;
 constexpr int kLargestSide = 65536;
 
 std::string read_text(const std::filesystem::path& file) {
@@ -30,7 +30,7 @@ std::string read_text(const std::filesystem::path& file) {
                     "file as cv::FileStorage writes it",
                     file.string()));
   }
-  if (std::filesystem::file_size(file, error) > kLargestFile || error) {
+  if (std::filesystem::file_size(file, error) > kLargestYamlFile || error) {
     throw DataError(
         fmt::format("{}: is larger than 8 MiB, which no calibration is", file.string()));
   }

@@ -12,31 +12,27 @@
 #include "cost/pixel_rows.hpp"
 
 namespace hypotrack {
-namespace {
-
-/// The pixels of a view in one term.
-struct PixelPart {
-  const ResidualTerm* term;
-  std::size_t index;  ///< index of the view in its pixel_views()
-  float factor;       ///< root of the term's weight
-  std::vector<float> residuals = {}, slopes = {};
-};
-
-/// All terms of one view; one thread handles them at a time.
-struct ViewPart {
-  std::size_t view = 0;
-  std::vector<PixelPart> parts = {};
-  PixelRows rows = {};
-};
-
-struct StatePart {
-  const ResidualTerm* term;
-  double weight;
-};
-
-}  // namespace
-
 struct Linearizer::Impl {
+  /// The pixels of a view in one term.
+  struct PixelPart {
+    const ResidualTerm* term;
+    std::size_t index;  ///< index of the view in its pixel_views()
+    float factor;       ///< root of the term's weight
+    std::vector<float> residuals = {}, slopes = {};
+  };
+
+  /// All terms of one view; one thread handles them at a time.
+  struct ViewPart {
+    std::size_t view = 0;
+    std::vector<PixelPart> parts = {};
+    PixelRows rows = {};
+  };
+
+  struct StatePart {
+    const ResidualTerm* term;
+    double weight;
+  };
+
   Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads)
       : arena(threads > 0 ? threads : tbb::info::default_concurrency()),
         plan(scene),
@@ -192,7 +188,7 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
       self.add_rows(self.views[i], hypothesis, per_step, static_cast<float>(blur));
     });
   });
-  for (const ViewPart& view : self.views) {
+  for (const Impl::ViewPart& view : self.views) {
     const auto columns = static_cast<Eigen::Index>(view.rows.columns());
     const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>
         all(view.rows.sums().data(), columns, columns);
@@ -200,7 +196,7 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
     sums.a += Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>());
     sums.g += all.col(d).head(d).cast<double>();
   }
-  for (const StatePart& part : self.others) self.add_differences(part, states, steps, sums);
+  for (const Impl::StatePart& part : self.others) self.add_differences(part, states, steps, sums);
   return sums;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <utility>
 
 #include "output/overlay_video.hpp"
@@ -23,7 +22,7 @@ std::string row_of(const Solution& solution) {
     if (solution.models.size() > 1) row += fmt::format(",{}", to_string(solution.models[m]));
     row += fmt::format(",{:.3f}", solution.probabilities[m]);
   }
-  for (const double value : solution.state) fmt::format_to(std::back_inserter(row), ",{}", value);
+  for (const double value : solution.state) row += fmt::format(",{}", value);
   return row + "\n";
 }
 
@@ -52,7 +51,7 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
     track += ",probability";
   else
     for (const Scene::Item& item : scene.items())
-      fmt::format_to(std::back_inserter(track), ",{0}.status,{0}.probability", item.name);
+      track += fmt::format(",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) track += "," + p.name;
   track_.write(track + "\n");
   const std::string landmarks = landmarks_header(scene.landmark_names());

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace hypotrack {
 
 std::string states_header(const Scene& scene) {
@@ -20,7 +18,7 @@ std::string landmarks_header(std::span<const std::string> landmark_names) {
 
 std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::string line = fmt::format("{},{}", frame, time);
-  for (const double value : values) fmt::format_to(std::back_inserter(line), ",{}", value);
+  for (const double value : values) line += fmt::format(",{}", value);
   return line + "\n";
 }
 
@@ -31,9 +29,9 @@ std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landm
   for (Eigen::Index i = 0; i < landmarks.cols(); ++i)
     for (const double value : landmarks.col(i)) {
       if (absent[static_cast<std::size_t>(i)])
-        fmt::format_to(std::back_inserter(line), ",{}", kAbsent);
+        line += fmt::format(",{}", kAbsent);
       else
-        fmt::format_to(std::back_inserter(line), ",{}", value);
+        line += fmt::format(",{}", value);
     }
   return line + "\n";
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <string>
 
 #include "output/table_text.hpp"
@@ -26,8 +25,7 @@ void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
                                    absent_landmarks(*scene_, frame.truth->absent)));
   std::string line =
       fmt::format("{},{},{},{:.4f}", frame.index, frame.time, status, 1000 * error.mean);
-  for (const double model : error.models)
-    fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * model);
+  for (const double model : error.models) line += fmt::format(",{:.4f}", 1000 * model);
   errors_->write(line + "\n");
   if (frame.truth->state.size() == 0) return;
   if (!states_) {

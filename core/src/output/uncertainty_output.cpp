@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
 #include <string>
 
 namespace hypotrack {
@@ -18,7 +17,7 @@ void UncertaintyOutput::add(const Solution& solution, const Eigen::VectorXd& err
   }
   std::string line = fmt::format("{},{}", solution.frame, solution.time);
   for (const double sigma : solution.sigma) {
-    fmt::format_to(std::back_inserter(line), ",{:.4f}", 1000 * sigma);
+    line += fmt::format(",{:.4f}", 1000 * sigma);
     if (!std::isfinite(sigma)) continue;
     sum_ += sigma;
     ++count_;

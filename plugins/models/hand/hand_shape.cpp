@@ -11,7 +11,8 @@
 namespace hypotrack {
 namespace {
 
-constexpr std::array<std::string_view, 5> kFingers = {"thumb", "index", "middle", "ring", "little"};
+constexpr std::array<std::string_view, 5> kAllFingers = {"thumb", "index", "middle", "ring",
+                                                         "little"};
 
 // Standard deviations among adults. Hand length varies by 5 % within either sex and by 7 % between
 // their means (C. C. Gordon et al., "1988 Anthropometric Survey of U.S. Army Personnel: Methods and
@@ -26,11 +27,11 @@ constexpr double kSizeDeviation = 0.07, kFingerDeviation = 0.05;
 constexpr double kSmallest = 0.7, kLargest = 1.35;
 constexpr double kShortest = 0.75, kLongest = 1.3;
 
-/// Returns the finger that a parameter turns, as an index into kFingers; their number if it is
+/// Returns the finger that a parameter turns, as an index into kAllFingers; their number if it is
 /// none.
 std::size_t finger_of(const std::string& parameter) {
   std::size_t f = 0;
-  while (f < kFingers.size() && !parameter.starts_with(std::string(kFingers[f]) + '_')) ++f;
+  while (f < kAllFingers.size() && !parameter.starts_with(std::string(kAllFingers[f]) + '_')) ++f;
   return f;
 }
 
@@ -51,7 +52,7 @@ std::vector<BoneStretch> stretches_of(const ModelData& hand, const HandShape& sh
       in_finger[i] = true;
     } else if (driver[i] != nullptr) {
       const std::size_t finger = finger_of(driver[i]->name);
-      if (finger == kFingers.size()) continue;
+      if (finger == kAllFingers.size()) continue;
       stretches[i] = {{shape.width, shape.lengths[finger], shape.width}, true};
       in_finger[i] = true;
     }
@@ -64,7 +65,7 @@ std::vector<BoneStretch> stretches_of(const ModelData& hand, const HandShape& sh
 const std::vector<ShapeParameter>& hand_shape_parameters() {
   static const std::vector<ShapeParameter> parameters = [] {
     std::vector<ShapeParameter> all = {{"scale", 1, 1, kSmallest, kLargest, kSizeDeviation}};
-    for (const std::string_view finger : kFingers)
+    for (const std::string_view finger : kAllFingers)
       all.push_back({std::string(finger), 1, 1, kShortest, kLongest, kFingerDeviation});
     all.push_back({"width", 1, 1, kShortest, kLongest, kFingerDeviation});
     return all;
@@ -79,7 +80,7 @@ HandShape hand_shape(std::span<const double> values) {
   }
   HandShape shape;
   shape.scale = values.front();
-  std::copy_n(values.begin() + 1, kFingers.size(), shape.lengths.begin());
+  std::copy_n(values.begin() + 1, kAllFingers.size(), shape.lengths.begin());
   shape.width = values.back();
   return shape;
 }

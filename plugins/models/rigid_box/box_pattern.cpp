@@ -59,10 +59,11 @@ void draw_face(cv::Mat& face, double edge, cv::RNG& random) {
 
 /// Returns a face with the margin around it.
 cv::Rect tile_of(const cv::Rect2d& face, const cv::Size& image) {
-  constexpr double kMargin = 2;
-  const cv::Point low(static_cast<int>(face.x - kMargin), static_cast<int>(face.y - kMargin));
-  const cv::Point high(static_cast<int>(std::ceil(face.x + face.width + kMargin)),
-                       static_cast<int>(std::ceil(face.y + face.height + kMargin)));
+  constexpr double kFaceMargin = 2;
+  const cv::Point low(static_cast<int>(face.x - kFaceMargin),
+                      static_cast<int>(face.y - kFaceMargin));
+  const cv::Point high(static_cast<int>(std::ceil(face.x + face.width + kFaceMargin)),
+                       static_cast<int>(std::ceil(face.y + face.height + kFaceMargin)));
   return cv::Rect(low, high) & cv::Rect(cv::Point(), image);
 }
 

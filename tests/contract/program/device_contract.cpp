@@ -13,7 +13,7 @@ namespace hypotrack::contract {
 namespace {
 
 constexpr int kStates = 32;
-constexpr double kTolerance = 1e-3;  // of the largest cost of an observation
+constexpr double kCostTolerance = 1e-3;  // of the largest cost of an observation
 
 void require_device(const Subject& subject) {
   if (const std::string why = cuda::why_no_device(); !why.empty()) throw Skipped(why);
@@ -71,7 +71,7 @@ void require_near(const Eigen::VectorXd& found, const Eigen::VectorXd& expected,
   }
   for (Eigen::Index i = 0; i < expected.size(); ++i) {
     const bool near =
-        found[i] == expected[i] || std::abs(found[i] - expected[i]) <= kTolerance * largest;
+        found[i] == expected[i] || std::abs(found[i] - expected[i]) <= kCostTolerance * largest;
     require(near, where + ": state " + std::to_string(i) + " costs " + std::to_string(found[i]) +
                       " on the device, " + std::to_string(expected[i]) + " on the CPU");
   }
@@ -155,7 +155,7 @@ void check_residual_agreement(const Subject& subject) {
     const float largest = expected.values.cwiseAbs().maxCoeff();
     const Eigen::VectorXf apart = (found.values - expected.values).cwiseAbs().colwise().mean();
     Eigen::Index worst = 0;
-    require(apart.maxCoeff(&worst) <= kTolerance * largest,
+    require(apart.maxCoeff(&worst) <= kCostTolerance * largest,
             named.name + ": state " + std::to_string(worst) + "'s residuals are " +
                 std::to_string(apart[worst]) + " apart in the mean, the largest is " +
                 std::to_string(largest));

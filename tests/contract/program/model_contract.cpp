@@ -13,7 +13,7 @@
 namespace hypotrack::contract {
 namespace {
 
-constexpr double kTolerance = 1e-5;  // metres; vertices are single precision
+constexpr double kVertexTolerance = 1e-5;  // metres; vertices are single precision
 
 /// A posed model: vertices and landmarks, metres.
 struct Posed {
@@ -88,8 +88,8 @@ void check_translation(const Model& model) {
     expected.vertices.colwise() += shift;
     expected.landmarks.colwise() += shift;
     const double error = distance(pose(model, moved), expected);
-    require(error < kTolerance, "moving its position leaves vertices or landmarks " +
-                                    std::to_string(error) + " metres from where they belong");
+    require(error < kVertexTolerance, "moving its position leaves vertices or landmarks " +
+                                          std::to_string(error) + " metres from where they belong");
   }
 }
 
@@ -107,8 +107,8 @@ void check_rotation(const Model& model) {
       *points = (turn.toRotationMatrix() * (points->colwise() - center)).colwise() + center;
     }
     const double error = distance(pose(model, turned), expected);
-    require(error < kTolerance, "turning it leaves vertices or landmarks " + std::to_string(error) +
-                                    " metres from where they belong");
+    require(error < kVertexTolerance, "turning it leaves vertices or landmarks " +
+                                          std::to_string(error) + " metres from where they belong");
   }
 }
 
@@ -120,7 +120,7 @@ void check_angles_matter(const Model& model) {
     Eigen::VectorXd state = rest(model);
     const bool up = parameter.upper - parameter.rest > parameter.rest - parameter.lower;
     state[i] = up ? parameter.upper : parameter.lower;
-    require(distance(pose(model, state), resting) > kTolerance,
+    require(distance(pose(model, state), resting) > kVertexTolerance,
             "the angle '" + parameter.name + "' moves nothing");
   }
 }
@@ -190,14 +190,14 @@ void check_shapes(const Model& model) {
     return pose(other, rest(other));
   };
   if (!model.poses_itself())
-    require(distance(built(values_of(shape)), as_it_is) < kTolerance,
+    require(distance(built(values_of(shape)), as_it_is) < kVertexTolerance,
             "built with the values that it has it is not what it is");
   for (std::size_t i = 0; i < shape.size(); ++i) {
     for (const double bound : {shape[i].lower, shape[i].upper}) {
       if (bound == shape[i].value) continue;
       std::vector<double> values = values_of(shape);
       values[i] = bound;
-      require(distance(built(values), as_it_is) > kTolerance,
+      require(distance(built(values), as_it_is) > kVertexTolerance,
               "the shape parameter '" + shape[i].name + "' changes nothing");
     }
   }

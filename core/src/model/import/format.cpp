@@ -21,17 +21,17 @@ namespace {
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 constexpr std::string_view kFormats = "OBJ, PLY, STL, glTF (.gltf) and GLB";
 
-struct MeshFile {
+struct FileHead {
   std::string name;
   std::uintmax_t size = 0;
   std::string head;  ///< the first bytes
 };
 
-[[noreturn]] void fail(const MeshFile& file, const std::string& what) {
+[[noreturn]] void fail(const FileHead& file, const std::string& what) {
   throw DataError(file.name + ": " + what);
 }
 
-std::uint32_t little_endian(const MeshFile& file, std::size_t offset) {
+std::uint32_t little_endian(const FileHead& file, std::size_t offset) {
   std::uint32_t value = 0;
   for (std::size_t i = 4; i-- > 0;) {
     value = value << 8 | static_cast<unsigned char>(file.head.at(offset + i));
@@ -39,9 +39,9 @@ std::uint32_t little_endian(const MeshFile& file, std::size_t offset) {
   return value;
 }
 
-bool is_text(const MeshFile& file) { return file.head.find('\0') == std::string::npos; }
+bool is_text(const FileHead& file) { return file.head.find('\0') == std::string::npos; }
 
-void check_glb(const MeshFile& file) {
+void check_glb(const FileHead& file) {
   if (file.size < 20 || !file.head.starts_with("glTF")) {
     fail(file, "this is no GLB file: it does not begin with 'glTF'");
   }
@@ -55,14 +55,14 @@ void check_glb(const MeshFile& file) {
   }
 }
 
-void check_gltf(const MeshFile& file) {
+void check_gltf(const FileHead& file) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos || file.head[first] != '{' || !is_text(file)) {
     fail(file, "this is no glTF file: it does not begin with a JSON object");
   }
 }
 
-void check_stl(const MeshFile& file) {
+void check_stl(const FileHead& file) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
   if (solid && is_text(file)) return;
@@ -75,7 +75,7 @@ void check_stl(const MeshFile& file) {
   }
 }
 
-void check_obj(const MeshFile& file) {
+void check_obj(const FileHead& file) {
   if (!is_text(file)) fail(file, "this is no OBJ file: it is not text");
   for (const std::string_view other : {"ply\n", "ply\r", "solid ", "glTF"}) {
     if (file.head.starts_with(other)) {
@@ -84,7 +84,7 @@ void check_obj(const MeshFile& file) {
   }
 }
 
-void check_ply(const MeshFile& file) {
+void check_ply(const FileHead& file) {
   std::ifstream in(file.name, std::ios::binary);
   const PlyHeader header = read_ply_header(in);
   if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
@@ -102,8 +102,8 @@ void check_ply(const MeshFile& file) {
   }
 }
 
-MeshFile open(const std::filesystem::path& path) {
-  MeshFile file;
+FileHead open(const std::filesystem::path& path) {
+  FileHead file;
   file.name = path.string();
   std::error_code error;
   if (!std::filesystem::exists(path, error)) fail(file, "there is no such mesh file");
@@ -126,7 +126,7 @@ void check_mesh_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  using Check = void (*)(const MeshFile&);
+  using Check = void (*)(const FileHead&);
   Check check = extension == ".obj"    ? check_obj
                 : extension == ".ply"  ? check_ply
                 : extension == ".stl"  ? check_stl
@@ -139,7 +139,7 @@ void check_mesh_format(const std::filesystem::path& path) {
                     "convert the file (Blender exports glTF)",
                     path.string(), extension.empty() ? "(no extension)" : extension, kFormats));
   }
-  const MeshFile file = open(path);
+  const FileHead file = open(path);
   if (file.size == 0) fail(file, "the mesh file is empty");
   if (file.size > kLargestFile) {
     fail(file, fmt::format("the mesh file has {} MiB; at most {} MiB are read: decimate the mesh",

@@ -12,9 +12,9 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kWindow = 5;           // grid points along a patch
-constexpr float kNoise = 2.5f;       // of a channel, 0 .. 255: contrast below it says nothing
-constexpr float kClearEdge = 20.0f;  // change of colour that is an edge, 0 .. 255
+constexpr int kWindow = 5;              // grid points along a patch
+constexpr float kFaintContrast = 2.5f;  // of a channel, 0 .. 255: contrast below it says nothing
+constexpr float kClearEdge = 20.0f;     // change of colour that is an edge, 0 .. 255
 constexpr double kLeastPoints = 20;
 
 double log10_of(double value) { return std::log10(std::max(value, 0.1)); }
@@ -58,7 +58,7 @@ double plain_correlation(const Pairs& pairs) {
         sums.other += q * q;
       }
     }
-  return sums.correlation(kNoise);
+  return sums.correlation(kFaintContrast);
 }
 
 /// Subtracts from each colour the weighted mean of its patch.
@@ -101,10 +101,10 @@ class Pieces {
 
   template <class Before>
   double extreme(double otherwise, Before before) const {
-    constexpr double kEnough = 2 * kStep * kStep;  // half a piece
+    constexpr double kHalfAPiece = 2 * kStep * kStep;  // half a piece
     std::vector<double> means;
     for (std::size_t i = 0; i < sum_.size(); ++i)
-      if (count_[i] >= kEnough) means.push_back(sum_[i] / count_[i]);
+      if (count_[i] >= kHalfAPiece) means.push_back(sum_[i] / count_[i]);
     if (means.empty()) return otherwise;
     std::ranges::sort(means, before);
     const std::size_t few = (means.size() + 9) / 10;
@@ -147,14 +147,14 @@ Texture texture(const Pairs& pairs) {
     for (int x = 0; x < a.cols; ++x) {
       if (!pairs.mask(y, x)) continue;
       const cv::Vec3f& p = products(y, x);
-      const float noise = kNoise * kNoise * weight_sum(y, x);
+      const float noise = kFaintContrast * kFaintContrast * weight_sum(y, x);
       const bool agrees = p[0] > 0.5f * std::sqrt((p[1] + noise) * (p[2] + noise));
       agree += agrees;
       pieces.add(x, y, agrees);
     }
   const double variance = std::sqrt(sums.first * sums.other) / (3 * sums.count);
   const double agreement = agree / sums.count;
-  return {sums.correlation(kNoise), agreement, log10_of(std::sqrt(variance)),
+  return {sums.correlation(kFaintContrast), agreement, log10_of(std::sqrt(variance)),
           pieces.lowest(agreement)};
 }
 
@@ -196,7 +196,7 @@ struct Edges {
 };
 
 Edges edges(const SampledView& view) {
-  static const std::array<cv::Point, 4> kSteps{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  static const std::array<cv::Point, 4> kNeighbors{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   const cv::Rect grid(0, 0, view.color.cols, view.color.rows);
   const auto shown = [&](const cv::Mat1b& mask, cv::Point p) {
     return grid.contains(p) && mask(p) != 0;
@@ -211,7 +211,7 @@ Edges edges(const SampledView& view) {
     for (int x = 0; x < view.color.cols; ++x) {
       const cv::Point p(x, y);
       if (!view.inside(p)) continue;
-      for (const cv::Point& step : kSteps) {
+      for (const cv::Point& step : kNeighbors) {
         const cv::Point in = p - step, out = p + 2 * step;
         if (!shown(view.ring, p + step) || !shown(view.ring, out) || !shown(view.inside, in))
           continue;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kBright = 8, kShares = 32;
 constexpr float kFade = 0.9f;
 // Count below which a colour says little: it is hardly foreground then.
-constexpr float kUnseen = 1e-4f;
+constexpr float kUnseenShare = 1e-4f;
 
 /// Histogram bin of a colour.
 struct Bin {
@@ -80,8 +80,8 @@ void ForegroundColors::learn(const SurfaceSamples& samples) {
   probability_.resize(kBins);
   const float f = 1 / sum(foreground_), b = 1 / sum(background_);
   for (std::size_t i = 0; i < kBins; ++i)
-    probability_[i] =
-        (f * foreground_[i] + 0.1f * kUnseen) / (f * foreground_[i] + b * background_[i] + kUnseen);
+    probability_[i] = (f * foreground_[i] + 0.1f * kUnseenShare) /
+                      (f * foreground_[i] + b * background_[i] + kUnseenShare);
 }
 
 float ForegroundColors::probability(const cv::Vec3f& color) const {

@@ -15,14 +15,10 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kPadding = 0.25;       // of the model's extent, so that the ring fits
-constexpr int kRing = 5;                // grid points beside the silhouette
-constexpr Eigen::Index kPoints = 600;   // of the surface
-constexpr float kSameSurface = 0.006f;  // metres, between neighbouring points of the grid
-
-std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
-  return {{item.name, item.model}};
-}
+constexpr double kSamplePadding = 0.25;  // of the model's extent, so that the ring fits
+constexpr int kRing = 5;                 // grid points beside the silhouette
+constexpr Eigen::Index kPoints = 600;    // of the surface
+constexpr float kSameSurface = 0.006f;   // metres, between neighbouring points of the grid
 
 /// Interpolates a colour of an image. Returns false outside.
 bool color_at(const cv::Mat& image, const ImagePoint& p, cv::Vec3f& color) {
@@ -94,8 +90,8 @@ struct SurfaceSampler::Impl {
   Impl(const Scene& whole_scene, std::size_t model, const std::vector<Camera>& cameras)
       : scene(whole_scene),
         item(whole_scene.items()[model]),
-        single(only(item)),
-        tiles(single, cameras, {kSampleGrid, kPadding}),
+        single(std::vector{std::pair{item.name, item.model}}),
+        tiles(single, cameras, {kSampleGrid, kSamplePadding}),
         single_plan(single),
         single_drawer(single_plan),
         surface(spread_points(item.model->data().mesh, kPoints)) {

@@ -11,13 +11,9 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPose = 7;  // length of a model's pose
-constexpr double kPadding = 0.5;   // of a hypothesis, around it
+constexpr Eigen::Index kPoseLength = 7;  // length of a model's pose
+constexpr double kPosePadding = 0.5;     // of a hypothesis, around it
 constexpr int kIterations = 6;
-
-std::vector<std::pair<std::string, std::shared_ptr<const Model>>> only(const Scene::Item& item) {
-  return {{item.name, item.model}};
-}
 
 /// Returns a uniformly distributed rotation (Shoemake, "Uniform random rotations", 1992).
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
@@ -39,8 +35,8 @@ PoseSearch::PoseSearch(const Scene& scene, std::size_t model, const std::vector<
     : scene_(scene),
       item_(scene.items()[model]),
       model_(model),
-      single_(only(item_)),
-      tiles_(single_, cameras, {settings.tile, kPadding}),
+      single_(std::vector{std::pair{item_.name, item_.model}}),
+      tiles_(single_, cameras, {settings.tile, kPosePadding}),
       postures_(item_.model->data()),
       behind_(cameras[0].camera_from_world.inverse() * Eigen::Vector3d(0, 0, -10)) {
   const Eigen::Matrix3Xd vertices = item_.model->data().mesh.vertices.cast<double>();
@@ -75,11 +71,11 @@ Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
     const Eigen::Quaterniond q =
         near ? turned(last_rotation, guess.rotation, random) : any_rotation(random);
     Eigen::VectorXd one(dimension);
-    one.head<kPose>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
+    one.head<kPoseLength>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
     const bool keeps = uniform(random) < (near ? 0.6 : 0.2);
     const auto k = static_cast<std::size_t>(uniform(random) * static_cast<double>(postures.size()));
-    one.tail(dimension - kPose) = keeps ? Eigen::VectorXd(last.tail(dimension - kPose))
-                                        : postures[std::min(k, postures.size() - 1)];
+    one.tail(dimension - kPoseLength) = keeps ? Eigen::VectorXd(last.tail(dimension - kPoseLength))
+                                              : postures[std::min(k, postures.size() - 1)];
     const Eigen::Vector3d at =
         posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
             .rowwise()

@@ -8,8 +8,8 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kPose = 7;  // length of a model's pose
-constexpr std::size_t kRemembered = 8;
+constexpr int kPoseSize = 7;  // length of a model's pose
+constexpr std::size_t kRememberedPostures = 8;
 constexpr double kUnlike = 25 * kDegree;  // largest difference of an angle
 
 constexpr double kStraight = 0.03, kHalf = 0.4, kBent = 0.85;  // shares of a joint's range
@@ -21,7 +21,7 @@ std::vector<int> bending(const ModelData& model, const std::vector<int>& limb) {
   for (const int p : limb) {
     const Parameter& parameter = model.parameters[static_cast<std::size_t>(p)];
     const double up = parameter.upper - parameter.rest, down = parameter.rest - parameter.lower;
-    if (p >= kPose && std::isfinite(up) && up >= 1.5 * down) out.push_back(p);
+    if (p >= kPoseSize && std::isfinite(up) && up >= 1.5 * down) out.push_back(p);
   }
   return out;
 }
@@ -46,13 +46,14 @@ Postures::Postures(const ModelData& model) {
     }
     limbs_.push_back(std::move(limb));
   }
-  Eigen::VectorXd rest(std::ssize(model.parameters) - kPose);
+  Eigen::VectorXd rest(std::ssize(model.parameters) - kPoseSize);
   for (Eigen::Index i = 0; i < rest.size(); ++i)
-    rest[i] = model.parameters[static_cast<std::size_t>(i + kPose)].rest;
+    rest[i] = model.parameters[static_cast<std::size_t>(i + kPoseSize)].rest;
   const auto add = [&](const std::vector<double>& shares) {
     Eigen::VectorXd posture = rest;
     for (std::size_t limb = 0; limb < limbs_.size(); ++limb)
-      for (const int p : limbs_[limb].parameters) posture[p - kPose] = bent(model, p, shares[limb]);
+      for (const int p : limbs_[limb].parameters)
+        posture[p - kPoseSize] = bent(model, p, shares[limb]);
     all_.push_back(std::move(posture));
   };
   const std::size_t n = limbs_.size();
@@ -74,16 +75,16 @@ Postures::Postures(const ModelData& model) {
 }
 
 void Postures::remember(const Eigen::VectorXd& parameters) {
-  const Eigen::VectorXd posture = parameters.tail(parameters.size() - kPose);
+  const Eigen::VectorXd posture = parameters.tail(parameters.size() - kPoseSize);
   if (posture.size() == 0) return;
   for (std::size_t i = fixed_; i < all_.size(); ++i)
     if ((all_[i] - posture).cwiseAbs().maxCoeff() < kUnlike) return;
-  if (all_.size() < fixed_ + kRemembered) {
+  if (all_.size() < fixed_ + kRememberedPostures) {
     all_.push_back(posture);
     return;
   }
   all_[fixed_ + replaced_] = posture;
-  replaced_ = (replaced_ + 1) % kRemembered;
+  replaced_ = (replaced_ + 1) % kRememberedPostures;
 }
 
 }  // namespace hypotrack

@@ -13,9 +13,9 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kWindow = 0.75;     // of a model's radius: what a place is looked for by
-constexpr double kSeen = 0.35;       // of the colours that a tracked model shows: it is in view
-constexpr double kRemembered = 1.0;  // seconds for which the last place is worth a look
+constexpr double kWindow = 0.75;  // of a model's radius: what a place is looked for by
+constexpr double kSeen = 0.35;    // of the colours that a tracked model shows: it is in view
+constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the guess's rotation, by kind of guess.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;       // radians
@@ -125,7 +125,7 @@ std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& place
     for (std::size_t m = 0; m < quest.hidden.size(); ++m)
       if (m != quest.model && !quest.hidden[m]) out.push_back(beside(quest, m));
   SearchedPlaces& searched = (quest.held.empty() ? searched_ : searched_held_)[quest.model];
-  if (last.seconds < kRemembered && searched.is_worth(quest.frame, was))
+  if (last.seconds < kPlaceRemembered && searched.is_worth(quest.frame, was))
     out.push_back({was, own(last.state), kNearLast, turn});
   const double reach = reach_within(limits, last.seconds).position + search.radius();
   for (const Place& place : places.best)
