@@ -12,7 +12,9 @@
 #include "base/suggest.hpp"
 #include "config/key_path.hpp"
 #include "config/overrides.hpp"
+#include "config/parts.hpp"
 #include "config/read_value.hpp"
+#include "config/tracker_file.hpp"
 #include "config/yaml_writer.hpp"
 #include "lab/study/study_text.hpp"
 
@@ -106,7 +108,16 @@ std::string content_of(const Change& change, const std::filesystem::path& direct
   origin->name = change.where;
   origin->directory = directory;
   origin->is_override = true;
-  const auto value = detail::read_assigned(change.key, change.value, origin);
+  auto value = detail::read_assigned(change.key, change.value, origin);
+  if (change.key == "tracker") {  // what a tracker file has, not its name
+    auto scene = std::make_unique<detail::YamlNode>();
+    scene->kind = detail::YamlNode::Kind::kMap;
+    scene->origin = origin;
+    scene->add("tracker", std::move(value));
+    detail::Parts parts;
+    detail::take_tracker(*scene, {}, parts);
+    value = std::move(scene);
+  }
   return to_flow(ConfigNode::parse(detail::write_yaml(*value), change.where));
 }
 

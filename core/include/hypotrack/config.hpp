@@ -32,6 +32,7 @@ class HYPOTRACK_API ConfigNode {
   /// Reads a scene file, replaces its references to other scenes and applies the overrides.
   /// `@FILE.yaml` stands for the value at the same path in the scene FILE, `@FILE.yaml#key.path`
   /// for the value at that path.
+  /// `tracker: "@trackers/NAME"` adds the keys of a tracker file (docs/reference/scenes.md).
   /// An override is `key.path=value`, with list items by index: `models.0.type=hand`. The value is
   /// YAML; its relative paths refer to the working directory. Absent keys on the way are created,
   /// and so is the item after a list's last one.

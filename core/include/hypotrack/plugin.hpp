@@ -11,6 +11,7 @@
 
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/config.hpp"
+#include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
@@ -109,11 +110,6 @@ class HYPOTRACK_API PluginContext {
   std::vector<std::string> also_allowed_;
   std::string resolved_;
 };
-
-/// Returns the path of a file that comes with hypotrack (the default hand, rigs). Looks in
-/// HYPOTRACK_DATA_PATH if it is set, else in the installation or build tree. Throws DataError if
-/// the file does not exist.
-HYPOTRACK_API std::filesystem::path data_file(const std::filesystem::path& relative);
 
 inline constexpr std::uint32_t kAbiVersion = 13;
 

@@ -5,6 +5,7 @@
 
 #include "config/overrides.hpp"
 #include "config/parts.hpp"
+#include "config/tracker_file.hpp"
 #include "config/yaml_file.hpp"
 #include "config/yaml_node.hpp"
 #include "config/yaml_reader.hpp"
@@ -44,8 +45,11 @@ ConfigNode ConfigNode::load(const std::filesystem::path& file) {
 ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
                                   std::span<const std::string> overrides) {
   auto root = detail::read_yaml_file(file);
-  detail::take_parts(root, {}, file);
-  for (const std::string& assignment : overrides) detail::apply_override(*root, assignment);
+  detail::Parts parts(file);
+  const std::vector<std::string> left = detail::take_tracker(*root, overrides, parts);
+  std::vector<std::string> path;
+  parts.take(root, path);
+  for (const std::string& assignment : left) detail::apply_override(*root, assignment);
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/suggest.hpp"
 #include "config/key_path.hpp"
+#include "config/tracker_file.hpp"
 #include "config/yaml_file.hpp"
 #include "config/yaml_text.hpp"
 #include "config/yaml_writer.hpp"
@@ -72,70 +73,65 @@ std::filesystem::path identity(const std::filesystem::path& file) {
   return error ? file : canonical;
 }
 
-class Parts {
- public:
-  explicit Parts(const std::filesystem::path& file) {
-    if (!file.empty()) scenes_[identity(file)];
-  }
-
-  void take(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path) {
-    for (std::size_t i = 0; i < value->entries.size(); ++i) {
-      auto& entry = value->entries[i];
-      path.push_back(value->kind == YamlNode::Kind::kList ? fmt::format("{}", i) : entry.key);
-      take(entry.value, path);
-      entry.value->parent = value.get();
-      path.pop_back();
-    }
-    const auto name = part_name(*value);
-    if (!name) return;
-    try {
-      value = part(value->origin->directory / name->file,
-                   name->path ? split_path(*name->path) : path, path.size());
-    } catch (const ConfigError& error) {
-      throw ConfigError(fmt::format("{}: '{}' stands for a part of another scene: {}",
-                                    describe_position(*value->origin, value->line, value->column),
-                                    value->text, error.what()));
-    }
-  }
-
- private:
-  std::unique_ptr<YamlNode> part(const std::filesystem::path& file,
-                                 const std::vector<std::string>& path, std::size_t level) {
-    const YamlNode& root = scene(file.lexically_normal());
-    const YamlNode* found = find_at(root, path);
-    if (!found) fail_missing(root, root.origin->name, path);
-    if (level + depth_of(*found) > kMaxYamlDepth)
-      throw ConfigError(fmt::format("nested deeper than {} levels", kMaxYamlDepth));
-    values_ += count_of(*found);
-    if (values_ > kMaxYamlNodes)
-      throw ConfigError(fmt::format("more than {} values were taken", kMaxYamlNodes));
-    return clone(*found);
-  }
-
-  const YamlNode& scene(const std::filesystem::path& file) {
-    const auto [at, is_new] = scenes_.try_emplace(identity(file));
-    if (!is_new && !at->second)
-      throw ConfigError(fmt::format("{} takes parts of this file itself; write out one of the two",
-                                    file.string()));
-    if (is_new) {
-      auto root = read_yaml_file(file);
-      std::vector<std::string> path;
-      take(root, path);
-      at->second = std::move(root);
-    }
-    return *at->second;
-  }
-
-  /// Parsed scenes with their references replaced; null while a scene is being read.
-  std::map<std::filesystem::path, std::unique_ptr<YamlNode>> scenes_;
-  std::size_t values_ = 0;
-};
-
 }  // namespace
 
-void take_parts(std::unique_ptr<YamlNode>& value, std::vector<std::string> path,
-                const std::filesystem::path& file) {
-  Parts(file).take(value, path);
+Parts::Parts(const std::filesystem::path& file) {
+  if (!file.empty()) documents_[identity(file)];
+}
+
+Parts::~Parts() = default;
+
+void Parts::take(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path) {
+  for (std::size_t i = 0; i < value->entries.size(); ++i) {
+    auto& entry = value->entries[i];
+    path.push_back(value->kind == YamlNode::Kind::kList ? fmt::format("{}", i) : entry.key);
+    take(entry.value, path);
+    entry.value->parent = value.get();
+    path.pop_back();
+  }
+  const auto name = part_name(*value);
+  if (!name) return;
+  try {
+    value = part(value->origin->directory / name->file, name->path ? split_path(*name->path) : path,
+                 path.size());
+  } catch (const ConfigError& error) {
+    throw ConfigError(fmt::format("{}: '{}' stands for a part of another scene: {}",
+                                  describe_position(*value->origin, value->line, value->column),
+                                  value->text, error.what()));
+  }
+}
+
+std::unique_ptr<YamlNode> Parts::part(const std::filesystem::path& file,
+                                      const std::vector<std::string>& path, std::size_t level) {
+  const YamlNode& root = document(file.lexically_normal());
+  const YamlNode* found = find_at(root, path);
+  if (!found) fail_missing(root, root.origin->name, path);
+  if (level + depth_of(*found) > kMaxYamlDepth)
+    throw ConfigError(fmt::format("nested deeper than {} levels", kMaxYamlDepth));
+  values_ += count_of(*found);
+  if (values_ > kMaxYamlNodes)
+    throw ConfigError(fmt::format("more than {} values were taken", kMaxYamlNodes));
+  return clone(*found);
+}
+
+const YamlNode& Parts::document(const std::filesystem::path& file) {
+  const auto [at, is_new] = documents_.try_emplace(identity(file));
+  if (!is_new && !at->second)
+    throw ConfigError(
+        fmt::format("{} takes parts of this file itself; write out one of the two", file.string()));
+  if (is_new) {
+    auto root = read_yaml_file(file);
+    take_tracker(*root, {}, *this);
+    std::vector<std::string> path;
+    take(root, path);
+    at->second = std::move(root);
+  }
+  return *at->second;
+}
+
+void take_parts(std::unique_ptr<YamlNode>& value, std::vector<std::string> path) {
+  Parts parts;
+  parts.take(value, path);
 }
 
 }  // namespace hypotrack::detail

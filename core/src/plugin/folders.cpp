@@ -1,21 +1,19 @@
 #include "plugin/folders.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
+#include "base/installation.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/plugin.hpp"
 
 namespace hypotrack {
 namespace detail {
 namespace {
 
 constexpr const char* kPluginPathVariable = "HYPOTRACK_PLUGIN_PATH";
-constexpr const char* kDataPathVariable = "HYPOTRACK_DATA_PATH";
 
 void add_once(std::vector<std::filesystem::path>& folders, std::filesystem::path folder) {
   folder = folder.lexically_normal();
@@ -45,21 +43,6 @@ void add_from_environment(std::vector<std::filesystem::path>& folders) {
 
 }  // namespace
 
-std::filesystem::path prefix_folder() {
-  static const std::filesystem::path prefix = [] {
-    Dl_info info{};
-    if (!dladdr(reinterpret_cast<const void*>(&prefix_folder), &info) || !info.dli_fname) {
-      throw PluginError("cannot find out where libhypotrack.so lies; set HYPOTRACK_PLUGIN_PATH");
-    }
-    std::filesystem::path folder = std::filesystem::canonical(info.dli_fname).parent_path();
-    for ([[maybe_unused]] const auto& part : std::filesystem::path(HYPOTRACK_LIBDIR)) {
-      folder = folder.parent_path();
-    }
-    return folder;
-  }();
-  return prefix;
-}
-
 std::filesystem::path probe_program() {
   return prefix_folder() / HYPOTRACK_PROBE_DIR / "hypotrack_plugin_probe";
 }
@@ -76,20 +59,4 @@ std::vector<std::filesystem::path> plugin_search_path(
 }
 
 }  // namespace detail
-
-std::filesystem::path data_file(const std::filesystem::path& relative) {
-  const char* variable = std::getenv(detail::kDataPathVariable);
-  const bool chosen = variable && *variable;
-  const std::filesystem::path folder =
-      chosen ? std::filesystem::absolute(variable) : detail::prefix_folder() / HYPOTRACK_DATA_DIR;
-  const std::filesystem::path file = (folder / relative).lexically_normal();
-  if (std::filesystem::exists(file)) return file;
-  throw DataError(fmt::format(
-      "{}: there is no such file; it comes with hypotrack. {}", file.string(),
-      chosen ? fmt::format("{} says to look there", detail::kDataPathVariable)
-             : fmt::format("Build or install hypotrack completely, or set {} to the folder that "
-                           "holds '{}'",
-                           detail::kDataPathVariable, relative.string())));
-}
-
 }  // namespace hypotrack

@@ -7,10 +7,6 @@
 
 namespace hypotrack::detail {
 
-/// Returns the folder that contains lib/ and share/: the installation or build tree of this
-/// libhypotrack.so.
-std::filesystem::path prefix_folder();
-
 /// Returns the path of the program that opens plugins in a separate process.
 std::filesystem::path probe_program();
 

@@ -54,6 +54,9 @@ HYPOTRACK_API std::string format_table(std::span<const PluginRow> rows);
 /// Formats everything about one plugin, its parameters last.
 HYPOTRACK_API std::string format_info(const PluginRow& row);
 
+/// Returns a page of the documentation: summary, capabilities and a table of the parameters.
+HYPOTRACK_API std::string format_markdown(const PluginRow& row);
+
 /// Formats "FILE: optimizer 'pso' 0.1.0 can be used", or why it cannot.
 HYPOTRACK_API std::string format_check(const PluginRow& row);
 

@@ -1,0 +1,189 @@
+#include "config/tracker_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "base/suggest.hpp"
+#include "config/yaml_reader.hpp"
+#include "config/yaml_text.hpp"
+#include "config/yaml_writer.hpp"
+#include "hypotrack/data_file.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::detail {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Keys that an override replaces. What is left belongs to the recording or the machine.
+constexpr std::array<std::string_view, 8> kKeysOfTrackers{
+    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "hindsight"};
+
+/// A reference to a tracker file, and where it is written.
+struct TrackerName {
+  std::string text;  ///< without the @
+  fs::path directory;
+  std::string where;
+};
+
+bool is_file_name(std::string_view text) {
+  return text.ends_with(".yaml") || text.ends_with(".yml");
+}
+
+/// Returns the reference that a value of the key `tracker` is or has at `from`.
+std::optional<TrackerName> name_in(const YamlNode& value) {
+  const YamlNode* node = &value;
+  if (value.kind == YamlNode::Kind::kMap) {
+    const YamlNode::Entry* from = value.find("from");
+    if (!from) return std::nullopt;
+    node = from->value.get();
+  }
+  if (node->kind != YamlNode::Kind::kScalar || !node->text.starts_with('@') ||
+      node->text.starts_with("@@") || node->text.find('#') != std::string::npos)
+    return std::nullopt;
+  return TrackerName{node->text.substr(1), node->origin->directory,
+                     describe_position(*node->origin, node->line, node->column)};
+}
+
+bool is_file(const fs::path& file) {
+  std::error_code error;
+  return fs::is_regular_file(file, error);
+}
+
+/// Returns the names of the trackers that come with hypotrack.
+std::vector<std::string> known_trackers() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(data_file("configs/trackers"), error))
+    names.push_back("trackers/" + entry.path().stem().string());
+  std::ranges::sort(names);
+  return names;
+}
+
+fs::path find(const TrackerName& name) {
+  const fs::path file = is_file_name(name.text) ? name.text : name.text + ".yaml";
+  fs::path beside = (name.directory / file).lexically_normal();
+  if (is_file(beside)) return beside;
+  std::string hint;
+  if (!is_file_name(name.text)) {
+    const std::vector<std::string> known = known_trackers();
+    if (std::ranges::find(known, name.text) != known.end()) return data_file("configs" / file);
+    hint = fmt::format("{} With hypotrack come @{}.", did_you_mean(name.text, known),
+                       fmt::join(known, ", @"));
+  }
+  throw ConfigError(fmt::format("{}: there is no tracker '@{}': {} is no file.{}", name.where,
+                                name.text, beside.string(), hint));
+}
+
+/// Reads a tracker file. Returns null if it is a scene.
+const YamlNode* read(const TrackerName& name, Parts& parts) {
+  const fs::path file = find(name);
+  try {
+    const YamlNode& tracker = parts.document(file);
+    const bool is_map = tracker.kind == YamlNode::Kind::kMap;
+    if (is_map && tracker.find("models") && is_file_name(name.text)) return nullptr;
+    for (const char* key : {"models", "source", "scenes"})
+      if (!is_map || tracker.find(key))
+        throw ConfigError(fmt::format(
+            "{} is no tracker; expected a map with the objective, the optimizer and their "
+            "settings, without models and source",
+            file.string()));
+    return &tracker;
+  } catch (const ConfigError& error) {
+    throw ConfigError(
+        fmt::format("{}: the tracker '@{}': {}", name.where, name.text, error.what()));
+  }
+}
+
+/// Adds what `own` lacks. A map with a `type` is a whole, whose keys only that type knows.
+void join(YamlNode& own, const YamlNode& tracker) {
+  for (const YamlNode::Entry& entry : tracker.entries) {
+    const YamlNode::Entry* there = own.find(entry.key);
+    if (!there)
+      own.add(entry.key, clone(*entry.value));
+    else if (there->value->kind == YamlNode::Kind::kMap &&
+             entry.value->kind == YamlNode::Kind::kMap && !there->value->find("type"))
+      join(*there->value, *entry.value);
+  }
+}
+
+void remove(YamlNode& map, std::string_view key) {
+  std::erase_if(map.entries, [&](const YamlNode::Entry& entry) { return entry.key == key; });
+}
+
+/// Returns the value of an override of the key `tracker`; null for others and for broken YAML,
+/// which is reported where overrides are applied.
+std::unique_ptr<YamlNode> tracker_value(const std::string& assignment) {
+  constexpr std::string_view kKey = "tracker=";
+  if (!assignment.starts_with(kKey)) return nullptr;
+  auto origin = std::make_shared<YamlOrigin>();
+  origin->name = "--set " + assignment;
+  origin->directory = fs::current_path();
+  origin->is_override = true;
+  const std::string text = assignment.substr(kKey.size());
+  std::unique_ptr<YamlNode> value;
+  if (text.starts_with('@')) {  // YAML would require quotes
+    value = make_scalar(text, false);
+    value->origin = origin;
+    return value;
+  }
+  try {
+    return read_yaml(text, origin);
+  } catch (const ConfigError&) {
+    return nullptr;
+  }
+}
+
+/// Replaces the tracker's keys of a document by what an override names. Returns false if it names
+/// no tracker file.
+bool take_from_override(YamlNode& document, const std::string& assignment, Parts& parts) {
+  auto value = tracker_value(assignment);
+  const auto name = value ? name_in(*value) : std::nullopt;
+  const YamlNode* tracker = name ? read(*name, parts) : nullptr;
+  if (!tracker) return false;
+  for (const std::string_view key : kKeysOfTrackers) remove(document, key);
+  if (value->kind == YamlNode::Kind::kMap) {
+    remove(*value, "from");
+    document.add("tracker", std::move(value));
+  }
+  join(document, *tracker);
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
+                                      Parts& parts) {
+  std::vector<std::string> left(overrides.begin(), overrides.end());
+  if (document.kind != YamlNode::Kind::kMap) return left;
+  for (std::size_t i = left.size(); i-- > 0;) {
+    if (!take_from_override(document, left[i], parts)) continue;
+    // Those before it have no effect any more.
+    const auto names_one = [](const std::string& assignment) {
+      const auto value = tracker_value(assignment);
+      return value && name_in(*value);
+    };
+    std::erase_if(left, names_one);
+    return left;
+  }
+  const YamlNode::Entry* own = document.find("tracker");
+  const auto name = own ? name_in(*own->value) : std::nullopt;
+  const YamlNode* tracker = name ? read(*name, parts) : nullptr;
+  if (!tracker) return left;
+  if (own->value->kind == YamlNode::Kind::kMap)
+    remove(*own->value, "from");
+  else
+    remove(document, "tracker");
+  join(document, *tracker);
+  return left;
+}
+
+}  // namespace hypotrack::detail

@@ -1,0 +1,94 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "plugin/inspect.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// A line of describe_params(): key, type and help, with two spaces or more between them.
+struct HelpLine {
+  std::size_t depth = 0;  ///< 0 for a parameter of the plugin itself
+  std::string_view key, type, help;
+};
+
+std::string_view trim(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(' ');
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
+}
+
+/// Takes the text before the next two spaces.
+std::string_view take_column(std::string_view& rest) {
+  const std::size_t end = std::min(rest.find("  "), rest.size());
+  const std::string_view column = rest.substr(0, end);
+  rest = trim(rest.substr(end));
+  return column;
+}
+
+HelpLine parse(std::string_view line) {
+  HelpLine out;
+  const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+  out.depth = indent / 2 > 0 ? indent / 2 - 1 : 0;
+  std::string_view rest = line.substr(indent);
+  out.key = take_column(rest);
+  out.type = take_column(rest);
+  out.help = rest;
+  return out;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '|' || c == '<' || c == '*' || c == '_') out += '\\';
+    out += c;
+  }
+  return out;
+}
+
+/// Splits "number from 0 to 1, default 0.5" at the default.
+std::pair<std::string_view, std::string_view> split_default(std::string_view type) {
+  constexpr std::string_view kDefault = ", default ";
+  const std::size_t at = type.find(kDefault);
+  if (at == std::string_view::npos) return {type, {}};
+  return {type.substr(0, at), type.substr(at + kDefault.size())};
+}
+
+}  // namespace
+
+std::string format_markdown(const PluginRow& row) {
+  std::string summary = escaped(row.summary);
+  if (!summary.empty())
+    summary[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(summary[0])));
+  std::string out = fmt::format("# {} `{}`\n\n{}.\n\n", row.kind, row.name, summary);
+  if (!row.capabilities.empty())
+    out += fmt::format("Capabilities: {}.\n\n", escaped(row.capabilities));
+  if (row.parameters.empty()) return out + "It has no parameters.\n";
+  out += "| parameter | type | default | meaning |\n|---|---|---|---|\n";
+  std::vector<std::string> path;
+  std::string_view rest = row.parameters;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const HelpLine line = parse(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    path.resize(std::min(line.depth, path.size()));
+    std::string name;
+    for (const std::string& parent : path) name += parent + ".";
+    const auto [type, value] = split_default(line.type);
+    out += fmt::format("| `{}{}` | {} | {} | {} |\n", name, line.key,
+                       escaped(type.starts_with("a map of")    ? "section"
+                               : type.starts_with("a list of") ? "list"
+                                                               : type),
+                       value.empty() ? "" : fmt::format("`{}`", value), escaped(line.help));
+    path.push_back(std::string(line.key));
+  }
+  return out;
+}
+
+}  // namespace hypotrack
