@@ -13,7 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
 #include "progress.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
 #include "tell.hpp"
 
@@ -54,13 +54,13 @@ class Rounds {
   Rounds(const FitShapeOptions& options, PluginLoader& plugins)
       : options_(options), plugins_(plugins) {}
 
-  Session open(const std::vector<std::string>& found) {
+  OpenedScene open(const std::vector<std::string>& found) {
     base_ = open_source(options_.scene.scene, options_.scene.set, plugins_);
     std::vector<std::string> overrides = options_.scene.set;
     overrides.insert(overrides.end(), found.begin(), found.end());
     total_ = base_.source->frame_count();
-    return open_session(options_.scene.scene, overrides, plugins_, std::move(base_.source),
-                        base_.source_resolved);
+    return open_scene(options_.scene.scene, overrides, plugins_, std::move(base_.source),
+                      base_.source_resolved);
   }
   std::optional<int> total() const {
     if (!options_.frames || (total_ && *total_ < *options_.frames)) return total_;
@@ -70,7 +70,7 @@ class Rounds {
  private:
   const FitShapeOptions& options_;
   PluginLoader& plugins_;
-  Session base_;
+  OpenedScene base_;
   std::optional<int> total_;
 };
 
@@ -83,7 +83,7 @@ int finish(const ShapeEstimate& estimate, const FitShapeOptions& options) {
 
 int fit_to_labels(const FitShapeOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
-  Session session = open_source(options.scene.scene, options.scene.set, plugins);
+  OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
   const ShapeEstimateSettings settings = session.shape;
   const ShapeEstimate estimate =
       shape_of_labels(std::move(session), settings, options.frames.value_or(0));

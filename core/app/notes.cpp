@@ -7,7 +7,7 @@
 
 namespace hypotrack::app {
 
-void tell_notes(const Source& source, const Tracker& tracker, const Frame& first) {
+void tell_notes(const Source& source, const SceneTracker& tracker, const Frame& first) {
   for (const std::string& problem :
        {problem_of_pair(source.cameras(), first), tracker.problem_of_start(first)})
     if (!problem.empty()) tell("note: {}\n", problem);

@@ -2,11 +2,11 @@
 
 #include "hypotrack/frame.hpp"
 #include "hypotrack/source.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack::app {
 
 /// Prints notes on a scene that has no error but looks mistaken in its first usable frame.
-void tell_notes(const Source& source, const Tracker& tracker, const Frame& first);
+void tell_notes(const Source& source, const SceneTracker& tracker, const Frame& first);
 
 }  // namespace hypotrack::app

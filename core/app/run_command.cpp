@@ -9,40 +9,21 @@
 #include <vector>
 
 #include "commands.hpp"
-#include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/session.hpp"
 #include "interrupt.hpp"
-#include "notes.hpp"
-#include "output/hindsight_output.hpp"
-#include "output/run_output.hpp"
 #include "progress.hpp"
-#include "session/session.hpp"
-#include "shape/estimated_session.hpp"
+#include "run/run_scene.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
 
-struct RunOptions {
+struct RunCommand {
   SceneOptions scene;
-  std::filesystem::path out = "out";
-  std::optional<int> frames;
+  RunOptions options{.out = "out", .frames = {}};
   std::optional<std::int64_t> seed;
 };
-
-/// Reads frames up to and including the first usable one. Throws DataError if none of the first
-/// `limit` frames is usable.
-std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limit) {
-  std::vector<Frame> frames;
-  while (!limit || frames.size() < static_cast<std::size_t>(*limit)) {
-    auto frame = source.next();
-    if (!frame) break;
-    frames.push_back(*std::move(frame));
-    if (!frames.back().views.empty()) return frames;
-  }
-  if (frames.empty()) throw DataError("the source has no frame");
-  throw DataError(fmt::format("none of the source's {} frames can be used; the first: {}",
-                              frames.size(), frames.front().problem));
-}
 
 /// Prints how right the statuses were and how models were recovered, if known.
 void print_status(const StatusMetrics& s) {
@@ -79,124 +60,43 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
   fmt::print("results in {}\n", out.string());
 }
 
-std::string note_of(const Solution& solution, double error) {
-  std::string note(to_string(solution.status));
-  if (!std::isnan(error)) note += fmt::format(", {:.1f} mm", 1000 * error);
-  return note;
-}
-
-/// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
-/// frames or on an interrupt. Returns false if interrupted.
-bool track_all(Session& session, Tracker& tracker, HindsightOutput& output,
-               const std::vector<Frame>& first, std::optional<int> limit,
-               const InterruptGuard& interrupt) {
-  std::optional<int> total = session.source->frame_count();
-  if (limit) total = total ? std::min(*total, *limit) : *limit;
-  Progress progress(total);
-  for (int done = 0; !limit || done < *limit; ++done) {
-    if (interrupt.interrupted()) return false;
-    const auto index = static_cast<std::size_t>(done);
-    const std::optional<Frame> frame = index < first.size() ? first[index] : session.source->next();
-    if (!frame) break;
-    if (!frame->problem.empty())
-      progress.say(fmt::format("frame {}: {}", frame->index, frame->problem));
-    const Solution solution = tracker.track(*frame);
-    progress.advance(note_of(solution, output.add(tracker, *frame, solution)));
+/// Shows the progress of a run and ends it on Ctrl-C.
+class Console final : public RunWatcher {
+ public:
+  bool stop() override { return interrupt_.interrupted(); }
+  void say(const std::string& text) override {
+    if (progress_)
+      progress_->say(text);
+    else
+      tell("{}\n", text);
   }
-  return true;
-}
-
-/// Says where the unfinished files with the frames so far are.
-void tell_of_parts(const RunOutput& output, const std::filesystem::path& out) {
-  if (output.empty() || !std::filesystem::exists(out / ".part.track.csv")) return;
-  tell("the frames so far are in {}/.part.track.csv and the files beside it\n", out.string());
-}
-
-/// Ends a run after an exception, which is being handled. Keeps the frames tracked so far, unless
-/// writing them is what failed.
-void finish_after_error(HindsightOutput& frames, RunOutput& output,
-                        const std::filesystem::path& out) {
-  try {
-    frames.finish_unchanged();
-    if (output.empty()) return;
-    output.finish(false);
-    tell("hypotrack: the run ends early; {} holds the frames so far\n", out.string());
-  } catch (const OutputError& e) {
-    tell("hypotrack: {}\n", e.what());
+  void begin(std::optional<int> frames) override { progress_.emplace(frames); }
+  void frame(const Frame& frame, const Solution& solution, double error) override {
+    if (!frame.problem.empty()) say(fmt::format("frame {}: {}", frame.index, frame.problem));
+    std::string note(to_string(solution.status));
+    if (!std::isnan(error)) note += fmt::format(", {:.1f} mm", 1000 * error);
+    progress_->advance(note);
   }
-}
+  void end() override { progress_.reset(); }
 
-/// Opens a scene; estimates the shape from the first seconds if the scene asks for it.
-EstimatedSession open_for_run(const RunOptions& options, const std::vector<std::string>& overrides,
-                              PluginLoader& plugins, const InterruptGuard& interrupt) {
-  const ShapeEstimateSettings shapes = load_scene(options.scene.scene, overrides).file.shape;
-  if (shapes.seconds == 0) {
-    EstimatedSession opened;
-    opened.session = open_session(options.scene.scene, overrides, plugins);
-    return opened;
-  }
-  ShapeProgress progress;
-  progress.begin_round = [&](int round) {
-    tell("fitting the shape to the first {:g} s, round {} of {}; this takes a while\n",
-         shapes.seconds, round + 1, shapes.rounds);
-  };
-  progress.stop = [&] { return interrupt.interrupted(); };
-  EstimatedSession opened = open_estimated(options.scene.scene, overrides, plugins, progress);
-  std::string shape;
-  for (const ShapeParameter& p : opened.estimate.wanted)
-    shape += fmt::format(", {} {:.3f}", p.name, p.value);
-  tell("shape from {} frames{}\n", opened.estimate.used_frames, shape);
-  return opened;
-}
+ private:
+  InterruptGuard interrupt_;
+  std::optional<Progress> progress_;
+};
 
-int run(const RunOptions& options, const CommonOptions& common) {
-  std::vector<std::string> overrides = options.scene.set;
-  if (options.seed) overrides.push_back(fmt::format("seed={}", *options.seed));
+int run(const RunCommand& command, const CommonOptions& common) {
+  std::vector<std::string> overrides = command.scene.set;
+  if (command.seed) overrides.push_back(fmt::format("seed={}", *command.seed));
   PluginLoader plugins(common.plugin_path);
-  const InterruptGuard interrupt;
-  EstimatedSession opened = open_for_run(options, overrides, plugins, interrupt);
-  if (interrupt.interrupted()) {
+  Console console;
+  const RunResult result =
+      run_scene(command.scene.scene, overrides, plugins, command.options, console);
+  if (!result.summary) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  Session& session = opened.session;
-  const std::vector<Frame> first = frames_up_to_a_usable(*session.source, options.frames);
-  std::unique_ptr<Hindsight> hindsight = make_hindsight(session);
-  Tracker tracker(*session.scene, std::move(session.parts), initial_state(session, first.back()),
-                  session.seed);
-  RunOutput output(*session.scene, session.source->cameras().front(),
-                   {.directory = options.out,
-                    .overlay = session.output.overlay,
-                    .worst_frames = session.output.worst_frames,
-                    .frame_rate = session.source->frame_rate(),
-                    .resolved = session.resolved,
-                    .backend = tracker.backend(),
-                    .hindsight = hindsight != nullptr});
-  HindsightOutput frames(std::move(hindsight), output);
-  tell("tracking with {}\n", tracker.backend());
-  tell_notes(*session.source, tracker, first.back());
-  bool complete = false;
-  try {
-    complete = track_all(session, tracker, frames, first, options.frames, interrupt);
-    frames.finish();
-  } catch (const OutputError&) {  // the files cannot be finished either
-    tell_of_parts(output, options.out);
-    throw;
-  } catch (...) {
-    finish_after_error(frames, output, options.out);
-    throw;
-  }
-  if (output.empty()) {
-    tell("hypotrack: interrupted before the first frame; nothing was written\n");
-    return kInterruptedExitCode;
-  }
-  try {
-    print_summary(output.finish(complete), options.out);
-  } catch (const OutputError&) {
-    tell_of_parts(output, options.out);
-    throw;
-  }
-  if (complete) return 0;
+  print_summary(*result.summary, command.options.out);
+  if (result.complete) return 0;
   tell("hypotrack: interrupted; the files hold the frames so far\n");
   return kInterruptedExitCode;
 }
@@ -204,16 +104,16 @@ int run(const RunOptions& options, const CommonOptions& common) {
 }  // namespace
 
 void add_run_command(const Command& root, CommonOptions& common, int& exit_code) {
-  auto options = std::make_shared<RunOptions>();
+  auto given = std::make_shared<RunCommand>();
   const Command command = root.add_command("run", "Track a scene and write the results");
-  add_scene_options(command, options->scene);
-  command.add("--out", &options->out, "Folder for the results",
+  add_scene_options(command, given->scene);
+  command.add("--out", &given->options.out, "Folder for the results",
               {.show_default = true, .check = file_name()});
-  command.add("--frames", &options->frames, "Stop after this many frames",
+  command.add("--frames", &given->options.frames, "Stop after this many frames",
               {.check = whole_number(1)});
-  command.add("--seed", &options->seed, "Seed of all random numbers",
+  command.add("--seed", &given->seed, "Seed of all random numbers",
               {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
-  command.on_call([=, &common, &exit_code] { exit_code = run(*options, common); });
+  command.on_call([=, &common, &exit_code] { exit_code = run(*given, common); });
 }
 
 }  // namespace hypotrack::app

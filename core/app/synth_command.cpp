@@ -11,7 +11,7 @@
 #include "interrupt.hpp"
 #include "output/recording_writer.hpp"
 #include "progress.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
@@ -25,7 +25,7 @@ struct SynthOptions {
 
 int synth(const SynthOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
-  const Session session = open_source(options.scene.scene, options.scene.set, plugins);
+  const OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
   RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
                          session.resolved, options.out);
   InterruptGuard interrupt;

@@ -5,9 +5,9 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "notes.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "tell.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Opens everything that a run would open and checks the first frame.
 int validate_scene(const SceneOptions& options, const CommonOptions& common, bool print) {
   PluginLoader plugins(common.plugin_path);
-  Session session = open_session(options.scene, options.set, plugins);
+  OpenedScene session = open_scene(options.scene, options.set, plugins);
   const auto first = session.source->next();
   if (!first) throw DataError("the source has no frame");
   const bool usable = first->problem.empty();
@@ -24,9 +24,9 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   const std::size_t models = session.scene->items().size();
   const std::size_t cameras = session.parts.cameras.size();
   (void)make_hindsight(session);
-  Tracker tracker(*session.scene, std::move(session.parts),
-                  usable ? initial_state(session, *first) : session.scene->rest_state(),
-                  session.seed);
+  SceneTracker tracker(*session.scene, std::move(session.parts),
+                       usable ? initial_state(session, *first) : session.scene->rest_state(),
+                       session.seed);
   if (usable) {
     tracker.check(*first);
     tell_notes(*session.source, tracker, *first);

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "hypotrack/error.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 
 namespace hypotrack::bench {
 namespace {

@@ -9,8 +9,8 @@
 #include "lab/bench/frames.hpp"
 #include "output/true_landmarks.hpp"
 #include "output/verdicts.hpp"
-#include "session/session.hpp"
-#include "track/tracker.hpp"
+#include "session/opened_scene.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack::bench {
 namespace {
@@ -23,10 +23,10 @@ double seconds_since(Clock::time_point begin) {
 
 /// A scene that is ready to be tracked in one way.
 struct Opened {
-  Session session;
-  Tracker tracker;
+  OpenedScene session;
+  SceneTracker tracker;
 
-  Opened(Session opened, const Frame& first)
+  Opened(OpenedScene opened, const Frame& first)
       : session(std::move(opened)),
         tracker(*session.scene, std::move(session.parts), initial_state(session, first),
                 session.seed) {
@@ -35,11 +35,11 @@ struct Opened {
   }
 };
 
-Session open(const Case& c, const Way& way, PluginLoader& plugins) {
+OpenedScene open(const Case& c, const Way& way, PluginLoader& plugins) {
   std::vector<std::string> overrides = c.overrides;
   overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
   enter_directory(c);
-  return open_session(c.file, overrides, plugins);
+  return open_scene(c.file, overrides, plugins);
 }
 
 /// Measures how much a GPU's free memory has shrunk since construction.
@@ -111,7 +111,7 @@ Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
                     const std::function<bool()>& again) {
   Measurement result{.outcome = Outcome::unavailable};
   try {
-    Session session = open(c, way, plugins);
+    OpenedScene session = open(c, way, plugins);
     renew_images(frames);
     const DeviceMemory memory(session.parts.evaluate.device);
     Opened opened(std::move(session), frames.front());

@@ -26,7 +26,7 @@ HYPOTRACK_API std::string_view to_string(Outcome outcome);
 struct Measurement {
   Outcome outcome = Outcome::measured;
   std::string message = {};  ///< reason if there are no numbers
-  std::string device = {};   ///< Tracker::backend()
+  std::string device = {};   ///< SceneTracker::backend()
   int warm_up = 0;
   std::vector<double> seconds = {};      ///< of every measured frame, from the frame to the result
   std::vector<double> evaluations = {};  ///< of every measured frame

@@ -7,7 +7,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "output/metrics/landmark_errors.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -33,13 +33,14 @@ Tracked track(const std::string& backend, const std::string& optimizer,
   std::vector<std::string> overrides{"optimizer=" + optimizer, "evaluate.backend=" + backend,
                                      "budget.evaluations=512"};
   overrides.insert(overrides.end(), more.begin(), more.end());
-  Session session = open_session(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   for (int i = 0; i < frames.first; ++i) session.source->next();
   Frame frame = session.source->next().value();
   const Eigen::VectorXd start = initial_state(session, frame);
-  Tracker tracker(scene, std::move(session.parts), start, session.seed);
+  SceneTracker tracker(scene, std::move(session.parts), start, session.seed);
   Tracked tracked;
   for (int i = 0; i < frames.count; ++i) {
     const Solution solution = tracker.track(frame);

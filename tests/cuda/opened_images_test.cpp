@@ -6,7 +6,7 @@
 
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -16,8 +16,8 @@ namespace {
 cv::MatAllocator* allocator_of(const std::string& backend) {
   PluginLoader plugins;
   const std::vector<std::string> overrides{"evaluate.backend=" + backend};
-  const Session session =
-      open_session(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+  const OpenedScene session =
+      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
   return cv::Mat::getDefaultAllocator();
 }
 

@@ -10,7 +10,7 @@
 #include "device.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "image_work.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::cuda {
@@ -30,8 +30,8 @@ bool page_locked(const cv::Mat& image) {
 cv::Mat first_image(const std::string& backend) {
   PluginLoader plugins;
   const std::vector<std::string> overrides{"evaluate.backend=" + backend, "optimizer={type: pso}"};
-  const Session session =
-      open_session(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+  const OpenedScene session =
+      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
   return session.source->next().value().views.at(0).color;
 }
 

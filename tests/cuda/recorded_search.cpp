@@ -31,7 +31,7 @@ std::vector<Camera> turned_apart() {
   return cameras;
 }
 
-Session open(const RecordedCase& c, PluginLoader& plugins) {
+OpenedScene open(const RecordedCase& c, PluginLoader& plugins) {
   const auto scene = source_dir() / "configs" / fmt::format("{}.yaml", c.scene);
   std::vector<std::string> overrides{
       "source.depth=true", "optimizer={type: pso, particles: 32, generations: 32}",
@@ -43,7 +43,7 @@ Session open(const RecordedCase& c, PluginLoader& plugins) {
     std::ofstream(file) << calibration_yaml(turned_apart());
     overrides.push_back("source.calibration.file=" + file.string());
   }
-  return open_session(scene, overrides, plugins);
+  return open_scene(scene, overrides, plugins);
 }
 
 /// Hands search points on to an evaluator and keeps their states and costs.

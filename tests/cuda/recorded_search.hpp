@@ -6,7 +6,7 @@
 #include "cost/evaluator.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::test {
@@ -49,7 +49,7 @@ class RecordedSearch {
   void record();
 
   PluginLoader plugins_;
-  Session session_;
+  OpenedScene session_;
   TileMaker tiles_;
   Frame frame_;
   Eigen::MatrixXd states_;

@@ -6,7 +6,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "interpenetration.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 
@@ -203,7 +203,7 @@ double highest_cost_of_truth(const std::string& name) {
   PluginLoader plugins;
   const std::vector<std::string> small = {"source.cameras.width=32", "source.cameras.height=18",
                                           "source.cameras.focal_px=18"};
-  const Session session = open_source(test::source_dir() / "configs" / name, small, plugins);
+  const OpenedScene session = open_source(test::source_dir() / "configs" / name, small, plugins);
   const Interpenetration objective({}, *session.scene);
   double highest = 0;
   while (const auto frame = session.source->next()) {

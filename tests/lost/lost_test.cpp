@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "output/metrics/landmark_errors.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -29,10 +29,10 @@ std::vector<Tracked> track_scene(const std::string& scene_file, int frames,
                                  std::vector<std::string> overrides) {
   PluginLoader plugins;
   overrides.push_back("evaluate.backend=cpu");
-  Session session = open_session(test::source_dir() / "configs" / scene_file, overrides, plugins);
+  OpenedScene session = open_scene(test::source_dir() / "configs" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
-  std::optional<Tracker> tracker;
+  std::optional<SceneTracker> tracker;
   std::vector<Tracked> out;
   Eigen::Vector3d last = Eigen::Vector3d::Zero();
   for (int i = 0; i < frames; ++i) {
@@ -230,10 +230,10 @@ std::vector<ModelsTracked> track_models(const std::string& scene_file, int frame
                     "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
                     "objective=@" + real_time, "optimizer=@" + real_time, "budget.evaluations=60",
                     "tile.size=128"});
-  Session session = open_session(test::source_dir() / "configs" / scene_file, overrides, plugins);
+  OpenedScene session = open_scene(test::source_dir() / "configs" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
-  std::optional<Tracker> tracker;
+  std::optional<SceneTracker> tracker;
   std::vector<ModelsTracked> out;
   for (int i = 0; i < frames; ++i) {
     const Frame frame = session.source->next().value();

@@ -24,7 +24,7 @@ extract_blocks() {
   local file
   for file in silhouette.cpp hill_climb.cpp can.cpp CMakeLists.txt scene.yaml step_build.sh \
     step_run.sh fast_silhouette{-inl.hpp,.hpp,.cpp,.cu} no_cuda.cpp upright{.hpp,.cpp,.cu} \
-    upright_no_cuda.cpp standing_can.yaml step_run_standing.sh; do
+    upright_no_cuda.cpp euroc.cpp standing_can.yaml step_run_standing.sh; do
     [ -s "$file" ] || fail "the guide has no block for $file"
   done
 }
@@ -45,6 +45,7 @@ cmake --install "$build_dir" --prefix "$PREFIX" >"$scratch/install.log"
 mkdir "$scratch/plugins"
 cd "$scratch/plugins"
 extract_blocks
+cmp euroc.cpp "$(dirname "$guide")/examples/plugin_source/euroc.cpp"
 bash -e step_build.sh
 bash -e step_run.sh
 check_run result cpu

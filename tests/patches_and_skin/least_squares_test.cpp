@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "output/metrics/landmark_errors.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -19,7 +19,7 @@ struct Found {
 };
 
 /// Costs of some states (DxN) in a frame whose tiles are cut around the first.
-Eigen::VectorXd costs_of(const Session& session, const Frame& frame,
+Eigen::VectorXd costs_of(const OpenedScene& session, const Frame& frame,
                          const Eigen::MatrixXd& states) {
   const TileMaker tiles(*session.scene, session.parts.cameras, session.parts.tile);
   Evaluator evaluator(*session.scene, session.parts.objective, session.parts.evaluate);
@@ -41,7 +41,7 @@ double error_of(const Scene& scene, const Frame& frame, const Eigen::VectorXd& s
 Found search(PluginLoader& plugins, const std::string& objective, const std::string& optimizer,
              int seed, int evaluations = 512) {
   const auto open = [&] {
-    return open_session(
+    return open_scene(
         test::source_dir() / "configs" / "demo.yaml",
         std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
                                  fmt::format("budget.evaluations={}", evaluations),
@@ -50,11 +50,11 @@ Found search(PluginLoader& plugins, const std::string& objective, const std::str
                                  "init.away_deg=3", fmt::format("seed={}", seed)},
         plugins);
   };
-  Session session = open();
+  OpenedScene session = open();
   const Scene& scene = *session.scene;
   const Frame frame = session.source->next().value();
   const Eigen::VectorXd start = initial_state(session, frame);
-  Tracker tracker(scene, std::move(session.parts), start, session.seed);
+  SceneTracker tracker(scene, std::move(session.parts), start, session.seed);
   const Solution solution = tracker.track(frame);
   Eigen::MatrixXd states(start.size(), 2);
   states << start, solution.state;

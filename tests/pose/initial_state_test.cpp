@@ -8,7 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/tables.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 
@@ -17,15 +17,15 @@ namespace {
 
 using testing::HasSubstr;
 
-Session box_session() {
-  Session session;
+OpenedScene box_session() {
+  OpenedScene session;
   session.scene =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
           {"box", std::make_shared<Model>(test::make_test_box())}});
   return session;
 }
 
-std::string message_of(const Session& session, const Frame& frame) {
+std::string message_of(const OpenedScene& session, const Frame& frame) {
   try {
     initial_state(session, frame);
   } catch (const Error& e) {
@@ -35,7 +35,7 @@ std::string message_of(const Session& session, const Frame& frame) {
 }
 
 TEST(InitialState, IsTheRestStateChangedByThePose) {
-  Session session = box_session();
+  OpenedScene session = box_session();
   session.init.pose = ConfigNode::parse("{box: {position_mm: [10, 20, 500]}}", "test");
   const Eigen::VectorXd state = initial_state(session, {});
   EXPECT_NEAR(state[0], 0.010, 1e-12);
@@ -44,7 +44,7 @@ TEST(InitialState, IsTheRestStateChangedByThePose) {
 }
 
 TEST(InitialState, RefusesAPoseThatIsNone) {
-  Session session = box_session();
+  OpenedScene session = box_session();
   const auto message = [&](const std::string& pose) {
     session.init.pose = ConfigNode::parse("{box: {" + pose + "}}", "test");
     return message_of(session, {});
@@ -58,7 +58,7 @@ TEST(InitialState, RefusesAPoseThatIsNone) {
 }
 
 TEST(InitialState, IsTheTruthOfTheFirstFrame) {
-  Session session = box_session();
+  OpenedScene session = box_session();
   session.init.from = InitFrom::truth;
   Frame frame;
   EXPECT_THAT(message_of(session, frame), HasSubstr("the source knows no true state"));
@@ -68,7 +68,7 @@ TEST(InitialState, IsTheTruthOfTheFirstFrame) {
 }
 
 TEST(InitialState, IsAsFarAwayAsAskedForInADirectionOfTheSeed) {
-  Session session = box_session();
+  OpenedScene session = box_session();
   const Eigen::VectorXd at = initial_state(session, {});
   session.init.away = 0.03;
   session.init.away_turn = 15 * kDegree;
@@ -85,7 +85,7 @@ TEST(InitialState, IsAsFarAwayAsAskedForInADirectionOfTheSeed) {
 }
 
 TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
-  Session session;
+  OpenedScene session;
   session.scene =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
           {"hand", std::make_shared<Model>(test::make_test_hand())}});
@@ -120,7 +120,7 @@ TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
 
 TEST(InitialState, IsAPoseFile) {
   const test::TemporaryDirectory folder;
-  Session session = box_session();
+  OpenedScene session = box_session();
   session.init.from = InitFrom::file;
   session.init.file = folder.path() / "pose.yaml";
   std::ofstream(session.init.file) << "box:\n  position_mm: [0, 0, 700]\n";
@@ -129,7 +129,7 @@ TEST(InitialState, IsAPoseFile) {
 
 TEST(InitialState, IsARowOfAStateTable) {
   const test::TemporaryDirectory folder;
-  Session session = box_session();
+  OpenedScene session = box_session();
   session.init.from = InitFrom::file;
   session.init.file = folder.path() / "track.csv";
   session.init.frame = 4;
@@ -143,7 +143,7 @@ TEST(InitialState, IsARowOfAStateTable) {
 
 TEST(InitialState, IsNotToBeHadFromATableWithoutRows) {
   const test::TemporaryDirectory folder;
-  Session session = box_session();
+  OpenedScene session = box_session();
   session.init.from = InitFrom::file;
   session.init.file = folder.path() / "track.csv";
   write_states(session.init.file, *session.scene, {});

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "hypotrack/renderer.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -53,14 +53,15 @@ TEST(Sr305, TheHandIsFollowedThroughItsFrames) {
   PluginLoader plugins;
   const std::vector<std::string> overrides = {
       "source.left_depth=" + (folder / "20210326-231615" / "*.png").string(), "source.count=4"};
-  Session session = open_session(test::source_dir() / "configs" / "sr305.yaml", overrides, plugins);
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs" / "sr305.yaml", overrides, plugins);
   const Camera camera = session.parts.cameras.at(0);
   Frame frame = session.source->next().value();
   const Eigen::VectorXd start = initial_state(session, frame);
   Renderer renderer(*session.scene);
   EXPECT_LT(fit(renderer, camera, start, frame.views[0].depth).median_mm, 5) << "the scene's pose";
 
-  Tracker tracker(*session.scene, std::move(session.parts), start, 1);
+  SceneTracker tracker(*session.scene, std::move(session.parts), start, 1);
   Fit stale;
   int frames = 0;
   for (std::optional<Frame> next = frame; next; next = session.source->next()) {

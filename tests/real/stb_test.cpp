@@ -14,7 +14,7 @@
 
 #include "hypotrack/landmark_fit.hpp"
 #include "output/metrics/landmark_errors.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -24,7 +24,7 @@ namespace {
 constexpr double kRightGain = 0.8605;
 
 struct Stb {
-  Session session;
+  OpenedScene session;
   Frame frame;
   Eigen::VectorXd fitted;  ///< the pose of the scene
 
@@ -40,8 +40,7 @@ Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
   overrides.push_back("source.left=" + (stb / "BB_left_%d.png").string());
   overrides.push_back("source.right=" + (stb / "BB_right_%d.png").string());
   overrides.push_back("source.truth_landmarks=" + (stb / "B1Counting_BB_rows000-499.csv").string());
-  Stb out{
-      open_session(test::source_dir() / "configs" / "stb_pair.yaml", overrides, plugins), {}, {}};
+  Stb out{open_scene(test::source_dir() / "configs" / "stb_pair.yaml", overrides, plugins), {}, {}};
   out.frame = out.session.source->next().value();
   out.fitted = initial_state(out.session, out.frame);
   return out;
@@ -93,7 +92,7 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
   parts.status.evidence = false;    // one search
   parts.optimizer = plugins.make<Optimizer>(ConfigNode::parse(
       fmt::format("{{type: pso, particles: {0}, generations: {0}}}", size), "stb test"));
-  Tracker tracker(*stb.session.scene, std::move(parts), start, seed);
+  SceneTracker tracker(*stb.session.scene, std::move(parts), start, seed);
   return tracker.track(frame);
 }
 
@@ -259,7 +258,7 @@ double mean_found(PluginLoader& plugins, int away_mm, int away_deg, int draws,
     overrides.push_back("evaluate.threads=1");
     Stb stb = open_stb(plugins, std::move(overrides));
     const Eigen::VectorXd start = stb.fitted;
-    Tracker tracker(*stb.session.scene, std::move(stb.session.parts), start, stb.session.seed);
+    SceneTracker tracker(*stb.session.scene, std::move(stb.session.parts), start, stb.session.seed);
     const Solution solution = tracker.track(stb.frame);
     EXPECT_LE(solution.evaluations, 8 * 1024);  // eight starts
     mean += 1e3 * stb.distance(solution.state) / draws;

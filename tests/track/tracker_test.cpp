@@ -1,5 +1,3 @@
-#include "track/tracker.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "shiny_ball.hpp"
 #include "test_models.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 namespace {
@@ -93,7 +92,7 @@ struct Fixture {
     state[2] = 0.5;
     return state;
   }
-  Tracker make(std::uint64_t seed, std::int64_t evaluations = 0) {
+  SceneTracker make(std::uint64_t seed, std::int64_t evaluations = 0) {
     TrackerParts parts;
     Camera camera{640, 480, 500, 500, 319.5, 239.5, DistortionModel::none, {}, {}};
     camera.camera_from_world = Eigen::Isometry3d::Identity();
@@ -109,7 +108,7 @@ struct Fixture {
     parts.search = search;
     parts.smoothing = smoothing;
     parts.status = status;
-    return Tracker(scene, std::move(parts), start(), seed);
+    return SceneTracker(scene, std::move(parts), start(), seed);
   }
 };
 
@@ -124,7 +123,7 @@ Frame grey_frame(int index) {
 
 TEST(Tracker, FollowsATargetFromFrameToFrame) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   for (int i = 0; i < 12; ++i) {
     const Solution solution = tracker.track(grey_frame(i));
     EXPECT_LT(std::abs(solution.state[0] - 0.005 * i), 0.015) << i;
@@ -141,7 +140,7 @@ TEST(Tracker, RefusesAnOptimizerThatNeedsADeviceOnTheCpu) {
 
 TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   const auto masked = [](int index, cv::Rect first, cv::Rect second) {
     Frame frame = grey_frame(index);
     for (View& view : frame.views) view.mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
@@ -166,7 +165,7 @@ TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {
 TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::none;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   Eigen::VectorXd last = fixture.start();
   for (int i = 0; i < 5; ++i) {
     const Solution solution = tracker.track(grey_frame(i));
@@ -179,7 +178,7 @@ TEST(Tracker, SearchesFromWhereTheMotionLeads) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::constant;
   fixture.search.prediction.gain = 1;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   std::vector<Eigen::VectorXd> states;
   for (int i = 0; i < 5; ++i) {
     states.push_back(tracker.track(grey_frame(i)).state);
@@ -193,7 +192,7 @@ TEST(Tracker, SearchesFromWhereTheMotionLeads) {
 TEST(Tracker, SearchesFromTheShareOfTheMotionThatFitsTheFrameBest) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::adaptive;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   std::vector<Eigen::Vector3d> found;
   for (int i = 0; i < 8; ++i) {
     const Solution solution = tracker.track(grey_frame(i));
@@ -214,7 +213,7 @@ TEST(Tracker, SearchesFromTheShareOfTheMotionThatFitsTheFrameBest) {
 TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::adaptive;
-  Tracker tracker = fixture.make(1, 9);
+  SceneTracker tracker = fixture.make(1, 9);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(tracker.track(grey_frame(i)).evaluations, 9);
   EXPECT_EQ(fixture.optimizer->budgets.back(), 9);
 }
@@ -222,7 +221,7 @@ TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
 TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
   Fixture fixture;
   fixture.search.second_look = 0.3;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   const Solution first = tracker.track(grey_frame(3));
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{210, 90}));
   EXPECT_EQ(first.evaluations, 300);
@@ -244,7 +243,7 @@ TEST(Tracker, LooksAgainUntilSomethingIsFound) {
   Fixture fixture;
   fixture.search.second_look = 0.3;
   fixture.target->infeasible = true;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   tracker.track(grey_frame(0));
   tracker.track(grey_frame(1));
   EXPECT_EQ(fixture.optimizer->budgets.size(), 4);
@@ -253,7 +252,7 @@ TEST(Tracker, LooksAgainUntilSomethingIsFound) {
 
 TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   tracker.track(grey_frame(0));
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{300}));
   EXPECT_TRUE(fixture.target->observed.at(0).start_is_guess);
@@ -262,7 +261,7 @@ TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
 TEST(Tracker, SpendsABudgetOfOneOnTheFirstLook) {
   Fixture fixture;
   fixture.search.second_look = 0.9;
-  Tracker tracker = fixture.make(1, 1);
+  SceneTracker tracker = fixture.make(1, 1);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 1);
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{1}));
 }
@@ -271,7 +270,7 @@ TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::constant;
   fixture.search.prediction.gain = 1;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   Frame first = grey_frame(0), second = grey_frame(1), third = grey_frame(2);
   tracker.track(first);
   second.time = first.time + 1e-4;  // so that the way to the third frame is hundreds as long
@@ -284,7 +283,7 @@ TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
 TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
   Fixture plain, smooth;
   smooth.smoothing.enabled = true;
-  Tracker a = plain.make(1), b = smooth.make(1);
+  SceneTracker a = plain.make(1), b = smooth.make(1);
   double largest = 0;
   for (int i = 0; i < 8; ++i) {
     const Solution found = a.track(grey_frame(i)), given = b.track(grey_frame(i));
@@ -297,7 +296,7 @@ TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
 
 TEST(Tracker, EqualSeedsAgreeAndOthersDiffer) {
   Fixture fixture;
-  Tracker a = fixture.make(7), b = fixture.make(7), c = fixture.make(8);
+  SceneTracker a = fixture.make(7), b = fixture.make(7), c = fixture.make(8);
   const Frame frame = grey_frame(1);
   const Eigen::VectorXd state = a.track(frame).state;
   EXPECT_EQ(state, b.track(frame).state);
@@ -306,13 +305,13 @@ TEST(Tracker, EqualSeedsAgreeAndOthersDiffer) {
 
 TEST(Tracker, TheScenesBudgetReplacesTheOptimizersOwn) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1, 40);
+  SceneTracker tracker = fixture.make(1, 40);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 40);
 }
 
 TEST(Tracker, AMissingFrameKeepsTheState) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   const Solution before = tracker.track(grey_frame(0));
   Frame missing;
   missing.index = 1;
@@ -327,7 +326,7 @@ TEST(Tracker, SaysHowFarOffEveryLandmarkMayBeIfItIsToldTo) {
   Fixture fixture;
   EXPECT_EQ(fixture.make(1).track(grey_frame(0)).sigma.size(), 0);
   fixture.status.uncertainty.enabled = true;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   const Solution solution = tracker.track(grey_frame(0));
   ASSERT_EQ(solution.sigma.size(), 3);
   EXPECT_TRUE(solution.sigma.allFinite());
@@ -341,7 +340,7 @@ TEST(Tracker, SaysHowFarOffEveryLandmarkMayBeIfItIsToldTo) {
 TEST(Tracker, TakesWhatSigmasNeedOffTheBudgetOfTheSearch) {
   Fixture fixture;
   fixture.status.uncertainty.enabled = true;
-  Tracker tracker = fixture.make(1, 100);
+  SceneTracker tracker = fixture.make(1, 100);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 100);
   EXPECT_EQ(fixture.optimizer->budgets.front(), 100 - 13);  // 2 * 6 numbers of a box, and one
   EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1, 25); }),
@@ -368,7 +367,7 @@ TEST(Tracker, IsUncertainWhereSigmasAreLarge) {
 
 TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
   Fixture fixture;
-  Tracker tracker = fixture.make(1);
+  SceneTracker tracker = fixture.make(1);
   const Solution before = tracker.track(grey_frame(0));
   fixture.target->infeasible = true;
   const Solution solution = tracker.track(grey_frame(1));
@@ -379,7 +378,7 @@ TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
 TEST(Tracker, RefusesAnAnswerThatIsNoNumber) {
   for (const bool as_cost : {false, true}) {
     Fixture fixture;
-    Tracker tracker = fixture.make(1);
+    SceneTracker tracker = fixture.make(1);
     tracker.track(grey_frame(0));
     (as_cost ? fixture.optimizer->nan_as_cost : fixture.optimizer->nan_in_answer) = true;
     const std::string message =
@@ -413,7 +412,7 @@ struct ShinyTiles {
     parts.evaluate = {.backend = Backend::cpu, .threads = 1};
     parts.photometric.highlights = highlights;
     parts.budget.evaluations = 1;  // the start
-    Tracker tracker(ball.scene, std::move(parts), ball.state(), 1);
+    SceneTracker tracker(ball.scene, std::move(parts), ball.state(), 1);
     for (int i = 0; i < 3; ++i) {
       Frame frame = ball.frame(60);
       frame.index = i;

@@ -16,12 +16,12 @@
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/search.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "track/color/photometric.hpp"
 #include "track/displace.hpp"
 #include "track/judge/judge.hpp"
 #include "track/recover/recovery.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 namespace {
@@ -107,7 +107,7 @@ class Recoveries {
  public:
   Recoveries(const std::string& file, const std::vector<std::string>& overrides,
              PluginLoader& plugins)
-      : session_(open_session(file, overrides, plugins)),
+      : session_(open_scene(file, overrides, plugins)),
         scene_(*session_.scene),
         budget_(session_.parts.budget),
         limits_(session_.parts.status.motion),
@@ -155,7 +155,7 @@ class Recoveries {
   }
 
  private:
-  Session session_;
+  OpenedScene session_;
   const Scene& scene_;
   Budget budget_;
   MotionLimits limits_;
@@ -171,7 +171,7 @@ constexpr unsigned kRecoverEvery = 4;
 int collect(const std::string& file, const std::string& csv, int frames, int seed,
             const std::vector<std::string>& overrides) {
   PluginLoader plugins(std::vector<std::filesystem::path>{});
-  Session session = open_session(file, overrides, plugins);
+  OpenedScene session = open_scene(file, overrides, plugins);
   const Scene& scene = *session.scene;
   const std::vector<Camera> cameras = session.source->cameras();
   std::FILE* out = std::fopen(csv.c_str(), "w");
@@ -181,7 +181,7 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
   std::mt19937_64 random(static_cast<std::uint64_t>(seed));
   TileMaker tiles(scene, cameras, session.parts.tile);
   PhotometricMatch photometric(scene, session.parts.photometric);
-  std::optional<Tracker> tracker;
+  std::optional<SceneTracker> tracker;
   std::vector<Eigen::VectorXd> past;  // true states
   for (int k = 0; k < frames; ++k) {
     const std::optional<Frame> frame = session.source->next();

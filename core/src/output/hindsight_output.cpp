@@ -5,7 +5,8 @@
 
 namespace hypotrack {
 
-double HindsightOutput::add(const Tracker& tracker, const Frame& frame, const Solution& solution) {
+double HindsightOutput::add(const SceneTracker& tracker, const Frame& frame,
+                            const Solution& solution) {
   if (!hindsight_) return output_->add(frame, solution);
   output_->add_online(frame, solution);
   Frame kept = frame;
@@ -21,6 +22,7 @@ void HindsightOutput::write(const std::vector<Hindsight::Settled>& settled) {
   for (const Hindsight::Settled& one : settled) {
     Waiting& frame = waiting_.front();
     frame.solution.state = one.state;
+    frame.solution.landmarks = output_->scene().landmarks(one.state);
     frame.solution.evaluations += one.evaluations;
     output_->add(frame.frame, frame.solution);
     waiting_.pop_front();

@@ -7,8 +7,8 @@
 
 #include "hypotrack/export.hpp"
 #include "output/run_output.hpp"
+#include "track/scene_tracker.hpp"
 #include "track/smooth/hindsight.hpp"
-#include "track/tracker.hpp"
 
 namespace hypotrack {
 
@@ -23,7 +23,7 @@ class HYPOTRACK_API HindsightOutput {
 
   /// Adds the frame that `tracker` has just solved. Returns the solution's error in metres, NaN
   /// where it is unknown, also while it waits.
-  double add(const Tracker& tracker, const Frame& frame, const Solution& solution);
+  double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution);
 
   /// Smooths and writes the frames that still wait.
   void finish();

@@ -7,7 +7,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 

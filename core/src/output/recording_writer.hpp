@@ -25,7 +25,7 @@ namespace hypotrack {
 /// The folder gets its name when it is complete.
 class HYPOTRACK_API RecordingWriter {
  public:
-  /// `scene_yaml` is the resolved scene (Session::resolved), whose source is replaced. Throws
+  /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
   /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there
   /// are one or two cameras.
   RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,

@@ -16,7 +16,7 @@
 #include "output/truth_output.hpp"
 #include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 
@@ -59,6 +59,7 @@ class HYPOTRACK_API RunOutput {
   Summary finish(bool complete);
 
   bool empty() const { return frames_ == 0; }
+  const Scene& scene() const { return *scene_; }
 
  private:
   Renderer& renderer();

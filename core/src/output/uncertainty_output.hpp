@@ -7,7 +7,7 @@
 #include "hypotrack/scene.hpp"
 #include "output/metrics/reliability.hpp"
 #include "output/run_directory.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 

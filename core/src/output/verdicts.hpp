@@ -3,7 +3,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "output/metrics/status_metrics.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 

@@ -119,7 +119,9 @@ struct SceneFile {
   std::int64_t seed = 1;
   void visit(ParamVisitor& v) {
     v("models", models, {.help = "list of {name, type, ...}: what is tracked", .required = true});
-    v("source", source, {.help = "{type, ...}: where frames come from", .required = true});
+    v("source", source,
+      {.help =
+           "{type, ...}: where frames come from; a program that has frames of its own needs none"});
     v("objective", objective,
       {.help = "{type, ...}, or a list of {type, weight, ...}: what is minimised",
        .required = true});

@@ -4,7 +4,7 @@
 
 #include "hypotrack/export.hpp"
 #include "shape/image_problem.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 

@@ -48,7 +48,7 @@ void take(const JointFit& fit, const ShapeTargets& targets, ShapeEstimate& estim
 /// One round of tracking and fitting.
 class Round {
  public:
-  Round(Session session, const ShapeEstimateSettings& settings, const ShapeProgress& progress)
+  Round(OpenedScene session, const ShapeEstimateSettings& settings, const ShapeProgress& progress)
       : session_(std::move(session)),
         settings_(settings),
         progress_(progress),
@@ -88,7 +88,7 @@ class Round {
  private:
   std::vector<TrackedFrame> track(int limit) {
     FrameSample sample(settings_.frames);
-    std::optional<Tracker> tracker;
+    std::optional<SceneTracker> tracker;
     for (int i = 0; (limit == 0 || i < limit) && !progress_.stop(); ++i) {
       const auto frame = session_.source->next();
       if (!frame) break;
@@ -172,7 +172,7 @@ class Round {
     return targets_.prior(weight);
   }
 
-  Session session_;
+  OpenedScene session_;
   const ShapeEstimateSettings& settings_;
   const ShapeProgress& progress_;
   ShapeTargets targets_;
@@ -194,7 +194,8 @@ ShapeEstimate estimate_shape(const OpenShaped& open, const ShapeEstimateSettings
   return estimate;
 }
 
-ShapeEstimate shape_of_labels(Session session, const ShapeEstimateSettings& settings, int limit) {
+ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& settings,
+                              int limit) {
   const Scene& scene = *session.scene;
   const ShapeTargets targets(scene, settings.models, settings.parameters);
   std::vector<Eigen::Matrix3Xd> labelled;

@@ -7,10 +7,10 @@
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "session/shape_settings.hpp"
 #include "shape/shape_targets.hpp"
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 
@@ -35,7 +35,7 @@ struct ShapeProgress {
 };
 
 /// Opens a session of the scene with models changed by `overrides` and the source at its beginning.
-using OpenShaped = std::function<Session(const std::vector<std::string>& overrides)>;
+using OpenShaped = std::function<OpenedScene(const std::vector<std::string>& overrides)>;
 
 /// Estimates the shape by tracking and fitting in turn, `settings.rounds` times. Each round tracks
 /// the frames with the shape found so far and samples some of them. Then it fits shape and poses to
@@ -53,8 +53,8 @@ HYPOTRACK_API ShapeEstimate estimate_shape(const OpenShaped& open,
 /// Fits the shape to the true landmarks of `settings.frames` frames (LandmarkProblem). It fits the
 /// models whose landmarks the source's truth knows. The session's source must be at its beginning.
 /// Throws DataError if fewer than 2 frames have a truth, ConfigError if a model has no shape.
-HYPOTRACK_API ShapeEstimate shape_of_labels(Session session, const ShapeEstimateSettings& settings,
-                                            int limit);
+HYPOTRACK_API ShapeEstimate shape_of_labels(OpenedScene session,
+                                            const ShapeEstimateSettings& settings, int limit);
 
 /// Returns the text of a `shape_file` with the shape, and its origin in comments.
 HYPOTRACK_API std::string shape_file_text(const ShapeEstimate& estimate);

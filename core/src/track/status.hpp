@@ -1,26 +1,16 @@
 #pragma once
 
 #include <deque>
-#include <string_view>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/solution.hpp"
 #include "tile/on_foreground.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {
-
-enum class Status {
-  tracked,    ///< likely right, judged by the pictures or, where they do not tell, by the cost
-  uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view
-  lost,    ///< improbable, out of view, infeasible, an outlier for too long, off the foreground, or
-           ///< sigma is above `lost_sigma`
-  absent,  ///< a search of the whole pictures did not find it
-  missing,  ///< no usable frame; the state is the last one
-};
-HYPOTRACK_API std::string_view to_string(Status status);
 
 /// `tracker:` of a scene.
 struct StatusSettings {

@@ -12,6 +12,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
@@ -24,34 +25,16 @@
 
 namespace hypotrack {
 
-/// The result of one frame.
-struct Solution {
-  int frame = 0;
-  double time = 0;
-  Status status = Status::missing;  ///< the worst of the models' (StatusMonitor); absent only if
-                                    ///< all are
-  std::vector<Status> models;       ///< by model
-  double cost = 0;                  ///< NaN if the frame was missing
-  std::int64_t evaluations = 0;
-  double seconds = 0;     ///< wall time from the frame to the result: tiles, features and search
-  Eigen::VectorXd state;  ///< normalised; smoothed if SmoothingSettings::enabled
-  /// Root mean square error expected of each landmark of the scene, in metres. Empty if uncertainty
-  /// is off, NaN if the frame was missing.
-  Eigen::VectorXd sigma;
-  /// Probability, by model, that its pose is right, judged by the pictures; NaN: unknown.
-  std::vector<double> probabilities = {};
-};
-
 /// Tracks a scene from frame to frame. The search of a frame starts from the last solution, or from
 /// its extrapolated motion.
-class HYPOTRACK_API Tracker {
+class HYPOTRACK_API SceneTracker {
  public:
   /// `start` is the state from which the first frame's search starts. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
-  Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
-  ~Tracker();
-  Tracker(const Tracker&) = delete;
-  Tracker& operator=(const Tracker&) = delete;
+  SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
+  ~SceneTracker();
+  SceneTracker(const SceneTracker&) = delete;
+  SceneTracker& operator=(const SceneTracker&) = delete;
 
   Solution track(const Frame& frame);
 

@@ -1,4 +1,4 @@
-#include "shape/estimated_session.hpp"
+#include "shape/estimated_scene.hpp"
 
 #include <fmt/format.h>
 
@@ -42,28 +42,28 @@ std::vector<std::string> show_models_as_given(const SceneFile& scene) {
 
 }  // namespace
 
-EstimatedSession open_estimated(const std::filesystem::path& scene_file,
-                                std::span<const std::string> overrides, PluginLoader& plugins,
-                                const ShapeProgress& progress) {
-  EstimatedSession opened;
+EstimatedScene open_estimated(const std::filesystem::path& scene_file,
+                              std::span<const std::string> overrides, PluginLoader& plugins,
+                              const ShapeProgress& progress) {
+  EstimatedScene opened;
   std::vector<std::string> as_given(overrides.begin(), overrides.end());
   for (std::string& more : show_models_as_given(load_scene(scene_file, overrides).file))
     as_given.push_back(std::move(more));
   opened.first = open_source(scene_file, as_given, plugins);
-  Session& first = opened.first;
+  OpenedScene& first = opened.first;
   std::vector<Frame> frames = first_seconds(*first.source, first.shape.seconds);
   const auto open = [&](const std::vector<std::string>& found, std::unique_ptr<Source> source) {
     std::vector<std::string> all(overrides.begin(), overrides.end());
     all.insert(all.end(), found.begin(), found.end());
-    return open_session(scene_file, all, plugins, std::move(source), first.source_resolved);
+    return open_scene(scene_file, all, plugins, std::move(source), first.source_resolved);
   };
   opened.estimate = estimate_shape(
       [&](const std::vector<std::string>& found) {
         return open(found, std::make_unique<ReplaySource>(*first.source, frames));
       },
       first.shape, 0, false, progress);
-  opened.session = open(opened.estimate.overrides,
-                        std::make_unique<ReplaySource>(std::move(first.source), std::move(frames)));
+  opened.scene = open(opened.estimate.overrides,
+                      std::make_unique<ReplaySource>(std::move(first.source), std::move(frames)));
   return opened;
 }
 

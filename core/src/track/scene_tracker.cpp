@@ -1,4 +1,4 @@
-#include "track/tracker.hpp"
+#include "track/scene_tracker.hpp"
 
 #include <fmt/format.h>
 
@@ -88,7 +88,8 @@ void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
 
 }  // namespace
 
-Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed)
+SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start,
+                           std::uint64_t seed)
     : scene_(scene),
       settings_(of_pictures(parts.status, parts.objective)),
       first_(std::move(start)),
@@ -109,15 +110,15 @@ Tracker::Tracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, 
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
 }
 
-Tracker::~Tracker() {
+SceneTracker::~SceneTracker() {
   if (job_.valid()) job_.wait();
 }
 
-std::string Tracker::backend() const { return finder_.search().evaluator().backend(); }
+std::string SceneTracker::backend() const { return finder_.search().evaluator().backend(); }
 
-Observation Tracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
+Observation SceneTracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
 
-Solution Tracker::track(const Frame& frame) {
+Solution SceneTracker::track(const Frame& frame) {
   Solution solution;
   solution.frame = frame.index;
   solution.time = frame.time;
@@ -132,17 +133,18 @@ Solution Tracker::track(const Frame& frame) {
     solution.seconds = elapsed.count();
   }
   solution.state = smoothed(solution);
+  solution.landmarks = scene_.landmarks(solution.state);
   return solution;
 }
 
-void Tracker::find(const Frame& frame, Solution& solution) {
+void SceneTracker::find(const Frame& frame, Solution& solution) {
   if (job_.valid()) return wait_for_job(frame, solution);
   Candidate best = follow(frame);
   if (!complete(frame, best)) return stay_lost(frame, solution);
   conclude(frame, best, solution);
 }
 
-Candidate Tracker::follow(const Frame& frame) {
+Candidate SceneTracker::follow(const Frame& frame) {
   const std::uint64_t seed = frame_seed(seed_, frame.index);
   if (!found_any_) {
     const bool several = recovers() && begun_ < kPatientFrames;
@@ -175,7 +177,7 @@ Candidate Tracker::follow(const Frame& frame) {
   return best;
 }
 
-LossReport Tracker::report(const Frame& frame, const Candidate& best) {
+LossReport SceneTracker::report(const Frame& frame, const Candidate& best) {
   LossReport out{.kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
   ModelFlags confirmed = out.sought, doubtful = out.sought;
   constexpr double kDoubt = 0.8;  // probability
@@ -201,7 +203,7 @@ LossReport Tracker::report(const Frame& frame, const Candidate& best) {
   return out;
 }
 
-bool Tracker::complete(const Frame& frame, Candidate& best) {
+bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   if (!recovers() || (best.answers() && std::isnan(best.probability()))) return true;
   const LossReport loss = report(frame, best);
   if (!any(loss.sought)) return true;
@@ -219,7 +221,7 @@ bool Tracker::complete(const Frame& frame, Candidate& best) {
   return true;
 }
 
-void Tracker::start_job(const Frame& frame, const LossReport& loss, const Candidate& best) {
+void SceneTracker::start_job(const Frame& frame, const LossReport& loss, const Candidate& best) {
   // The source may reuse its images.
   Frame copy = frame;
   for (View& view : copy.views) {
@@ -235,7 +237,7 @@ void Tracker::start_job(const Frame& frame, const LossReport& loss, const Candid
                     });
 }
 
-void Tracker::wait_for_job(const Frame& frame, Solution& solution) {
+void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
   if (job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return stay_lost(frame, solution);
   Candidate best = job_.get();
@@ -252,7 +254,7 @@ void Tracker::wait_for_job(const Frame& frame, Solution& solution) {
   conclude(frame, best, solution);
 }
 
-void Tracker::stay_lost(const Frame& frame, Solution& solution) {
+void SceneTracker::stay_lost(const Frame& frame, Solution& solution) {
   for (std::size_t m = 0; m < models_.size(); ++m) {
     solution.models[m] = models_[m].status = models_[m].monitor.judge({.cost = kInfinite});
     extrapolate(m, frame.time, state_);
@@ -261,7 +263,7 @@ void Tracker::stay_lost(const Frame& frame, Solution& solution) {
   widen(frame, solution);
 }
 
-void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solution) {
+void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution& solution) {
   const ModelFlags followed_before = followed();
   judge_models(frame, best, solution);
   ModelFlags tracked, good;
@@ -289,7 +291,7 @@ void Tracker::conclude(const Frame& frame, const Candidate& best, Solution& solu
   if (recovers()) widen(frame, solution);
 }
 
-void Tracker::judge_models(const Frame& frame, const Candidate& best, Solution& solution) {
+void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solution& solution) {
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
   solution.probabilities = best.verdict;
@@ -318,7 +320,7 @@ void Tracker::judge_models(const Frame& frame, const Candidate& best, Solution& 
   solution.status = worst(solution.models);
 }
 
-ModelFlags Tracker::followed() const {
+ModelFlags SceneTracker::followed() const {
   ModelFlags out;
   for (std::size_t m = 0; m < models_.size(); ++m)
     out.push_back(found_any_ &&
@@ -326,7 +328,7 @@ ModelFlags Tracker::followed() const {
   return out;
 }
 
-Eigen::MatrixXd Tracker::possible_starts(double time) {
+Eigen::MatrixXd SceneTracker::possible_starts(double time) {
   const Eigen::MatrixXd states = predictor_.at(time);
   // A tile needs a start that is in view.
   if (states.cols() == 0 || finder_.search().tiles().visible_share(states.col(0)) == 0)
@@ -334,7 +336,7 @@ Eigen::MatrixXd Tracker::possible_starts(double time) {
   return states.cols() < finder_.budget().evaluations ? states : states.leftCols(1);
 }
 
-void Tracker::go_on_from(const Frame& frame, const Candidate& best, const ModelFlags& good) {
+void SceneTracker::go_on_from(const Frame& frame, const Candidate& best, const ModelFlags& good) {
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const Scene::Item& item = scene_.items()[m];
     const Eigen::Index size = item.model->dimension();
@@ -350,7 +352,7 @@ void Tracker::go_on_from(const Frame& frame, const Candidate& best, const ModelF
   predictor_.add(state_, frame.time);
 }
 
-void Tracker::keep(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
+void SceneTracker::keep(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
   Eigen::Index first = 0;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     ModelTrack& model = models_[m];
@@ -368,7 +370,7 @@ void Tracker::keep(const Frame& frame, const Candidate& best, const ModelFlags& 
   if (std::ranges::find(tracked, false) == tracked.end()) together_ = kept_;
 }
 
-void Tracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const {
+void SceneTracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state) const {
   constexpr double kSlowing = 0.1;  // time constant, in seconds, with which unseen motion fades
   const ModelTrack& track = models_[model];
   const Scene::Item& item = scene_.items()[model];
@@ -386,7 +388,7 @@ void Tracker::extrapolate(std::size_t model, double time, Eigen::VectorXd& state
   state.segment(item.offset, size) = moved(scene_, from, motion).segment(item.offset, size);
 }
 
-void Tracker::widen(const Frame& frame, Solution& solution) const {
+void SceneTracker::widen(const Frame& frame, Solution& solution) const {
   if (solution.sigma.size() == 0) return;
   for (const ModelTrack& model : models_) {
     if (model.is_followed()) continue;
@@ -396,18 +398,18 @@ void Tracker::widen(const Frame& frame, Solution& solution) const {
   }
 }
 
-Eigen::VectorXd Tracker::smoothed(const Solution& solution) {
+Eigen::VectorXd SceneTracker::smoothed(const Solution& solution) {
   if (!smoothing_) return state_;
   if (solution.status != Status::missing) output_ = smoother_.filter(state_, solution.time);
   return output_;
 }
 
-void Tracker::check(const Frame& frame) {
+void SceneTracker::check(const Frame& frame) {
   finder_.search().take_in(finder_.search().tiles(), frame,
                            finder_.search().tiles().plan(frame, state_));
 }
 
-std::string Tracker::problem_of_start(const Frame& frame) const {
+std::string SceneTracker::problem_of_start(const Frame& frame) const {
   constexpr const char* kQuestion =
       "is the start (init) where the models are, and do the cameras and their units (calibration) "
       "belong to the pictures?";

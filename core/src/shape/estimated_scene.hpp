@@ -6,24 +6,24 @@
 #include <string>
 
 #include "hypotrack/export.hpp"
-#include "session/session.hpp"
+#include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
 
 namespace hypotrack {
 
 /// A scene with `shape.estimate_s`, ready to be tracked. Its models have the shape found in the
 /// first seconds. Its source starts with the frames in which it was found.
-struct EstimatedSession {
-  Session first;  ///< the session that made the source; outlives `session`
+struct EstimatedScene {
+  OpenedScene first;  ///< the one that made the source; outlives `scene`
   ShapeEstimate estimate;
-  Session session;
+  OpenedScene scene;
 };
 
 /// Estimates the shape from the first `settings.seconds` of a scene's source and reopens the scene
 /// with it. Holds those frames in memory. Throws what estimate_shape() throws.
-HYPOTRACK_API EstimatedSession open_estimated(const std::filesystem::path& scene_file,
-                                              std::span<const std::string> overrides,
-                                              PluginLoader& plugins,
-                                              const ShapeProgress& progress = {});
+HYPOTRACK_API EstimatedScene open_estimated(const std::filesystem::path& scene_file,
+                                            std::span<const std::string> overrides,
+                                            PluginLoader& plugins,
+                                            const ShapeProgress& progress = {});
 
 }  // namespace hypotrack

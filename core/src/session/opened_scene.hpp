@@ -13,13 +13,13 @@
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
 #include "session/scene_file.hpp"
+#include "track/scene_tracker.hpp"
 #include "track/smooth/hindsight.hpp"
-#include "track/tracker.hpp"
 
 namespace hypotrack {
 
 /// Everything that a scene file names, made and checked, before the first frame.
-struct Session {
+struct OpenedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Source> source;
   TrackerParts parts;
@@ -33,27 +33,34 @@ struct Session {
 
 /// Opens a scene: models first, then the source, the objective and the optimizer. Throws the error
 /// of the part that fails.
-HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
-                                   std::span<const std::string> overrides, PluginLoader& plugins);
+HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
+                                     std::span<const std::string> overrides, PluginLoader& plugins);
+
+/// Opens a scene whose frames come from elsewhere: everything but the source, which the file may
+/// leave out. The caller sets `parts.cameras`.
+HYPOTRACK_API OpenedScene open_without_source(const std::filesystem::path& scene_file,
+                                              std::span<const std::string> overrides,
+                                              PluginLoader& plugins);
 
 /// Opens only the models and the source of a scene, for programs that look at a source (`hypotrack
 /// synth`).
-HYPOTRACK_API Session open_source(const std::filesystem::path& scene_file,
-                                  std::span<const std::string> overrides, PluginLoader& plugins);
+HYPOTRACK_API OpenedScene open_source(const std::filesystem::path& scene_file,
+                                      std::span<const std::string> overrides,
+                                      PluginLoader& plugins);
 
 /// Opens a scene with a source that another session of the same scene has opened. `source` and
 /// `source_resolved` are that session's. It must outlive this one if it made the source.
-HYPOTRACK_API Session open_session(const std::filesystem::path& scene_file,
-                                   std::span<const std::string> overrides, PluginLoader& plugins,
-                                   std::unique_ptr<Source> source,
-                                   const std::string& source_resolved);
+HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
+                                     std::span<const std::string> overrides, PluginLoader& plugins,
+                                     std::unique_ptr<Source> source,
+                                     const std::string& source_resolved);
 
 /// Makes the fixed-lag smoother of a session that still has its parts. Returns null if the scene
 /// does not ask for it. Throws ConfigError.
-HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const Session& session);
+HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const OpenedScene& session);
 
 /// Returns the state from which the first search starts. `first` is the first usable frame of the
 /// source. Throws ConfigError if the scene asks for a ground truth that does not exist.
-HYPOTRACK_API Eigen::VectorXd initial_state(const Session& session, const Frame& first);
+HYPOTRACK_API Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
 
 }  // namespace hypotrack

@@ -1,11 +1,10 @@
-#include "session/session.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
+#include "config/read_value.hpp"
 #include "config/yaml_document.hpp"
 #include "cost/cuda/page_locked_images.hpp"
 #include "cost/evaluation.hpp"
@@ -13,6 +12,7 @@
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
 #include "session/checked_source.hpp"
+#include "session/opened_scene.hpp"
 #include "track/displace.hpp"
 
 namespace hypotrack {
@@ -24,7 +24,10 @@ using detail::YamlDocument;
 class Opening {
  public:
   Opening(LoadedScene scene, PluginLoader& plugins)
-      : file_(std::move(scene.file)), plugins_(&plugins), record_(dump_params(file_)) {}
+      : file_(std::move(scene.file)),
+        root_(std::move(scene.root)),
+        plugins_(&plugins),
+        record_(dump_params(file_)) {}
 
   void models();
   void source();
@@ -32,7 +35,7 @@ class Opening {
   void objective();
   void images();
   void optimizer();
-  Session finish();
+  OpenedScene finish();
 
  private:
   template <class T>
@@ -45,8 +48,9 @@ class Opening {
   }
 
   SceneFile file_;
+  ConfigNode root_;
   PluginLoader* plugins_;
-  Session session_;
+  OpenedScene session_;
   YamlDocument record_;
 };
 
@@ -105,6 +109,7 @@ void Opening::models() {
 }
 
 void Opening::source() {
+  if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
   YamlDocument record;
   auto made = make<Source>(file_.source, {}, record);
   source(std::make_unique<CheckedSource>(std::move(made), *session_.scene,
@@ -165,7 +170,7 @@ void Opening::optimizer() {
   record_.set("optimizer", record);
 }
 
-Session Opening::finish() {
+OpenedScene Opening::finish() {
   session_.parts.tile = file_.tile;
   session_.parts.evaluate = file_.evaluate;
   session_.parts.photometric = file_.photometric;
@@ -185,8 +190,8 @@ Session Opening::finish() {
 
 }  // namespace
 
-Session open_session(const std::filesystem::path& scene_file,
-                     std::span<const std::string> overrides, PluginLoader& plugins) {
+OpenedScene open_scene(const std::filesystem::path& scene_file,
+                       std::span<const std::string> overrides, PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
   opening.objective();
@@ -196,9 +201,9 @@ Session open_session(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-Session open_session(const std::filesystem::path& scene_file,
-                     std::span<const std::string> overrides, PluginLoader& plugins,
-                     std::unique_ptr<Source> source, const std::string& source_resolved) {
+OpenedScene open_scene(const std::filesystem::path& scene_file,
+                       std::span<const std::string> overrides, PluginLoader& plugins,
+                       std::unique_ptr<Source> source, const std::string& source_resolved) {
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
   opening.objective();
@@ -208,15 +213,24 @@ Session open_session(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-Session open_source(const std::filesystem::path& scene_file, std::span<const std::string> overrides,
-                    PluginLoader& plugins) {
+OpenedScene open_without_source(const std::filesystem::path& scene_file,
+                                std::span<const std::string> overrides, PluginLoader& plugins) {
+  Opening opening(load_scene(scene_file, overrides), plugins);
+  opening.models();
+  opening.objective();
+  opening.optimizer();
+  return opening.finish();
+}
+
+OpenedScene open_source(const std::filesystem::path& scene_file,
+                        std::span<const std::string> overrides, PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
   opening.models();
   opening.source();
   return opening.finish();
 }
 
-std::unique_ptr<Hindsight> make_hindsight(const Session& session) {
+std::unique_ptr<Hindsight> make_hindsight(const OpenedScene& session) {
   const TrackerParts& parts = session.parts;
   if (!parts.hindsight.enabled) return nullptr;
   if (parts.status.uncertainty.enabled)
@@ -229,7 +243,7 @@ std::unique_ptr<Hindsight> make_hindsight(const Session& session) {
                                      parts.photometric.match && parts.photometric.highlights);
 }
 
-Eigen::VectorXd initial_state(const Session& session, const Frame& first) {
+Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first) {
   const Scene& scene = *session.scene;
   Eigen::VectorXd state = scene.rest_state();
   if (session.init.from == InitFrom::truth) {

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "hypotrack/solution.hpp"
+#include "hypotrack/tracker.hpp"
+
+namespace hypotrack {
+
+struct SessionOptions {
+  std::vector<std::string> set;  ///< changes to the scene: `key.path=value`
+  std::vector<std::filesystem::path>
+      plugin_path;  ///< folders in which plugins are looked for first
+};
+
+struct RunOptions {
+  std::filesystem::path out;  ///< folder for tables, video and summary; empty: none are written
+  std::optional<int> frames;  ///< stop after this many
+};
+
+/// Follows a run and may stop it. Every function may be left as it is.
+class HYPOTRACK_API RunWatcher {
+ public:
+  virtual ~RunWatcher();
+
+  /// Returns true to end the run before the next frame. Is also asked while a shape is fitted. Once
+  /// is enough.
+  virtual bool stop() { return false; }
+  /// Receives a line for the user: the backend, a likely mistake in the scene, where files are.
+  virtual void say(const std::string& text);
+  /// Is called before the first frame, with the number of frames if it is known.
+  virtual void begin(std::optional<int> frames);
+  /// Receives every frame with its solution, before later frames smooth it. `error`: mean distance
+  /// of the landmarks from the ground truth, in metres; NaN if it is unknown.
+  virtual void frame(const Frame& frame, const Solution& solution, double error);
+  /// Is called after the last frame, also when an error ends the run. Must not throw.
+  virtual void end() {}
+};
+
+/// A scene file, opened: models, objective and optimizer are made and checked.
+///
+///   hypotrack::Session session("scene.yaml");
+///   hypotrack::Tracker tracker = session.tracker(hypotrack::load_calibration({.file =
+///   "rig.yaml"})); hypotrack::Solution solution = tracker.track(frame);
+class HYPOTRACK_API Session {
+ public:
+  /// Opens a scene. Its source is opened by run() only, and may be left out of the file by programs
+  /// that have frames of their own. Throws ConfigError, PluginError, DataError or DeviceError.
+  explicit Session(const std::filesystem::path& scene, SessionOptions options = {});
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  const Scene& scene() const;
+
+  /// Makes a tracker for frames from these cameras; the first is "left". A camera without a size
+  /// gets that of its first image. The tracker is independent of the session. Throws DataError on
+  /// invalid cameras, ConfigError if the scene cannot be tracked with them.
+  Tracker tracker(std::vector<Camera> cameras);
+
+  /// Tracks the frames of the scene's own source. Returns false if the watcher ended the run.
+  /// Results of the frames so far are kept if an error ends it. Throws ConfigError if the scene
+  /// names no source, and the errors of its parts.
+  bool run(const RunOptions& options, RunWatcher& watcher);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

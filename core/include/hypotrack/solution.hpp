@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+
+namespace hypotrack {
+
+/// What a tracker says of a frame, or of one model in it.
+enum class Status {
+  tracked,    ///< likely right, judged by the pictures or, where they do not tell, by the cost
+  uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view
+  lost,    ///< improbable, out of view, infeasible, an outlier for too long, off the foreground, or
+           ///< sigma is above `lost_sigma`
+  absent,  ///< a search of the whole pictures did not find it
+  missing,  ///< no usable frame; the state is the last one
+};
+HYPOTRACK_API std::string_view to_string(Status status);
+
+/// The result of one frame.
+struct Solution {
+  int frame = 0;
+  double time = 0;
+  Status status = Status::missing;  ///< the worst of the models'; absent only if all are
+  std::vector<Status> models;       ///< by model
+  double cost = 0;                  ///< NaN if the frame was missing
+  std::int64_t evaluations = 0;
+  double seconds = 0;     ///< wall time from the frame to the result: tiles, features and search
+  Eigen::VectorXd state;  ///< parameters of the scene, quaternions normalised; smoothed if the
+                          ///< scene has `output.smoothing`
+  /// Landmarks of the scene in that state: 3xL, world, metres; named by Scene::landmark_names().
+  Eigen::Matrix3Xd landmarks;
+  /// Root mean square error expected of each landmark, in metres. Empty if uncertainty is off, NaN
+  /// if the frame was missing.
+  Eigen::VectorXd sigma;
+  /// Probability, by model, that its pose is right, judged by the pictures; NaN: unknown.
+  std::vector<double> probabilities = {};
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/scene.hpp"
+#include "hypotrack/solution.hpp"
+
+namespace hypotrack {
+
+/// Tracks a scene through frames that the caller hands over. Session::tracker() makes one.
+///
+/// Use one tracker per sequence of frames, from one thread at a time. Solutions are those of the
+/// frame itself: smoothing over later frames (`hindsight`) is part of Session::run() only.
+class HYPOTRACK_API Tracker {
+ public:
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+  ~Tracker();
+
+  /// Finds the scene in the next frame. Without views, the frame counts as missing.
+  ///
+  /// A frame has one view per camera, in the order of cameras(). Indices and times increase from
+  /// frame to frame. Throws DataError if the frame does not fit the cameras or the frames before.
+  /// Throws ConfigError at the first frame if `init.from` is `truth` and it has none. A tracker
+  /// that could not start refuses all further frames.
+  Solution track(const Frame& frame);
+
+  /// Returns the tracked models; names and order of a solution's state and landmarks are theirs.
+  const Scene& scene() const;
+  const std::vector<Camera>& cameras() const;
+  /// Describes what evaluates hypotheses: the CPU and its threads, or the GPU.
+  std::string backend() const;
+
+ private:
+  friend class Session;
+  struct Impl;
+  explicit Tracker(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack

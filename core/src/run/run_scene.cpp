@@ -1,0 +1,217 @@
+#include "run/run_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "camera/pair_check.hpp"
+#include "hypotrack/error.hpp"
+#include "output/hindsight_output.hpp"
+#include "output/run_output.hpp"
+#include "output/true_landmarks.hpp"
+#include "session/opened_scene.hpp"
+#include "shape/estimated_scene.hpp"
+#include "track/scene_tracker.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// A watcher that stays stopped.
+class Latch {
+ public:
+  explicit Latch(RunWatcher& watcher) : watcher_(watcher) {}
+  bool stopped() { return stopped_ = stopped_ || watcher_.stop(); }
+  RunWatcher& watcher() { return watcher_; }
+
+ private:
+  RunWatcher& watcher_;
+  bool stopped_ = false;
+};
+
+/// Reads frames up to and including the first usable one. Throws DataError if none of the first
+/// `limit` frames is usable.
+std::vector<Frame> frames_up_to_a_usable(Source& source, std::optional<int> limit) {
+  std::vector<Frame> frames;
+  while (!limit || frames.size() < static_cast<std::size_t>(*limit)) {
+    auto frame = source.next();
+    if (!frame) break;
+    frames.push_back(*std::move(frame));
+    if (!frames.back().views.empty()) return frames;
+  }
+  if (frames.empty()) throw DataError("the source has no frame");
+  throw DataError(fmt::format("none of the source's {} frames can be used; the first: {}",
+                              frames.size(), frames.front().problem));
+}
+
+/// Opens a scene; estimates the shape from the first seconds if the scene asks for it.
+EstimatedScene open_for_run(const std::filesystem::path& scene,
+                            std::span<const std::string> overrides, PluginLoader& plugins,
+                            Latch& latch) {
+  RunWatcher& watcher = latch.watcher();
+  const ShapeEstimateSettings shapes = load_scene(scene, overrides).file.shape;
+  if (shapes.seconds == 0) {
+    EstimatedScene opened;
+    opened.scene = open_scene(scene, overrides, plugins);
+    return opened;
+  }
+  ShapeProgress progress;
+  progress.begin_round = [&](int round) {
+    watcher.say(
+        fmt::format("fitting the shape to the first {:g} s, round {} of {}; this takes a "
+                    "while",
+                    shapes.seconds, round + 1, shapes.rounds));
+  };
+  progress.stop = [&] { return latch.stopped(); };
+  EstimatedScene opened = open_estimated(scene, overrides, plugins, progress);
+  if (latch.stopped()) return opened;
+  std::string shape;
+  for (const ShapeParameter& p : opened.estimate.wanted)
+    shape += fmt::format(", {} {:.3f}", p.name, p.value);
+  watcher.say(fmt::format("shape from {} frames{}", opened.estimate.used_frames, shape));
+  return opened;
+}
+
+/// Results of a run in a folder.
+class Results {
+ public:
+  Results(const OpenedScene& scene, std::unique_ptr<Hindsight> hindsight,
+          const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
+      : watcher_(watcher),
+        folder_(folder),
+        output_(*scene.scene, scene.source->cameras().front(),
+                {.directory = folder,
+                 .overlay = scene.output.overlay,
+                 .worst_frames = scene.output.worst_frames,
+                 .frame_rate = scene.source->frame_rate(),
+                 .resolved = scene.resolved,
+                 .backend = backend,
+                 .hindsight = hindsight != nullptr}),
+        frames_(std::move(hindsight), output_) {}
+
+  double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
+    return frames_.add(tracker, frame, solution);
+  }
+
+  /// Smooths and writes the frames that still wait.
+  void settle() { frames_.finish(); }
+
+  /// Closes the files. Returns nothing if there is no frame.
+  std::optional<Summary> finish(bool complete) {
+    if (output_.empty()) return std::nullopt;
+    try {
+      return output_.finish(complete);
+    } catch (const OutputError&) {
+      tell_of_parts();
+      throw;
+    }
+  }
+
+  /// Says where the unfinished files with the frames so far are.
+  void tell_of_parts() {
+    if (output_.empty() || !std::filesystem::exists(folder_ / ".part.track.csv")) return;
+    watcher_.say(fmt::format("the frames so far are in {}/.part.track.csv and the files beside it",
+                             folder_.string()));
+  }
+
+  /// Keeps the frames tracked so far after an exception, which is being handled.
+  void finish_after_error() {
+    try {
+      frames_.finish_unchanged();
+      if (output_.empty()) return;
+      output_.finish(false);
+      watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder_.string()));
+    } catch (const OutputError& e) {
+      watcher_.say(e.what());
+    }
+  }
+
+ private:
+  RunWatcher& watcher_;
+  std::filesystem::path folder_;
+  RunOutput output_;
+  HindsightOutput frames_;
+};
+
+/// Returns the mean distance of the landmarks from the ground truth, in metres; NaN: unknown.
+double error_of(const Scene& scene, const Frame& frame, const Solution& solution) {
+  const auto truth = true_landmarks(scene, frame);
+  if (!truth || solution.status == Status::missing) return std::numeric_limits<double>::quiet_NaN();
+  return frame_error(landmark_layout(scene.landmark_names()), solution.landmarks, *truth).mean;
+}
+
+/// Tells a watcher of the end, however it comes.
+class WatchedFrames {
+ public:
+  WatchedFrames(RunWatcher& watcher, std::optional<int> frames) : watcher_(watcher) {
+    watcher_.begin(frames);
+  }
+  ~WatchedFrames() { watcher_.end(); }
+  WatchedFrames(const WatchedFrames&) = delete;
+  WatchedFrames& operator=(const WatchedFrames&) = delete;
+
+ private:
+  RunWatcher& watcher_;
+};
+
+/// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
+/// frames. Returns false if the watcher ended it.
+bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
+               const std::vector<Frame>& first, std::optional<int> limit, Latch& latch) {
+  RunWatcher& watcher = latch.watcher();
+  std::optional<int> total = source.frame_count();
+  if (limit) total = total ? std::min(*total, *limit) : *limit;
+  const WatchedFrames watched(watcher, total);
+  for (int done = 0; !limit || done < *limit; ++done) {
+    if (latch.stopped()) return false;
+    const auto index = static_cast<std::size_t>(done);
+    const std::optional<Frame> frame = index < first.size() ? first[index] : source.next();
+    if (!frame) break;
+    const Solution solution = tracker.track(*frame);
+    const double error =
+        results ? results->add(tracker, *frame, solution) : error_of(scene, *frame, solution);
+    watcher.frame(*frame, solution, error);
+  }
+  return true;
+}
+
+}  // namespace
+
+RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
+                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher) {
+  Latch latch(watcher);
+  EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
+  if (latch.stopped()) return {};
+  OpenedScene& opened = estimated.scene;
+  const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
+  if (options.out.empty()) opened.parts.hindsight.enabled = false;
+  std::unique_ptr<Hindsight> hindsight = make_hindsight(opened);
+  SceneTracker tracker(*opened.scene, std::move(opened.parts), initial_state(opened, first.back()),
+                       opened.seed);
+  std::unique_ptr<Results> results;
+  if (!options.out.empty())
+    results = std::make_unique<Results>(opened, std::move(hindsight), tracker.backend(),
+                                        options.out, watcher);
+  watcher.say(fmt::format("tracking with {}", tracker.backend()));
+  for (const std::string& problem : {problem_of_pair(opened.source->cameras(), first.back()),
+                                     tracker.problem_of_start(first.back())})
+    if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
+  RunResult result;
+  try {
+    result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
+                                options.frames, latch);
+    if (results) results->settle();
+  } catch (const OutputError&) {  // the files cannot be finished either
+    if (results) results->tell_of_parts();
+    throw;
+  } catch (...) {
+    if (results) results->finish_after_error();
+    throw;
+  }
+  if (results) result.summary = results->finish(result.complete);
+  return result;
+}
+
+}  // namespace hypotrack

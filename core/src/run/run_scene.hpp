@@ -1,0 +1,27 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/session.hpp"
+#include "output/summary.hpp"
+
+namespace hypotrack {
+
+/// How a run ended.
+struct RunResult {
+  bool complete = false;           ///< false if the watcher ended it
+  std::optional<Summary> summary;  ///< nothing if no files were written
+};
+
+/// Opens a scene, tracks the frames of its source and writes the results. Estimates the shape from
+/// the first seconds before that, if the scene asks for it. After an error the results of the
+/// frames so far are kept, and the error is thrown.
+HYPOTRACK_API RunResult run_scene(const std::filesystem::path& scene,
+                                  std::span<const std::string> overrides, PluginLoader& plugins,
+                                  const RunOptions& options, RunWatcher& watcher);
+
+}  // namespace hypotrack

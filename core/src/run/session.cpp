@@ -1,0 +1,49 @@
+#include "hypotrack/session.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "hypotrack/plugin.hpp"
+#include "run/run_scene.hpp"
+#include "run/tracker_impl.hpp"
+#include "session/opened_scene.hpp"
+
+namespace hypotrack {
+
+RunWatcher::~RunWatcher() = default;
+void RunWatcher::say(const std::string& /*text*/) {}
+void RunWatcher::begin(std::optional<int> /*frames*/) {}
+void RunWatcher::frame(const Frame& /*frame*/, const Solution& /*solution*/, double /*error*/) {}
+
+struct Session::Impl {
+  Impl(std::filesystem::path scene_file, SessionOptions session_options)
+      : file(std::move(scene_file)),
+        options(std::move(session_options)),
+        plugins(options.plugin_path),
+        models(open_without_source(file, options.set, plugins)) {}
+
+  std::filesystem::path file;
+  SessionOptions options;
+  PluginLoader plugins;
+  OpenedScene models;  ///< what was opened to check the file
+};
+
+Session::Session(const std::filesystem::path& scene, SessionOptions options)
+    : impl_(std::make_unique<Impl>(scene, std::move(options))) {}
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+Session::~Session() = default;
+
+const Scene& Session::scene() const { return *impl_->models.scene; }
+
+Tracker Session::tracker(std::vector<Camera> cameras) {
+  // Parts belong to one tracker, so each gets its own.
+  return Tracker(std::make_unique<Tracker::Impl>(
+      open_without_source(impl_->file, impl_->options.set, impl_->plugins), std::move(cameras)));
+}
+
+bool Session::run(const RunOptions& options, RunWatcher& watcher) {
+  return run_scene(impl_->file, impl_->options.set, impl_->plugins, options, watcher).complete;
+}
+
+}  // namespace hypotrack
