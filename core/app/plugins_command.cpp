@@ -20,11 +20,12 @@ int list(const CommonOptions& common) {
   return 0;
 }
 
-int info(const CommonOptions& common, const std::string& name) {
+int info(const CommonOptions& common, const std::string& name, bool markdown) {
   const PluginLoader loader(common.plugin_path);
   const std::vector<PluginRow> rows = find_plugins(loader.search_path(), name);
   for (const PluginRow& row : rows)
-    fmt::print("{}{}", &row == &rows.front() ? "" : "\n", format_info(row));
+    fmt::print("{}{}", &row == &rows.front() ? "" : "\n",
+               markdown ? format_markdown(row) : format_info(row));
   return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.usable(); }) ? 0
                                                                                              : 1;
 }
@@ -54,7 +55,9 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
       command.add_command("info", "What a plugin is and which parameters it takes");
   info_command.add("name", name.get(), "Name (pso), kind (optimizer) or both (optimizer/pso)",
                    {.required = true});
-  info_command.on_call([&, name] { exit_code = info(common, *name); });
+  auto markdown = std::make_shared<bool>(false);
+  info_command.add("--markdown", markdown.get(), "Print a page for the documentation");
+  info_command.on_call([=, &common, &exit_code] { exit_code = info(common, *name, *markdown); });
 
   auto files = std::make_shared<std::vector<std::filesystem::path>>();
   const Command check_command =

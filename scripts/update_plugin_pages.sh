@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# update_plugin_pages.sh [BUILD_DIR [OUT]]: writes docs/reference/plugins/ from the plugins' parameters.
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build_dir=${1:-$root/build/release}
+out=${2:-$root/docs/reference/plugins}
+hypotrack=$build_dir/bin/hypotrack
+unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+"$hypotrack" plugins list >/dev/null # before anything is removed
+rm -rf "$out"
+mkdir -p "$out"
+{
+  echo "# Plugins"
+  echo
+  echo "Made by \`scripts/update_plugin_pages.sh\` from the plugins' parameters."
+  for kind in model objective optimizer source; do
+    echo
+    echo "**${kind^}s**"
+    echo
+    "$hypotrack" plugins list | awk -v kind=$kind '$1 == kind { print $2 }' | while read -r name; do
+      "$hypotrack" plugins info "$kind/$name" --markdown >"$out/${kind}_$name.md"
+      echo "- [$name](${kind}_$name.md): $(sed -n 3p "$out/${kind}_$name.md")"
+    done
+  done
+} >"$out/index.md"
