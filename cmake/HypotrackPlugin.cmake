@@ -22,14 +22,16 @@ macro(hypotrack_add_plugin kind name)
 endmacro()
 
 # hypotrack_compile_alone(SOURCES...): keeps sources that include themselves once per instruction set
-# (hypotrack/foreach_target-inl.hpp) out of unity builds.
+# (hypotrack/foreach_target-inl.hpp) out of unity builds and without a precompiled header: GCC takes
+# options such as -ffp-contract from there, where a pragma selects an instruction set.
 function(hypotrack_compile_alone)
   foreach(source IN LISTS ARGN)
     get_filename_component(file ${source} ABSOLUTE)
     if(EXISTS ${file})
       file(STRINGS ${file} includes_itself REGEX "define HWY_TARGET_INCLUDE" LIMIT_COUNT 1)
       if(includes_itself)
-        set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+        set_source_files_properties(${file} PROPERTIES
+          SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
       endif()
     endif()
   endforeach()

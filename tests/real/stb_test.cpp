@@ -278,12 +278,7 @@ TEST(StbPair, IsFoundByPatchesAndSkinFromFarAway) {
 
 /// The recommended tracker, as overrides of another scene.
 std::vector<std::string> recommended_tracker() {
-  const auto file = test::source_dir() / "configs" / "demo.yaml";
-  const ConfigNode scene = ConfigNode::load(file);
-  std::vector<std::string> overrides;
-  for (const char* key : {"objective", "optimizer", "budget", "search"})
-    overrides.push_back(fmt::format("{}=\n{}", key, scene.get(key).to_yaml()));
-  return overrides;
+  return {"tracker=@" + (test::source_dir() / "configs/trackers/recommended.yaml").string()};
 }
 
 TEST(StbPair, IsFoundByTheRecommendedTrackerFromFarAway) {
