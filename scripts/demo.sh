@@ -16,10 +16,12 @@ hypotrack=build/release/bin/hypotrack
 rm -rf "$out/recording"
 "$hypotrack" synth configs/demo.yaml --out "$out/recording"
 "$hypotrack" run "$out/recording/scene.yaml" --out "$out/track"
+"$hypotrack" report "$out/track"
 
 echo
 echo "The recording:      $out/recording (left_*.png, right_*.png, calibration.yaml, truth)"
 echo "The overlay video:  $out/track/overlay.mp4"
 echo "The tables:         $out/track/track.csv, joints.csv, errors.csv"
+echo "The report:         $out/track/report.html (open it in a browser)"
 echo "The numbers:        $out/track/summary.json"
 cat "$out/track/summary.json"

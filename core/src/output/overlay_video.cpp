@@ -59,8 +59,11 @@ void draw_sigmas(cv::Mat& image, const Camera& camera, const Eigen::Matrix3Xd& l
 OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene,
                            Renderer& renderer, const Camera& camera, double frame_rate)
     : scene_(&scene), renderer_(&renderer), camera_(camera) {
-  writer_.open(file.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), frame_rate,
-               {camera.width, camera.height});
+  // Browsers play H.264, which not every FFmpeg can write, and not MPEG-4 Part 2.
+  for (const char* codec : {"avc1", "mp4v"})
+    if (!writer_.isOpened())
+      writer_.open(file.string(), cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
+                   frame_rate, {camera.width, camera.height});
   if (!writer_.isOpened())
     throw OutputError(fmt::format(
         "{}: this OpenCV cannot write an .mp4 video there (it needs its FFmpeg backend); run with "

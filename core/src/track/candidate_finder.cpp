@@ -20,10 +20,6 @@ constexpr double kSure = 0.95;
 constexpr double kRecent = 0.15;
 // Time constant, in seconds, with which the belief in a hidden model decays.
 constexpr double kForgotten = 0.6;
-// Least probability of a candidate that is worth searches around it.
-constexpr double kHint = 0.02;
-
-bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
 
 /// Returns the least probability that counts as equal to the given highest one.
 double as_likely(double highest) {
@@ -187,7 +183,7 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   LastKnown last{base.answers() ? base.found.state : report.kept, report.seconds[model]};
   put(last.state, report.kept);
   const bool has_answer = best.answers() && best.shown[model];
-  if (has_answer && best.verdict[model] >= kHint) {
+  if (has_answer && best.verdict[model] >= kLeastPromising) {
     last.hint = last.state;
     put(last.hint, best.found.state);
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -20,6 +21,13 @@ namespace hypotrack {
 
 /// One flag per model of a scene.
 using ModelFlags = std::vector<bool>;
+
+inline bool any(const ModelFlags& flags) {
+  return std::find(flags.begin(), flags.end(), true) != flags.end();
+}
+
+/// Least probability of a candidate that is worth searches around it.
+inline constexpr double kLeastPromising = 0.02;
 
 /// A pose hypothesis for a frame and how well the pictures support it. The cost is infinite if no
 /// pose was found.

@@ -22,8 +22,6 @@ constexpr int kPatientFrames = 3;
 constexpr int kSeveralAgain = 5;
 // Frames after a loss in which alternative poses are searched although one looks right.
 constexpr int kConfirmations = 4;
-// Least probability of a background result that is worth a search of the next frame.
-constexpr double kHint = 0.02;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -49,8 +47,6 @@ double spread_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
 }
-
-bool any(const ModelFlags& flags) { return std::ranges::find(flags, true) != flags.end(); }
 
 /// Returns the status of a frame from those of its models.
 Status worst(const std::vector<Status>& models) {
@@ -241,7 +237,7 @@ void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
   if (job_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
     return stay_lost(frame, solution);
   Candidate best = job_.get();
-  if (best.answers() && best.probability() >= kHint) {
+  if (best.answers() && best.probability() >= kLeastPromising) {
     // The job searched an earlier frame: search this one from its result.
     const std::uint64_t seed = frame_seed(seed_, frame.index);
     best = finder_.go_on(frame, best, seed);
