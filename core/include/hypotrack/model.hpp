@@ -33,6 +33,9 @@ struct Bone {
 
 enum class ParameterKind { position, quaternion, angle };
 
+/// Number of parameters of a model's pose: position and quaternion, which come first in its state.
+inline constexpr int kPoseSize = 7;
+
 /// One number of a model's state. Every model begins with its pose, world_from_model: position x y
 /// z (metres) and a unit quaternion w x y z. Angles (radians) follow.
 struct Parameter {

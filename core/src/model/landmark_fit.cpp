@@ -14,7 +14,6 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kPoseLength = 7;
 constexpr double kMillimetres = 1e3;  // residuals are in millimetres
 constexpr double kMillimetresPerRadian = 0.5;
 
@@ -45,10 +44,10 @@ class Problem {
       : model_(model),
         known_(known_columns(model, landmarks)),
         targets_(landmarks(Eigen::all, known_)),
-        angles_(model.dimension() - kPoseLength),
+        angles_(model.dimension() - kPoseSize),
         unknowns_(6 + angles_ + (settings.scale ? 1 : 0)) {
     for (int i = 0; i < angles_; ++i) {
-      const auto at = static_cast<std::size_t>(kPoseLength + i);
+      const auto at = static_cast<std::size_t>(kPoseSize + i);
       prior_.push_back(settings.prior.empty() ? parameter(i).rest : settings.prior[at]);
     }
   }
@@ -70,7 +69,7 @@ class Problem {
     }
     for (int i = 0; i < angles_; ++i) {
       const Parameter& p = parameter(i);
-      double& value = to.parameters[kPoseLength + i];
+      double& value = to.parameters[kPoseSize + i];
       value = std::clamp(value + step[6 + i], p.lower, p.upper);
     }
     if (unknowns_ > 6 + angles_) to.scale *= std::exp(step[6 + angles_]);
@@ -91,8 +90,8 @@ class Problem {
     r.head(apart.size()) =
         kMillimetres / std::sqrt(static_cast<double>(known_.size())) * apart.reshaped();
     for (int i = 0; i < angles_; ++i)
-      r[apart.size() + i] = kMillimetresPerRadian * (trial.parameters[kPoseLength + i] -
-                                                     prior_[static_cast<std::size_t>(i)]);
+      r[apart.size() + i] = kMillimetresPerRadian *
+                            (trial.parameters[kPoseSize + i] - prior_[static_cast<std::size_t>(i)]);
     return r;
   }
 
@@ -102,7 +101,7 @@ class Problem {
     for (int i = 0; i < unknowns_; ++i) {
       Eigen::VectorXd step = Eigen::VectorXd::Zero(unknowns_);
       const bool at_upper = i >= 6 && i < 6 + angles_ &&
-                            trial.parameters[kPoseLength + i - 6] + kStep > parameter(i - 6).upper;
+                            trial.parameters[kPoseSize + i - 6] + kStep > parameter(i - 6).upper;
       step[i] = at_upper ? -kStep : kStep;
       j.col(i) = (residuals(moved(trial, step)) - at) / step[i];
     }
@@ -113,13 +112,13 @@ class Problem {
   bool stuck(const Trial& trial, int unknown, double gradient) const {
     if (unknown < 6 || unknown >= 6 + angles_) return false;
     const Parameter& p = parameter(unknown - 6);
-    const double value = trial.parameters[kPoseLength + unknown - 6];
+    const double value = trial.parameters[kPoseSize + unknown - 6];
     return (value <= p.lower && gradient > 0) || (value >= p.upper && gradient < 0);
   }
 
  private:
   const Parameter& parameter(int angle) const {
-    return model_.data().parameters[static_cast<std::size_t>(kPoseLength + angle)];
+    return model_.data().parameters[static_cast<std::size_t>(kPoseSize + angle)];
   }
 
   const Model& model_;

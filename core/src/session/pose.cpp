@@ -91,11 +91,11 @@ void read_angles(const ConfigNode& node, const Scene::Item& item,
                  Eigen::Ref<Eigen::VectorXd> state) {
   Angles angles;
   const auto& parameters = item.model->data().parameters;
-  for (std::size_t i = 7; i < parameters.size(); ++i)
+  for (std::size_t i = kPoseSize; i < parameters.size(); ++i)
     angles.all.push_back({state[item.offset + static_cast<int>(i)], parameters[i].name,
                           parameters[i].lower / kDegree, parameters[i].upper / kDegree});
   angles = ParamReader(node).read(std::move(angles));
-  for (std::size_t i = 7; i < parameters.size(); ++i)
+  for (std::size_t i = kPoseSize; i < parameters.size(); ++i)
     state[item.offset + static_cast<int>(i)] = angles.all[i - 7].value;
 }
 

@@ -6,7 +6,6 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPose = 7;         // a model's numbers before its angles, in a state
 constexpr Eigen::Index kTangentPose = 6;  // and in a difference
 
 Eigen::Quaterniond rotation_of(const Eigen::VectorXd& state, Eigen::Index model) {
@@ -33,11 +32,11 @@ Eigen::VectorXd difference(const Scene& scene, const Eigen::VectorXd& from,
   Eigen::VectorXd out(scene.dimension() - static_cast<Eigen::Index>(scene.items().size()));
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPose;
+    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPoseSize;
     out.segment<3>(at) = to.segment<3>(i) - from.segment<3>(i);
     out.segment<3>(at + 3) = rotation_log(rotation_of(from, i).conjugate() * rotation_of(to, i));
     out.segment(at + kTangentPose, angles) =
-        to.segment(i + kPose, angles) - from.segment(i + kPose, angles);
+        to.segment(i + kPoseSize, angles) - from.segment(i + kPoseSize, angles);
     at += kTangentPose + angles;
   }
   return out;
@@ -48,13 +47,13 @@ Eigen::VectorXd moved(const Scene& scene, const Eigen::VectorXd& from,
   Eigen::VectorXd out = from;
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPose;
+    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPoseSize;
     out.segment<3>(i) += difference.segment<3>(at);
     const Eigen::Quaterniond q = rotation_of(from, i) * rotation_exp(difference.segment<3>(at + 3));
     out.segment<4>(i + 3) << q.w(), q.x(), q.y(), q.z();
     for (Eigen::Index k = 0; k < angles; ++k) {
-      const Parameter& p = scene.parameters()[static_cast<std::size_t>(i + kPose + k)];
-      double& angle = out[i + kPose + k];
+      const Parameter& p = scene.parameters()[static_cast<std::size_t>(i + kPoseSize + k)];
+      double& angle = out[i + kPoseSize + k];
       angle = std::clamp(angle + difference[at + kTangentPose + k], p.lower, p.upper);
     }
     at += kTangentPose + angles;
@@ -67,7 +66,7 @@ std::vector<TangentPart> tangent_parts(const Scene& scene) {
   std::vector<TangentPart> parts;
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index angles = item.model->dimension() - kPose;
+    const Eigen::Index angles = item.model->dimension() - kPoseSize;
     parts.push_back({ParameterKind::position, at, 3});
     parts.push_back({ParameterKind::quaternion, at + 3, 3});
     if (angles > 0) parts.push_back({ParameterKind::angle, at + kTangentPose, angles});

@@ -16,8 +16,6 @@
 namespace hypotrack::synthetic {
 namespace {
 
-constexpr int kPoseLength = 7;
-
 std::vector<LandmarkRow> read_rows(const JointFileParams& params, const Scene& scene) {
   constexpr std::array<double, 3> kMetresPerUnit = {1.0, 1e-2, 1e-3};
   std::vector<LandmarkRow> rows =
@@ -94,7 +92,7 @@ class ModelFit {
     quality_.add(fit, row.frame);
     last_ = fit.parameters;
     for (int i = 0; i < item_.model->dimension(); ++i)
-      if (i < 3 || i >= kPoseLength) motion.add_number(item_.offset + i, time, fit.parameters[i]);
+      if (i < 3 || i >= kPoseSize) motion.add_number(item_.offset + i, time, fit.parameters[i]);
     const auto q = fit.parameters.segment<4>(3);
     motion.add_rotation(model_, time, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
     if (quality_.rows % kScaleEvery == 1)

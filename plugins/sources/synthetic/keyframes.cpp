@@ -40,7 +40,7 @@ class KeyframeReader {
     keys.time = time_of(keyframe, node);
     if (keyframe.gesture.is_scalar()) {
       for (const Scene::Item& item : scene_.items()) {
-        if (item.model->dimension() > kPoseLength) apply_gesture(keyframe.gesture, item, keys);
+        if (item.model->dimension() > kPoseSize) apply_gesture(keyframe.gesture, item, keys);
       }
     } else if (keyframe.gesture.defined()) {
       apply_gestures(keyframe.gesture, keys);
@@ -89,7 +89,7 @@ class KeyframeReader {
 
   void apply_gesture(const ConfigNode& name, const Scene::Item& item, Keys& keys) const {
     const std::vector<double> parameters = gestures_.parameters(name.scalar(), name, item);
-    for (std::size_t i = kPoseLength; i < parameters.size(); ++i) {
+    for (std::size_t i = kPoseSize; i < parameters.size(); ++i) {
       keys.numbers[item.offset + static_cast<int>(i)] = parameters[i];
     }
   }
@@ -109,7 +109,7 @@ class KeyframeReader {
         keys.rotations[m] = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
       }
       const std::vector<Parameter>& parameters = item.model->data().parameters;
-      for (std::size_t i = kPoseLength; i < parameters.size(); ++i) {
+      for (std::size_t i = kPoseSize; i < parameters.size(); ++i) {
         const int index = item.offset + static_cast<int>(i);
         if (said.get("angles_deg").get(parameters[i].name).defined()) {
           keys.numbers[index] = state[index];

@@ -11,9 +11,6 @@
 
 namespace hypotrack::synthetic {
 
-/// Number of parameters of the pose with which every model's parameters begin.
-constexpr int kPoseLength = 7;
-
 /// The content of one keyframe.
 struct Keys {
   ConfigNode node;

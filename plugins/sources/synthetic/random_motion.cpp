@@ -81,7 +81,7 @@ class RandomMotion {
       const Scene::Item& item = scene_.items()[m];
       const bool placed = first || !poses_.is_held(m);
       for (int i = 0; i < item.model->dimension(); ++i)
-        if (i >= kPoseLength || (i < 3 && placed))
+        if (i >= kPoseSize || (i < 3 && placed))
           motion.add_number(item.offset + i, time, state[item.offset + i]);
       if (placed) motion.add_rotation(m, time, rotation_of(item, state));
     }

@@ -69,7 +69,7 @@ void RandomPoses::read_gestures(const Gestures& gestures) {
   if (names.empty()) names.emplace_back("rest", node_);
   for (const Scene::Item& item : scene_.items()) {
     std::vector<std::vector<double>>& of_model = gestures_.emplace_back();
-    if (item.model->dimension() > kPoseLength)
+    if (item.model->dimension() > kPoseSize)
       for (const auto& [name, where] : names)
         of_model.push_back(gestures.parameters(name, where, item));
   }
@@ -127,7 +127,7 @@ void RandomPoses::place(std::size_t model, Eigen::VectorXd& state) {
     const int step = count > 1 ? random_.uniform(1, count) : 0;
     last_[model] = (last_[model] + static_cast<std::size_t>(step)) % gestures.size();
     const std::vector<double>& parameters = gestures[last_[model]];
-    for (std::size_t i = kPoseLength; i < parameters.size(); ++i)
+    for (std::size_t i = kPoseSize; i < parameters.size(); ++i)
       state[item.offset + static_cast<int>(i)] = parameters[i];
   }
   if (is_held(model)) return;
@@ -177,7 +177,7 @@ bool RandomPoses::is_good(const Eigen::VectorXd& state) const {
 bool RandomPoses::is_seen(const Scene::Item& item, const Eigen::VectorXd& state) const {
   constexpr double kFlesh = 0.02;
   const std::span<const double> part = scene_.part(item, state);
-  const bool rigid = item.model->dimension() == kPoseLength;
+  const bool rigid = item.model->dimension() == kPoseSize;
   const Eigen::Matrix3Xd points = rigid ? posed_vertices(*item.model, part).cast<double>().eval()
                                         : posed_landmarks(*item.model, part);
   for (const Camera& camera : cameras_) {

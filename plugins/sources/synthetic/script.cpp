@@ -54,7 +54,7 @@ class WayReader {
 
   void add_pose(std::size_t model, const Keys& keys) {
     const int offset = scene_.items()[model].offset;
-    for (int i = offset; i < offset + kPoseLength; ++i) {
+    for (int i = offset; i < offset + kPoseSize; ++i) {
       const auto number = keys.numbers.find(i);
       if (number != keys.numbers.end()) motion_.add_number(i, keys.time, number->second);
     }
@@ -109,7 +109,7 @@ Motion make_motion(const Scene& scene, const std::vector<Keys>& all) {
   Motion motion(scene);
   for (const Scene::Item& item : scene.items()) {
     for (const Keys& keys : all) {
-      for (int i = item.offset + kPoseLength; i < item.offset + item.model->dimension(); ++i) {
+      for (int i = item.offset + kPoseSize; i < item.offset + item.model->dimension(); ++i) {
         const auto number = keys.numbers.find(i);
         if (number != keys.numbers.end()) motion.add_number(i, keys.time, number->second);
       }

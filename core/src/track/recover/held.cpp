@@ -5,9 +5,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kRigidSize = 7;  // length of a pose: all parameters of a rigid model
-
-bool is_rigid(const Scene::Item& item) { return item.model->dimension() == kRigidSize; }
+bool is_rigid(const Scene::Item& item) { return item.model->dimension() == kPoseSize; }
 
 Eigen::Matrix3Xd landmarks_of(const Scene& scene, std::size_t model, const Eigen::VectorXd& state) {
   const Scene::Item& item = scene.items()[model];
@@ -23,7 +21,7 @@ double reach_of(const Eigen::Matrix3Xd& landmarks) {
 }  // namespace
 
 Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state) {
-  const auto pose = state.segment<kRigidSize>(item.offset);
+  const auto pose = state.segment<kPoseSize>(item.offset);
   Eigen::Isometry3d out(Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6]));
   out.pretranslate(Eigen::Vector3d(pose.head<3>()));
   return out;
@@ -31,7 +29,7 @@ Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state)
 
 void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose, Eigen::VectorXd& state) {
   const Eigen::Quaterniond q(pose.linear());
-  state.segment<kRigidSize>(item.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
+  state.segment<kPoseSize>(item.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
 }
 
 Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t other,

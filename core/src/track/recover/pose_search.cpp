@@ -11,8 +11,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr Eigen::Index kPoseLength = 7;  // length of a model's pose
-constexpr double kPosePadding = 0.5;     // of a hypothesis, around it
+constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
 constexpr int kIterations = 6;
 
 /// Returns a uniformly distributed rotation (Shoemake, "Uniform random rotations", 1992).
@@ -71,11 +70,11 @@ Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
     const Eigen::Quaterniond q =
         near ? turned(last_rotation, guess.rotation, random) : any_rotation(random);
     Eigen::VectorXd one(dimension);
-    one.head<kPoseLength>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
+    one.head<kPoseSize>() << 0, 0, 0, q.w(), q.x(), q.y(), q.z();
     const bool keeps = uniform(random) < (near ? 0.6 : 0.2);
     const auto k = static_cast<std::size_t>(uniform(random) * static_cast<double>(postures.size()));
-    one.tail(dimension - kPoseLength) = keeps ? Eigen::VectorXd(last.tail(dimension - kPoseLength))
-                                              : postures[std::min(k, postures.size() - 1)];
+    one.tail(dimension - kPoseSize) = keeps ? Eigen::VectorXd(last.tail(dimension - kPoseSize))
+                                            : postures[std::min(k, postures.size() - 1)];
     const Eigen::Vector3d at =
         posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
             .rowwise()

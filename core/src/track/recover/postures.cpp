@@ -8,7 +8,6 @@
 namespace hypotrack {
 namespace {
 
-constexpr int kPoseSize = 7;  // length of a model's pose
 constexpr std::size_t kRememberedPostures = 8;
 constexpr double kUnlike = 25 * kDegree;  // largest difference of an angle
 
