@@ -4,11 +4,6 @@ target_compile_options(hypotrack_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
   $<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Wall,-Wextra>
   $<$<BOOL:${HYPOTRACK_WERROR}>:$<$<COMPILE_LANGUAGE:CXX>:-Werror>$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Werror --Werror=all-warnings>>)
-# GCC 12 sees overlaps, overflows and bounds in std::string's operator+ that are not there (PR 105651).
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(hypotrack_options INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-Wno-restrict -Wno-stringop-overflow -Wno-array-bounds>)
-endif()
 if(HYPOTRACK_SANITIZE)
   target_compile_options(hypotrack_options INTERFACE
     -fsanitize=${HYPOTRACK_SANITIZE} -fno-omit-frame-pointer)

@@ -1,5 +1,5 @@
 # Headers that most sources include, compiled once per set of flags. To check that every source
-# includes what it uses: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON.
+# includes what it uses: -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DCMAKE_UNITY_BUILD=OFF.
 set(HYPOTRACK_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <optional>
   <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <vector>
