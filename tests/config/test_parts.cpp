@@ -1,21 +1,15 @@
-#include <fstream>
-
-#include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "test_paths.hpp"
+#include "scene_folder.hpp"
 
 namespace hypotrack {
 namespace {
 
-using test::message_of;
 using ::testing::AllOf;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 /// Scenes that take parts of `demo/demo.yaml`.
-class Parts : public ::testing::Test {
+class Parts : public test::SceneFolder {
  protected:
   Parts() {
     write("demo/demo.yaml",
@@ -23,26 +17,10 @@ class Parts : public ::testing::Test {
           "objective: [{type: colors, weight: 2}, {type: skin}]\n"
           "optimizer:\n  type: pipeline\n  stages: [{type: pso}, {type: nlopt}]\n");
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories(file(name).parent_path());
-    std::ofstream(file(name)) << text;
-  }
-  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
-
-  ConfigNode load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    write("scene.yaml", text);
-    return ConfigNode::load_scene(file("scene.yaml"), overrides);
-  }
-  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    return message_of<ConfigError>([&] { load(text, overrides); });
-  }
   std::string at(const std::string& name, const std::string& position) const {
     return file(name).string() + ":" + position + ": ";
   }
   ConfigNode demo() const { return ConfigNode::load(file("demo/demo.yaml")); }
-
- private:
-  test::TemporaryDirectory folder_;
 };
 
 TEST_F(Parts, AreWhatTheOtherSceneHasAtTheSamePlace) {

@@ -1,23 +1,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "expect_error.hpp"
-#include "hypotrack/config.hpp"
-#include "hypotrack/error.hpp"
-#include "test_paths.hpp"
+#include "scene_folder.hpp"
 
 namespace hypotrack {
 namespace {
 
-using test::message_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 /// Scenes that name the tracker `trackers/quick.yaml` in their folder.
-class TrackerFile : public ::testing::Test {
+class TrackerFile : public test::SceneFolder {
  protected:
   TrackerFile() {
     write("trackers/quick.yaml",
@@ -26,22 +20,6 @@ class TrackerFile : public ::testing::Test {
           "budget: {evaluations: 32, seconds: 1}\n"
           "tracker: {history: 40}\n");
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories(file(name).parent_path());
-    std::ofstream(file(name)) << text;
-  }
-  std::filesystem::path file(const std::string& name) const { return folder_.path() / name; }
-
-  ConfigNode load(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    write("scene.yaml", text);
-    return ConfigNode::load_scene(file("scene.yaml"), overrides);
-  }
-  std::string error(const std::string& text, const std::vector<std::string>& overrides = {}) const {
-    return message_of<ConfigError>([&] { load(text, overrides); });
-  }
-
- private:
-  test::TemporaryDirectory folder_;
 };
 
 TEST_F(TrackerFile, GivesASceneAllItsKeys) {

@@ -28,10 +28,13 @@ inline bool same_content(const ConfigNode& a, const ConfigNode& b) {
   return true;
 }
 
-/// Writes a scene of which others in the folder may take parts.
+/// Writes a scene and a tracker of which others in the folder may take parts.
 inline void write_other_scene(const std::filesystem::path& folder) {
   std::ofstream(folder / "other.yaml")
       << "optimizer: {file: a.png, particles: 8, words: [a, b]}\nempty:\n";
+  std::filesystem::create_directories(folder / "trackers");
+  std::ofstream(folder / "trackers" / "quick.yaml")
+      << "optimizer: {file: b.png, particles: 4, words: [c]}\ntracker: {history: 40}\n";
 }
 
 /// Reads a text the way a scene is read, as `scene.yaml` of a folder. Whatever it holds, it is read
@@ -53,7 +56,8 @@ inline bool read_scene(std::string_view text, const std::filesystem::path& folde
   } catch (const ConfigError& error) {
     const std::string_view message = error.what();
     if (!message.starts_with(file.string() + ":") &&
-        !message.starts_with((folder / "other.yaml").string() + ":")) {
+        !message.starts_with((folder / "other.yaml").string() + ":") &&
+        !message.starts_with((folder / "trackers" / "quick.yaml").string() + ":")) {
       throw std::logic_error("no position: " + std::string(message));
     }
     return false;

@@ -53,6 +53,12 @@ notes: "a long
       R"(optimizer: "@other.yaml"
 models: ["@other.yaml#optimizer.words", {type: "@other.yaml#optimizer.words.1"}]
 empty: '@other.yaml'
+)",
+      R"(tracker: "@trackers/quick"
+optimizer: {particles: 8}
+seed: 7
+)",
+      R"({tracker: {from: '@trackers/quick.yaml', patience: 3}, seed: 1, "empty": ''}
 )"};
   return scenes;
 }
