@@ -15,12 +15,13 @@
 
 namespace hypotrack {
 
+/// Changes to a scene, and where its plugins are.
 struct SessionOptions {
-  std::vector<std::string> set;  ///< changes to the scene: `key.path=value`
-  std::vector<std::filesystem::path>
-      plugin_path;  ///< folders in which plugins are looked for first
+  std::vector<std::string> set;                    ///< overrides: `key.path=value`
+  std::vector<std::filesystem::path> plugin_path;  ///< folders to search before the usual ones
 };
 
+/// Extent and results of a run.
 struct RunOptions {
   std::filesystem::path out;  ///< folder for tables, video and summary; empty: none are written
   std::optional<int> frames;  ///< stop after this many
@@ -31,15 +32,15 @@ class HYPOTRACK_API RunWatcher {
  public:
   virtual ~RunWatcher();
 
-  /// Returns true to end the run before the next frame. Is also asked while a shape is fitted. Once
-  /// is enough.
+  /// Returns true to end the run before the next frame. Is also asked while a shape is fitted. A
+  /// run that was stopped stays stopped.
   virtual bool stop() { return false; }
   /// Receives a line for the user: the backend, a likely mistake in the scene, where files are.
   virtual void say(const std::string& text);
   /// Is called before the first frame, with the number of frames if it is known.
   virtual void begin(std::optional<int> frames);
-  /// Receives every frame with its solution, before later frames smooth it. `error`: mean distance
-  /// of the landmarks from the ground truth, in metres; NaN if it is unknown.
+  /// Receives every frame with its solution, before fixed-lag smoothing. `error`: mean distance of
+  /// the landmarks from the ground truth, in metres; NaN: unknown, or smoothing is still to come.
   virtual void frame(const Frame& frame, const Solution& solution, double error);
   /// Is called after the last frame, also when an error ends the run. Must not throw.
   virtual void end() {}
@@ -48,8 +49,8 @@ class HYPOTRACK_API RunWatcher {
 /// A scene file, opened: models, objective and optimizer are made and checked.
 ///
 ///   hypotrack::Session session("scene.yaml");
-///   hypotrack::Tracker tracker = session.tracker(hypotrack::load_calibration({.file =
-///   "rig.yaml"})); hypotrack::Solution solution = tracker.track(frame);
+///   hypotrack::Tracker tracker = session.tracker(cameras);  // load_calibration() reads them
+///   hypotrack::Solution solution = tracker.track(frame);
 class HYPOTRACK_API Session {
  public:
   /// Opens a scene. Its source is opened by run() only, and may be left out of the file by programs
@@ -63,7 +64,8 @@ class HYPOTRACK_API Session {
 
   /// Makes a tracker for frames from these cameras; the first is "left". A camera without a size
   /// gets that of its first image. The tracker is independent of the session. Throws DataError on
-  /// invalid cameras, ConfigError if the scene cannot be tracked with them.
+  /// invalid cameras. Throws ConfigError if the scene cannot be tracked with them, or has
+  /// `shape.estimate_s`, which needs a source.
   Tracker tracker(std::vector<Camera> cameras);
 
   /// Tracks the frames of the scene's own source. Returns false if the watcher ended the run.

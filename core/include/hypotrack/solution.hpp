@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// What a tracker says of a frame, or of one model in it.
+/// Verdict of a tracker on a frame, or on one model in it.
 enum class Status {
   tracked,    ///< likely right, judged by the pictures or, where they do not tell, by the cost
   uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view

@@ -14,8 +14,9 @@ namespace hypotrack {
 
 /// Tracks a scene through frames that the caller hands over. Session::tracker() makes one.
 ///
-/// Use one tracker per sequence of frames, from one thread at a time. Solutions are those of the
-/// frame itself: smoothing over later frames (`hindsight`) is part of Session::run() only.
+/// Use one tracker per sequence of frames, from one thread at a time. It ignores fixed-lag
+/// smoothing
+/// (`hindsight`), which only Session::run() does.
 class HYPOTRACK_API Tracker {
  public:
   Tracker(Tracker&&) noexcept;

@@ -67,8 +67,6 @@ std::string format_markdown(const PluginRow& row) {
   if (!summary.empty())
     summary[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(summary[0])));
   std::string out = fmt::format("# {} `{}`\n\n{}.\n\n", row.kind, row.name, summary);
-  if (!row.capabilities.empty())
-    out += fmt::format("Capabilities: {}.\n\n", escaped(row.capabilities));
   if (row.parameters.empty()) return out + "It has no parameters.\n";
   out += "| parameter | type | default | meaning |\n|---|---|---|---|\n";
   std::vector<std::string> path;

@@ -19,7 +19,7 @@
 namespace hypotrack {
 namespace {
 
-/// A watcher that stays stopped.
+/// Asks a watcher whether to stop, and remembers a yes.
 class Latch {
  public:
   explicit Latch(RunWatcher& watcher) : watcher_(watcher) {}
@@ -142,7 +142,7 @@ double error_of(const Scene& scene, const Frame& frame, const Solution& solution
   return frame_error(landmark_layout(scene.landmark_names()), solution.landmarks, *truth).mean;
 }
 
-/// Tells a watcher of the end, however it comes.
+/// Calls begin() and, at the end of its life, end() of a watcher.
 class WatchedFrames {
  public:
   WatchedFrames(RunWatcher& watcher, std::optional<int> frames) : watcher_(watcher) {

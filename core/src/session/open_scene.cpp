@@ -29,6 +29,8 @@ class Opening {
         plugins_(&plugins),
         record_(dump_params(file_)) {}
 
+  /// Makes everything but the source.
+  void tracker();
   void models();
   void source();
   void source(std::unique_ptr<Source> open, const std::string& resolved);
@@ -78,6 +80,12 @@ Eigen::VectorXd state_of_frame(const std::filesystem::path& file, const Scene& s
     throw DataError(fmt::format("{}: has no rows; expected one to start from", file.string()));
   throw DataError(fmt::format("{}: has no frame {} to start from; it has {} to {}", file.string(),
                               frame, rows.front().frame, rows.back().frame));
+}
+
+void Opening::tracker() {
+  models();
+  objective();
+  optimizer();
 }
 
 void Opening::models() {
@@ -193,9 +201,7 @@ OpenedScene Opening::finish() {
 OpenedScene open_scene(const std::filesystem::path& scene_file,
                        std::span<const std::string> overrides, PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
-  opening.models();
-  opening.objective();
-  opening.optimizer();
+  opening.tracker();
   opening.images();
   opening.source();
   return opening.finish();
@@ -205,9 +211,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
                        std::span<const std::string> overrides, PluginLoader& plugins,
                        std::unique_ptr<Source> source, const std::string& source_resolved) {
   Opening opening(load_scene(scene_file, overrides), plugins);
-  opening.models();
-  opening.objective();
-  opening.optimizer();
+  opening.tracker();
   opening.images();
   opening.source(std::move(source), source_resolved);
   return opening.finish();
@@ -216,9 +220,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
 OpenedScene open_without_source(const std::filesystem::path& scene_file,
                                 std::span<const std::string> overrides, PluginLoader& plugins) {
   Opening opening(load_scene(scene_file, overrides), plugins);
-  opening.models();
-  opening.objective();
-  opening.optimizer();
+  opening.tracker();
   return opening.finish();
 }
 

@@ -8,6 +8,9 @@
 
 namespace hypotrack {
 
+/// Pixels by which a face's picture reaches over its edges, so that filtering mixes in no other.
+inline constexpr double kFaceMargin = 2;
+
 /// The rectangles of a box's faces in its texture, in pixels: +x, -x, +y, -y, +z, -z.
 struct BoxLayout {
   cv::Size image;

@@ -8,14 +8,12 @@ namespace {
 
 constexpr double kLongestEdge = 1024;  // pixels, for a box longer than twice its mean edge
 constexpr double kMeanEdge = 512;      // pixels
-constexpr double kMargin = 2;  // pixels by which a face is extended, so that filtering does not
-                               // reach the next
 
 }  // namespace
 
 BoxLayout layout_in_proportion(const Eigen::Vector3d& size) {
   const double scale = std::min(kLongestEdge / size.maxCoeff(), kMeanEdge / std::cbrt(size.prod()));
-  const int row_height = static_cast<int>(std::ceil(size.maxCoeff() * scale + 2 * kMargin));
+  const int row_height = static_cast<int>(std::ceil(size.maxCoeff() * scale + 2 * kFaceMargin));
   BoxLayout layout;
   int left = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -23,9 +21,9 @@ BoxLayout layout_in_proportion(const Eigen::Vector3d& size) {
     const double height = size[(axis + 2) % 3] * scale;
     for (int negative = 0; negative < 2; ++negative) {
       layout.faces[static_cast<std::size_t>(2 * axis + negative)] =
-          cv::Rect2d(left + kMargin, negative * row_height + kMargin, width, height);
+          cv::Rect2d(left + kFaceMargin, negative * row_height + kFaceMargin, width, height);
     }
-    left += static_cast<int>(std::ceil(width + 2 * kMargin));
+    left += static_cast<int>(std::ceil(width + 2 * kFaceMargin));
   }
   layout.image = cv::Size(left, 2 * row_height);
   return layout;

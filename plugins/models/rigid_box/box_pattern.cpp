@@ -59,7 +59,6 @@ void draw_face(cv::Mat& face, double edge, cv::RNG& random) {
 
 /// Returns a face with the margin around it.
 cv::Rect tile_of(const cv::Rect2d& face, const cv::Size& image) {
-  constexpr double kFaceMargin = 2;
   const cv::Point low(static_cast<int>(face.x - kFaceMargin),
                       static_cast<int>(face.y - kFaceMargin));
   const cv::Point high(static_cast<int>(std::ceil(face.x + face.width + kFaceMargin)),
