@@ -14,7 +14,7 @@ build release "${gpu[@]}"
 hypotrack=build/release/bin/hypotrack
 
 rm -rf "$out/recording"
-"$hypotrack" synth configs/demo.yaml --out "$out/recording"
+"$hypotrack" synth configs/scenes/demo.yaml --out "$out/recording"
 "$hypotrack" run "$out/recording/scene.yaml" --out "$out/track"
 "$hypotrack" report "$out/track"
 

@@ -125,7 +125,7 @@ int run_bench(BenchOptions options, const CommonOptions& common) {
     options.out = std::filesystem::absolute(options.out);
   }
   PluginLoader plugins(common.plugin_path);
-  if (options.request.table.empty()) options.request.table = data_file("configs/bench.yaml");
+  if (options.request.table.empty()) options.request.table = data_file("configs/studies/bench.yaml");
   const bench::Plan plan = bench::make_plan(options.request);
   options.limits.frames = options.frames.value_or(plan.frames.value_or(options.limits.frames));
   bool complete = false;
@@ -166,7 +166,7 @@ void add_bench_command(const Command& root, CommonOptions& common, int& exit_cod
               "Scene files, or names of the table's scenes (default: all of those)");
   command.add("--table", &options->request.table,
               "Study file with scenes and, as the axis 'backend' of its grid, the ways to track "
-              "them (default: configs/bench.yaml of the installation)");
+              "them (default: configs/studies/bench.yaml of the installation)");
   command.add("--variant", &options->request.variant, "Variant of the table");
   command.add("--backends", &options->request.backends,
               "Cases of the axis 'backend' to measure, with commas between them (default: all)",

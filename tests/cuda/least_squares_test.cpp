@@ -21,7 +21,7 @@ struct Tracked {
   double error = 0;  ///< mean joint error over the frames, mm
 };
 
-/// Frames of configs/demo.yaml.
+/// Frames of configs/scenes/demo.yaml.
 struct Frames {
   int first = 0, count = 8;
 };
@@ -34,7 +34,7 @@ Tracked track(const std::string& backend, const std::string& optimizer,
                                      "budget.evaluations=512"};
   overrides.insert(overrides.end(), more.begin(), more.end());
   OpenedScene session =
-      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+      open_scene(test::source_dir() / "configs/scenes/demo.yaml", overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   for (int i = 0; i < frames.first; ++i) session.source->next();

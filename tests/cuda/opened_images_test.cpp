@@ -17,7 +17,7 @@ cv::MatAllocator* allocator_of(const std::string& backend) {
   PluginLoader plugins;
   const std::vector<std::string> overrides{"evaluate.backend=" + backend};
   const OpenedScene session =
-      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+      open_scene(test::source_dir() / "configs/scenes/demo.yaml", overrides, plugins);
   return cv::Mat::getDefaultAllocator();
 }
 

@@ -31,7 +31,7 @@ cv::Mat first_image(const std::string& backend) {
   PluginLoader plugins;
   const std::vector<std::string> overrides{"evaluate.backend=" + backend, "optimizer={type: pso}"};
   const OpenedScene session =
-      open_scene(test::source_dir() / "configs" / "demo.yaml", overrides, plugins);
+      open_scene(test::source_dir() / "configs/scenes/demo.yaml", overrides, plugins);
   return session.source->next().value().views.at(0).color;
 }
 

@@ -32,7 +32,7 @@ std::vector<Camera> turned_apart() {
 }
 
 OpenedScene open(const RecordedCase& c, PluginLoader& plugins) {
-  const auto scene = source_dir() / "configs" / fmt::format("{}.yaml", c.scene);
+  const auto scene = source_dir() / "configs/scenes" / fmt::format("{}.yaml", c.scene);
   std::vector<std::string> overrides{
       "source.depth=true", "optimizer={type: pso, particles: 32, generations: 32}",
       "search={rotation_as: quaternion}", fmt::format("objective={{type: {}}}", c.objective),

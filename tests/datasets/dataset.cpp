@@ -53,7 +53,7 @@ Eigen::Matrix3Xf selected(const Eigen::Matrix3Xf& all, const std::vector<int>& c
 }  // namespace
 
 Dataset load_dataset(const std::string& name) {
-  const ConfigNode file = ConfigNode::load(source_dir() / "configs" / (name + ".yaml"));
+  const ConfigNode file = ConfigNode::load(source_dir() / "configs/scenes" / (name + ".yaml"));
   Dataset dataset{make_scene(file.get("models")), {}};
   const ConfigNode source = file.get("source");
   const ConfigNode shared = source.get("gesture_file");

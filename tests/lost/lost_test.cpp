@@ -29,7 +29,7 @@ std::vector<Tracked> track_scene(const std::string& scene_file, int frames,
                                  std::vector<std::string> overrides) {
   PluginLoader plugins;
   overrides.push_back("evaluate.backend=cpu");
-  OpenedScene session = open_scene(test::source_dir() / "configs" / scene_file, overrides, plugins);
+  OpenedScene session = open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   std::optional<SceneTracker> tracker;
@@ -53,7 +53,7 @@ std::vector<Tracked> track_scene(const std::string& scene_file, int frames,
   return out;
 }
 
-/// Tracks frames of configs/real_time.yaml in small pictures.
+/// Tracks frames of configs/scenes/real_time.yaml in small pictures.
 std::vector<Tracked> track(int frames, std::vector<std::string> overrides) {
   overrides.push_back("source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}");
   return track_scene("real_time.yaml", frames, std::move(overrides));
@@ -204,7 +204,7 @@ TEST(Lost, DoesNotSlideIntoASleeve) {
 }
 
 TEST(Lost, DoesNotPutAFlatHandOntoAFoldedOneAndItsBareForearm) {
-  const std::string demo = (test::source_dir() / "configs" / "demo.yaml").string();
+  const std::string demo = (test::source_dir() / "configs/scenes/demo.yaml").string();
   const auto frames = track_scene(
       "datasets/sh.yaml", 3,
       {"objective=@" + demo, "optimizer=@" + demo, "search=@" + demo, "budget.evaluations=1024",
@@ -224,13 +224,13 @@ struct ModelsTracked {
 std::vector<ModelsTracked> track_models(const std::string& scene_file, int frames,
                                         std::vector<std::string> overrides) {
   PluginLoader plugins;
-  const std::string real_time = (test::source_dir() / "configs" / "real_time.yaml").string();
+  const std::string real_time = (test::source_dir() / "configs/scenes/real_time.yaml").string();
   overrides.insert(overrides.end(),
                    {"evaluate.backend=cpu",
                     "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
                     "objective=@" + real_time, "optimizer=@" + real_time, "budget.evaluations=60",
                     "tile.size=128"});
-  OpenedScene session = open_scene(test::source_dir() / "configs" / scene_file, overrides, plugins);
+  OpenedScene session = open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   std::optional<SceneTracker> tracker;

@@ -14,7 +14,7 @@ cmake --install "$build_dir" --prefix "$scratch/prefix" >"$scratch/install.log"
 hypotrack=$scratch/prefix/bin/hypotrack
 cd "$scratch"
 cp -r "$source_dir/examples/track_frames" "$source_dir/examples/plugin_source" .
-"$hypotrack" synth "$source_dir/configs/demo.yaml" --frames 4 --out recording
+"$hypotrack" synth "$source_dir/configs/scenes/demo.yaml" --frames 4 --out recording
 python3 "$source_dir/tests/out_of_tree/make_euroc.py" recording euroc
 
 # A program that tracks, with a scene that names no source.

@@ -36,13 +36,13 @@ double error_of(const Scene& scene, const Frame& frame, const Eigen::VectorXd& s
       .mean;
 }
 
-/// One search of the first frame of configs/demo.yaml, whose right camera is 16 % brighter, from
+/// One search of the first frame of configs/scenes/demo.yaml, whose right camera is 16 % brighter, from
 /// 6 mm and 3 degrees away.
 Found search(PluginLoader& plugins, const std::string& objective, const std::string& optimizer,
              int seed, int evaluations = 512) {
   const auto open = [&] {
     return open_scene(
-        test::source_dir() / "configs" / "demo.yaml",
+        test::source_dir() / "configs/scenes/demo.yaml",
         std::vector<std::string>{"objective=" + objective, "optimizer=" + optimizer,
                                  fmt::format("budget.evaluations={}", evaluations),
                                  "search={rotation_as: tangent}", "source.sensor.gain=[1, 1.16]",

@@ -1,4 +1,4 @@
-// Real depth frames of a hand without colour: configs/sr305.yaml. Nobody labelled them, so the
+// Real depth frames of a hand without colour: configs/scenes/sr305.yaml. Nobody labelled them, so the
 // drawn solutions are held against the depth itself; docs/results/real_pictures.md says what the
 // pictures look like.
 
@@ -54,7 +54,7 @@ TEST(Sr305, TheHandIsFollowedThroughItsFrames) {
   const std::vector<std::string> overrides = {
       "source.left_depth=" + (folder / "20210326-231615" / "*.png").string(), "source.count=4"};
   OpenedScene session =
-      open_scene(test::source_dir() / "configs" / "sr305.yaml", overrides, plugins);
+      open_scene(test::source_dir() / "configs/scenes/sr305.yaml", overrides, plugins);
   const Camera camera = session.parts.cameras.at(0);
   Frame frame = session.source->next().value();
   const Eigen::VectorXd start = initial_state(session, frame);

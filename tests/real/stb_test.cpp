@@ -1,4 +1,4 @@
-// A real stereo pair with labelled joints: configs/stb_pair.yaml. What the paper's objective makes
+// A real stereo pair with labelled joints: configs/scenes/stb_pair.yaml. What the paper's objective makes
 // of it is recorded, not asserted; docs/results/real_pictures.md says what was found and why.
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
   overrides.push_back("source.left=" + (stb / "BB_left_%d.png").string());
   overrides.push_back("source.right=" + (stb / "BB_right_%d.png").string());
   overrides.push_back("source.truth_landmarks=" + (stb / "B1Counting_BB_rows000-499.csv").string());
-  Stb out{open_scene(test::source_dir() / "configs" / "stb_pair.yaml", overrides, plugins), {}, {}};
+  Stb out{open_scene(test::source_dir() / "configs/scenes/stb_pair.yaml", overrides, plugins), {}, {}};
   out.frame = out.session.source->next().value();
   out.fitted = initial_state(out.session, out.frame);
   return out;

@@ -15,7 +15,7 @@ namespace {
 std::unique_ptr<Source> source_of(const std::string& scene_file, PluginLoader& plugins,
                                   const Scene& scene, const std::vector<std::string>& overrides) {
   const ConfigNode config =
-      ConfigNode::load_scene(test::source_dir() / "configs" / scene_file, overrides);
+      ConfigNode::load_scene(test::source_dir() / "configs/scenes" / scene_file, overrides);
   return plugins.make<Source>(config.get("source"), &scene);
 }
 

@@ -7,7 +7,7 @@
 The sequences differ in motion, absences, cameras, light, noise, background, forearm and in the hand's
 shape. In half of them that is not the model's. Tables that are there already are kept.
 
-The video is that of configs/two_webcams.yaml. two_webcams_poses.csv has the poses that the tracker found in
+The video is that of configs/scenes/two_webcams.yaml. two_webcams_poses.csv has the poses that the tracker found in
 126 of its frames, with earlier weights. Some 55 of them were checked in pictures.
 
 The weights that are committed come from tables that were cut short: all 72 ran side by side on 32 cores for
@@ -22,6 +22,7 @@ import sys
 
 SEQUENCES = 72
 CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
+SCENES = CONFIGS / "scenes"
 PHOTOGRAPHS = ["aloeL.jpg", "fruits.jpg", "graf1.png", "home.jpg", "leuvenA.jpg", "stuff.jpg"]
 BASELINES_MM = [60, 90, 120, 120, 120, 180, 250, 350]
 KINDS = ["hand", "hand", "object", "hand", "hand", "two_hands", "hand", "webcams", "hand"]
@@ -78,7 +79,7 @@ def sequence(number, frames):
     if kind == "two_hands":
         tracker = "two_hands"
         moved |= {"tilt_deg": 50, "apart_mm": 180, "lowest_mm": [-160, 0, 480], "highest_mm": [280, 180, 700]}
-        settings["source.gesture_file"] = CONFIGS / "datasets/gestures.yaml"
+        settings["source.gesture_file"] = SCENES / "datasets/gestures.yaml"
         if other_shape:
             right = {"type": "hand", **other_hand(draw)}
             settings["source.render_models"] = {"right": right, "left": {"type": "mirrored_hand", "of": right}}
@@ -94,16 +95,16 @@ def sequence(number, frames):
         moved |= {"lowest_mm": [-70, -60, 560], "highest_mm": [60, 60, 720]}
     settings["source.random"] = moved
     for part in ("objective", "optimizer"):
-        settings[part] = f"'@{CONFIGS}/{tracker}.yaml'"
-    settings["search"] = f"'@{CONFIGS}/demo.yaml'"
+        settings[part] = f"'@{SCENES}/{tracker}.yaml'"
+    settings["search"] = f"'@{SCENES}/demo.yaml'"
     scene = {"object": "hand_and_box.yaml", "two_hands": "two_hands.yaml"}.get(kind, "datasets/sh.yaml")
-    return CONFIGS / scene, [f"{key}={flow(value)}" for key, value in settings.items()]
+    return SCENES / scene, [f"{key}={flow(value)}" for key, value in settings.items()]
 
 
 def video(media):
     """Returns the scene of the real video and its overrides."""
     poses = pathlib.Path(__file__).resolve().with_name("two_webcams_poses.csv")
-    return CONFIGS / "two_webcams.yaml", ["evaluate.backend=cpu", "evaluate.threads=1",
+    return SCENES / "two_webcams.yaml", ["evaluate.backend=cpu", "evaluate.threads=1",
                                           f"source.left={media / 'cam0_test.mp4'}",
                                           f"source.right={media / 'cam1_test.mp4'}",
                                           f"source.truth_states={poses}"]
