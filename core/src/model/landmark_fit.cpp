@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hypotrack/damping.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 
 constexpr double kMillimetres = 1e3;  // residuals are in millimetres
 constexpr double kMillimetresPerRadian = 0.5;
+constexpr DampingSchedule kDamping = {
+    .first = 1e-3, .least = 1e-9, .most = 1e8, .accepted = 0.2, .rejected = 5};
 
 std::vector<Eigen::Index> known_columns(const Model& model, const Eigen::Matrix3Xd& landmarks) {
   const auto expected = static_cast<Eigen::Index>(model.data().landmarks.size());
@@ -113,7 +116,7 @@ class Problem {
     if (unknown < 6 || unknown >= 6 + angles_) return false;
     const Parameter& p = parameter(unknown - 6);
     const double value = trial.parameters[kPoseSize + unknown - 6];
-    return (value <= p.lower && gradient > 0) || (value >= p.upper && gradient < 0);
+    return blocked_by_bound(value, p.lower, p.upper, gradient);
   }
 
  private:
@@ -146,22 +149,22 @@ Eigen::VectorXd damped_step(const Problem& problem, const Trial& trial, const Ei
 }
 
 Trial minimize(const Problem& problem, Trial trial, int iterations) {
-  constexpr double kEnough = 1e-8, kTooDamped = 1e8;
+  constexpr double kEnough = 1e-8;
   Eigen::VectorXd r = problem.residuals(trial);
-  double damping = 1e-3;
-  for (int i = 0; i < iterations && damping < kTooDamped; ++i) {
+  Damping damping(kDamping);
+  for (int i = 0; i < iterations && !damping.exhausted(); ++i) {
     const Eigen::MatrixXd j = problem.jacobian(trial, r);
     const double before = r.squaredNorm();
-    while (damping < kTooDamped) {
-      const Trial next = problem.moved(trial, damped_step(problem, trial, j, r, damping));
+    while (!damping.exhausted()) {
+      const Trial next = problem.moved(trial, damped_step(problem, trial, j, r, damping.value()));
       const Eigen::VectorXd r_next = problem.residuals(next);
       if (r_next.squaredNorm() < before) {
         trial = next;
         r = r_next;
-        damping = std::max(1e-9, 0.2 * damping);
+        damping.accept();
         break;
       }
-      damping *= 5;
+      damping.reject();
     }
     if (before - r.squaredNorm() < kEnough * before) break;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hypotrack/damping.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -29,7 +30,7 @@ struct Reduced {
 MatrixXd damped(MatrixXd hessian, double damping) {
   constexpr double kOfMean = 0.05;
   const double floor = kOfMean * hessian.diagonal().mean() + 1e-12;
-  hessian.diagonal().array() += damping * (hessian.diagonal().array() + floor);
+  damp(hessian, damping, floor);
   return hessian;
 }
 
@@ -63,16 +64,16 @@ class Minimizer {
 
   /// Makes one accepted step. Returns its gain, 0 if no step was accepted.
   double step() {
-    constexpr double kTooDamped = 1e4, kLongest = 8;
+    constexpr double kLongest = 8;
     systems_ = problem_.systems(trial_);
     const double before = cost_;
     const JointTrial from = trial_;
-    for (; damping_ < kTooDamped; damping_ *= 4) {
+    for (; !damping_.exhausted(); damping_.reject()) {
       const Step step = solve();
       if (!accept(from, step, 1)) continue;
       double length = 2;
       while (length <= kLongest && accept(from, step, length)) length *= 2;
-      damping_ = std::max(1e-3, damping_ / 4);
+      damping_.accept();
       return before - cost_;
     }
     return 0;
@@ -102,12 +103,12 @@ class Minimizer {
     VectorXd gradient = hessian * (trial_.shape - prior_.mean);
     Step step;
     for (Index k = 0; k < keep_.size(); ++k) {
-      step.frames.push_back(reduce(systems_[static_cast<std::size_t>(k)], p, damping_));
+      step.frames.push_back(reduce(systems_[static_cast<std::size_t>(k)], p, damping_.value()));
       if (!keep_[k]) continue;
       hessian += step.frames.back().hessian;
       gradient += step.frames.back().gradient;
     }
-    step.shape = -damped(hessian, damping_).ldlt().solve(gradient);
+    step.shape = -damped(hessian, damping_.value()).ldlt().solve(gradient);
     return step;
   }
 
@@ -153,7 +154,7 @@ class Minimizer {
   VectorXd costs_;
   Eigen::Array<bool, Eigen::Dynamic, 1> keep_;
   double cost_ = 0;
-  double damping_ = 0.1;
+  Damping damping_{{.first = 0.1, .least = 1e-3, .most = 1e4, .accepted = 0.25, .rejected = 4}};
   std::vector<FrameSystem> systems_;
 };
 

@@ -20,7 +20,8 @@ LeastSquaresSearch::LeastSquaresSearch(CostFunction& cost, ResidualCost& residua
       analytic_(params.jacobian == Jacobian::analytic ||
                 (params.jacobian == Jacobian::automatic && residuals.can_linearize())),
       differences_(analytic_ ? nullptr : residuals.differences()),
-      damping_(params.damping) {}
+      damping_(
+          {.first = params.damping, .least = 1e-7, .most = 1e7, .accepted = 1, .rejected = 1}) {}
 
 bool LeastSquaresSearch::may_go_on() const { return remaining() > 0 && !deadline_.passed(); }
 
@@ -97,14 +98,13 @@ Eigen::VectorXd LeastSquaresSearch::step(double damping) const {
   // Dimensions stay if they are at a bound and want to leave, or if nothing depends on them.
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < d; ++i) {
-    const bool held = (x_[i] <= region_.lower[i] && equations_.g[i] > 0) ||
-                      (x_[i] >= region_.upper[i] && equations_.g[i] < 0);
+    const bool held = blocked_by_bound(x_[i], region_.lower[i], region_.upper[i], equations_.g[i]);
     if (!held && diagonal[i] > 0) free.push_back(i);
   }
   Eigen::VectorXd dx = Eigen::VectorXd::Zero(d);
   if (free.empty()) return dx;
   Eigen::MatrixXd a = equations_.a(free, free);
-  a.diagonal() += damping * (a.diagonal().array() + firm).matrix();
+  damp(a, damping, firm);
   const Eigen::VectorXd solved = a.ldlt().solve(-equations_.g(free));
   if (!solved.allFinite()) return dx;
   dx(free) = solved.cwiseMax(-1.0).cwiseMin(1.0);
@@ -116,21 +116,22 @@ bool LeastSquaresSearch::try_steps() {
   for (int round = 0; round < kRounds && may_go_on(); ++round) {
     const auto trials = std::min<std::int64_t>(params_.trials, remaining());
     points_.resize(x_.size(), trials);
-    double damping = damping_ * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
+    const double lowest =
+        damping_.value() * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
     for (Eigen::Index i = 0; i < trials; ++i) {
       points_.col(i) = within_bounds(
-          x_ + step(damping * std::pow(params_.damping_factor, i)).cwiseProduct(region_.spread),
+          x_ + step(lowest * std::pow(params_.damping_factor, i)).cwiseProduct(region_.spread),
           region_);
     }
     evaluate();
     Eigen::Index best = 0;
     if (costs_.minCoeff(&best) < cost_at_x_) {
-      damping_ = std::clamp(damping * std::pow(params_.damping_factor, best), 1e-7, 1e7);
+      damping_.accept(lowest * std::pow(params_.damping_factor, best));
       moved_ = (points_.col(best) - x_).cwiseQuotient(region_.spread).cwiseAbs().maxCoeff();
       move_to(best);
       return true;
     }
-    damping_ = std::min(damping * std::pow(params_.damping_factor, trials), 1e7);
+    damping_.reject(lowest * std::pow(params_.damping_factor, trials));
   }
   return false;
 }
@@ -157,7 +158,7 @@ OptimizerResult LeastSquaresSearch::run() {
       failed = 0;
       fineness_ *= 0.5;
       if (fineness_ < params_.finest) break;
-      damping_ = std::min(damping_, params_.damping);
+      damping_.lower_to_first();
     }
   }
   return best_.result();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "hypotrack/damping.hpp"
 #include "hypotrack/search.hpp"
 #include "levenberg_marquardt_params.hpp"
 
@@ -46,7 +47,7 @@ class LeastSquaresSearch {
   const bool analytic_;
   const std::unique_ptr<ResidualDifferences> differences_;  ///< unless analytic_; moves with x_
   double fineness_ = 1;  ///< of differences or blur, as a share of the first
-  double damping_;
+  Damping damping_;
   NormalEquations equations_;  ///< at x, per spread
   double moved_ = 0;           ///< largest component of the last step, in spreads
 

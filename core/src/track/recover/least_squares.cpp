@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "hypotrack/damping.hpp"
 #include "track/state_cost.hpp"
 
 namespace hypotrack {
@@ -63,7 +64,7 @@ NormalEquations LeastSquares::linearize(const SearchRegion& region, const Eigen:
 }
 
 Refined LeastSquares::refine(Refined from, int iterations) {
-  double damping = 0.03;
+  Damping damping({.first = 0.03, .least = 1e-4, .most = 1e3, .accepted = 1, .rejected = 100});
   for (int k = 0; k < iterations; ++k) {
     const Eigen::VectorXd prior = from.state;
     const SearchRegion region = space_.region(prior);
@@ -74,8 +75,8 @@ Refined LeastSquares::refine(Refined from, int iterations) {
     const Eigen::VectorXd diagonal = equations.a.diagonal();
     for (std::size_t i = 0; i < kFactors.size(); ++i) {
       Eigen::MatrixXd a = equations.a;
-      a.diagonal() +=
-          damping * kFactors[i] * (diagonal.array() + kFromMean * diagonal.mean() + 1e-9).matrix();
+      a.diagonal() += damping.value() * kFactors[i] *
+                      (diagonal.array() + kFromMean * diagonal.mean() + 1e-9).matrix();
       Eigen::VectorXd step = a.ldlt().solve(-equations.g);
       step = step.cwiseMax(-region.spread).cwiseMin(region.spread);
       for (Eigen::Index j = 0; j < step.size(); ++j)
@@ -90,13 +91,13 @@ Refined LeastSquares::refine(Refined from, int iterations) {
     Eigen::Index best = 0;
     const double cost = costs.minCoeff(&best);
     if (!(cost < from.cost)) {
-      damping *= 100;
-      if (damping > 1e3) return from;
+      damping.reject();
+      if (damping.exhausted()) return from;
       continue;
     }
     from.cost = cost;
     from.state = states.col(best);
-    damping = std::clamp(damping * kFactors[static_cast<std::size_t>(best)], 1e-4, 1e3);
+    damping.accept(damping.value() * kFactors[static_cast<std::size_t>(best)]);
   }
   return from;
 }

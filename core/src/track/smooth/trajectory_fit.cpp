@@ -23,8 +23,10 @@ constexpr double kFirstBlur = 1.5, kLeastBlur = 0.5;  // pixels
 // Damping scales a dimension's diagonal plus this share of the prior's weight, which holds
 // dimensions that the pictures do not show.
 constexpr double kHold = 1;
-constexpr double kFirstDamping = 0.03;
-constexpr int kPatience = 3;  // steps in a row without progress that end the fit
+constexpr DampingSchedule kDamping = {
+    .first = 0.03, .least = 1e-4, .most = 1e6, .accepted = 0.4, .rejected = 8};
+constexpr double kDearer = 2;  // factor after a step that was taken but cost more than predicted
+constexpr int kPatience = 3;   // steps in a row without progress that end the fit
 // Initial factor on the allowed change of velocity. It falls with every step to 1 at half the
 // budget. Otherwise the first step would trade the pictures' fit for smoothness, which
 // frame-by-frame search does not have.
@@ -117,7 +119,7 @@ std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<Mo
 
 Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
                                     const std::vector<Look>& looks,
-                                    const std::vector<double>& damping, double looseness,
+                                    const std::vector<Damping>& damping, double looseness,
                                     std::size_t fixed) const {
   const Eigen::VectorXd& full_weight = motion_->weight();
   const Eigen::VectorXd weight = full_weight / (looseness * looseness);
@@ -131,7 +133,7 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
     gradient.segment(at, d) = eq.g;
     for (Eigen::Index c = 0; c < d; ++c) {
       const double held = eq.a(c, c) + kHold * full_weight[c];
-      entries.emplace_back(at + c, at + c, eq.a(c, c) + damping[i] * held);
+      entries.emplace_back(at + c, at + c, eq.a(c, c) + damping[i].value() * held);
       for (Eigen::Index r = c + 1; r < d; ++r) entries.emplace_back(at + r, at + c, eq.a(r, c));
     }
   }
@@ -213,7 +215,7 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
   std::vector<Sight> shown = matt(moments, sights, fixed);
   std::vector<Look> looks = look_at_all(moments, shown, fixed, blur);
   const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(looks_left));
-  std::vector<double> damping(looks.size(), kFirstDamping);
+  std::vector<Damping> damping(looks.size(), Damping(kDamping));
   std::int64_t done = 1;
   std::size_t learned = 0;
   for (int idle = 0; done < looks_left && idle < kPatience;) {
@@ -240,7 +242,13 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
       const NormalEquations& eq = looks[i].equations;
       const bool kept = seen[i].cost <= looks[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;
       const bool taken = take[i + fixed];
-      damping[i] = std::clamp(damping[i] * (kept ? 0.4 : taken ? 2.0 : 8.0), 1e-4, 1e6);
+      if (kept) {
+        damping[i].accept();
+      } else if (taken) {
+        damping[i].scale(kDearer);
+      } else {
+        damping[i].reject();
+      }
       if (!taken) continue;
       gain = std::max(gain, dx.cwiseAbs().cwiseProduct(motion_->weight().cwiseSqrt()).maxCoeff());
       moments[i + fixed] = std::move(trial[i + fixed]);

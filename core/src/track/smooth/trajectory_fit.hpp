@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cost/evaluator.hpp"
+#include "hypotrack/damping.hpp"
 #include "hypotrack/export.hpp"
 #include "track/smooth/motion_prior.hpp"
 #include "track/smooth/tile_highlights.hpp"
@@ -49,7 +50,7 @@ class HYPOTRACK_API TrajectoryFit {
   /// Returns the steps of all free moments, one after the other. `looseness` divides the prior's
   /// root weights: velocities may change by that factor more.
   Eigen::VectorXd step(const std::vector<Moment>& moments, const std::vector<Look>& looks,
-                       const std::vector<double>& damping, double looseness,
+                       const std::vector<Damping>& damping, double looseness,
                        std::size_t fixed) const;
 
   /// Chooses the moments that take their step so that the total cost is lowest. `looks` and `seen`
