@@ -118,7 +118,7 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
 }
 
-std::string failure_message(const std::filesystem::path& log, int exit_code, int signal) {
+std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end) {
   std::ifstream in(log);
   std::string message;
   bool goes_on = false;  // further lines of a message are indented
@@ -133,8 +133,9 @@ std::string failure_message(const std::filesystem::path& log, int exit_code, int
       goes_on = false;
     }
   }
-  if (signal != 0) return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
-  return message.empty() ? fmt::format("ended with exit code {}", exit_code) : message;
+  if (end.signal != 0)
+    return fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
+  return message.empty() ? fmt::format("ended with exit code {}", end.code) : message;
 }
 
 }  // namespace hypotrack::study

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/subprocess.hpp"
 #include "hypotrack/export.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
@@ -59,7 +60,7 @@ class HYPOTRACK_API RunFolder {
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
 /// Returns the line of a log that says why a run failed, without the names of its folders.
-HYPOTRACK_API std::string failure_message(const std::filesystem::path& log, int exit_code,
-                                          int signal);
+HYPOTRACK_API std::string failure_message(const std::filesystem::path& log,
+                                          const Subprocess::End& end);
 
 }  // namespace hypotrack::study
