@@ -11,12 +11,12 @@
 #include <system_error>
 #include <utility>
 
-#include "base/suggest.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_text.hpp"
 #include "config/yaml_writer.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail {
 namespace {

@@ -9,8 +9,8 @@
 #include <system_error>
 
 #include "base/subprocess.hpp"
-#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
 #include "plugin/probe.hpp"
@@ -136,7 +136,7 @@ std::vector<PluginRow> find_plugins(std::span<const std::filesystem::path> searc
   });
   if (rows.empty()) {
     const std::vector<std::string> candidates(words.begin(), words.end());
-    const std::string hint = detail::did_you_mean(what, candidates);
+    const std::string hint = did_you_mean(what, candidates);
     std::vector<std::string> folders;
     for (const auto& folder : search_path) folders.push_back(folder.string());
     throw PluginError(fmt::format("there is no plugin or kind of plugin '{}'{} Searched in {}",
