@@ -11,7 +11,6 @@
 #include "hypotrack/error.hpp"
 #include "lab/report/json_file.hpp"
 #include "lab/report/metric_info.hpp"
-#include "lab/report/statistics.hpp"
 
 namespace hypotrack {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <string_view>
@@ -64,18 +63,6 @@ std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::pat
     if (std::filesystem::exists(folder)) results.push_back(read_result(run, folder));
   }
   return results;
-}
-
-Statistics statistics_of(const std::vector<double>& values) {
-  Statistics statistics{values.size(), 0, std::nullopt};
-  if (values.empty()) return statistics;
-  const auto count = static_cast<double>(values.size());
-  statistics.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  if (values.size() < 2) return statistics;
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - statistics.mean, 2);
-  statistics.sd = std::sqrt(squares / (count - 1));
-  return statistics;
 }
 
 }  // namespace hypotrack::study

@@ -1,7 +1,5 @@
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "lab/study/results.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
@@ -9,18 +7,6 @@
 
 namespace hypotrack::test {
 namespace {
-
-using study::statistics_of;
-
-TEST(StatisticsTest, OfNothingOneAndMany) {
-  EXPECT_EQ(statistics_of({}).count, 0U);
-  EXPECT_EQ(statistics_of({3}).mean, 3);
-  EXPECT_FALSE(statistics_of({3}).sd.has_value());
-  const study::Statistics many = statistics_of({2, 4, 4, 4, 5, 5, 7, 9});
-  EXPECT_EQ(many.mean, 5);
-  ASSERT_TRUE(many.sd.has_value());
-  EXPECT_DOUBLE_EQ(*many.sd, std::sqrt(32.0 / 7));
-}
 
 /// A study of one scene and two cells, whose runs are written by hand.
 class TablesTest : public StudyTest {
