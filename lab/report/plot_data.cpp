@@ -9,7 +9,7 @@
 
 #include "base/statistics.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
 
 namespace hypotrack {

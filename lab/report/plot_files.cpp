@@ -12,7 +12,7 @@
 #include "base/subprocess.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack {
 namespace {

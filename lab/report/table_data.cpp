@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "lab/json_file.hpp"
 #include "lab/report/comparison.hpp"
-#include "lab/report/json_file.hpp"
 #include "lab/report/metric_info.hpp"
 #include "lab/report/significance.hpp"
 

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <string_view>
 
-#include "lab/study/read_json.hpp"
+#include "lab/json_file.hpp"
 #include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
@@ -21,7 +21,7 @@ bool is_timed(const std::string& name) {
 /// Reads the numbers at the top level of a file. `null` is an undefined number.
 Metrics read_metrics(const std::filesystem::path& file) {
   Metrics metrics;
-  const auto json = read_json(file);
+  const Json json = read_json_object(file, repair_advice(file));
   for (const auto& [name, value] : json.items()) {
     if (value.is_number()) metrics.emplace_back(name, value.get<double>());
     if (value.is_null()) metrics.emplace_back(name, std::nullopt);

@@ -55,6 +55,9 @@ class HYPOTRACK_API RunFolder {
   std::filesystem::path working_, final_;
 };
 
+/// Returns what to do about a damaged file of a run's folder, for a message.
+std::string repair_advice(const std::filesystem::path& file);
+
 /// Reads the failure of a run's folder; nothing if it did not fail. Throws DataError if the note is
 /// damaged.
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
