@@ -9,12 +9,10 @@
 #include <string_view>
 
 #include "base/numbers.hpp"
-#include "config/key_path.hpp"
 #include "config/overrides.hpp"
 #include "config/parts.hpp"
 #include "config/read_value.hpp"
-#include "config/tracker_file.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/suggest.hpp"
 #include "lab/study/study_text.hpp"
 

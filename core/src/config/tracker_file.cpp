@@ -1,5 +1,3 @@
-#include "config/tracker_file.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,9 +9,8 @@
 #include <system_error>
 #include <utility>
 
-#include "config/yaml_reader.hpp"
-#include "config/yaml_text.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/parts.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
