@@ -147,7 +147,7 @@ TEST(Subprocess, KeepsALockThatItIsGiven) {
   const std::string file = folder.path() / "lock";
   const int lock = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   ASSERT_EQ(flock(lock, LOCK_EX | LOCK_NB), 0);
-  Subprocess::Command command = shell("sleep 1000");
+  Subprocess::Command command{"/bin/sleep", {"1000"}};
   command.descriptors = {{lock, lock}};
   Subprocess process(command);
   close(lock);
