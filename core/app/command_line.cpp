@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/suggest.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -26,7 +26,7 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
     return error.what() + way_out;
   std::vector<std::string> commands;
   for (const CLI::App* command : app->get_subcommands({})) commands.push_back(command->get_name());
-  const std::string hint = detail::did_you_mean(left.front(), commands);
+  const std::string hint = did_you_mean(left.front(), commands);
   return fmt::format("there is no command '{}'{} There are: {}{}", left.front(),
                      hint.empty() ? "." : hint, fmt::join(commands, ", "), way_out);
 }

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
@@ -9,11 +8,10 @@
 #include "lab/bench/bench_numbers.hpp"
 #include "lab/bench/bench_table.hpp"
 #include "lab/bench/machine.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack::bench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// Rounds to six digits, more than repeat between runs. NaN becomes null.
 Json number(double value) {

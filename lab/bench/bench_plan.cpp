@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_file.hpp"
 #include "session/scene_file.hpp"
@@ -72,7 +72,7 @@ std::vector<Case> find_cases(const std::vector<Case>& table, const std::string& 
     throw ConfigError(
         fmt::format("{}: there is no such scene file, and the table has no scene of this name{}; "
                     "its scenes are: {}",
-                    scene, detail::did_you_mean(scene, names), fmt::join(names, ", ")));
+                    scene, did_you_mean(scene, names), fmt::join(names, ", ")));
   }
   return {{scene, scene, std::filesystem::absolute(scene), {}, std::filesystem::current_path()}};
 }
@@ -84,7 +84,7 @@ void keep_ways(std::vector<Way>& ways, const std::vector<std::string>& kept) {
       throw ConfigError(
           fmt::format("--backends {}: the table has no such case{}; its cases are: "
                       "{}",
-                      name, detail::did_you_mean(name, names), fmt::join(names, ", ")));
+                      name, did_you_mean(name, names), fmt::join(names, ", ")));
   if (kept.empty()) return;
   std::erase_if(ways, [&](const Way& way) {
     return std::find(kept.begin(), kept.end(), way.name) == kept.end();

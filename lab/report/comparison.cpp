@@ -1,7 +1,7 @@
 #include "lab/report/comparison.hpp"
 
 #include "base/statistics.hpp"
-#include "lab/report/statistics.hpp"
+#include "lab/report/significance.hpp"
 
 namespace hypotrack {
 namespace {

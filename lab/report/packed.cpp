@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack {
 namespace {

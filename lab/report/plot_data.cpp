@@ -9,9 +9,8 @@
 
 #include "base/statistics.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
-#include "lab/report/statistics.hpp"
 
 namespace hypotrack {
 namespace {

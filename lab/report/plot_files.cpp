@@ -1,20 +1,18 @@
 #include "lab/report/plot_files.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <sstream>
+#include <system_error>
 
+#include "base/subprocess.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -34,28 +32,15 @@ fs::path find_program(const std::vector<std::string>& names) {
 }
 
 /// Runs a program to its end. Throws OutputError, with its output, if it fails.
-void run_tool(const fs::path& program, const std::vector<std::string>& arguments,
-              const fs::path& log) {
-  std::vector<std::string> words{program.string()};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, log.c_str(),
-                                   O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
-  pid_t pid = -1;
-  const int error = posix_spawn(&pid, program.c_str(), &actions, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  int status = -1;
-  if (error == 0) waitpid(pid, &status, 0);
-  std::ifstream in(log, std::ios::binary);
-  const std::string said((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  fs::remove(log);
-  if (error == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+void run_tool(const fs::path& program, const std::vector<std::string>& arguments) {
+  std::string said;
+  try {
+    const Captured captured = capture_output({program, arguments}, {STDOUT_FILENO, STDERR_FILENO});
+    if (captured.end.code == 0) return;
+    said = captured.output;
+  } catch (const std::system_error& error) {
+    said = error.what();
+  }
   throw OutputError(fmt::format(
       "{}: failed while drawing the report's plots; leave the pictures out with --no-images. It "
       "said: {}",
@@ -79,8 +64,7 @@ std::string write_plot_files(const Json& page, const fs::path& directory) {
   const fs::path data = directory / ".data.json";
   std::ofstream(data, std::ios::binary)
       << small.dump(-1, ' ', false, Json::error_handler_t::replace);
-  run_tool(node, {data_file("report/render_plots.js").string(), data.string(), directory.string()},
-           directory / ".log");
+  run_tool(node, {data_file("report/render_plots.js").string(), data.string(), directory.string()});
   fs::remove(data);
 
   const fs::path rsvg = find_program({"rsvg-convert"});
@@ -91,7 +75,7 @@ std::string write_plot_files(const Json& page, const fs::path& directory) {
   for (const fs::path& svg : drawings) {
     fs::path png = svg;
     png.replace_extension(".png");
-    run_tool(rsvg, {"--zoom", "2", "--output", png.string(), svg.string()}, directory / ".log");
+    run_tool(rsvg, {"--zoom", "2", "--output", png.string(), svg.string()});
   }
   return "";
 }

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "hypotrack/error.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack {
 namespace {

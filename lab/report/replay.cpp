@@ -8,7 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/tables.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 #include "lab/report/replay_shape.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hypotrack/kinematics.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 
 namespace hypotrack {

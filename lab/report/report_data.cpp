@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
 #include "lab/report/plot_data.hpp"
 #include "lab/report/replay.hpp"

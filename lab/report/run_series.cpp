@@ -7,7 +7,7 @@
 
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 #include "output/metrics/status_metrics.hpp"
 

@@ -6,10 +6,10 @@
 #include <cctype>
 #include <cmath>
 
+#include "lab/json_file.hpp"
 #include "lab/report/comparison.hpp"
-#include "lab/report/json_file.hpp"
 #include "lab/report/metric_info.hpp"
-#include "lab/report/statistics.hpp"
+#include "lab/report/significance.hpp"
 
 namespace hypotrack {
 namespace {

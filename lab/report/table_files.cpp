@@ -5,7 +5,7 @@
 
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/table_data.hpp"
 
 namespace hypotrack {

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 
 namespace hypotrack {

@@ -73,18 +73,17 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
   while (again() && (next < cells.size() || pool.size() > 0)) {
     if (next < cells.size() && pool.size() < static_cast<std::size_t>(launch.jobs)) {
       const std::size_t cell = cells[next++];
-      Command command{launch.program, {}, plan.study.directory, scratch.log(cell),
-                      launch.threads, -1};
-      command.arguments = scene_arguments("validate", plan.scene_of(plan.cells[cell]).file,
-                                          plan.changes_of(plan.cells[cell]), plan, launch);
-      pool.start(cell, command);
+      pool.start(cell,
+                 study_command(launch, plan,
+                               scene_arguments("validate", plan.scene_of(plan.cells[cell]).file,
+                                               plan.changes_of(plan.cells[cell]), plan, launch),
+                               scratch.log(cell)));
       continue;
     }
     const auto ended = pool.take_ended();
     if (!ended) std::this_thread::sleep_for(kCheckPoll);
-    if (ended && ended->exit_code != 0)
-      problems[ended->key] =
-          failure_message(scratch.log(ended->key), ended->exit_code, ended->signal);
+    if (ended && ended->end.code != 0)
+      problems[ended->key] = failure_message(scratch.log(ended->key), ended->end);
   }
   if (!problems.empty()) throw ConfigError(report(plan, problems));
 }

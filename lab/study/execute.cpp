@@ -85,28 +85,23 @@ bool Execution::start_next() {
 
 void Execution::start(std::size_t index, RunFolder folder) {
   const PlannedRun& run = plan_.runs[index];
-  Command command{launch_.program,         {}, plan_.study.directory, folder.log(), launch_.threads,
-                  folder.lock_descriptor()};
-  command.arguments = run_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
-  command.arguments.insert(command.arguments.end(), {"--out", folder.working().string(), "--seed",
-                                                     fmt::format("{}", run.seed)});
-  if (plan_.study.frames)
-    command.arguments.insert(command.arguments.end(),
-                             {"--frames", fmt::format("{}", *plan_.study.frames)});
-  pool_.start(index, command);
+  auto arguments = run_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
+  arguments.insert(arguments.end(),
+                   {"--out", folder.working().string(), "--seed", fmt::format("{}", run.seed)});
+  pool_.start(index, work_command(launch_, plan_, std::move(arguments), folder));
   working_.emplace(index, std::move(folder));
 }
 
 bool Execution::finish(const Ended& ended) {
-  if (ended.exit_code == kInterrupted) return false;
+  if (ended.end.code == kInterrupted) return false;
   const PlannedRun& run = plan_.runs[ended.key];
   RunFolder& folder = working_.at(ended.key);
   std::string failure;
-  if (ended.exit_code == 0) {
+  if (ended.end.code == 0) {
     folder.finish(plan_, run, {ended.seconds, launch_.threads});
   } else {
-    failure = failure_message(folder.log(), ended.exit_code, ended.signal);
-    folder.fail(plan_, run, {failure, ended.exit_code});
+    failure = failure_message(folder.log(), ended.end);
+    folder.fail(plan_, run, {failure, ended.end.code});
   }
   working_.erase(ended.key);
   watcher_.on_run(run, failure);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+#include <utility>
+
 namespace hypotrack::study {
 
 std::vector<std::string> scene_arguments(const std::string& subcommand,
@@ -19,6 +22,27 @@ std::vector<std::string> scene_arguments(const std::string& subcommand,
   set(fmt::format("output.overlay={}", plan.study.overlay));
   for (const Change& change : changes) set(change.assignment());
   return arguments;
+}
+
+Subprocess::Command study_command(const Launch& launch, const Plan& plan,
+                                  std::vector<std::string> arguments, std::filesystem::path log) {
+  Subprocess::Command command{launch.program, std::move(arguments)};
+  command.directory = plan.study.directory;
+  command.output = command.errors = std::move(log);
+  // Otherwise Mesa's software rasteriser starts a thread per core in every run.
+  constexpr const char* kMesaThreads = "LP_NUM_THREADS";
+  if (!std::getenv(kMesaThreads))
+    command.variables = {fmt::format("{}={}", kMesaThreads, launch.threads)};
+  return command;
+}
+
+Subprocess::Command work_command(const Launch& launch, const Plan& plan,
+                                 std::vector<std::string> arguments, const RunFolder& folder) {
+  if (plan.study.frames)
+    arguments.insert(arguments.end(), {"--frames", fmt::format("{}", *plan.study.frames)});
+  auto command = study_command(launch, plan, std::move(arguments), folder.log());
+  command.descriptors = {{folder.lock_descriptor(), folder.lock_descriptor()}};
+  return command;
 }
 
 }  // namespace hypotrack::study

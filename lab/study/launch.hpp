@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "base/subprocess.hpp"
 #include "lab/study/plan.hpp"
+#include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
 
@@ -22,5 +24,14 @@ std::vector<std::string> scene_arguments(const std::string& subcommand,
                                          const std::filesystem::path& scene,
                                          const std::vector<Change>& changes, const Plan& plan,
                                          const Launch& launch);
+
+/// Returns the command of a process of a study, whose output goes to a log.
+Subprocess::Command study_command(const Launch& launch, const Plan& plan,
+                                  std::vector<std::string> arguments, std::filesystem::path log);
+
+/// Returns the command of a process that works in a run's folder, keeps its lock, and stops after
+/// the study's number of frames.
+Subprocess::Command work_command(const Launch& launch, const Plan& plan,
+                                 std::vector<std::string> arguments, const RunFolder& folder);
 
 }  // namespace hypotrack::study

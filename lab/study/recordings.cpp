@@ -35,18 +35,12 @@ std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
 /// Recordings still to be made, by name, with a cell that needs each.
 using Wanted = std::map<std::string, std::size_t>;
 
-Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
-                      const RunFolder& folder) {
-  Command command{launch.program,          {}, plan.study.directory, folder.log(), launch.threads,
-                  folder.lock_descriptor()};
-  command.arguments = scene_arguments("synth", plan.scene_of(cell).file,
-                                      select(plan.changes_of(cell), true), plan, launch);
-  command.arguments.insert(command.arguments.end(),
-                           {"--out", (folder.working() / "recording").string()});
-  if (plan.study.frames)
-    command.arguments.insert(command.arguments.end(),
-                             {"--frames", fmt::format("{}", *plan.study.frames)});
-  return command;
+Subprocess::Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
+                                  const RunFolder& folder) {
+  auto arguments = scene_arguments("synth", plan.scene_of(cell).file,
+                                   select(plan.changes_of(cell), true), plan, launch);
+  arguments.insert(arguments.end(), {"--out", (folder.working() / "recording").string()});
+  return work_command(launch, plan, std::move(arguments), folder);
 }
 
 class Recorder {
@@ -80,11 +74,10 @@ class Recorder {
 
   void finish(const Ended& ended) {
     RunFolder& folder = working_.at(ended.key);
-    if (ended.exit_code != 0)
-      throw DataError(fmt::format("{}: {}: its source cannot be recorded: {}",
-                                  plan_.scene_of(plan_.cells[ended.key]).where,
-                                  plan_.describe(plan_.cells[ended.key]),
-                                  failure_message(folder.log(), ended.exit_code, ended.signal)));
+    if (ended.end.code != 0)
+      throw DataError(fmt::format(
+          "{}: {}: its source cannot be recorded: {}", plan_.scene_of(plan_.cells[ended.key]).where,
+          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended.end)));
     folder.put_into_place();
     working_.erase(ended.key);
   }

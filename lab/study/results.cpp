@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <string_view>
 
-#include "lab/study/read_json.hpp"
+#include "lab/json_file.hpp"
 #include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
@@ -22,7 +21,7 @@ bool is_timed(const std::string& name) {
 /// Reads the numbers at the top level of a file. `null` is an undefined number.
 Metrics read_metrics(const std::filesystem::path& file) {
   Metrics metrics;
-  const auto json = read_json(file);
+  const Json json = read_json_object(file, repair_advice(file));
   for (const auto& [name, value] : json.items()) {
     if (value.is_number()) metrics.emplace_back(name, value.get<double>());
     if (value.is_null()) metrics.emplace_back(name, std::nullopt);
@@ -64,18 +63,6 @@ std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::pat
     if (std::filesystem::exists(folder)) results.push_back(read_result(run, folder));
   }
   return results;
-}
-
-Statistics statistics_of(const std::vector<double>& values) {
-  Statistics statistics{values.size(), 0, std::nullopt};
-  if (values.empty()) return statistics;
-  const auto count = static_cast<double>(values.size());
-  statistics.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
-  if (values.size() < 2) return statistics;
-  double squares = 0;
-  for (const double value : values) squares += std::pow(value - statistics.mean, 2);
-  statistics.sd = std::sqrt(squares / (count - 1));
-  return statistics;
 }
 
 }  // namespace hypotrack::study

@@ -27,12 +27,4 @@ struct RunResult {
 /// the study's. Throws DataError.
 std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::path& runs);
 
-/// Mean and standard deviation of some numbers.
-struct Statistics {
-  std::size_t count = 0;
-  double mean = 0;
-  std::optional<double> sd;  ///< of a sample (divided by n - 1); nothing for fewer than two
-};
-HYPOTRACK_API Statistics statistics_of(const std::vector<double>& values);
-
 }  // namespace hypotrack::study

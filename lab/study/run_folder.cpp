@@ -4,14 +4,13 @@
 #include <string.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <utility>
 
 #include "base/numbers.hpp"
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/study/read_json.hpp"
+#include "lab/json_file.hpp"
 
 namespace hypotrack::study {
 namespace {
@@ -19,8 +18,8 @@ namespace {
 constexpr std::string_view kMessagePrefix = "hypotrack: ";
 constexpr const char* kFailureFile = "failure.json";
 
-nlohmann::ordered_json settings_of(const Plan& plan, const Cell& cell) {
-  auto settings = nlohmann::ordered_json::object();
+Json settings_of(const Plan& plan, const Cell& cell) {
+  auto settings = Json::object();
   for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
     const Choice& choice = plan.choice_of(cell, axis);
     auto& value = settings[plan.study.axes[axis].name];
@@ -36,14 +35,14 @@ nlohmann::ordered_json settings_of(const Plan& plan, const Cell& cell) {
   return settings;
 }
 
-void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
-  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+void write_json(const std::filesystem::path& file, const Json& json) {
+  constexpr auto kReplace = Json::error_handler_t::replace;
   TextFile(file).write(json.dump(2, ' ', false, kReplace) + "\n");
 }
 
 void write_cell(const std::filesystem::path& folder, const Plan& plan, const PlannedRun& run) {
   const Cell& cell = plan.cells[run.cell];
-  nlohmann::ordered_json json;
+  Json json;
   json["scene"] = plan.scene_of(cell).name;
   json["settings"] = settings_of(plan, cell);
   json["seed"] = run.seed;
@@ -94,7 +93,7 @@ void RunFolder::put_into_place() {
 
 void RunFolder::finish(const Plan& plan, const PlannedRun& run, const RunCost& cost) {
   write_cell(working_, plan, run);
-  nlohmann::ordered_json timing;
+  Json timing;
   timing["seconds"] = cost.seconds;
   timing["threads"] = cost.threads;
   write_json(working_ / "timing.json", timing);
@@ -105,20 +104,26 @@ void RunFolder::fail(const Plan& plan, const PlannedRun& run, const RunFailure& 
   for (const auto& entry : std::filesystem::directory_iterator(working_))
     if (entry.path() != log()) std::filesystem::remove_all(entry.path());
   write_cell(working_, plan, run);
-  nlohmann::ordered_json json;
+  Json json;
   json["message"] = without(failure.message, working_.string(), "the run's folder");
   json["exit_code"] = failure.exit_code;
   write_json(working_ / kFailureFile, json);
   rename();
 }
 
+std::string repair_advice(const std::filesystem::path& file) {
+  return fmt::format("remove the folder {} and the run will be made again",
+                     file.parent_path().string());
+}
+
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / kFailureFile)) return std::nullopt;
-  const nlohmann::json json = read_json(folder / kFailureFile);
+  const std::filesystem::path file = folder / kFailureFile;
+  if (!std::filesystem::exists(file)) return std::nullopt;
+  const Json json = read_json_object(file, repair_advice(file));
   return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
 }
 
-std::string failure_message(const std::filesystem::path& log, int exit_code, int signal) {
+std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end) {
   std::ifstream in(log);
   std::string message;
   bool goes_on = false;  // further lines of a message are indented
@@ -133,8 +138,9 @@ std::string failure_message(const std::filesystem::path& log, int exit_code, int
       goes_on = false;
     }
   }
-  if (signal != 0) return fmt::format("ended by signal {} ({})", signal, strsignal(signal));
-  return message.empty() ? fmt::format("ended with exit code {}", exit_code) : message;
+  if (end.signal != 0)
+    return fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
+  return message.empty() ? fmt::format("ended with exit code {}", end.code) : message;
 }
 
 }  // namespace hypotrack::study

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/subprocess.hpp"
 #include "hypotrack/export.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
@@ -54,12 +55,15 @@ class HYPOTRACK_API RunFolder {
   std::filesystem::path working_, final_;
 };
 
+/// Returns what to do about a damaged file of a run's folder, for a message.
+std::string repair_advice(const std::filesystem::path& file);
+
 /// Reads the failure of a run's folder; nothing if it did not fail. Throws DataError if the note is
 /// damaged.
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
 /// Returns the line of a log that says why a run failed, without the names of its folders.
-HYPOTRACK_API std::string failure_message(const std::filesystem::path& log, int exit_code,
-                                          int signal);
+HYPOTRACK_API std::string failure_message(const std::filesystem::path& log,
+                                          const Subprocess::End& end);
 
 }  // namespace hypotrack::study

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "base/numbers.hpp"
-#include "base/suggest.hpp"
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 #include "lab/study/study_grid.hpp"
 #include "lab/study/study_text.hpp"
 #include "output/metrics/metrics.hpp"
@@ -143,7 +143,7 @@ void keep_scenes(Study& study, const ConfigNode& variant, const std::vector<std:
     if (std::find(names.begin(), names.end(), kept[i]) == names.end())
       fail_at(variant.get("scenes").at(i),
               fmt::format("'{}' is no scene of the study{}; its scenes are: {}", kept[i],
-                          detail::did_you_mean(kept[i], names), fmt::join(names, ", ")));
+                          did_you_mean(kept[i], names), fmt::join(names, ", ")));
   std::erase_if(study.scenes, [&](const StudyScene& scene) {
     return std::find(kept.begin(), kept.end(), scene.name) == kept.end();
   });
@@ -189,7 +189,7 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
   if (!name) return;
   if (std::find(names.begin(), names.end(), *name) == names.end())
     throw ConfigError(
-        fmt::format("{}: has no variant '{}'{}{}", file, *name, detail::did_you_mean(*name, names),
+        fmt::format("{}: has no variant '{}'{}{}", file, *name, did_you_mean(*name, names),
                     names.empty() ? "; it has none at all"
                                   : fmt::format("; its variants are: {}", fmt::join(names, ", "))));
   apply_variant(study, variants.get(*name));
@@ -203,7 +203,7 @@ void check_metric(const ConfigNode& node, const std::string& name) {
   known.insert(known.end(), {"uncertain_frames", "fps", "search_fps", "evaluations_per_second"});
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   fail_at(node, fmt::format("'{}' is no metric of a run{}; there are: {}", name,
-                            detail::did_you_mean(name, known), fmt::join(known, ", ")));
+                            did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
 /// What varies must be there to be drawn over, and what is drawn must be a metric.
@@ -215,7 +215,7 @@ void check_plots(const Study& study, const ConfigNode& plots) {
     if (name.empty() && required) fail_at(node, "required key is missing");
     if (!name.empty() && std::find(known.begin(), known.end(), name) == known.end())
       fail_at(node, fmt::format("'{}' is nothing that varies in this study{}; there are: {}", name,
-                                detail::did_you_mean(name, known), fmt::join(known, ", ")));
+                                did_you_mean(name, known), fmt::join(known, ", ")));
   };
   for (std::size_t i = 0; i < study.plots.size(); ++i) {
     const Plot& plot = study.plots[i];
@@ -236,7 +236,7 @@ void check_table_per(const Study& study, const ConfigNode& node) {
       std::find(known.begin(), known.end(), study.table_per) != known.end())
     return;
   fail_at(node, fmt::format("'{}' is no axis of this study{}; there are: {}", study.table_per,
-                            detail::did_you_mean(study.table_per, known), fmt::join(known, ", ")));
+                            did_you_mean(study.table_per, known), fmt::join(known, ", ")));
 }
 
 }  // namespace

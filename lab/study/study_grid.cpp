@@ -9,13 +9,11 @@
 #include <string_view>
 
 #include "base/numbers.hpp"
-#include "base/suggest.hpp"
-#include "config/key_path.hpp"
 #include "config/overrides.hpp"
 #include "config/parts.hpp"
 #include "config/read_value.hpp"
-#include "config/tracker_file.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/yaml.hpp"
+#include "hypotrack/suggest.hpp"
 #include "lab/study/study_text.hpp"
 
 namespace hypotrack::study {
@@ -144,7 +142,7 @@ void replace_choices(std::vector<Axis>& axes, const ConfigNode& grid) {
       for (const Axis& other : axes) names.push_back(other.name);
       fail_at(grid.get(axis.name),
               fmt::format("is no axis of the study{}; its axes are: {}",
-                          detail::did_you_mean(axis.name, names), fmt::join(names, ", ")));
+                          did_you_mean(axis.name, names), fmt::join(names, ", ")));
     }
     *at = std::move(axis);
   }

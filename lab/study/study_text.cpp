@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "config/yaml_writer.hpp"
+#include "config/yaml.hpp"
 
 namespace hypotrack::study {
 namespace {

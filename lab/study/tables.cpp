@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "base/statistics.hpp"
 #include "base/text_file.hpp"
 #include "lab/study/results.hpp"
 
@@ -21,6 +23,8 @@ using Column = Metrics RunResult::*;
 std::string csv(const std::optional<double>& number) {
   return number ? fmt::format("{}", *number) : "";
 }
+
+std::string csv_known(double number) { return std::isnan(number) ? "" : fmt::format("{}", number); }
 
 std::string header_of(const Plan& plan) {
   std::string text = "scene";
@@ -91,9 +95,7 @@ std::string cell_numbers(const RunResult* begin, const RunResult* end,
     std::vector<double> values;
     for (const RunResult* result = begin; result != end; ++result)
       if (const auto value = find(result->metrics, name)) values.push_back(*value);
-    const Statistics statistics = statistics_of(values);
-    const auto mean = statistics.count > 0 ? std::optional(statistics.mean) : std::nullopt;
-    text += "," + csv(mean) + "," + csv(statistics.sd);
+    text += "," + csv_known(mean(values)) + "," + csv_known(sample_deviation(values));
   }
   return text;
 }

@@ -1,10 +1,6 @@
 #include "program.hpp"
 
-#include <fcntl.h>
-#include <stdlib.h>
 #include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -13,74 +9,54 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "test_paths.hpp"
-
 namespace hypotrack::test {
 namespace {
 
-void redirect(int descriptor, const std::filesystem::path& file) {
-  const int opened = open(file.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
-  if (opened < 0 || dup2(opened, descriptor) < 0) _exit(126);
-}
+/// While it lives, started programs fail to write files beyond a size, as on a full disk.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(long bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    if (bytes <= 0) return;
+    const rlimit limit{static_cast<rlim_t>(bytes), before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
 
-/// In the child: becomes the program or ends with 126.
-[[noreturn]] void become(const Start& start, const std::filesystem::path& folder) {
-  redirect(STDOUT_FILENO, start.out.empty() ? folder / "out" : start.out);
-  redirect(STDERR_FILENO, start.err.empty() ? folder / "err" : start.err);
-  if (!start.directory.empty() && chdir(start.directory.c_str()) != 0) _exit(126);
-  for (const std::string& variable : start.environment) {
-    const auto equals = variable.find('=');
-    setenv(variable.substr(0, equals).c_str(), variable.substr(equals + 1).c_str(), 1);
-  }
-  if (start.largest_file > 0) {
-    const auto bytes = static_cast<rlim_t>(start.largest_file);
-    const rlimit limit{bytes, bytes};
-    std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
-    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(126);
-  }
-  const std::string program = (build_dir() / "bin" / "hypotrack").string();
-  std::vector<std::string> words{program};
-  words.insert(words.end(), start.arguments.begin(), start.arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  execv(program.c_str(), argv.data());
-  _exit(126);
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = SIG_DFL;
+};
+
+Subprocess::Command command_of(const Start& start, const std::filesystem::path& folder) {
+  return {build_dir() / "bin" / "hypotrack",
+          start.arguments,
+          start.environment,
+          start.directory,
+          start.out.empty() ? folder / "out" : start.out,
+          start.err.empty() ? folder / "err" : start.err};
 }
 
 }  // namespace
 
 Program::Program(const Start& start) {
-  std::string name = (std::filesystem::temp_directory_path() / "hypotrack_said_XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary folder");
-  folder_ = name;
-  pid_ = fork();
-  if (pid_ < 0) throw std::runtime_error("cannot start a process");
-  if (pid_ == 0) become(start, folder_);
+  const FileSizeLimit limit(start.largest_file);
+  process_.emplace(command_of(start, folder_.path()));
 }
 
-Program::~Program() {
-  if (running()) {
-    kill(pid_, SIGKILL);
-    waitpid(pid_, &status_, 0);
-  }
-  std::filesystem::remove_all(folder_);
-}
+void Program::signal(int number) const { process_->signal(number); }
 
-void Program::signal(int number) const {
-  if (pid_ > 0) kill(pid_, number);
-}
-
-bool Program::running() {
-  if (pid_ > 0 && waitpid(pid_, &status_, WNOHANG) == pid_) pid_ = -1;
-  return pid_ > 0;
-}
+bool Program::running() { return process_->running(); }
 
 Outcome Program::wait() {
-  if (pid_ > 0) waitpid(pid_, &status_, 0);
-  pid_ = -1;
-  const int code = WIFSIGNALED(status_) ? 128 + WTERMSIG(status_) : WEXITSTATUS(status_);
-  return {code, read_text(folder_ / "out"), read_text(folder_ / "err")};
+  const int code = process_->wait().code;
+  return {code, read_text(folder_.path() / "out"), read_text(folder_.path() / "err")};
 }
 
 Outcome run_program(const Start& start) { return Program(start).wait(); }

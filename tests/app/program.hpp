@@ -1,10 +1,12 @@
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "base/subprocess.hpp"
+#include "test_paths.hpp"
 
 namespace hypotrack::test {
 
@@ -28,9 +30,6 @@ struct Outcome {
 class Program {
  public:
   explicit Program(const Start& start);
-  ~Program();
-  Program(const Program&) = delete;
-  Program& operator=(const Program&) = delete;
 
   void signal(int number) const;
   bool running();
@@ -38,9 +37,8 @@ class Program {
   Outcome wait();
 
  private:
-  pid_t pid_ = -1;
-  int status_ = 0;
-  std::filesystem::path folder_;  ///< holds what the program says
+  TemporaryDirectory folder_;          ///< holds what the program says
+  std::optional<Subprocess> process_;  ///< ends before the folder
 };
 
 Outcome run_program(const Start& start);

@@ -1,16 +1,16 @@
 #include <gtest/gtest.h>
 
-#include "base/suggest.hpp"
+#include "hypotrack/suggest.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack {
 namespace {
 
-TEST(Suggest, DistanceCountsSingleEdits) {
-  EXPECT_EQ(edit_distance("", "abc"), 3);
-  EXPECT_EQ(edit_distance("particles", "particles"), 0);
-  EXPECT_EQ(edit_distance("partikles", "particles"), 1);
-  EXPECT_EQ(edit_distance("aprticles", "particles"), 1) << "neighbours swapped";
-  EXPECT_EQ(edit_distance("kitten", "sitting"), 3);
+TEST(Suggest, OneEditIsForgivenInShortWords) {
+  const std::vector<std::string> words = {"seed"};
+  for (const char* word : {"sxeed", "sed", "sead", "esed"})  // the last: neighbours swapped
+    EXPECT_EQ(did_you_mean(word, words), "; did you mean 'seed'?") << word;
+  for (const char* word : {"xsxed", "sd", "saad", "edse"})
+    EXPECT_EQ(did_you_mean(word, words), "") << word;
 }
 
 TEST(Suggest, NamesTheNearestCandidate) {
@@ -29,4 +29,4 @@ TEST(Suggest, IsSilentWhereNothingIsNear) {
 }
 
 }  // namespace
-}  // namespace hypotrack::detail
+}  // namespace hypotrack

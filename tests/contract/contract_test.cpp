@@ -1,13 +1,13 @@
 // Tests that the contract program notices every way of breaking a contract, and names it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
+#include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "base/subprocess.hpp"
 #include "device.hpp"
 #include "test_paths.hpp"
 
@@ -23,17 +23,10 @@ struct Outcome {
   std::string output;
 };
 
-Outcome run(const std::string& arguments) {
-  const std::string command = std::string(HYPOTRACK_CONTRACT_TEST) + " " + arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome outcome;
-  std::array<char, 4096> buffer{};
-  while (const std::size_t count = fread(buffer.data(), 1, buffer.size(), pipe)) {
-    outcome.output.append(buffer.data(), count);
-  }
-  const int status = pclose(pipe);
-  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
+Outcome run(const std::vector<std::string>& arguments) {
+  const Captured captured =
+      capture_output({HYPOTRACK_CONTRACT_TEST, arguments}, {STDOUT_FILENO, STDERR_FILENO});
+  return {captured.end.code, captured.output};
 }
 
 std::string library(const std::string& kind) {
@@ -44,7 +37,7 @@ Outcome run(const std::string& kind, const std::string& parameters) {
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "parameters.yaml";
   std::ofstream(file) << parameters;
-  return run(kind + " " + library(kind) + " " + file.string());
+  return run({kind, library(kind), file.string()});
 }
 
 struct Case {
@@ -191,8 +184,9 @@ Outcome run_on_device(const std::string& fault) {
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "parameters.yaml";
   std::ofstream(file) << "fault: " + fault + "\n";
-  return run("objective " + std::string(HYPOTRACK_BROKEN_PLUGINS) +
-             "/libhypotrack_objective_broken_device.so " + file.string());
+  const std::string library =
+      std::string(HYPOTRACK_BROKEN_PLUGINS) + "/libhypotrack_objective_broken_device.so";
+  return run({"objective", library, file.string()});
 }
 
 class DeviceContract : public ::testing::TestWithParam<Case> {};
@@ -229,7 +223,7 @@ TEST(ContractProgram, RowsForTheDevicePassOrSayWhatIsMissing) {
 }
 
 TEST(ContractProgram, AnotherKindIsNoticed) {
-  const Outcome outcome = run("model " + library("optimizer"));
+  const Outcome outcome = run({"model", library("optimizer")});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("it is a plugin of kind 'optimizer', expected 'model'"));
 }
@@ -238,7 +232,7 @@ TEST(ContractProgram, AFileThatASceneCouldNotFindIsNoticed) {
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "mine.so";
   std::filesystem::copy(library("optimizer"), file);
-  const Outcome outcome = run("optimizer " + file.string());
+  const Outcome outcome = run({"optimizer", file.string()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("the file is mine.so, expected "
                                         "libhypotrack_optimizer_broken.so"));
@@ -248,7 +242,7 @@ TEST(ContractProgram, AFileThatIsNoLibraryIsNoticed) {
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "libhypotrack_model_text.so";
   std::ofstream(file) << "not a library";
-  const Outcome outcome = run("model " + file.string());
+  const Outcome outcome = run({"model", file.string()});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.output, HasSubstr("library opens and describes itself: FAILED\n"
                                         "    cannot be opened"));
@@ -262,7 +256,7 @@ TEST(ContractProgram, ParametersThatDoNotFitFailTheirRow) {
 }
 
 TEST(ContractProgram, ASourceWithoutParametersIsSkippedSayingSo) {
-  const Outcome outcome = run("source " + library("source"));
+  const Outcome outcome = run({"source", library("source")});
   EXPECT_EQ(outcome.status, 0) << outcome.output;
   EXPECT_THAT(outcome.output,
               AllOf(HasSubstr("an object can be made: skipped\n"), HasSubstr("it needs parameters"),
@@ -270,7 +264,7 @@ TEST(ContractProgram, ASourceWithoutParametersIsSkippedSayingSo) {
 }
 
 TEST(ContractProgram, AWrongCommandLineSaysHow) {
-  const Outcome outcome = run("camera " + library("source"));
+  const Outcome outcome = run({"camera", library("source")});
   EXPECT_EQ(outcome.status, 2);
   EXPECT_THAT(outcome.output, HasSubstr("usage: hypotrack_contract_test KIND FILE.so"));
 }

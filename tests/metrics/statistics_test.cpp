@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "hypotrack/median.hpp"
+
 namespace hypotrack {
 namespace {
 
@@ -24,6 +26,18 @@ TEST(Statistics, MeanAndStandardDeviation) {
   // (100 + 361 + 64 + 900 + 169) / 5 = 318.8
   EXPECT_DOUBLE_EQ(standard_deviation(kErrors), std::sqrt(318.8));
   EXPECT_DOUBLE_EQ(standard_deviation(std::vector<double>{4}), 0);
+}
+
+TEST(Statistics, ASampleDeviationDividesByOneLess) {
+  EXPECT_NEAR(sample_deviation(std::vector<double>{2, 4, 4, 4, 5, 5, 7, 9}), std::sqrt(32 / 7.0),
+              1e-12);
+  EXPECT_TRUE(std::isnan(sample_deviation(std::vector<double>{1})));
+}
+
+TEST(Statistics, TheUpperMedianIsOneOfTheValues) {
+  EXPECT_EQ(upper_median(std::vector{5, 1, 9}), 5);
+  EXPECT_EQ(upper_median(std::vector{7.5, 1.0, 3.0, 9.0}), 7.5);
+  EXPECT_EQ(upper_median(std::vector{2.5f}), 2.5f);
 }
 
 TEST(Statistics, PercentilesAreLinearBetweenNeighbours) {

@@ -1,10 +1,10 @@
-#include "lab/report/statistics.hpp"
-
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "lab/report/significance.hpp"
 
 namespace hypotrack {
 namespace {
@@ -96,11 +96,6 @@ TEST(StatisticsTest, SmallestProbabilitiesAreReached) {
   EXPECT_EQ(smallest_signed_rank_p(6), signed_rank_test(Numbers{1, 2, 3, 4, 5, 6}, Numbers(6, 0.)));
   EXPECT_EQ(smallest_rank_sum_p(3, 4), rank_sum_test(Numbers{1, 2, 3}, Numbers{4, 5, 6, 7}));
   EXPECT_EQ(smallest_signed_rank_p(1), 1);
-}
-
-TEST(StatisticsTest, DeviationIsThatOfASample) {
-  EXPECT_NEAR(sample_deviation(Numbers{2, 4, 4, 4, 5, 5, 7, 9}), std::sqrt(32 / 7.0), 1e-12);
-  EXPECT_TRUE(std::isnan(sample_deviation(Numbers{1})));
 }
 
 }  // namespace

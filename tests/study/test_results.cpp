@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 
-#include <cmath>
-
+#include "hypotrack/error.hpp"
 #include "lab/study/results.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
@@ -9,18 +8,6 @@
 
 namespace hypotrack::test {
 namespace {
-
-using study::statistics_of;
-
-TEST(StatisticsTest, OfNothingOneAndMany) {
-  EXPECT_EQ(statistics_of({}).count, 0U);
-  EXPECT_EQ(statistics_of({3}).mean, 3);
-  EXPECT_FALSE(statistics_of({3}).sd.has_value());
-  const study::Statistics many = statistics_of({2, 4, 4, 4, 5, 5, 7, 9});
-  EXPECT_EQ(many.mean, 5);
-  ASSERT_TRUE(many.sd.has_value());
-  EXPECT_DOUBLE_EQ(*many.sd, std::sqrt(32.0 / 7));
-}
 
 /// A study of one scene and two cells, whose runs are written by hand.
 class TablesTest : public StudyTest {
@@ -49,7 +36,6 @@ class TablesTest : public StudyTest {
 
   std::string table(const std::string& name) const { return read(path("out") / name); }
 
- private:
   std::filesystem::path run_folder(std::size_t run) const {
     return path("out/runs") / plan_.runs[run].id;
   }
@@ -94,6 +80,16 @@ TEST_F(TablesTest, TimingIsApartBecauseItIsNotTheSameTwice) {
   EXPECT_EQ(table("timing.csv"),
             "scene,optimizer.particles,seed,fps,search_fps,evaluations_per_second,seconds,threads\n"
             "box,16,1,20.5,8.5,1000,1.5,2\n");
+}
+
+TEST_F(TablesTest, ADamagedFileIsNamedWithTheFolderToRemove) {
+  add_run(0, "{\"mean_error_mm\": ");
+  const std::string folder = run_folder(0).string();
+  EXPECT_THAT(
+      [&] { write_tables(); },
+      testing::ThrowsMessage<DataError>(testing::AllOf(
+          testing::StartsWith(folder + "/metrics.json: is no JSON"),
+          testing::EndsWith("remove the folder " + folder + " and the run will be made again"))));
 }
 
 TEST_F(TablesTest, WithoutGroundTruthTheSummaryIsCompared) {

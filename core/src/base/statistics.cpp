@@ -33,6 +33,14 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(mean(squares));
 }
 
+double sample_deviation(std::span<const double> values) {
+  if (values.size() < 2) return kNan;
+  const double center = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - center) * (value - center);
+  return std::sqrt(sum / static_cast<double>(values.size() - 1));
+}
+
 double percentile(std::span<const double> values, double p) {
   if (values.empty()) return kNan;
   std::vector<double> sorted(values.begin(), values.end());

@@ -18,6 +18,9 @@ HYPOTRACK_API double mean(std::span<const double> values);
 /// Computes the population standard deviation, divided by n.
 HYPOTRACK_API double standard_deviation(std::span<const double> values);
 
+/// Computes the standard deviation of a sample, divided by n - 1; NaN for fewer than two values.
+HYPOTRACK_API double sample_deviation(std::span<const double> values);
+
 /// Returns the value below which a share 0 <= p <= 1 of the values lies; p = 0.5 is the median. It
 /// interpolates linearly between the two nearest values (Hyndman and Fan's type 7, as NumPy does).
 HYPOTRACK_API double percentile(std::span<const double> values, double p);

@@ -1,4 +1,4 @@
-#include "base/suggest.hpp"
+#include "hypotrack/suggest.hpp"
 
 #include <fmt/format.h>
 
@@ -6,14 +6,12 @@
 #include <cstdlib>
 #include <vector>
 
-namespace hypotrack::detail {
+namespace hypotrack {
 namespace {
 
 /// Longest word to compare. Longer ones are not typing errors, and the cost is the product of both
 /// lengths.
 constexpr std::size_t kLongestWord = 64;
-
-}  // namespace
 
 int edit_distance(std::string_view a, std::string_view b) {
   const std::size_t width = b.size() + 1;
@@ -33,6 +31,8 @@ int edit_distance(std::string_view a, std::string_view b) {
   return at(a.size(), b.size());
 }
 
+}  // namespace
+
 std::string did_you_mean(std::string_view word, std::span<const std::string> candidates) {
   if (word.empty() || word.size() > kLongestWord) return "";
   // Allow one error per three letters; words of two letters resemble anything.
@@ -51,4 +51,4 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   return best ? fmt::format("; did you mean '{}'?", *best) : "";
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack

@@ -5,12 +5,7 @@
 
 #include "config/overrides.hpp"
 #include "config/parts.hpp"
-#include "config/tracker_file.hpp"
-#include "config/yaml_file.hpp"
-#include "config/yaml_node.hpp"
-#include "config/yaml_reader.hpp"
-#include "config/yaml_text.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "base/numbers.hpp"
-#include "base/suggest.hpp"
 #include "config/read_value.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack {
 
@@ -120,7 +120,7 @@ struct ParamReader::Impl : public ParamVisitor {
       return;
     }
     const std::vector<std::string> words(names.begin(), names.end());
-    const std::string hint = node->is_null() ? "" : detail::did_you_mean(text, words);
+    const std::string hint = node->is_null() ? "" : did_you_mean(text, words);
     fail_at(*node, fmt::format("expected one of {}; found {}{}", fmt::join(words, ", "),
                                detail::describe_value(*node), hint));
   }

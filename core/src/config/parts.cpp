@@ -9,13 +9,10 @@
 #include <system_error>
 #include <utility>
 
-#include "base/suggest.hpp"
-#include "config/key_path.hpp"
-#include "config/tracker_file.hpp"
-#include "config/yaml_file.hpp"
-#include "config/yaml_text.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/overrides.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "base/numbers.hpp"
-#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail {
 

@@ -1,5 +1,3 @@
-#include "config/tracker_file.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,12 +9,11 @@
 #include <system_error>
 #include <utility>
 
-#include "base/suggest.hpp"
-#include "config/yaml_reader.hpp"
-#include "config/yaml_text.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/parts.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail {
 namespace {

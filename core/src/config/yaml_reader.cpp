@@ -1,5 +1,3 @@
-#include "config/yaml_reader.hpp"
-
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
@@ -9,7 +7,9 @@
 #include <optional>
 #include <sstream>
 #include <unordered_set>
+#include <utility>
 
+#include "config/yaml.hpp"
 #include "config/yaml_text.hpp"
 #include "hypotrack/error.hpp"
 
@@ -227,6 +227,22 @@ std::unique_ptr<YamlNode> read_yaml(std::string_view text,
     root->origin = origin;
   }
   return root;
+}
+
+std::unique_ptr<YamlNode> read_document(std::string_view text, std::string name,
+                                        const std::filesystem::path& directory) {
+  auto origin = std::make_shared<YamlOrigin>();
+  origin->name = std::move(name);
+  origin->directory =
+      std::filesystem::absolute(directory.empty() ? std::filesystem::current_path() : directory);
+  auto root = read_yaml(text, origin);
+  if (root->kind == YamlNode::Kind::kNull) root->kind = YamlNode::Kind::kMap;
+  return root;
+}
+
+std::unique_ptr<YamlNode> read_yaml_file(const std::filesystem::path& file) {
+  const std::string text = read_text_file(file);
+  return read_document(text, file.string(), std::filesystem::absolute(file).parent_path());
 }
 
 }  // namespace hypotrack::detail

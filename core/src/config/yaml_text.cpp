@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
 
 #include "hypotrack/error.hpp"
 
@@ -30,9 +33,23 @@ bool is_control(char c) {
 
 }  // namespace
 
-std::string describe_position(const YamlOrigin& origin, int line, int column) {
-  if (origin.is_override) return origin.name;
-  return fmt::format("{}:{}:{}", origin.name, line, column);
+std::string read_text_file(const std::filesystem::path& file) {
+  if (file.empty()) throw ConfigError("the name of the file is empty; expected a YAML file");
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored)) {
+    throw ConfigError(file.string() + ": is a folder; expected a YAML file");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) {
+    throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
+                                  std::generic_category().message(errno)));
+  }
+  // One byte above the limit is enough to detect a file that is too large.
+  std::string text(kMaxYamlBytes + 4, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (in.bad()) throw ConfigError(file.string() + ": cannot be read");
+  return text;
 }
 
 YamlText::YamlText(std::string_view text, const YamlOrigin& origin) : text_(text) {

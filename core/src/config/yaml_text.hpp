@@ -1,16 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "config/yaml_node.hpp"
+#include "config/yaml.hpp"
 
 namespace hypotrack::detail {
 
-/// Returns `scene.yaml:12:5`, or only the name for an override.
-std::string describe_position(const YamlOrigin& origin, int line, int column);
+/// Reads a file, or a little more than the limit of a larger one. Throws ConfigError if it cannot.
+std::string read_text_file(const std::filesystem::path& file);
 
 /// A text with its line starts; converts the parser's byte columns to character columns.
 class YamlText {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/text_file.hpp"
-#include "config/yaml_document.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 #include "output/true_landmarks.hpp"

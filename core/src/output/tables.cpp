@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "base/csv.hpp"
-#include "base/suggest.hpp"
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 #include "output/table_text.hpp"
 
 namespace hypotrack {
@@ -107,7 +107,7 @@ void check_renames(const Renames& renames, const CsvTable& table, const std::str
   for (const auto& [name, landmark] : renames) {
     if (std::find(bases.begin(), bases.end(), name) != bases.end()) continue;
     throw DataError(fmt::format("{}: has no landmark '{}' that the renaming '{}={}' could mean{}",
-                                file, name, name, landmark, detail::did_you_mean(name, bases)));
+                                file, name, name, landmark, did_you_mean(name, bases)));
   }
 }
 
@@ -140,7 +140,7 @@ std::vector<Triple> find_triples(const CsvTable& table, const std::string& file,
       throw DataError(
           fmt::format("{}: '{}' is no landmark of {}; rename it with "
                       "'{}=<landmark>' or drop it with '{}='{}",
-                      file, name, options.owner, base, base, detail::did_you_mean(name, offered)));
+                      file, name, options.owner, base, base, did_you_mean(name, offered)));
     }
     if (taken[*index]) {
       throw DataError(fmt::format("{}: the landmark '{}' is there twice", file, names[*index]));
@@ -170,10 +170,10 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
     for (const std::string_view column : table.columns()) {
       if (!resolve(column, names)) offered.emplace_back(column);
     }
-    throw DataError(fmt::format(
-        "{}: has no column '{}'; a table of states has one for each of the "
-        "scene's {} parameters{}",
-        file.string(), names[i], names.size(), detail::did_you_mean(names[i], offered)));
+    throw DataError(
+        fmt::format("{}: has no column '{}'; a table of states has one for each of the "
+                    "scene's {} parameters{}",
+                    file.string(), names[i], names.size(), did_you_mean(names[i], offered)));
   }
   const Timeline timeline = read_timeline(table);
   std::vector<StateRow> rows;

@@ -2,35 +2,50 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <string.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <system_error>
 
-#include "base/suggest.hpp"
+#include "base/subprocess.hpp"
 #include "hypotrack/error.hpp"
-#include "plugin/child.hpp"
+#include "hypotrack/suggest.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
+#include "plugin/probe.hpp"
 
 namespace hypotrack {
 namespace {
 
-std::string signal_name(int signal) {
-  const char* name = sigabbrev_np(signal);
-  return name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
+/// Returns the complete lines of a report.
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t end; (end = text.find('\n')) != text.npos; text.remove_prefix(end + 1))
+    lines.emplace_back(text.substr(0, end));
+  return lines;
 }
 
-/// Describes the failure of a child that returned no result.
-std::string describe_end(const detail::ChildResult& result, std::chrono::milliseconds limit) {
-  const std::string step = result.lines.empty() ? "while starting" : result.lines.back();
-  if (result.timed_out) {
+Captured probe_library(const std::filesystem::path& library, std::chrono::milliseconds limit) {
+  const auto program = detail::probe_program();
+  try {
+    return capture_output({program, {library.string()}}, {detail::kProbeDescriptor}, {limit});
+  } catch (const std::system_error& error) {
+    throw PluginError(fmt::format(
+        "{}; it is part of hypotrack, so build or install that completely", error.what()));
+  }
+}
+
+/// Describes the failure of a probe whose report, of some steps, has no result.
+std::string describe_end(const Captured& probe, const std::vector<std::string>& steps,
+                         std::chrono::milliseconds limit) {
+  const std::string step = steps.empty() ? "while starting" : steps.back();
+  if (probe.timed_out) {
     return fmt::format("hung: did not finish within {:g} s {}",
                        static_cast<double>(limit.count()) / 1e3, step);
   }
-  if (result.signal) return fmt::format("crashed: {} {}", signal_name(result.signal), step);
-  return fmt::format("ended the program with exit code {} {}", result.exit_code, step);
+  if (probe.end.signal) return fmt::format("crashed: {} {}", signal_name(probe.end.signal), step);
+  return fmt::format("ended the program with exit code {} {}", probe.end.code, step);
 }
 
 void fill(PluginRow& row, const nlohmann::json& report) {
@@ -92,14 +107,14 @@ PluginRow check_plugin(const std::filesystem::path& file, std::chrono::milliseco
     row.problem = std::filesystem::exists(row.path) ? "is no file" : "there is no such file";
     return row;
   }
-  const auto result = detail::run_child(detail::probe_program(), row.path.string(), limit);
-  const auto report = result.lines.empty()
-                          ? nlohmann::json()
-                          : nlohmann::json::parse(result.lines.back(), nullptr, false);
+  const Captured probe = probe_library(row.path, limit);
+  const std::vector<std::string> lines = lines_of(probe.output);
+  const auto report =
+      lines.empty() ? nlohmann::json() : nlohmann::json::parse(lines.back(), nullptr, false);
   if (report.is_object()) {
     fill(row, report);
   } else {
-    row.problem = describe_end(result, limit);
+    row.problem = describe_end(probe, lines, limit);
   }
   return row;
 }
@@ -121,7 +136,7 @@ std::vector<PluginRow> find_plugins(std::span<const std::filesystem::path> searc
   });
   if (rows.empty()) {
     const std::vector<std::string> candidates(words.begin(), words.end());
-    const std::string hint = detail::did_you_mean(what, candidates);
+    const std::string hint = did_you_mean(what, candidates);
     std::vector<std::string> folders;
     for (const auto& folder : search_path) folders.push_back(folder.string());
     throw PluginError(fmt::format("there is no plugin or kind of plugin '{}'{} Searched in {}",

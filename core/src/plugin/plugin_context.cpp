@@ -2,10 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "config/key_path.hpp"
 #include "config/overrides.hpp"
-#include "config/yaml_reader.hpp"
-#include "config/yaml_writer.hpp"
+#include "config/yaml.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack {

@@ -7,10 +7,10 @@
 #include <mutex>
 #include <typeinfo>
 
-#include "base/suggest.hpp"
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/suggest.hpp"
 #include "plugin/crash_note.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
@@ -92,7 +92,7 @@ struct PluginLoader::Impl {
       if (std::filesystem::exists(file)) return file;
     }
     const auto names = detail::plugin_names(kind, search_path);
-    const std::string meant = detail::did_you_mean(name, names);
+    const std::string meant = did_you_mean(name, names);
     const std::string others =
         names.empty() ? fmt::format(" and no other {} either", kind)
                       : fmt::format("{} {}", meant.empty() ? "; there are:" : meant + " There are:",

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "config/read_value.hpp"
-#include "config/yaml_document.hpp"
+#include "config/yaml.hpp"
 #include "cost/cuda/page_locked_images.hpp"
 #include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"

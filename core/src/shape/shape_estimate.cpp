@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/median.hpp"
 #include "hypotrack/shape.hpp"
 #include "shape/frame_sample.hpp"
 #include "shape/image_problem.hpp"
@@ -110,9 +111,7 @@ class Round {
                                        std::vector<TrackedFrame> frames) const {
     constexpr double kMuchLess = 0.6;
     const ImageProblem problem(*session_.scene, targets_, parts, frames);
-    std::vector<double> sorted = problem.explained();
-    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-    const double median = sorted[sorted.size() / 2];
+    const double median = upper_median(problem.explained());
     if (!(median > 0)) {
       throw DataError(fmt::format(
           "shape: in most of the {} tracked frames the objective is no better where the models "

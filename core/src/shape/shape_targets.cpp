@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/suggest.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/suggest.hpp"
 
 namespace hypotrack {
 namespace {
@@ -31,7 +31,7 @@ std::vector<int> find_models(const Scene& scene, const std::vector<std::string>&
   for (const std::string& name : wanted) {
     if (std::find(with_shape.begin(), with_shape.end(), name) != with_shape.end()) continue;
     throw ConfigError(fmt::format("shape: '{}' is no model of this scene with shape parameters{}",
-                                  name, detail::did_you_mean(name, with_shape)));
+                                  name, did_you_mean(name, with_shape)));
   }
   if (found.empty()) {
     throw ConfigError(
@@ -80,7 +80,7 @@ ShapeTargets::ShapeTargets(const Scene& scene, const std::vector<std::string>& m
   for (const std::string& name : parameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     throw ConfigError(fmt::format("shape: '{}' is no shape parameter of '{}'{}", name, first.name,
-                                  detail::did_you_mean(name, known)));
+                                  did_you_mean(name, known)));
   }
   for (std::size_t i = 0; i < all_.size(); ++i) {
     if (!parameters.empty() &&

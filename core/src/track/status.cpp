@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "hypotrack/median.hpp"
+
 namespace hypotrack {
-namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-}  // namespace
 
 std::string_view to_string(Status status) {
   static constexpr std::array<std::string_view, 5> names{"tracked", "uncertain", "lost", "absent",
@@ -27,13 +21,14 @@ double StatusMonitor::usual_cost() const {
   constexpr std::size_t kEnough = 5;  // too few costs to compare with below that
   if (costs_.size() < kEnough) return -std::numeric_limits<double>::infinity();
   const std::vector<double> costs(costs_.begin(), costs_.end());
-  const double expected = median(costs);
+  const double expected = upper_median(costs);
   std::vector<double> deviations;
   deviations.reserve(costs.size());
   for (double c : costs) deviations.push_back(std::abs(c - expected));
   // 1.4826 MAD estimates a normal distribution's standard deviation. The floor keeps a nearly
   // constant cost from making every frame an outlier.
-  const double deviation = std::max(1.4826 * median(deviations), 0.02 * std::abs(expected));
+  const double deviation =
+      std::max(1.4826 * upper_median(std::move(deviations)), 0.02 * std::abs(expected));
   return expected + settings_.outlier * deviation;
 }
 

@@ -75,7 +75,7 @@ std::filesystem::path find_rig(const HandParams& params, const ConfigNode& confi
     const auto ready = data_file("rigs") / (name + ".yaml");
     if (std::filesystem::exists(ready)) return ready;
     throw ConfigError(fmt::format("{}: there is no ready rig '{}' and no such file{}",
-                                  config.where(), name, did_you_mean(name, ready_rigs())));
+                                  config.where(), name, hint_about(name, ready_rigs())));
   }
   throw ConfigError(
       fmt::format("{}: the rig file {} does not exist", config.where(), params.rig.string()));

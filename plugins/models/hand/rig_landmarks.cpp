@@ -37,7 +37,7 @@ std::map<std::string, const RigLandmark*> replaced_landmarks(const Rigging& r) {
     const auto& known = hand_landmarks();
     if (std::find(known.begin(), known.end(), landmark.name) == known.end()) {
       r.fail(fmt::format("`landmarks` names '{}', which a hand does not have{}", landmark.name,
-                         did_you_mean(landmark.name, known)));
+                         hint_about(landmark.name, known)));
     }
     given[landmark.name] = &landmark;
   }

@@ -35,7 +35,7 @@ std::size_t Rigging::file_bone(const std::string& name, const std::string& who) 
   const auto found = file_bones.find(name);
   if (found == file_bones.end()) {
     fail(fmt::format("{} names the bone '{}', which the mesh file does not have{}", who, name,
-                     did_you_mean(name, file_names)));
+                     hint_about(name, file_names)));
   }
   return found->second;
 }
@@ -44,7 +44,7 @@ int Rigging::rig_bone(const std::string& name, const std::string& who) const {
   const auto found = rig_bones.find(name);
   if (found == rig_bones.end()) {
     fail(fmt::format("{} names the bone '{}', which the rig does not have{}", who, name,
-                     did_you_mean(name, rig_names)));
+                     hint_about(name, rig_names)));
   }
   return found->second;
 }
@@ -53,7 +53,7 @@ int Rigging::angle_index(const std::string& name, const std::string& who) const 
   const auto found = std::find(angle_names.begin(), angle_names.end(), name);
   if (found == angle_names.end()) {
     fail(fmt::format("{} names the parameter '{}', which a hand does not have{}", who, name,
-                     did_you_mean(name, angle_names)));
+                     hint_about(name, angle_names)));
   }
   return static_cast<int>(found - angle_names.begin());
 }

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/median.hpp"
 #include "surface.hpp"
 
 namespace hypotrack::interpenetration {
@@ -19,12 +21,6 @@ constexpr Eigen::Index kLeastVertices = 4;
 constexpr double kFilled = 0.95;     // share of its bounding box that makes a mesh a box
 constexpr double kSticksOut = 0.85;  // least distance of an end's centre from the surface, as a
                                      // share of the radius
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Returns for each bone the vertices of which it has the largest weight, at the bind pose.
 std::vector<Points> points_of_bones(const ModelData& data) {
@@ -139,7 +135,7 @@ class CapsuleFit {
     for (int i = 0; i < kSamples; ++i) {
       distances.push_back(distance(a + (b - a) * i / (kSamples - 1)));
     }
-    line.radius = median(std::move(distances));
+    line.radius = upper_median(std::move(distances));
     return line;
   }
 

@@ -5,10 +5,12 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/image_file.hpp"
+#include "hypotrack/median.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/truth.hpp"
 #include "image_list.hpp"
@@ -67,9 +69,7 @@ double rate_of(const std::vector<TimedImage>& images) {
     steps.push_back(images[i].time - images[i - 1].time);
   }
   if (steps.empty()) return 30;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return std::clamp(1 / *middle, 1e-3, 1e5);
+  return std::clamp(1 / upper_median(std::move(steps)), 1e-3, 1e5);
 }
 
 /// Reads recordings of one colour and depth camera in the layout of the TUM RGB-D benchmark (Sturm,

@@ -11,6 +11,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/median.hpp"
 #include "hypotrack/tables.hpp"
 
 namespace hypotrack::synthetic {
@@ -105,14 +106,11 @@ class ModelFit {
           fmt::format("{}: no row knows half of the landmarks of '{}'; rename the file's columns "
                       "to them (joint_file: {{rename: [...]}}), or leave the model out",
                       file, item_.name));
-    std::vector<double> scales = scales_;
-    std::nth_element(scales.begin(), scales.begin() + scales.size() / 2, scales.end());
     return fmt::format(
         "{}: '{}' fitted to {} of {} rows: {:.2f} mm on average, {:.2f} mm in the worst row "
         "(frame {}), one landmark by {:.1f} mm; {:.3f} times as large it would fit best\n",
         file, item_.name, quality_.rows, rows, 1e3 * quality_.sum / quality_.rows,
-        1e3 * quality_.worst, quality_.worst_frame, 1e3 * quality_.farthest,
-        scales[scales.size() / 2]);
+        1e3 * quality_.worst, quality_.worst_frame, 1e3 * quality_.farthest, upper_median(scales_));
   }
 
  private:

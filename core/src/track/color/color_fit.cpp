@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
+
+#include "hypotrack/median.hpp"
 
 namespace hypotrack {
 namespace {
@@ -170,9 +173,7 @@ double median_difference(const ColorSamples& samples, const ColorMap& map) {
       squares[n] += difference * difference;
     }
   }
-  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-  std::nth_element(squares.begin(), middle, squares.end());
-  return std::sqrt(double{*middle}) / 255;
+  return std::sqrt(double{upper_median(std::move(squares))}) / 255;
 }
 
 Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map) {

@@ -7,7 +7,10 @@
 #include <numeric>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
+#include <utility>
 #include <vector>
+
+#include "hypotrack/median.hpp"
 
 namespace hypotrack {
 namespace {
@@ -18,13 +21,6 @@ constexpr float kClearEdge = 20.0f;     // change of colour that is an edge, 0 .
 constexpr double kLeastPoints = 20;
 
 double log10_of(double value) { return std::log10(std::max(value, 0.1)); }
-
-double median(std::vector<float>& values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return double{*middle};
-}
 
 /// Two views' colours of the same points.
 struct Pairs {
@@ -164,7 +160,7 @@ double median_difference(const Pairs& pairs) {
     for (int x = 0; x < pairs.mask.cols; ++x)
       if (pairs.mask(y, x))
         distances.push_back(static_cast<float>(cv::norm(pairs.first(y, x) - pairs.other(y, x))));
-  return log10_of(median(distances));
+  return log10_of(distances.empty() ? 0 : double{upper_median(std::move(distances))});
 }
 
 /// Computes the total variation distance of the colour histograms inside and beside a silhouette,

@@ -2,14 +2,17 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 namespace hypotrack {
 
 using Json = nlohmann::ordered_json;
 
-/// Reads a JSON object. Throws DataError, naming the file and the position, if the file does not
-/// exist, is larger than 64 MiB, is no JSON or is anything but an object.
-Json read_json_object(const std::filesystem::path& file);
+/// Reads a JSON object, its keys in the file's order. Throws DataError, naming the file and the
+/// position, if the file does not exist, is larger than 64 MiB, is no JSON or is anything but an
+/// object. Messages end with `advice`.
+Json read_json_object(const std::filesystem::path& file, std::string_view advice = {});
 
 /// Returns a member as a number; NaN if it is null or absent. Throws DataError if it is anything
 /// else.

@@ -7,9 +7,6 @@
 
 namespace hypotrack {
 
-/// Computes the standard deviation of a sample (n - 1 in the denominator); NaN for fewer than two.
-HYPOTRACK_API double sample_deviation(std::span<const double> values);
-
 /// Computes the two-sided p value of Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) for
 /// pairs a[i], b[i]. Pairs without a difference are left out; equal differences share their mean
 /// rank. Exact up to 40 pairs, then by the normal approximation with continuity correction. Returns

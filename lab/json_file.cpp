@@ -1,4 +1,4 @@
-#include "lab/report/json_file.hpp"
+#include "lab/json_file.hpp"
 
 #include <fmt/format.h>
 
@@ -12,14 +12,16 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20;
 
-const char* advice() { return "repeat the run that wrote it, or remove it"; }
+constexpr std::string_view kAdvice = "repeat the run that wrote it, or remove it";
 
 }  // namespace
 
-Json read_json_object(const std::filesystem::path& file) {
+Json read_json_object(const std::filesystem::path& file, std::string_view advice) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw DataError(fmt::format("{}: no such file; expected a JSON object", file.string()));
+    throw DataError(fmt::format("{}: no such file; expected a JSON object{}{}", file.string(),
+                                advice.empty() ? "" : "; ", advice));
+  if (advice.empty()) advice = kAdvice;
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw DataError(fmt::format("{}: is larger than {} MiB", file.string(), kLargestFile >> 20));
   std::ifstream in(file, std::ios::binary);
@@ -27,11 +29,11 @@ Json read_json_object(const std::filesystem::path& file) {
   try {
     json = Json::parse(in);
   } catch (const Json::exception& e) {
-    throw DataError(fmt::format("{}: is no JSON ({}); {}", file.string(), e.what(), advice()));
+    throw DataError(fmt::format("{}: is no JSON ({}); {}", file.string(), e.what(), advice));
   }
   if (!json.is_object())
     throw DataError(fmt::format("{}: holds a JSON {}, expected an object; {}", file.string(),
-                                json.type_name(), advice()));
+                                json.type_name(), advice));
   return json;
 }
 
@@ -40,7 +42,7 @@ double number_in(const Json& object, const char* key, const std::filesystem::pat
   if (it == object.end() || it->is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (!it->is_number())
     throw DataError(fmt::format("{}: '{}' is a {}, expected a number; {}", file.string(), key,
-                                it->type_name(), advice()));
+                                it->type_name(), kAdvice));
   return it->get<double>();
 }
 
@@ -48,7 +50,7 @@ std::string text_in(const Json& object, const char* key, const std::filesystem::
   const auto it = object.find(key);
   if (it == object.end() || !it->is_string())
     throw DataError(fmt::format("{}: '{}' is {}, expected a text; {}", file.string(), key,
-                                it == object.end() ? "missing" : it->type_name(), advice()));
+                                it == object.end() ? "missing" : it->type_name(), kAdvice));
   return it->get<std::string>();
 }
 

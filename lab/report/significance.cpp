@@ -1,14 +1,11 @@
-#include "lab/report/statistics.hpp"
+#include "lab/report/significance.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/special_functions/binomial.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
-
-#include "base/statistics.hpp"
 
 namespace hypotrack {
 namespace {
@@ -74,14 +71,6 @@ std::vector<double> subset_counts(const std::vector<std::size_t>& ranks, std::si
 }
 
 }  // namespace
-
-double sample_deviation(std::span<const double> values) {
-  if (values.size() < 2) return std::numeric_limits<double>::quiet_NaN();
-  const double middle = mean(values);
-  double sum = 0;
-  for (const double value : values) sum += (value - middle) * (value - middle);
-  return std::sqrt(sum / static_cast<double>(values.size() - 1));
-}
 
 double signed_rank_test(std::span<const double> a, std::span<const double> b) {
   if (a.size() != b.size()) throw std::invalid_argument("pairs need samples of equal length");
