@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 /// Keys that an override replaces. What is left belongs to the recording or the machine.
 constexpr std::array<std::string_view, 8> kKeysOfTrackers{
-    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "hindsight"};
+    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "smoothing"};
 
 /// A reference to a tracker file, and where it is written.
 struct TrackerName {

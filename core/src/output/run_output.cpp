@@ -56,7 +56,7 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
   track_.write(track + "\n");
   const std::string landmarks = landmarks_header(scene.landmark_names());
   joints_.write(landmarks);
-  if (!options_.hindsight) return;
+  if (!options_.fixed_lag) return;
   online_.emplace(directory_.part("online.csv")).write(track + "\n");
   online_joints_.emplace(directory_.part("online_joints.csv")).write(landmarks);
 }

@@ -59,15 +59,16 @@ Status worst(const std::vector<Status>& models) {
 
 /// Subtracts the evaluations of fixed-lag smoothing from a search's budget. Throws ConfigError if
 /// less than half would be left.
-void reserve_for(const HindsightSettings& hindsight, Budget& budget) {
-  if (budget.evaluations < 2 * hindsight.evaluations)
-    throw ConfigError(
-        fmt::format("hindsight takes {} evaluations of a frame's budget, which is {}; give "
-                    "budget.evaluations {} "
-                    "or more, hindsight.evaluations {} or less, or leave hindsight.enabled off",
-                    hindsight.evaluations, budget.evaluations, 2 * hindsight.evaluations,
-                    budget.evaluations / 2));
-  budget.evaluations -= hindsight.evaluations;
+void reserve_for(const FixedLagSettings& settings, Budget& budget) {
+  if (budget.evaluations < 2 * settings.evaluations)
+    throw ConfigError(fmt::format(
+        "fixed-lag smoothing takes {} evaluations of a frame's budget, which is {}; give "
+        "budget.evaluations {} "
+        "or more, smoothing.fixed_lag.evaluations {} or less, or leave smoothing.fixed_lag.enabled "
+        "off",
+        settings.evaluations, budget.evaluations, 2 * settings.evaluations,
+        budget.evaluations / 2));
+  budget.evaluations -= settings.evaluations;
 }
 
 /// Subtracts the evaluations of sigmas from a search's budget. Throws ConfigError if less than half
@@ -91,8 +92,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       first_(std::move(start)),
       finder_(scene, parts, settings_),
       predictor_(scene, parts.search.prediction),
-      smoother_(scene, parts.smoothing),
-      smoothing_(parts.smoothing.enabled),
+      smoother_(scene, parts.one_euro),
+      smoothing_(parts.one_euro.enabled),
       seed_(seed) {
   Eigen::Index landmarks = 0;
   for (const Scene::Item& item : scene.items()) {
@@ -101,7 +102,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
   }
   scene.normalize(first_);
   state_ = kept_ = together_ = output_ = first_;
-  if (parts.hindsight.enabled) reserve_for(parts.hindsight, finder_.budget());
+  if (parts.fixed_lag.enabled) reserve_for(parts.fixed_lag, finder_.budget());
   if (settings_.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
 }

@@ -18,7 +18,7 @@
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
-#include "track/smooth/hindsight_settings.hpp"
+#include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/uncertainty.hpp"

@@ -6,14 +6,15 @@
 
 namespace hypotrack {
 
-void TileHighlights::learn(const std::vector<Sight>& sights, const std::vector<Moment>& moments) {
+void TileHighlights::learn(const std::vector<FrameTiles>& tiles,
+                           const std::vector<TimedState>& states) {
   for (Highlights& view : views_) view.forget();
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    if (!sights[i] || sights[i]->views.size() < 2) continue;
-    views_.resize(sights[i]->views.size() - 1, Highlights(1));
-    sampler_.draw(*sights[i], moments[i].state);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (!tiles[i] || tiles[i]->views.size() < 2) continue;
+    views_.resize(tiles[i]->views.size() - 1, Highlights(1));
+    sampler_.draw(*tiles[i], states[i].state);
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      const ColorSamples samples = sampler_.take(*sights[i], k + 1, true);
+      const ColorSamples samples = sampler_.take(*tiles[i], k + 1, true);
       if (samples.size() == 0) continue;
       views_[k].learn(samples.normals, gray_difference(samples, {}), sampler_.directions(k + 1));
     }

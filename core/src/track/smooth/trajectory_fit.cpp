@@ -68,12 +68,12 @@ std::int64_t TrajectoryFit::evaluations_per_look() const {
   return evaluator_->can_linearize() ? 2 : motion_->weight().size() + 1;
 }
 
-TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorXd& state,
+TrajectoryFit::Look TrajectoryFit::look(const FrameTiles& tiles, const Eigen::VectorXd& state,
                                         double blur) {
   const Eigen::Index d = motion_->weight().size();
   Look look{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
-  if (!sight) return look;
-  evaluator_->prepare(*sight);
+  if (!tiles) return look;
+  evaluator_->prepare(*tiles);
   if (evaluator_->can_linearize()) {
     const Beside beside(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
@@ -96,26 +96,27 @@ TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorX
   return look;
 }
 
-std::vector<Sight> TrajectoryFit::matt(const std::vector<Moment>& moments,
-                                       const std::vector<Sight>& sights, std::size_t fixed) {
-  if (!highlights_) return sights;
-  highlights_->learn(sights, moments);
-  std::vector<Sight> out = sights;
-  for (std::size_t i = fixed; i < moments.size(); ++i)
-    if (sights[i]) out[i] = highlights_->off(*sights[i], moments[i].state);
+std::vector<FrameTiles> TrajectoryFit::matt(const std::vector<TimedState>& states,
+                                            const std::vector<FrameTiles>& tiles,
+                                            std::size_t fixed) {
+  if (!highlights_) return tiles;
+  highlights_->learn(tiles, states);
+  std::vector<FrameTiles> out = tiles;
+  for (std::size_t i = fixed; i < states.size(); ++i)
+    if (tiles[i]) out[i] = highlights_->off(*tiles[i], states[i].state);
   return out;
 }
 
-std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<Moment>& moments,
-                                                            const std::vector<Sight>& sights,
+std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<TimedState>& states,
+                                                            const std::vector<FrameTiles>& tiles,
                                                             std::size_t fixed, double blur) {
   std::vector<Look> looks;
-  for (std::size_t i = fixed; i < moments.size(); ++i)
-    looks.push_back(look(sights[i], moments[i].state, blur));
+  for (std::size_t i = fixed; i < states.size(); ++i)
+    looks.push_back(look(tiles[i], states[i].state, blur));
   return looks;
 }
 
-Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
+Eigen::VectorXd TrajectoryFit::step(const std::vector<TimedState>& states,
                                     const std::vector<Look>& looks,
                                     const std::vector<double>& damping, double looseness,
                                     std::size_t fixed) const {
@@ -135,9 +136,9 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
       for (Eigen::Index r = c + 1; r < d; ++r) entries.emplace_back(at + r, at + c, eq.a(r, c));
     }
   }
-  for (std::size_t i = 1; i + 1 < moments.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < states.size(); ++i) {
     if (i + 1 < fixed) continue;
-    const MotionPrior::Change change = motion_->change(moments[i - 1], moments[i], moments[i + 1]);
+    const MotionPrior::Change change = motion_->change(states[i - 1], states[i], states[i + 1]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (i + k - 1 < fixed) continue;
       const Eigen::Index row = static_cast<Eigen::Index>(i + k - 1 - fixed) * d;
@@ -160,26 +161,26 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
   return solver.solve(-gradient);
 }
 
-std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments,
-                                              const std::vector<Moment>& trial,
+std::vector<bool> TrajectoryFit::worth_taking(const std::vector<TimedState>& states,
+                                              const std::vector<TimedState>& trial,
                                               const std::vector<Look>& looks,
                                               const std::vector<Look>& seen,
                                               double looseness) const {
-  // Viterbi algorithm over the decisions of two consecutive moments: bit 1 the first, bit 0 the
+  // Viterbi algorithm over the decisions of two consecutive states: bit 1 the first, bit 0 the
   // second.
-  const std::size_t fixed = moments.size() - looks.size();
-  const auto at = [&](std::size_t i, int taken) -> const Moment& {
-    return taken ? trial[i] : moments[i];
+  const std::size_t fixed = states.size() - looks.size();
+  const auto at = [&](std::size_t i, int taken) -> const TimedState& {
+    return taken ? trial[i] : states[i];
   };
   const auto cost = [&](std::size_t i, int taken) {
     if (i < fixed) return taken ? kInfinity : 0.0;
     return (taken ? seen : looks)[i - fixed].cost;
   };
-  std::vector<std::array<int, 4>> before(moments.size());  // best decision of the moment before the
-                                                           // two
+  std::vector<std::array<int, 4>> before(states.size());  // best decision of the state before the
+                                                          // two
   std::array<double, 4> sum{};
   for (int two = 0; two < 4; ++two) sum[two] = cost(0, two >> 1) + cost(1, two & 1);
-  for (std::size_t i = 2; i < moments.size(); ++i) {
+  for (std::size_t i = 2; i < states.size(); ++i) {
     std::array<double, 4> next{};
     for (int two = 0; two < 4; ++two) {
       next[two] = kInfinity;
@@ -196,22 +197,23 @@ std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments
     sum = next;
   }
   auto two = static_cast<int>(std::ranges::min_element(sum) - sum.begin());
-  std::vector<bool> take(moments.size());
-  for (std::size_t i = moments.size(); i-- > 0;) {
+  std::vector<bool> take(states.size());
+  for (std::size_t i = states.size(); i-- > 0;) {
     take[i] = two & 1;
     two = (i >= 2 ? before[i][two] << 1 : 0) | two >> 1;
   }
   return take;
 }
 
-std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vector<Sight>& sights,
-                                    std::size_t fixed, std::int64_t evaluations) {
+std::int64_t TrajectoryFit::improve(std::vector<TimedState>& states,
+                                    const std::vector<FrameTiles>& tiles, std::size_t fixed,
+                                    std::int64_t evaluations) {
   const std::int64_t looks_left = evaluations / evaluations_per_look();
-  if (looks_left < 2 || moments.size() <= fixed || moments.size() < 2) return 0;
+  if (looks_left < 2 || states.size() <= fixed || states.size() < 2) return 0;
   const Eigen::Index d = motion_->weight().size();
   double blur = kFirstBlur, looseness = kFirstLooseness;
-  std::vector<Sight> shown = matt(moments, sights, fixed);
-  std::vector<Look> looks = look_at_all(moments, shown, fixed, blur);
+  std::vector<FrameTiles> shown = matt(states, tiles, fixed);
+  std::vector<Look> looks = look_at_all(states, shown, fixed, blur);
   const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(looks_left));
   std::vector<double> damping(looks.size(), kFirstDamping);
   std::int64_t done = 1;
@@ -220,19 +222,19 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
     if (highlights_ && learned < kLearnAfter.size() && done + 2 <= looks_left &&
         static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(looks_left)) {
       ++learned;
-      shown = matt(moments, sights, fixed);
-      looks = look_at_all(moments, shown, fixed, blur);
+      shown = matt(states, tiles, fixed);
+      looks = look_at_all(states, shown, fixed, blur);
       ++done;
     }
-    const Eigen::VectorXd steps = step(moments, looks, damping, looseness, fixed);
+    const Eigen::VectorXd steps = step(states, looks, damping, looseness, fixed);
     if (!steps.allFinite()) break;
-    std::vector<Moment> trial = moments;
+    std::vector<TimedState> trial = states;
     for (std::size_t i = fixed; i < trial.size(); ++i)
-      trial[i].state = moved(*scene_, moments[i].state,
+      trial[i].state = moved(*scene_, states[i].state,
                              steps.segment(static_cast<Eigen::Index>(i - fixed) * d, d));
     std::vector<Look> seen = look_at_all(trial, shown, fixed, blur);
     ++done;
-    const std::vector<bool> take = worth_taking(moments, trial, looks, seen, looseness);
+    const std::vector<bool> take = worth_taking(states, trial, looks, seen, looseness);
     double gain = 0;
     for (std::size_t i = 0; i < looks.size(); ++i) {
       // Damp a frame more if its cost exceeds the prediction of its normal equations.
@@ -243,7 +245,7 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
       damping[i] = std::clamp(damping[i] * (kept ? 0.4 : taken ? 2.0 : 8.0), 1e-4, 1e6);
       if (!taken) continue;
       gain = std::max(gain, dx.cwiseAbs().cwiseProduct(motion_->weight().cwiseSqrt()).maxCoeff());
-      moments[i + fixed] = std::move(trial[i + fixed]);
+      states[i + fixed] = std::move(trial[i + fixed]);
       looks[i] = std::move(seen[i]);
     }
     const bool settled = gain < kLeastStep && looseness == 1;

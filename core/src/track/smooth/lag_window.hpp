@@ -7,13 +7,13 @@
 
 namespace hypotrack {
 
-/// A state of a motion and its time.
-struct Moment {
+/// A state of a frame and its time.
+struct TimedState {
   double time = 0;        ///< s
   Eigen::VectorXd state;  ///< normalised
 };
 
-/// Tiles of a moment; nothing if there was no picture or the scene was not in view.
-using Sight = std::optional<Observation>;
+/// Tiles of a frame; empty if it had no picture or the scene was not in view.
+using FrameTiles = std::optional<Observation>;
 
 }  // namespace hypotrack

@@ -7,18 +7,18 @@
 
 #include "hypotrack/objective.hpp"
 #include "shiny_ball.hpp"
-#include "track/smooth/hindsight.hpp"
+#include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
 namespace {
 
 /// Frames of a ball, in the colours of the pictures.
-struct Sights {
-  explicit Sights(double strength) {
+struct BallFrames {
+  explicit BallFrames(double strength) {
     for (int i = 0; i < 5; ++i) {
       const Frame frame = ball.frame(strength);
       seen.emplace_back(ball.tiles->cut(frame, ball.tiles->plan(frame, ball.state())));
-      moments.push_back({i / 30.0, ball.state()});
+      states.push_back({i / 30.0, ball.state()});
     }
   }
 
@@ -34,14 +34,14 @@ struct Sights {
   }
 
   test::ShinyBall ball;
-  std::vector<Sight> seen;
-  std::vector<Moment> moments;
+  std::vector<FrameTiles> seen;
+  std::vector<TimedState> states;
 };
 
 TEST(TileHighlights, TakesOffWhatViewsDifferBy) {
-  const Sights shiny(60), matt(0);
+  const BallFrames shiny(60), matt(0);
   TileHighlights highlights(shiny.ball.scene);
-  highlights.learn(shiny.seen, shiny.moments);
+  highlights.learn(shiny.seen, shiny.states);
   const Observation off = highlights.off(*shiny.seen[2], shiny.ball.state());
   const double most = shiny.difference(*shiny.seen[2]), least = matt.difference(*matt.seen[2]);
   ASSERT_GT(most, least + 2);
@@ -50,31 +50,31 @@ TEST(TileHighlights, TakesOffWhatViewsDifferBy) {
 }
 
 TEST(TileHighlights, LeavesTilesWithoutThem) {
-  const Sights matt(0);
+  const BallFrames matt(0);
   TileHighlights highlights(matt.ball.scene);
-  highlights.learn(matt.seen, matt.moments);
+  highlights.learn(matt.seen, matt.states);
   const Observation off = highlights.off(*matt.seen[2], matt.ball.state());
   EXPECT_LT(matt.difference(off), matt.difference(*matt.seen[2]) + 0.2);
 }
 
 TEST(TileHighlights, LearnsAnewFromTheSameTiles) {
-  const Sights shiny(60);
+  const BallFrames shiny(60);
   TileHighlights once(shiny.ball.scene), again(shiny.ball.scene);
-  once.learn(shiny.seen, shiny.moments);
-  for (int i = 0; i < 4; ++i) again.learn(shiny.seen, shiny.moments);
+  once.learn(shiny.seen, shiny.states);
+  for (int i = 0; i < 4; ++i) again.learn(shiny.seen, shiny.states);
   const double first = shiny.difference(once.off(*shiny.seen[0], shiny.ball.state()));
   const double later = shiny.difference(again.off(*shiny.seen[0], shiny.ball.state()));
   EXPECT_LT(later, 1.1 * first);
 }
 
 TEST(TileHighlights, LearnsNothingFromFramesThatWereNotSeenOrHaveNoColour) {
-  Sights shiny(60);
+  BallFrames shiny(60);
   const Observation before = *shiny.seen[0];
-  for (Sight& sight : shiny.seen) sight.reset();
+  for (FrameTiles& tiles : shiny.seen) tiles.reset();
   shiny.seen[1] = before;
   for (TileView& view : shiny.seen[1]->views) view.color = cv::Mat();
   TileHighlights highlights(shiny.ball.scene);
-  highlights.learn(shiny.seen, shiny.moments);
+  highlights.learn(shiny.seen, shiny.states);
   EXPECT_EQ(cv::norm(highlights.off(before, shiny.ball.state()).views[1].color,
                      before.views[1].color, cv::NORM_INF),
             0);
@@ -98,15 +98,16 @@ class Differing final : public Objective, public ResidualTerm {
   std::vector<double> differences;
 };
 
-TEST(Hindsight, LooksAtTilesWithoutHighlightsWhereItIsToldTo) {
-  const Sights shiny(60);
+TEST(FixedLagSmoother, LooksAtTilesWithoutHighlightsWhereItIsToldTo) {
+  const BallFrames shiny(60);
   const auto first_difference = [&](bool highlights) {
     const auto objective = std::make_shared<Differing>();
-    Hindsight hindsight(shiny.ball.scene, {{1.0, objective}},
-                        {.backend = Backend::cpu, .threads = 1}, {.evaluations = 100}, highlights);
+    FixedLagSmoother smoother(shiny.ball.scene, {{1.0, objective}},
+                              {.backend = Backend::cpu, .threads = 1}, {.evaluations = 100},
+                              highlights);
     for (std::size_t i = 0; i < shiny.seen.size(); ++i)
-      hindsight.add(shiny.seen[i], shiny.moments[i]);
-    for (const Hindsight::Settled& one : hindsight.finish()) EXPECT_LE(one.evaluations, 100);
+      smoother.add(shiny.seen[i], shiny.states[i]);
+    for (const FixedLagSmoother::Settled& one : smoother.finish()) EXPECT_LE(one.evaluations, 100);
     return objective->differences.front();
   };
   EXPECT_GT(std::abs(first_difference(true) - first_difference(false)), 0.1);

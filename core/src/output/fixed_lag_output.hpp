@@ -8,18 +8,18 @@
 #include "hypotrack/export.hpp"
 #include "output/run_output.hpp"
 #include "track/scene_tracker.hpp"
-#include "track/smooth/hindsight.hpp"
+#include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
 
 /// Passes a run's frames to its output: at once or, with fixed-lag smoothing, when their states are
 /// settled.
-class HYPOTRACK_API HindsightOutput {
+class HYPOTRACK_API FixedLagOutput {
  public:
-  /// The output must outlive the object. Without `hindsight` (null) frames are written as they
+  /// The output must outlive the object. Without a smoother (null) frames are written as they
   /// come.
-  HindsightOutput(std::unique_ptr<Hindsight> hindsight, RunOutput& output)
-      : hindsight_(std::move(hindsight)), output_(&output) {}
+  FixedLagOutput(std::unique_ptr<FixedLagSmoother> smoother, RunOutput& output)
+      : smoother_(std::move(smoother)), output_(&output) {}
 
   /// Adds the frame that `tracker` has just solved. Returns the solution's error in metres, NaN
   /// where it is unknown, also while it waits.
@@ -35,9 +35,9 @@ class HYPOTRACK_API HindsightOutput {
     Frame frame;  ///< without its pictures
     Solution solution;
   };
-  void write(const std::vector<Hindsight::Settled>& settled);
+  void write(const std::vector<FixedLagSmoother::Settled>& settled);
 
-  std::unique_ptr<Hindsight> hindsight_;
+  std::unique_ptr<FixedLagSmoother> smoother_;
   RunOutput* output_;
   std::deque<Waiting> waiting_;
 };

@@ -1,4 +1,4 @@
-#include "track/smooth/hindsight.hpp"
+#include "track/smooth/fixed_lag_smoother.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,9 +34,9 @@ class Readings final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return draws_; }
   void prepare(const Observation& seen) override {
     now_ = frames_[static_cast<std::size_t>(seen.frame)];
-    in_hindsight_ = seen.in_hindsight;
+    no_motion_prior_ = seen.no_motion_prior;
   }
-  bool in_hindsight() const { return in_hindsight_; }
+  bool no_motion_prior() const { return no_motion_prior_; }
   double cost(const RenderedHypothesis& h) const override {
     double sum = 0;
     for (const double r : of(h)) sum += r * r;
@@ -58,13 +58,13 @@ class Readings final : public Objective, public ResidualTerm {
   }
   std::vector<Reading> frames_;
   bool draws_;
-  bool in_hindsight_ = false;
+  bool no_motion_prior_ = false;
   Reading now_;
 };
 
 struct Fixture {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
-  HindsightSettings settings{.prior = 1};  // readings are of the pose only
+  FixedLagSettings settings{.prior = 1};  // readings are of the pose only
   EvaluateSettings evaluate{.backend = Backend::cpu, .threads = 1};
 
   Eigen::VectorXd state(double x, double turn = 0) const {
@@ -74,23 +74,25 @@ struct Fixture {
     return moved(scene, scene.rest_state(), off);
   }
 
-  /// Found states with what was read, and what hindsight makes of them.
-  std::vector<Hindsight::Settled> revised(const std::vector<Readings::Reading>& read,
-                                          const std::vector<Eigen::VectorXd>& found,
-                                          const std::vector<bool>& lost = {}, bool draws = false,
-                                          std::size_t* most_waiting = nullptr) const {
-    Hindsight hindsight(scene, {{1.0, std::make_shared<Readings>(read, draws)}}, evaluate,
-                        settings);
-    std::vector<Hindsight::Settled> all;
+  /// Found states with what was read, and what the smoother makes of them.
+  std::vector<FixedLagSmoother::Settled> revised(const std::vector<Readings::Reading>& read,
+                                                 const std::vector<Eigen::VectorXd>& found,
+                                                 const std::vector<bool>& lost = {},
+                                                 bool draws = false,
+                                                 std::size_t* most_waiting = nullptr) const {
+    FixedLagSmoother smoother(scene, {{1.0, std::make_shared<Readings>(read, draws)}}, evaluate,
+                              settings);
+    std::vector<FixedLagSmoother::Settled> all;
     for (std::size_t i = 0; i < found.size(); ++i) {
       Observation seen;
       seen.frame = static_cast<int>(i);
       const bool blind = !lost.empty() && lost[i];
-      hindsight.add(blind ? Sight() : Sight(seen), {static_cast<double>(i) / kRate, found[i]});
-      for (Hindsight::Settled& one : hindsight.take()) all.push_back(std::move(one));
+      smoother.add(blind ? FrameTiles() : FrameTiles(seen),
+                   {static_cast<double>(i) / kRate, found[i]});
+      for (FixedLagSmoother::Settled& one : smoother.take()) all.push_back(std::move(one));
       if (most_waiting) *most_waiting = std::max(*most_waiting, i + 1 - all.size());
     }
-    for (Hindsight::Settled& one : hindsight.finish()) all.push_back(std::move(one));
+    for (FixedLagSmoother::Settled& one : smoother.finish()) all.push_back(std::move(one));
     return all;
   }
 };
@@ -111,7 +113,7 @@ struct Hidden {
   std::vector<Readings::Reading> read;
 };
 
-TEST(Hindsight, ANumberThatNoFrameBetweenSeesIsInterpolated) {
+TEST(FixedLagSmoother, ANumberThatNoFrameBetweenSeesIsInterpolated) {
   const Fixture f;
   const Hidden hidden(f);
   const auto revised = f.revised(hidden.read, hidden.found);
@@ -125,7 +127,7 @@ TEST(Hindsight, ANumberThatNoFrameBetweenSeesIsInterpolated) {
   }
 }
 
-TEST(Hindsight, ANumberThatEveryFrameSeesStays) {
+TEST(FixedLagSmoother, ANumberThatEveryFrameSeesStays) {
   Fixture f;
   f.settings.position_change = 50;
   std::mt19937_64 random(1);
@@ -141,7 +143,7 @@ TEST(Hindsight, ANumberThatEveryFrameSeesStays) {
     EXPECT_NEAR(revised[i].state[0], read[i].x, 0.0002) << "frame " << i;
 }
 
-TEST(Hindsight, AFrameInWhichTheSceneWasLostTellsNothing) {
+TEST(FixedLagSmoother, AFrameInWhichTheSceneWasLostTellsNothing) {
   const Fixture f;
   Hidden hidden(f);
   std::vector<bool> lost(30, false);
@@ -157,20 +159,20 @@ TEST(Hindsight, AFrameInWhichTheSceneWasLostTellsNothing) {
   EXPECT_GT(revised[20].evaluations, 0);
 }
 
-TEST(Hindsight, TellsTermsOfItself) {
+TEST(FixedLagSmoother, TellsTermsOfItself) {
   const Fixture f;
   const auto readings = std::make_shared<Readings>(std::vector<Readings::Reading>(3, {0, 0}));
-  Hindsight hindsight(f.scene, {{1.0, readings}}, f.evaluate, f.settings);
+  FixedLagSmoother smoother(f.scene, {{1.0, readings}}, f.evaluate, f.settings);
   for (int i = 0; i < 3; ++i) {
     Observation seen;
     seen.frame = i;
-    hindsight.add(seen, {i / kRate, f.state(0)});
+    smoother.add(seen, {i / kRate, f.state(0)});
   }
-  hindsight.finish();
-  EXPECT_TRUE(readings->in_hindsight());
+  smoother.finish();
+  EXPECT_TRUE(readings->no_motion_prior());
 }
 
-TEST(Hindsight, WorksByDifferencesWhereTermsHaveNoSlopes) {
+TEST(FixedLagSmoother, WorksByDifferencesWhereTermsHaveNoSlopes) {
   Fixture f;
   f.settings.evaluations = 200;
   const Hidden hidden(f);
@@ -179,7 +181,7 @@ TEST(Hindsight, WorksByDifferencesWhereTermsHaveNoSlopes) {
     EXPECT_NEAR(revised[i].state[0], hidden.truth[i][0], 0.0005) << "frame " << i;
 }
 
-TEST(Hindsight, EqualRunsAreEqual) {
+TEST(FixedLagSmoother, EqualRunsAreEqual) {
   const Fixture f;
   const Hidden hidden(f);
   const auto first = f.revised(hidden.read, hidden.found);
@@ -187,7 +189,7 @@ TEST(Hindsight, EqualRunsAreEqual) {
   for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].state, second[i].state) << i;
 }
 
-TEST(Hindsight, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
+TEST(FixedLagSmoother, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
   Fixture f;
   const Hidden hidden(f);
   for (const double window : {20.0, 0.4}) {
@@ -201,7 +203,7 @@ TEST(Hindsight, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
   }
 }
 
-TEST(Hindsight, WindowsSettleEveryFrameOnceAndHoldNoMoreThanTheirTime) {
+TEST(FixedLagSmoother, WindowsSettleEveryFrameOnceAndHoldNoMoreThanTheirTime) {
   Fixture f;
   f.settings.window = 1;
   f.settings.lag = 0.5;
@@ -220,7 +222,7 @@ TEST(Hindsight, WindowsSettleEveryFrameOnceAndHoldNoMoreThanTheirTime) {
     EXPECT_NEAR(revised[i].state[0], 0.01 * static_cast<double>(i), 0.002) << "frame " << i;
 }
 
-TEST(Hindsight, OfNoFrameOrOneIsWhatWasFound) {
+TEST(FixedLagSmoother, OfNoFrameOrOneIsWhatWasFound) {
   const Fixture f;
   EXPECT_TRUE(f.revised({}, {}).empty());
   const auto one = f.revised({{0.1, 0}}, {f.state(0.1)});
@@ -228,16 +230,17 @@ TEST(Hindsight, OfNoFrameOrOneIsWhatWasFound) {
   EXPECT_NEAR(one[0].state[0], 0.1, 1e-6);
 }
 
-TEST(Hindsight, RefusesSettingsThatDoNotFit) {
+TEST(FixedLagSmoother, RefusesSettingsThatDoNotFit) {
   Fixture f;
   f.settings.lag = 15;
   EXPECT_THAT(test::message_of<ConfigError>([&] { f.revised({}, {}); }),
-              AllOf(HasSubstr("hindsight.lag_s is 15"), HasSubstr("hindsight.window_s"),
-                    HasSubstr("expected 10 at most")));
+              AllOf(HasSubstr("smoothing.fixed_lag.lag_s is 15"),
+                    HasSubstr("smoothing.fixed_lag.window_s"), HasSubstr("expected 10 at most")));
   f.settings.lag = 2;
   f.settings.evaluations = 7;
-  EXPECT_THAT(test::message_of<ConfigError>([&] { f.revised({}, {}); }),
-              AllOf(HasSubstr("hindsight.evaluations is 7"), HasSubstr("expected 8 or more")));
+  EXPECT_THAT(
+      test::message_of<ConfigError>([&] { f.revised({}, {}); }),
+      AllOf(HasSubstr("smoothing.fixed_lag.evaluations is 7"), HasSubstr("expected 8 or more")));
 }
 
 /// A cost without residuals.
@@ -247,13 +250,14 @@ class NoSquares final : public Objective {
   double cost(const RenderedHypothesis&) const override { return 0; }
 };
 
-TEST(Hindsight, RefusesATermWithoutResidualsByItsName) {
+TEST(FixedLagSmoother, RefusesATermWithoutResidualsByItsName) {
   const Fixture f;
   const auto open = [&] {
-    Hindsight(f.scene, {{1.0, std::make_shared<NoSquares>(), "smell"}}, f.evaluate, f.settings);
+    FixedLagSmoother(f.scene, {{1.0, std::make_shared<NoSquares>(), "smell"}}, f.evaluate,
+                     f.settings);
   };
   EXPECT_THAT(test::message_of<ConfigError>(open),
-              AllOf(HasSubstr("hindsight needs residuals"), HasSubstr("objective smell"),
+              AllOf(HasSubstr("fixed-lag smoothing needs residuals"), HasSubstr("objective smell"),
                     HasSubstr("offers no residuals")));
 }
 

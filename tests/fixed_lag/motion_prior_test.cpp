@@ -16,7 +16,7 @@ struct Fixture {
   MotionPrior motion{scene, {.position_change = 0.5, .rotation_change = 2}};
 
   /// The box at `x`, turned by `turn` about z.
-  Moment at(double time, double x, double turn = 0) const {
+  TimedState at(double time, double x, double turn = 0) const {
     Eigen::VectorXd off = Eigen::VectorXd::Zero(6);
     off[0] = x;
     off[5] = turn;
@@ -37,10 +37,10 @@ TEST(MotionPrior, ChargesOneForTheSettingsChangeOfSpeedInASecond) {
 
 TEST(MotionPrior, FactorsAreHowItsResidualsGrow) {
   const Fixture f;
-  const std::vector<Moment> moments{f.at(0, 0.1), f.at(0.1, 0.3), f.at(0.3, 0.2)};
-  const MotionPrior::Change before = f.motion.change(moments[0], moments[1], moments[2]);
+  const std::vector<TimedState> states{f.at(0, 0.1), f.at(0.1, 0.3), f.at(0.3, 0.2)};
+  const MotionPrior::Change before = f.motion.change(states[0], states[1], states[2]);
   for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<Moment> off = moments;
+    std::vector<TimedState> off = states;
     off[k].state[0] += 0.01;
     EXPECT_NEAR(f.motion.change(off[0], off[1], off[2]).residual[0] - before.residual[0],
                 0.01 * before.factor[k], 1e-9)
