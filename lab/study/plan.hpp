@@ -56,8 +56,8 @@ struct Shard {
 /// 100,000 runs.
 HYPOTRACK_API Plan make_plan(Study study);
 
-/// Returns the indices of the runs of a shard. Each cell's seeds are spread over the shards, so
-/// that no shard gets all the slow cells.
+/// Returns the indices of the runs of a shard. Each cell's seeds are distributed over the shards,
+/// so that no shard gets all the slow cells.
 HYPOTRACK_API std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
 
 }  // namespace hypotrack::study

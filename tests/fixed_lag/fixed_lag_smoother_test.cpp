@@ -198,7 +198,7 @@ TEST(FixedLagSmoother, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
     f.settings.evaluations = 12;
     for (const auto& one : f.revised(hidden.read, hidden.found)) {
       EXPECT_LE(one.evaluations, 12);
-      EXPECT_GE(one.evaluations, 4) << "two looks";
+      EXPECT_GE(one.evaluations, 4) << "two linearisations";
     }
   }
 }

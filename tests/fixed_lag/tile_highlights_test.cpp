@@ -39,22 +39,23 @@ struct BallFrames {
 };
 
 TEST(TileHighlights, TakesOffWhatViewsDifferBy) {
-  const BallFrames shiny(60), matt(0);
+  const BallFrames shiny(60), diffuse(0);
   TileHighlights highlights(shiny.ball.scene);
   highlights.learn(shiny.seen, shiny.states);
   const Observation off = highlights.off(*shiny.seen[2], shiny.ball.state());
-  const double most = shiny.difference(*shiny.seen[2]), least = matt.difference(*matt.seen[2]);
+  const double most = shiny.difference(*shiny.seen[2]),
+               least = diffuse.difference(*diffuse.seen[2]);
   ASSERT_GT(most, least + 2);
   EXPECT_LT(shiny.difference(off), least + 0.3 * (most - least));
   EXPECT_EQ(cv::norm(off.views[0].color, shiny.seen[2]->views[0].color, cv::NORM_INF), 0);
 }
 
 TEST(TileHighlights, LeavesTilesWithoutThem) {
-  const BallFrames matt(0);
-  TileHighlights highlights(matt.ball.scene);
-  highlights.learn(matt.seen, matt.states);
-  const Observation off = highlights.off(*matt.seen[2], matt.ball.state());
-  EXPECT_LT(matt.difference(off), matt.difference(*matt.seen[2]) + 0.2);
+  const BallFrames diffuse(0);
+  TileHighlights highlights(diffuse.ball.scene);
+  highlights.learn(diffuse.seen, diffuse.states);
+  const Observation off = highlights.off(*diffuse.seen[2], diffuse.ball.state());
+  EXPECT_LT(diffuse.difference(off), diffuse.difference(*diffuse.seen[2]) + 0.2);
 }
 
 TEST(TileHighlights, LearnsAnewFromTheSameTiles) {

@@ -43,7 +43,7 @@ StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveT
 
 /// Returns the root mean square distance that a scene may have moved since it was last seen, in
 /// metres.
-double spread_after(double seconds) {
+double sigma_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
 }
@@ -389,9 +389,9 @@ void SceneTracker::widen(const Frame& frame, Solution& solution) const {
   if (solution.sigma.size() == 0) return;
   for (const ModelTrack& model : models_) {
     if (model.is_followed()) continue;
-    const double spread = spread_after(frame.time - model.kept_time);
+    const double wider = sigma_after(frame.time - model.kept_time);
     for (double& sigma : model.part_of(solution.sigma))
-      if (!(sigma > spread)) sigma = spread;
+      if (!(sigma > wider)) sigma = wider;
   }
 }
 

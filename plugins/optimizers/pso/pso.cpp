@@ -26,9 +26,9 @@ struct Swarm {
   Eigen::MatrixXd own_best;
   Eigen::VectorXd own_best_cost;
 
-  Swarm(const SearchRegion& region, Eigen::Index particles, const StartSpread& spread,
+  Swarm(const SearchRegion& region, Eigen::Index particles, const StartDistribution& starts,
         std::uint64_t seed)
-      : position(StartPoints(region, spread, seed).points(0, particles)),
+      : position(StartPoints(region, starts, seed).points(0, particles)),
         velocity(Eigen::MatrixXd::Zero(region.start.size(), particles)),
         own_best(position),
         own_best_cost(

@@ -62,7 +62,7 @@ int most_blocks();
 /// Enqueues the copy of `frame` to `region`.
 void enqueue_region(const SwarmLayout& swarm, Stream stream);
 /// Enqueues generation 0: the start and samples around it.
-void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartSpread& spread,
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartDistribution& starts,
                      Stream stream);
 /// Enqueues the move to generation `generation` >= 1, after the costs of the one before.
 void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,

@@ -46,13 +46,14 @@ FixedLagSmoother::FixedLagSmoother(const Scene& scene, std::vector<ObjectiveTerm
       motion_(scene, settings),
       highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
       fit_(scene, evaluator_, motion_, highlights_ ? &*highlights_ : nullptr) {
-  const std::int64_t least = 2 * kTurns * fit_.evaluations_per_look();
+  const std::int64_t least = 2 * kTurns * fit_.evaluations_per_linearization();
   if (settings_.evaluations < least)
     throw ConfigError(fmt::format(
         "smoothing.fixed_lag.evaluations is {}; expected {} or more, because each of the {} "
         "windows that a "
-        "frame may be in takes two looks, of {} evaluations with these objectives on this backend",
-        settings_.evaluations, least, kTurns, fit_.evaluations_per_look()));
+        "frame may be in takes two linearisations, of {} evaluations with these objectives on this "
+        "backend",
+        settings_.evaluations, least, kTurns, fit_.evaluations_per_linearization()));
 }
 
 void FixedLagSmoother::add(FrameTiles tiles, const TimedState& found) {

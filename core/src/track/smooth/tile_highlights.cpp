@@ -2,7 +2,7 @@
 
 #include "tile/resample.hpp"
 #include "track/color/color_fit.hpp"
-#include "track/color/spread.hpp"
+#include "track/color/extrapolate.hpp"
 
 namespace hypotrack {
 
@@ -30,7 +30,7 @@ Observation TileHighlights::off(const Observation& tiles, const Eigen::VectorXd&
     if (view.color.empty()) continue;
     const ColorSampler::NormalGrid grid = sampler_.normals(k + 1);
     const Eigen::VectorXf missing = views_[k].expected(grid.normals, sampler_.directions(k + 1));
-    view.color = brightened(view.color, spread(grid.inside, missing, view.color.size()));
+    view.color = brightened(view.color, extrapolate(grid.inside, missing, view.color.size()));
   }
   return out;
 }

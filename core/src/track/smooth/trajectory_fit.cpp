@@ -64,41 +64,41 @@ struct Beside {
 
 }  // namespace
 
-std::int64_t TrajectoryFit::evaluations_per_look() const {
+std::int64_t TrajectoryFit::evaluations_per_linearization() const {
   return evaluator_->can_linearize() ? 2 : motion_->weight().size() + 1;
 }
 
-TrajectoryFit::Look TrajectoryFit::look(const FrameTiles& tiles, const Eigen::VectorXd& state,
-                                        double blur) {
+TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
+                                                        const Eigen::VectorXd& state, double blur) {
   const Eigen::Index d = motion_->weight().size();
-  Look look{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
-  if (!tiles) return look;
+  LinearizedFrame frame{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
+  if (!tiles) return frame;
   evaluator_->prepare(*tiles);
   if (evaluator_->can_linearize()) {
     const Beside beside(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
     evaluator_->evaluate(state, cost);
-    look.cost = cost[0];
-    if (std::isfinite(look.cost))
-      look.equations = evaluator_->linearize(beside.states, beside.steps, blur);
-    return look;
+    frame.cost = cost[0];
+    if (std::isfinite(frame.cost))
+      frame.equations = evaluator_->linearize(beside.states, beside.steps, blur);
+    return frame;
   }
   const Beside beside(*scene_, state, 1);
   Eigen::MatrixXf residuals(evaluator_->residual_count(), d + 1);
   Eigen::VectorXd costs(d + 1);
   evaluator_->evaluate(beside.states, residuals, costs);
-  look.cost = costs[0];
-  if (!costs.allFinite()) return look;
+  frame.cost = costs[0];
+  if (!costs.allFinite()) return frame;
   const Eigen::VectorXf r = residuals.col(0);
   const Eigen::MatrixXf j = (residuals.rightCols(d).colwise() - r) *
                             beside.steps.cast<float>().cwiseInverse().asDiagonal();
-  look.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
-  return look;
+  frame.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
+  return frame;
 }
 
-std::vector<FrameTiles> TrajectoryFit::matt(const std::vector<TimedState>& states,
-                                            const std::vector<FrameTiles>& tiles,
-                                            std::size_t fixed) {
+std::vector<FrameTiles> TrajectoryFit::without_highlights(const std::vector<TimedState>& states,
+                                                          const std::vector<FrameTiles>& tiles,
+                                                          std::size_t fixed) {
   if (!highlights_) return tiles;
   highlights_->learn(tiles, states);
   std::vector<FrameTiles> out = tiles;
@@ -107,27 +107,27 @@ std::vector<FrameTiles> TrajectoryFit::matt(const std::vector<TimedState>& state
   return out;
 }
 
-std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<TimedState>& states,
-                                                            const std::vector<FrameTiles>& tiles,
-                                                            std::size_t fixed, double blur) {
-  std::vector<Look> looks;
+std::vector<TrajectoryFit::LinearizedFrame> TrajectoryFit::linearize_all(
+    const std::vector<TimedState>& states, const std::vector<FrameTiles>& tiles, std::size_t fixed,
+    double blur) {
+  std::vector<LinearizedFrame> frames;
   for (std::size_t i = fixed; i < states.size(); ++i)
-    looks.push_back(look(tiles[i], states[i].state, blur));
-  return looks;
+    frames.push_back(linearize(tiles[i], states[i].state, blur));
+  return frames;
 }
 
 Eigen::VectorXd TrajectoryFit::step(const std::vector<TimedState>& states,
-                                    const std::vector<Look>& looks,
+                                    const std::vector<LinearizedFrame>& frames,
                                     const std::vector<double>& damping, double looseness,
                                     std::size_t fixed) const {
   const Eigen::VectorXd& full_weight = motion_->weight();
   const Eigen::VectorXd weight = full_weight / (looseness * looseness);
   const Eigen::Index d = weight.size();
-  const auto rows = static_cast<Eigen::Index>(looks.size()) * d;
+  const auto rows = static_cast<Eigen::Index>(frames.size()) * d;
   std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   Eigen::VectorXd gradient(rows);
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const NormalEquations& eq = looks[i].equations;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const NormalEquations& eq = frames[i].equations;
     const Eigen::Index at = static_cast<Eigen::Index>(i) * d;
     gradient.segment(at, d) = eq.g;
     for (Eigen::Index c = 0; c < d; ++c) {
@@ -163,18 +163,18 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<TimedState>& states,
 
 std::vector<bool> TrajectoryFit::worth_taking(const std::vector<TimedState>& states,
                                               const std::vector<TimedState>& trial,
-                                              const std::vector<Look>& looks,
-                                              const std::vector<Look>& seen,
+                                              const std::vector<LinearizedFrame>& frames,
+                                              const std::vector<LinearizedFrame>& trial_frames,
                                               double looseness) const {
   // Viterbi algorithm over the decisions of two consecutive states: bit 1 the first, bit 0 the
   // second.
-  const std::size_t fixed = states.size() - looks.size();
+  const std::size_t fixed = states.size() - frames.size();
   const auto at = [&](std::size_t i, int taken) -> const TimedState& {
     return taken ? trial[i] : states[i];
   };
   const auto cost = [&](std::size_t i, int taken) {
     if (i < fixed) return taken ? kInfinity : 0.0;
-    return (taken ? seen : looks)[i - fixed].cost;
+    return (taken ? trial_frames : frames)[i - fixed].cost;
   };
   std::vector<std::array<int, 4>> before(states.size());  // best decision of the state before the
                                                           // two
@@ -208,52 +208,53 @@ std::vector<bool> TrajectoryFit::worth_taking(const std::vector<TimedState>& sta
 std::int64_t TrajectoryFit::improve(std::vector<TimedState>& states,
                                     const std::vector<FrameTiles>& tiles, std::size_t fixed,
                                     std::int64_t evaluations) {
-  const std::int64_t looks_left = evaluations / evaluations_per_look();
-  if (looks_left < 2 || states.size() <= fixed || states.size() < 2) return 0;
+  const std::int64_t allowed = evaluations / evaluations_per_linearization();
+  if (allowed < 2 || states.size() <= fixed || states.size() < 2) return 0;
   const Eigen::Index d = motion_->weight().size();
   double blur = kFirstBlur, looseness = kFirstLooseness;
-  std::vector<FrameTiles> shown = matt(states, tiles, fixed);
-  std::vector<Look> looks = look_at_all(states, shown, fixed, blur);
-  const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(looks_left));
-  std::vector<double> damping(looks.size(), kFirstDamping);
+  std::vector<FrameTiles> shown = without_highlights(states, tiles, fixed);
+  std::vector<LinearizedFrame> frames = linearize_all(states, shown, fixed, blur);
+  const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(allowed));
+  std::vector<double> damping(frames.size(), kFirstDamping);
   std::int64_t done = 1;
   std::size_t learned = 0;
-  for (int idle = 0; done < looks_left && idle < kPatience;) {
-    if (highlights_ && learned < kLearnAfter.size() && done + 2 <= looks_left &&
-        static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(looks_left)) {
+  for (int idle = 0; done < allowed && idle < kPatience;) {
+    if (highlights_ && learned < kLearnAfter.size() && done + 2 <= allowed &&
+        static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(allowed)) {
       ++learned;
-      shown = matt(states, tiles, fixed);
-      looks = look_at_all(states, shown, fixed, blur);
+      shown = without_highlights(states, tiles, fixed);
+      frames = linearize_all(states, shown, fixed, blur);
       ++done;
     }
-    const Eigen::VectorXd steps = step(states, looks, damping, looseness, fixed);
+    const Eigen::VectorXd steps = step(states, frames, damping, looseness, fixed);
     if (!steps.allFinite()) break;
     std::vector<TimedState> trial = states;
     for (std::size_t i = fixed; i < trial.size(); ++i)
       trial[i].state = moved(*scene_, states[i].state,
                              steps.segment(static_cast<Eigen::Index>(i - fixed) * d, d));
-    std::vector<Look> seen = look_at_all(trial, shown, fixed, blur);
+    std::vector<LinearizedFrame> trial_frames = linearize_all(trial, shown, fixed, blur);
     ++done;
-    const std::vector<bool> take = worth_taking(states, trial, looks, seen, looseness);
+    const std::vector<bool> take = worth_taking(states, trial, frames, trial_frames, looseness);
     double gain = 0;
-    for (std::size_t i = 0; i < looks.size(); ++i) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
       // Damp a frame more if its cost exceeds the prediction of its normal equations.
       const auto dx = steps.segment(static_cast<Eigen::Index>(i) * d, d);
-      const NormalEquations& eq = looks[i].equations;
-      const bool kept = seen[i].cost <= looks[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;
+      const NormalEquations& eq = frames[i].equations;
+      const bool kept =
+          trial_frames[i].cost <= frames[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;
       const bool taken = take[i + fixed];
       damping[i] = std::clamp(damping[i] * (kept ? 0.4 : taken ? 2.0 : 8.0), 1e-4, 1e6);
       if (!taken) continue;
       gain = std::max(gain, dx.cwiseAbs().cwiseProduct(motion_->weight().cwiseSqrt()).maxCoeff());
       states[i + fixed] = std::move(trial[i + fixed]);
-      looks[i] = std::move(seen[i]);
+      frames[i] = std::move(trial_frames[i]);
     }
     const bool settled = gain < kLeastStep && looseness == 1;
     idle = settled ? idle + 1 : 0;
     if (settled) blur = std::max(blur / 2, kLeastBlur);
     looseness = std::max(looseness * tightening, 1.0);
   }
-  return done * evaluations_per_look();
+  return done * evaluations_per_linearization();
 }
 
 }  // namespace hypotrack

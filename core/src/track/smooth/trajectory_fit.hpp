@@ -26,7 +26,7 @@ class HYPOTRACK_API TrajectoryFit {
       : scene_(&scene), evaluator_(&evaluator), motion_(&motion), highlights_(highlights) {}
 
   /// Returns the evaluations that linearising one frame takes.
-  std::int64_t evaluations_per_look() const;
+  std::int64_t evaluations_per_linearization() const;
 
   /// Improves all states but the first `fixed`, with at most `evaluations` per frame. `tiles` has
   /// one entry per state. Does nothing if the evaluations do not suffice for two linearisations.
@@ -36,28 +36,32 @@ class HYPOTRACK_API TrajectoryFit {
 
  private:
   /// A frame's cost and its normal equations at a state.
-  struct Look {
+  struct LinearizedFrame {
     double cost = 0;
     NormalEquations equations;
   };
-  /// Returns the tiles without the highlights at the free states.
-  std::vector<FrameTiles> matt(const std::vector<TimedState>& states,
-                               const std::vector<FrameTiles>& tiles, std::size_t fixed);
-  Look look(const FrameTiles& tiles, const Eigen::VectorXd& state, double blur);
-  std::vector<Look> look_at_all(const std::vector<TimedState>& states,
-                                const std::vector<FrameTiles>& tiles, std::size_t fixed,
-                                double blur);
+  /// Returns the tiles with the highlights removed, for the free states.
+  std::vector<FrameTiles> without_highlights(const std::vector<TimedState>& states,
+                                             const std::vector<FrameTiles>& tiles,
+                                             std::size_t fixed);
+  LinearizedFrame linearize(const FrameTiles& tiles, const Eigen::VectorXd& state, double blur);
+  std::vector<LinearizedFrame> linearize_all(const std::vector<TimedState>& states,
+                                             const std::vector<FrameTiles>& tiles,
+                                             std::size_t fixed, double blur);
   /// Returns the steps of all free states, one after the other. `looseness` divides the prior's
   /// root weights: velocities may change by that factor more.
-  Eigen::VectorXd step(const std::vector<TimedState>& states, const std::vector<Look>& looks,
+  Eigen::VectorXd step(const std::vector<TimedState>& states,
+                       const std::vector<LinearizedFrame>& frames,
                        const std::vector<double>& damping, double looseness,
                        std::size_t fixed) const;
 
-  /// Chooses the states that take their step so that the total cost is lowest. `looks` and `seen`
-  /// are from before and after the step. A frame whose step fails does not hold up the others.
+  /// Chooses the states that take their step so that the total cost is lowest. `frames` and
+  /// `trial_frames` are from before and after the step. A frame whose step fails does not hold up
+  /// the others.
   std::vector<bool> worth_taking(const std::vector<TimedState>& states,
                                  const std::vector<TimedState>& trial,
-                                 const std::vector<Look>& looks, const std::vector<Look>& seen,
+                                 const std::vector<LinearizedFrame>& frames,
+                                 const std::vector<LinearizedFrame>& trial_frames,
                                  double looseness) const;
 
   const Scene* scene_;

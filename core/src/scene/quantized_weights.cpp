@@ -1,4 +1,4 @@
-#include "scene/whole_weights.hpp"
+#include "scene/quantized_weights.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 
 namespace hypotrack {
 
-WholeWeights whole_weights(const Mesh& mesh, int vertex) {
+QuantizedWeights quantize_weights(const Mesh& mesh, int vertex) {
   std::map<int, int> weight_of;
-  int rest = cuda::kWholeWeight;
+  int rest = cuda::kUnitWeight;
   for (int k = 0; k < 4; ++k) {
     const auto weight =
-        static_cast<int>(std::lround(mesh.bone_weights(k, vertex) * cuda::kWholeWeight));
+        static_cast<int>(std::lround(mesh.bone_weights(k, vertex) * cuda::kUnitWeight));
     if (weight <= 0) continue;
     weight_of[mesh.bone_indices(k, vertex)] += weight;
     rest -= weight;
@@ -20,7 +20,7 @@ WholeWeights whole_weights(const Mesh& mesh, int vertex) {
       std::max_element(weight_of.begin(), weight_of.end(),
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   largest->second += rest;  // the rounding error
-  WholeWeights out;
+  QuantizedWeights out;
   std::size_t k = 0;
   for (const auto& [bone, weight] : weight_of) {
     out.bone[k] = bone;

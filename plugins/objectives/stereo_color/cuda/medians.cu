@@ -2,7 +2,7 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 
-// Radix selection of the middle of many numbers. The histogram gives the bucket that holds it. Two
+// Radix selection of the median of many numbers. The histogram gives the bucket that holds it. Two
 // passes over digits of ten bits find it among the bucket's keys.
 namespace hypotrack::stereo_color {
 namespace {
@@ -26,7 +26,7 @@ struct Search {
   std::uint32_t candidate_count;
   std::uint32_t warp_totals[kWarps];
   Place place;
-  int above;  ///< least key above the lower middle
+  int above;  ///< least key above the lower median
 };
 
 __device__ std::uint32_t lane() { return threadIdx.x % cuda::kWarp; }
@@ -154,8 +154,8 @@ __device__ Key next_above(Search& s, const Key* keys, int size, Key low, Key abo
   return static_cast<Key>(s.above);
 }
 
-// Finds the middle values, with one block per quantity and view.
-__global__ void __launch_bounds__(kThreads) middles(const __grid_constant__ FeatureJob job) {
+// Finds the medians, with one block per quantity and view.
+__global__ void __launch_bounds__(kThreads) select_medians(const __grid_constant__ FeatureJob job) {
   __shared__ Search s;
   if (threadIdx.x == 0) {
     s.candidate_count = 0;
@@ -168,7 +168,7 @@ __global__ void __launch_bounds__(kThreads) middles(const __grid_constant__ Feat
   const auto buckets = sum_bins<kBuckets / kThreads>(s);
   const std::uint32_t count = buckets.total;
   if (count == 0) {
-    if (threadIdx.x == 0) view.middles[blockIdx.x] = {0.0f, 0.0f};
+    if (threadIdx.x == 0) view.medians[blockIdx.x] = {0.0f, 0.0f};
     return;
   }
   Place place = find(s, buckets, (count - 1) / 2);
@@ -190,14 +190,14 @@ __global__ void __launch_bounds__(kThreads) middles(const __grid_constant__ Feat
     high = next_above(s, keys, size, low, above);
   }
   if (threadIdx.x == 0) {
-    view.middles[blockIdx.x] = {__uint_as_float(low), __uint_as_float(high)};
+    view.medians[blockIdx.x] = {__uint_as_float(low), __uint_as_float(high)};
   }
 }
 
 }  // namespace
 
-void enqueue_middles(const FeatureJob& job, cuda::Stream stream, bool overlap) {
-  cuda::launch(&middles, dim3(kQuantities, 2), dim3(kThreads), 0, stream, overlap, job);
+void enqueue_medians(const FeatureJob& job, cuda::Stream stream, bool overlap) {
+  cuda::launch(&select_medians, dim3(kQuantities, 2), dim3(kThreads), 0, stream, overlap, job);
 }
 
 }  // namespace hypotrack::stereo_color

@@ -1,10 +1,10 @@
-#include "track/color/spread.hpp"
+#include "track/color/extrapolate.hpp"
 
 #include <opencv2/imgproc.hpp>
 
 namespace hypotrack {
 
-cv::Mat spread(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
+cv::Mat extrapolate(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
   constexpr double kReach = 1.5;        // grid points
   constexpr double kLeastShare = 0.05;  // least share of neighbours with values
   cv::Mat image = cv::Mat::zeros(inside.size(), CV_32F);
