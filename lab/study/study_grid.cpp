@@ -10,9 +10,9 @@
 
 #include "base/numbers.hpp"
 #include "base/suggest.hpp"
+#include "config/includes.hpp"
 #include "config/key_path.hpp"
 #include "config/overrides.hpp"
-#include "config/parts.hpp"
 #include "config/read_value.hpp"
 #include "config/tracker_file.hpp"
 #include "config/yaml_writer.hpp"
@@ -114,8 +114,8 @@ std::string content_of(const Change& change, const std::filesystem::path& direct
     scene->kind = detail::YamlNode::Kind::kMap;
     scene->origin = origin;
     scene->add("tracker", std::move(value));
-    detail::Parts parts;
-    detail::take_tracker(*scene, {}, parts);
+    detail::Includes includes;
+    detail::take_tracker(*scene, {}, includes);
     value = std::move(scene);
   }
   return to_flow(ConfigNode::parse(detail::write_yaml(*value), change.where));

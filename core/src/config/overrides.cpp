@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/includes.hpp"
 #include "config/key_path.hpp"
-#include "config/parts.hpp"
 #include "config/yaml_reader.hpp"
 #include "config/yaml_writer.hpp"
 #include "hypotrack/error.hpp"
@@ -80,7 +80,7 @@ std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_vie
   } else {
     value = read_yaml(text, origin);
   }
-  take_parts(value, split_path(path));
+  resolve_includes(value, split_path(path));
   return value;
 }
 

@@ -8,10 +8,10 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// Scenes that take parts of `demo/demo.yaml`.
-class Parts : public test::SceneFolder {
+/// Scenes that include parts of `demo/demo.yaml`.
+class Includes : public test::SceneFolder {
  protected:
-  Parts() {
+  Includes() {
     write("demo/demo.yaml",
           "source: {type: images, left: left.png, \"pattern\": \"@left\"}\n"
           "objective: [{type: colors, weight: 2}, {type: skin}]\n"
@@ -23,7 +23,7 @@ class Parts : public test::SceneFolder {
   ConfigNode demo() const { return ConfigNode::load(file("demo/demo.yaml")); }
 };
 
-TEST_F(Parts, AreWhatTheOtherSceneHasAtTheSamePlace) {
+TEST_F(Includes, AreWhatTheOtherSceneHasAtTheSamePlace) {
   const ConfigNode root =
       load("seed: 1\noptimizer: \"@demo/demo.yaml\"\nsource: {left: '@demo/demo.yaml'}\n");
   EXPECT_EQ(root.get("optimizer").to_yaml(), demo().get("optimizer").to_yaml());
@@ -32,7 +32,7 @@ TEST_F(Parts, AreWhatTheOtherSceneHasAtTheSamePlace) {
             "optimizer.stages.1.type");
 }
 
-TEST_F(Parts, AreWhatTheOtherSceneHasAtAKeyPath) {
+TEST_F(Includes, AreWhatTheOtherSceneHasAtAKeyPath) {
   const ConfigNode root = load(
       "objective: [{type: motion}, \"@demo/demo.yaml#objective.1\"]\n"
       "optimizer: \"@demo/demo.yaml#optimizer.stages.0\"\n");
@@ -40,13 +40,13 @@ TEST_F(Parts, AreWhatTheOtherSceneHasAtAKeyPath) {
   EXPECT_EQ(root.get("optimizer").to_yaml(), "type: pso\n");
 }
 
-TEST_F(Parts, RememberWhereTheyWereWrittenAndReferToThatFolder) {
+TEST_F(Includes, RememberWhereTheyWereWrittenAndReferToThatFolder) {
   const ConfigNode source = load("source: \"@demo/demo.yaml\"").get("source");
   EXPECT_EQ(source.get("left").where(), file("demo/demo.yaml").string() + ":1:30");
   EXPECT_EQ(source.get("left").directory(), file("demo"));
 }
 
-TEST_F(Parts, MayTakePartsThemselves) {
+TEST_F(Includes, MayIncludeOthers) {
   write("demo/best.yaml", "optimizer: \"@demo.yaml\"\nobjective: [\"@demo.yaml\"]\n");
   const ConfigNode root =
       load("optimizer: \"@demo/best.yaml\"\nobjective: \"@demo/best.yaml#objective.0\"\n");
@@ -54,13 +54,13 @@ TEST_F(Parts, MayTakePartsThemselves) {
   EXPECT_EQ(root.get("objective").to_yaml(), demo().get("objective").at(0).to_yaml());
 }
 
-TEST_F(Parts, CanBeChangedByOverrides) {
+TEST_F(Includes, CanBeChangedByOverrides) {
   const ConfigNode root =
       load("optimizer: \"@demo/demo.yaml\"", {"optimizer.stages.1.type=cma_es"});
   EXPECT_EQ(root.get("optimizer").get("stages").at(1).get("type").scalar(), "cma_es");
 }
 
-TEST_F(Parts, CanBeTakenByOverrides) {
+TEST_F(Includes, CanBeInOverrides) {
   const std::string from = "@" + file("demo/demo.yaml").string();
   const ConfigNode root =
       load("objective: {type: colors}\nmodels: []\n",
@@ -71,14 +71,14 @@ TEST_F(Parts, CanBeTakenByOverrides) {
   EXPECT_EQ(root.get("source").get("left").scalar(), "left.png");
 }
 
-TEST_F(Parts, OfAnOverrideReferToTheWorkingDirectory) {
+TEST_F(Includes, OfAnOverrideReferToTheWorkingDirectory) {
   EXPECT_THAT(error("seed: 1", {"optimizer=@nowhere.yaml"}),
               AllOf(StartsWith("--set optimizer=@nowhere.yaml: '@nowhere.yaml' stands for a part "
                                "of another scene: "),
                     HasSubstr((std::filesystem::current_path() / "nowhere.yaml").string())));
 }
 
-TEST_F(Parts, AreTakenAsTheyWereWritten) {
+TEST_F(Includes, AreAsTheyWereWritten) {
   const std::string from = "@" + file("demo/demo.yaml").string();
   EXPECT_EQ(load("seed: 1", {"source=" + from}).get("source").get("pattern").scalar(), "@left");
   const ConfigNode root = load("name: \"@left\"\nother: \"@@demo/demo.yaml\"", {"a=@@b.yaml"});
@@ -87,22 +87,22 @@ TEST_F(Parts, AreTakenAsTheyWereWritten) {
   EXPECT_EQ(root.get("a").scalar(), "@b.yaml");
 }
 
-TEST_F(Parts, ThatAreNotThereAreRefusedWithWhatIs) {
+TEST_F(Includes, ThatAreNotThereAreRefusedWithWhatIs) {
   EXPECT_EQ(error("seed: 1\noptimiser: \"@demo/demo.yaml\""),
-            at("scene.yaml", "2:12") + "'@demo/demo.yaml' stands for a part of another scene: " +
-                file("demo/demo.yaml").string() +
-                " has nothing at 'optimiser'; expected the key path of one of its parts, after a "
+            at("scene.yaml", "2:12") +
+                "'@demo/demo.yaml' cannot be included: " + file("demo/demo.yaml").string() +
+                " has nothing at 'optimiser'; expected a key path in it, after a "
                 "#; it is a map of source, objective, optimizer; did you mean 'optimizer'?");
   EXPECT_THAT(error("a: \"@demo/demo.yaml#objective.2.type\""),
               EndsWith("its 'objective' is a list of 2"));
   EXPECT_THAT(error("a: \"@demo/demo.yaml#source.left.x\""),
-              EndsWith("its 'source.left' is a value without parts"));
+              EndsWith("its 'source.left' is a value without keys"));
   EXPECT_THAT(error("a: \"@demo/demo.yaml#\""), HasSubstr("has nothing at ''"));
 }
 
-TEST_F(Parts, OfFilesThatCannotBeReadAreRefused) {
+TEST_F(Includes, OfFilesThatCannotBeReadAreRefused) {
   EXPECT_EQ(error("a: \"@none.yaml\""),
-            at("scene.yaml", "1:4") + "'@none.yaml' stands for a part of another scene: " +
+            at("scene.yaml", "1:4") + "'@none.yaml' cannot be included: " +
                 file("none.yaml").string() + ": cannot be opened: No such file or directory");
   write("broken.yaml", "seed: 1\na: [1\n");
   EXPECT_THAT(error("a: [1, \"@broken.yaml\"]"),
@@ -113,27 +113,25 @@ TEST_F(Parts, OfFilesThatCannotBeReadAreRefused) {
   EXPECT_THAT(error("a: \"@" + std::string(5000, 'x') + ".yaml\""), HasSubstr("cannot be opened"));
 }
 
-TEST_F(Parts, NeedQuotesWhereTheyAreNotTheWholeOfAnOverride) {
+TEST_F(Includes, NeedQuotesWhereTheyAreNotTheWholeOfAnOverride) {
   const std::string hint = "broken YAML: unknown token; a text that begins with @ needs quotes";
   EXPECT_EQ(error("optimizer: @demo/demo.yaml"), at("scene.yaml", "1:12") + hint);
   EXPECT_EQ(error("a: 1", {"b=[@demo.yaml]"}), "--set b=[@demo.yaml]: " + hint);
 }
 
-TEST_F(Parts, InACircleAreRefused) {
+TEST_F(Includes, InACircleAreRefused) {
   write("other.yaml", "b: 1\na:\n  c: \"@scene.yaml#b\"\n");
-  EXPECT_EQ(
-      error("a: 1\nb: \"@other.yaml\"\n"),
-      at("scene.yaml", "2:4") +
-          "'@other.yaml' stands for a part of another scene: " + at("other.yaml", "3:6") +
-          "'@scene.yaml#b' stands for a part of another scene: " + file("scene.yaml").string() +
-          " takes parts of this file itself; write out one of the two");
-  EXPECT_THAT(error("a: \"@scene.yaml#b\"\nb: 1\n"), HasSubstr("takes parts of this file itself"));
+  EXPECT_EQ(error("a: 1\nb: \"@other.yaml\"\n"),
+            at("scene.yaml", "2:4") +
+                "'@other.yaml' cannot be included: " + at("other.yaml", "3:6") +
+                "'@scene.yaml#b' cannot be included: " + file("scene.yaml").string() +
+                " includes this file itself; write out one of the two");
+  EXPECT_THAT(error("a: \"@scene.yaml#b\"\nb: 1\n"), HasSubstr("includes this file itself"));
   std::filesystem::create_symlink(".", file("here"));
-  EXPECT_THAT(error("a: \"@here/scene.yaml#b\"\nb: 1\n"),
-              HasSubstr("takes parts of this file itself"));
+  EXPECT_THAT(error("a: \"@here/scene.yaml#b\"\nb: 1\n"), HasSubstr("includes this file itself"));
 }
 
-TEST_F(Parts, CannotNestDeeperThanFiles) {
+TEST_F(Includes, CannotNestDeeperThanFiles) {
   std::string deep = "1";
   for (int i = 0; i < 40; ++i) deep = "[" + deep + "]";
   write("deep.yaml", "a: " + deep);
@@ -142,7 +140,7 @@ TEST_F(Parts, CannotNestDeeperThanFiles) {
   EXPECT_THAT(error("b: " + deeper), EndsWith("nested deeper than 64 levels"));
 }
 
-TEST_F(Parts, CannotHoldMoreValuesThanFiles) {
+TEST_F(Includes, CannotHoldMoreValuesThanFiles) {
   std::string text = "x: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
   for (int level = 0; level < 8; ++level) {
     const std::string name = "level" + std::to_string(level) + ".yaml";
@@ -151,7 +149,7 @@ TEST_F(Parts, CannotHoldMoreValuesThanFiles) {
     for (int i = 0; i < 10; ++i) text += "\"@" + name + "#x\", ";
     text += "]\n";
   }
-  EXPECT_THAT(error(text), EndsWith("more than 1000000 values were taken"));
+  EXPECT_THAT(error(text), EndsWith("more than 1000000 values are included"));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "config/parts.hpp"
+#include "config/includes.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,13 +20,13 @@
 namespace hypotrack::detail {
 namespace {
 
-/// The file and key path of a reference `@FILE.yaml` or `@FILE.yaml#key.path`.
-struct PartName {
+/// The file and key path of an include `@FILE.yaml` or `@FILE.yaml#key.path`.
+struct Include {
   std::filesystem::path file;
   std::optional<std::string> path;
 };
 
-std::optional<PartName> part_name(const YamlNode& node) {
+std::optional<Include> include_of(const YamlNode& node) {
   std::string_view text = node.text;
   if (node.kind != YamlNode::Kind::kScalar || !text.starts_with('@') || text.starts_with("@@"))
     return std::nullopt;
@@ -34,9 +34,9 @@ std::optional<PartName> part_name(const YamlNode& node) {
   const std::size_t hash = text.find('#');
   const std::string_view file = text.substr(0, hash);
   if (!file.ends_with(".yaml") && !file.ends_with(".yml")) return std::nullopt;
-  PartName name{file, std::nullopt};
-  if (hash != std::string_view::npos) name.path = text.substr(hash + 1);
-  return name;
+  Include include{file, std::nullopt};
+  if (hash != std::string_view::npos) include.path = text.substr(hash + 1);
+  return include;
 }
 
 std::size_t count_of(const YamlNode& node) {
@@ -51,7 +51,7 @@ std::size_t count_of(const YamlNode& node) {
   std::size_t known = 0;
   while (find_at(root, path.first(known + 1))) ++known;
   const YamlNode& last = *find_at(root, path.first(known));
-  std::string there = "a value without parts";
+  std::string there = "a value without keys";
   if (last.kind == YamlNode::Kind::kList) there = fmt::format("a list of {}", last.entries.size());
   if (last.kind == YamlNode::Kind::kMap) {
     std::vector<std::string> keys;
@@ -61,8 +61,8 @@ std::size_t count_of(const YamlNode& node) {
                                        did_you_mean(path[known], keys));
   }
   throw ConfigError(fmt::format(
-      "{} has nothing at '{}'; expected the key path of one of its parts, after a #; {} is {}",
-      file, fmt::join(path, "."),
+      "{} has nothing at '{}'; expected a key path in it, after a #; {} is {}", file,
+      fmt::join(path, "."),
       known == 0 ? "it" : fmt::format("its '{}'", fmt::join(path.first(known), ".")), there));
 }
 
@@ -75,34 +75,35 @@ std::filesystem::path identity(const std::filesystem::path& file) {
 
 }  // namespace
 
-Parts::Parts(const std::filesystem::path& file) {
+Includes::Includes(const std::filesystem::path& file) {
   if (!file.empty()) documents_[identity(file)];
 }
 
-Parts::~Parts() = default;
+Includes::~Includes() = default;
 
-void Parts::take(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path) {
+void Includes::resolve(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path) {
   for (std::size_t i = 0; i < value->entries.size(); ++i) {
     auto& entry = value->entries[i];
     path.push_back(value->kind == YamlNode::Kind::kList ? fmt::format("{}", i) : entry.key);
-    take(entry.value, path);
+    resolve(entry.value, path);
     entry.value->parent = value.get();
     path.pop_back();
   }
-  const auto name = part_name(*value);
-  if (!name) return;
+  const auto include = include_of(*value);
+  if (!include) return;
   try {
-    value = part(value->origin->directory / name->file, name->path ? split_path(*name->path) : path,
-                 path.size());
+    value = included(value->origin->directory / include->file,
+                     include->path ? split_path(*include->path) : path, path.size());
   } catch (const ConfigError& error) {
-    throw ConfigError(fmt::format("{}: '{}' stands for a part of another scene: {}",
+    throw ConfigError(fmt::format("{}: '{}' cannot be included: {}",
                                   describe_position(*value->origin, value->line, value->column),
                                   value->text, error.what()));
   }
 }
 
-std::unique_ptr<YamlNode> Parts::part(const std::filesystem::path& file,
-                                      const std::vector<std::string>& path, std::size_t level) {
+std::unique_ptr<YamlNode> Includes::included(const std::filesystem::path& file,
+                                             const std::vector<std::string>& path,
+                                             std::size_t level) {
   const YamlNode& root = document(file.lexically_normal());
   const YamlNode* found = find_at(root, path);
   if (!found) fail_missing(root, root.origin->name, path);
@@ -110,28 +111,28 @@ std::unique_ptr<YamlNode> Parts::part(const std::filesystem::path& file,
     throw ConfigError(fmt::format("nested deeper than {} levels", kMaxYamlDepth));
   values_ += count_of(*found);
   if (values_ > kMaxYamlNodes)
-    throw ConfigError(fmt::format("more than {} values were taken", kMaxYamlNodes));
+    throw ConfigError(fmt::format("more than {} values are included", kMaxYamlNodes));
   return clone(*found);
 }
 
-const YamlNode& Parts::document(const std::filesystem::path& file) {
+const YamlNode& Includes::document(const std::filesystem::path& file) {
   const auto [at, is_new] = documents_.try_emplace(identity(file));
   if (!is_new && !at->second)
     throw ConfigError(
-        fmt::format("{} takes parts of this file itself; write out one of the two", file.string()));
+        fmt::format("{} includes this file itself; write out one of the two", file.string()));
   if (is_new) {
     auto root = read_yaml_file(file);
     take_tracker(*root, {}, *this);
     std::vector<std::string> path;
-    take(root, path);
+    resolve(root, path);
     at->second = std::move(root);
   }
   return *at->second;
 }
 
-void take_parts(std::unique_ptr<YamlNode>& value, std::vector<std::string> path) {
-  Parts parts;
-  parts.take(value, path);
+void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string> path) {
+  Includes includes;
+  includes.resolve(value, path);
 }
 
 }  // namespace hypotrack::detail
