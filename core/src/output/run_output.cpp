@@ -4,10 +4,10 @@
 
 #include <utility>
 
+#include "output/frame_statuses.hpp"
 #include "output/overlay_video.hpp"
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
-#include "output/verdicts.hpp"
 #include "picture/picture.hpp"
 
 namespace hypotrack {
@@ -87,7 +87,7 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
   joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
   const std::string_view status = to_string(solution.status);
   const FrameError error =
-      metrics_.add(solution.frame, solution.time, verdicts_of(*scene_, solution), landmarks,
+      metrics_.add(solution.frame, solution.time, statuses_of(*scene_, solution), landmarks,
                    truth.value_or(Eigen::Matrix3Xd()),
                    frame.truth ? frame.truth->absent : std::vector<bool>(), solution.sigma);
   if (truth) {

@@ -49,7 +49,7 @@ struct CapturedFor {
 class Search {
  public:
   Search(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
-         const cuda::Swarming& how, const StartDistribution& starts)
+         const cuda::SwarmSettings& how, const StartDistribution& starts)
       : cost_(cost),
         stream_(cost.stream()),
         swarm_(swarm),
@@ -90,7 +90,7 @@ class Search {
   Stream stream_;
   SwarmLayout swarm_;
   Schedule schedule_;
-  cuda::Swarming how_;
+  cuda::SwarmSettings how_;
   StartDistribution starts_;
 };
 
@@ -121,7 +121,7 @@ struct PsoCuda::OnDevice {
 
   /// Enqueues the search as one kernel. Returns false if that is impossible.
   bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
-                      const cuda::Swarming& how, const StartDistribution& start,
+                      const cuda::SwarmSettings& how, const StartDistribution& start,
                       const SearchRegion& region, std::uint64_t seed) {
     if (!schedule.whole() || schedule.generations() > kMostCaptured) return false;
     if (swarm.dimension > cuda::kMostSwarmDimensions) return false;
@@ -173,7 +173,7 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
   const SwarmLayout swarm = on_device_->memory.reserve(schedule.particles, cost.dimension());
   const bool timed = std::isfinite(budget.seconds);
   std::int64_t generations = schedule.generations();
-  const cuda::Swarming how{constriction_, params_.reset, params_.start.sigma};
+  const cuda::SwarmSettings how{constriction_, params_.reset, params_.start.sigma};
   if (timed ||
       !on_device_->enqueue_as_one(*device, swarm, schedule, how, params_.start, region, seed)) {
     on_device_->memory.write(region, seed);

@@ -20,7 +20,7 @@ struct Membership {
 constexpr std::int64_t region_words(std::int64_t dimension) { return 2 + 5 * dimension; }
 
 /// Parameters of the particles' motion.
-struct Swarming {
+struct SwarmSettings {
   Constriction constriction;
   LimbReset reset;
   double sigma;
@@ -65,7 +65,7 @@ void enqueue_region(const SwarmLayout& swarm, Stream stream);
 void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartDistribution& starts,
                      Stream stream);
 /// Enqueues the move to generation `generation` >= 1, after the costs of the one before.
-void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const SwarmSettings& how,
                   std::int64_t generation, Stream stream);
 /// Enqueues writing the answer, after the costs of the first `count` particles of generation
 /// `last`.

@@ -9,7 +9,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
-#include "track/judge/foreground_colors.hpp"
+#include "track/verify/foreground_colors.hpp"
 
 namespace hypotrack {
 

@@ -38,8 +38,8 @@ constexpr double kSurprise = 0.5;  // tolerated excess of a cost over its predic
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// States that differ from one by steps[i] in one dimension, in the other direction at a limit.
-struct Beside {
-  Beside(const Scene& scene, const Eigen::VectorXd& state, double share) {
+struct PerturbedStates {
+  PerturbedStates(const Scene& scene, const Eigen::VectorXd& state, double share) {
     const std::vector<TangentPart> parts = tangent_parts(scene);
     steps.resize(parts.back().first + parts.back().size);
     states.resize(state.size(), steps.size() + 1);
@@ -75,23 +75,23 @@ TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
   if (!tiles) return frame;
   evaluator_->prepare(*tiles);
   if (evaluator_->can_linearize()) {
-    const Beside beside(*scene_, state, kSlopeShare);
+    const PerturbedStates perturbed(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
     evaluator_->evaluate(state, cost);
     frame.cost = cost[0];
     if (std::isfinite(frame.cost))
-      frame.equations = evaluator_->linearize(beside.states, beside.steps, blur);
+      frame.equations = evaluator_->linearize(perturbed.states, perturbed.steps, blur);
     return frame;
   }
-  const Beside beside(*scene_, state, 1);
+  const PerturbedStates perturbed(*scene_, state, 1);
   Eigen::MatrixXf residuals(evaluator_->residual_count(), d + 1);
   Eigen::VectorXd costs(d + 1);
-  evaluator_->evaluate(beside.states, residuals, costs);
+  evaluator_->evaluate(perturbed.states, residuals, costs);
   frame.cost = costs[0];
   if (!costs.allFinite()) return frame;
   const Eigen::VectorXf r = residuals.col(0);
   const Eigen::MatrixXf j = (residuals.rightCols(d).colwise() - r) *
-                            beside.steps.cast<float>().cwiseInverse().asDiagonal();
+                            perturbed.steps.cast<float>().cwiseInverse().asDiagonal();
   frame.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
   return frame;
 }

@@ -1,13 +1,13 @@
-// Made by tools/fit_judge/fit.py; not to be changed by hand.
+// Made by tools/fit_verifier/fit.py; not to be changed by hand.
 #pragma once
 
 #include <array>
 
-#include "track/judge/evidence.hpp"
+#include "track/verify/evidence.hpp"
 
-/// Weights of networks over ModelJudge::features(): how likely a model's landmarks are within
+/// Weights of networks over ModelVerifier::features(): how likely a model's landmarks are within
 /// 10 mm of where they are in truth, and not more than 20 mm off.
-namespace hypotrack::judge_weights {
+namespace hypotrack::verifier_weights {
 
 inline constexpr int kHidden = 32;
 
@@ -385,4 +385,4 @@ inline constexpr Network kExperienced{
 /// Of the usual likeness times its difference to the likeness.
 inline constexpr double kLikeness = 9;
 
-}  // namespace hypotrack::judge_weights
+}  // namespace hypotrack::verifier_weights

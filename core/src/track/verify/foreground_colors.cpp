@@ -1,4 +1,4 @@
-#include "track/judge/foreground_colors.hpp"
+#include "track/verify/foreground_colors.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "track/recover/held.hpp"
+#include "track/recover/held_models.hpp"
 
 #include <gtest/gtest.h>
 

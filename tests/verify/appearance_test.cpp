@@ -1,4 +1,4 @@
-#include "track/judge/appearance.hpp"
+#include "track/verify/appearance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -42,7 +42,7 @@ cv::Mat silhouette(const Scene& scene, const Camera& camera, const Eigen::Vector
   return drawn;
 }
 
-struct OnForegroundTest : testing::Test {
+struct ForegroundOverlapTest : testing::Test {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())},
                {"hand", std::make_shared<Model>(test::make_test_hand())}}};
   std::vector<Camera> cameras{camera_at(0), camera_at(0.1)};
@@ -56,7 +56,7 @@ struct OnForegroundTest : testing::Test {
   }
 };
 
-TEST_F(OnForegroundTest, IsWhereTheDrawnSilhouetteIs) {
+TEST_F(ForegroundOverlapTest, IsWhereTheDrawnSilhouetteIs) {
   std::mt19937_64 random(6);
   int inside = 0, outside = 0;
   const cv::Mat nine(9, 9, CV_8UC1, cv::Scalar(1));
@@ -71,12 +71,12 @@ TEST_F(OnForegroundTest, IsWhereTheDrawnSilhouetteIs) {
       const cv::Point at(static_cast<int>(random() % 320), static_cast<int>(random() % 240));
       cv::Mat mask(240, 320, CV_8UC1, cv::Scalar(0));
       mask.at<std::uint8_t>(at) = 255;
-      const OnForeground found = tiles.on_foreground(frame(mask, {}), state);
+      const ForegroundOverlap found = tiles.foreground_overlap(frame(mask, {}), state);
       if (inner.at<std::uint8_t>(at)) {
-        EXPECT_EQ(found, OnForeground::yes) << i << ", " << at;
+        EXPECT_EQ(found, ForegroundOverlap::yes) << i << ", " << at;
         ++inside;
       } else if (!outer.at<std::uint8_t>(at)) {
-        EXPECT_EQ(found, OnForeground::nowhere) << i << ", " << at;
+        EXPECT_EQ(found, ForegroundOverlap::nowhere) << i << ", " << at;
         ++outside;
       }
     }
@@ -85,25 +85,25 @@ TEST_F(OnForegroundTest, IsWhereTheDrawnSilhouetteIs) {
   EXPECT_GT(outside, 100);
 }
 
-TEST_F(OnForegroundTest, IsOnAllMasksThatThereAreInPartsOrNowhere) {
+TEST_F(ForegroundOverlapTest, IsOnAllMasksThatThereAreInPartsOrNowhere) {
   Eigen::VectorXd state = scene.rest_state();
   for (const auto& item : scene.items()) state[item.offset + 2] = 0.5;
   const cv::Mat all(240, 320, CV_8UC1, cv::Scalar(255)), nothing(240, 320, CV_8UC1, cv::Scalar(0));
   const auto found = [&](const cv::Mat& first, const cv::Mat& second) {
-    return tiles.on_foreground(frame(first, second), state);
+    return tiles.foreground_overlap(frame(first, second), state);
   };
-  EXPECT_EQ(found(all, all), OnForeground::yes);
-  EXPECT_EQ(found({}, all), OnForeground::yes);
-  EXPECT_EQ(found(all, nothing), OnForeground::in_parts);
-  EXPECT_EQ(found(nothing, all), OnForeground::in_parts);
-  EXPECT_EQ(found(nothing, nothing), OnForeground::nowhere);
-  EXPECT_EQ(found({}, nothing), OnForeground::nowhere);
-  EXPECT_EQ(found({}, {}), OnForeground::unknown);
+  EXPECT_EQ(found(all, all), ForegroundOverlap::yes);
+  EXPECT_EQ(found({}, all), ForegroundOverlap::yes);
+  EXPECT_EQ(found(all, nothing), ForegroundOverlap::in_parts);
+  EXPECT_EQ(found(nothing, all), ForegroundOverlap::in_parts);
+  EXPECT_EQ(found(nothing, nothing), ForegroundOverlap::nowhere);
+  EXPECT_EQ(found({}, nothing), ForegroundOverlap::nowhere);
+  EXPECT_EQ(found({}, {}), ForegroundOverlap::unknown);
   for (const auto& item : scene.items()) state[item.offset + 2] = -0.5;
-  EXPECT_EQ(found(all, all), OnForeground::nowhere);
+  EXPECT_EQ(found(all, all), ForegroundOverlap::nowhere);
 }
 
-TEST_F(OnForegroundTest, MasksOfAnotherDistanceShareNoPointOfIt) {
+TEST_F(ForegroundOverlapTest, MasksOfAnotherDistanceShareNoPointOfIt) {
   // Silhouettes of the scene at 0.5 m, seen 50 pixels apart; at 2 m a point's pixels are 13 apart.
   Eigen::VectorXd state = scene.rest_state();
   for (const auto& item : scene.items()) state[item.offset + 2] = 2;
@@ -111,10 +111,10 @@ TEST_F(OnForegroundTest, MasksOfAnotherDistanceShareNoPointOfIt) {
   const cv::Rect middle(155, 110, 14, 14);
   left(middle).setTo(255);
   right(middle - cv::Point(13, 0)).setTo(255);
-  ASSERT_EQ(tiles.on_foreground(frame(left, right), state), OnForeground::yes);
+  ASSERT_EQ(tiles.foreground_overlap(frame(left, right), state), ForegroundOverlap::yes);
   right.setTo(0);
   right(middle - cv::Point(50, 0)).setTo(255);
-  EXPECT_EQ(tiles.on_foreground(frame(left, right), state), OnForeground::in_parts);
+  EXPECT_EQ(tiles.foreground_overlap(frame(left, right), state), ForegroundOverlap::in_parts);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "track/judge/surface_points.hpp"
+#include "track/verify/surface_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,22 +10,23 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
-#include "track/judge/appearance.hpp"
-#include "track/judge/evidence.hpp"
-#include "track/judge/foreground_colors.hpp"
-#include "track/judge/surface_samples.hpp"
+#include "track/verify/appearance.hpp"
+#include "track/verify/evidence.hpp"
+#include "track/verify/foreground_colors.hpp"
+#include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
 
 /// Estimates from the pictures alone whether the pose of one model is right.
-class HYPOTRACK_API ModelJudge {
+class HYPOTRACK_API ModelVerifier {
  public:
-  /// The scene must outlive the judge.
-  ModelJudge(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
+  /// The scene must outlive the verifier.
+  ModelVerifier(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
 
   /// Measures how well a frame supports the model's pose in `state`. `colors` maps the second
   /// view's colours to the first's.
-  Evidence look(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+  Evidence measure_evidence(const Frame& frame, const Eigen::VectorXd& state,
+                            const ColorMap& colors);
 
   /// Returns the classifier's features: the evidence and, after learn(), its differences from the
   /// usual evidence (zeros before).
@@ -39,7 +40,8 @@ class HYPOTRACK_API ModelJudge {
   /// hand that turns or closes shows sides that were not seen before.
   void set_tracked(bool tracked) { tracked_ = tracked; }
 
-  /// Learns colours and usual evidence from the last look(), in which the model was surely right.
+  /// Learns colours and usual evidence from the last measure_evidence(), in which the model was
+  /// surely right.
   void learn(const Evidence& evidence);
   bool experienced() const { return usual_.has_value(); }
   const ForegroundColors& colors() const { return colors_; }
@@ -58,29 +60,29 @@ class HYPOTRACK_API ModelJudge {
 };
 
 /// Probability, by model, that its pose is right. NaN: unknown, for example where others hide it.
-using Verdict = std::vector<double>;
+using ModelProbabilities = std::vector<double>;
 
 /// Estimates for every model of a scene whether its pose is right.
-class HYPOTRACK_API Judge {
+class HYPOTRACK_API PoseVerifier {
  public:
-  /// The scene must outlive the judge.
-  Judge(const Scene& scene, const std::vector<Camera>& cameras);
+  /// The scene must outlive the verifier.
+  PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras);
 
-  /// Judges the flagged models (one flag each) in a frame with the scene posed in a normalised
+  /// Verifies the flagged models (one flag each) in a frame with the scene posed in a normalised
   /// state. The others get NaN, and so do all in frames without colours in two views.
-  Verdict judge(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors,
-                const std::vector<bool>& models);
+  ModelProbabilities verify(const Frame& frame, const Eigen::VectorXd& state,
+                            const ColorMap& colors, const std::vector<bool>& models);
 
-  /// Sets whether a model was tracked in the last frame (ModelJudge::set_tracked()).
+  /// Sets whether a model was tracked in the last frame (ModelVerifier::set_tracked()).
   void set_tracked(std::size_t model, bool tracked) {
     if (model < models_.size()) models_[model].set_tracked(tracked);
   }
 
-  /// Learns from the last frame judged. `right` flags the models whose pose was surely right.
+  /// Learns from the last frame verified. `right` flags the models whose pose was surely right.
   void learn(const std::vector<bool>& right);
 
-  /// Returns whether the last call of judge() was for this state.
-  bool judged(const Eigen::VectorXd& state) const {
+  /// Returns whether the last call of verify() was for this state.
+  bool verified(const Eigen::VectorXd& state) const {
     return state_.size() == state.size() && state_ == state;
   }
   /// Returns whether a model was surely right at least once.
@@ -88,14 +90,15 @@ class HYPOTRACK_API Judge {
     return model < models_.size() && models_[model].experienced();
   }
   bool experienced() const;
-  /// Returns the judge of one model. Its look() invalidates learn() until the next judge().
-  ModelJudge& model(std::size_t i) {
+  /// Returns the verifier of one model. Its measure_evidence() invalidates learn() until the next
+  /// verify().
+  ModelVerifier& model(std::size_t i) {
     state_.resize(0);
     return models_[i];
   }
 
  private:
-  std::vector<ModelJudge> models_;
+  std::vector<ModelVerifier> models_;
   std::vector<Evidence> evidence_;
   Eigen::VectorXd state_;
 };

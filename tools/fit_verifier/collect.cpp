@@ -1,7 +1,7 @@
 // Writes evidence of right and wrong poses of a rendered scene, for fit.py: what the scene's
 // tracker finds, the true pose, poses off by 1 to 200 mm, and what recoveries find that do not know
-// where the models are. The judge has learned from what the tracker found where that is right, else
-// from the true pose: they differ where the rendered hand has another shape than the model.
+// where the models are. The verifier has learned from what the tracker found where that is right,
+// else from the true pose: they differ where the rendered hand has another shape than the model.
 //
 //   collect_evidence SCENE.yaml OUT.csv FRAMES SEED [KEY=VALUE...]
 #include <fmt/format.h>
@@ -19,9 +19,9 @@
 #include "session/opened_scene.hpp"
 #include "track/color/photometric.hpp"
 #include "track/displace.hpp"
-#include "track/judge/judge.hpp"
 #include "track/recover/recovery.hpp"
 #include "track/scene_tracker.hpp"
+#include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
 namespace {
@@ -56,7 +56,7 @@ class Collector {
   Collector(const Scene& scene, const std::vector<Camera>& cameras, std::FILE* out)
       : scene_(scene), out_(out) {
     for (std::size_t m = 0; m < scene.items().size(); ++m) {
-      judges_.emplace_back(scene, m, cameras);
+      verifiers_.emplace_back(scene, m, cameras);
       fresh_.emplace_back(scene, m, cameras);
     }
     fmt::print(out_,
@@ -72,29 +72,30 @@ class Collector {
            const Eigen::Matrix3Xd& truth, const std::vector<bool>& absent, const ColorMap& colors,
            const std::vector<bool>& shown) {
     Eigen::Index first = 0;
-    for (std::size_t m = 0; m < judges_.size(); ++m) {
+    for (std::size_t m = 0; m < verifiers_.size(); ++m) {
       const Scene::Item& item = scene_.items()[m];
       const double error = absent[m] ? 999 : error_mm(item, state, truth, first);
       first += static_cast<Eigen::Index>(item.model->data().landmarks.size());
       if (!shown[m]) continue;
-      for (ModelJudge* judge : {&judges_[m], &fresh_[m]}) {
-        const Evidence e = judge->look(frame, state, colors);
+      for (ModelVerifier* verifier : {&verifiers_[m], &fresh_[m]}) {
+        const Evidence e = verifier->measure_evidence(frame, state, colors);
         fmt::print(out_, "{},{},{},{:.2f},{:d},{:.3f},{},{:.3f},{:.3f},{:d},{:d}", kind,
                    frame.index, m, error, bool{absent[m]}, e.covered, e.points, e.likeness,
-                   judge->usual_likeness(), e.known, judge->experienced());
-        for (const double f : judge->features(e)) fmt::print(out_, ",{:.4g}", f);
+                   verifier->usual_likeness(), e.known, verifier->experienced());
+        for (const double f : verifier->features(e)) fmt::print(out_, ",{:.4g}", f);
         fmt::print(out_, "\n");
       }
     }
   }
   void learn(const Frame& frame, const Eigen::VectorXd& truth, const ColorMap& colors) {
-    for (ModelJudge& judge : judges_) judge.learn(judge.look(frame, truth, colors));
+    for (ModelVerifier& verifier : verifiers_)
+      verifier.learn(verifier.measure_evidence(frame, truth, colors));
   }
 
  private:
   const Scene& scene_;
   std::FILE* out_;
-  std::vector<ModelJudge> judges_, fresh_;
+  std::vector<ModelVerifier> verifiers_, fresh_;
 };
 
 /// A state that a recovery offered, and what the scene's search made of it.
@@ -111,7 +112,7 @@ class Recoveries {
         scene_(*session_.scene),
         budget_(session_.parts.budget),
         limits_(session_.parts.status.motion),
-        judge_(scene_, session_.source->cameras()),
+        verifier_(scene_, session_.source->cameras()),
         recovery_(scene_, session_.source->cameras(), session_.parts.status.recovery) {
     session_.parts.cameras = session_.source->cameras();
     search_.emplace(scene_, session_.parts);
@@ -123,15 +124,15 @@ class Recoveries {
   std::vector<Recovered> find(const Frame& frame, const Eigen::VectorXd& kept, double seconds,
                               std::size_t model, const std::vector<bool>& shown,
                               std::uint64_t seed) {
-    if (!judge_.experienced(model)) return {};
+    if (!verifier_.experienced(model)) return {};
     std::vector<Recovered> out;
     search_->show(shown);
-    const Recovery::Quest quest =
-        recovery_.begin(*search_, frame, judge_, {kept, seconds}, model, shown, {}, limits_);
+    const Recovery::Task task =
+        recovery_.begin(*search_, frame, verifier_, {kept, seconds}, model, shown, {}, limits_);
     std::vector<bool> moving(shown.size(), false);
     moving[model] = true;
-    for (const PoseGuess& guess : quest.guesses) {
-      const Candidates found = recovery_.find(quest, guess, limits_, seed++);
+    for (const PoseGuess& guess : task.guesses) {
+      const Candidates found = recovery_.find(task, guess, limits_, seed++);
       search_->show(shown, moving);
       for (const Eigen::VectorXd& state : found.states) {
         if (search_->tiles().visible_share(state) == 0) continue;
@@ -149,8 +150,8 @@ class Recoveries {
     first_ = false;
     search_->look(frame, truth, false);
     search_->learn(frame, truth);
-    judge_.judge(frame, truth, search_->second_view_colors(), all);
-    judge_.learn(all);
+    verifier_.verify(frame, truth, search_->second_view_colors(), all);
+    verifier_.learn(all);
     recovery_.remember(frame, truth, all);
   }
 
@@ -159,7 +160,7 @@ class Recoveries {
   const Scene& scene_;
   Budget budget_;
   MotionLimits limits_;
-  Judge judge_;
+  PoseVerifier verifier_;
   Recovery recovery_;
   std::optional<FrameSearch> search_;
   bool first_ = true;

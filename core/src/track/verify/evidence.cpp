@@ -1,4 +1,4 @@
-#include "track/judge/evidence.hpp"
+#include "track/verify/evidence.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "track/judge/surface_samples.hpp"
+#include "track/verify/surface_samples.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "hypotrack/stereo_pixels.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "tile/tiles.hpp"
-#include "track/judge/surface_points.hpp"
+#include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
 namespace {
@@ -102,7 +102,7 @@ struct SurfaceSampler::Impl {
 
   /// Draws into the views' grids the model alone and the whole scene.
   void draw(const Observation& header, const Eigen::VectorXd& state, const Eigen::VectorXd& own);
-  SampledView look(const Lookup& lookup, std::size_t view) const;
+  SampledView measure_evidence(const Lookup& lookup, std::size_t view) const;
   void pair(const Lookup& other, const Observation& header, SurfaceSamples& out) const;
   std::vector<SurfaceSamples::Point> points(const SampledView& view, const TileCamera& grid,
                                             const Eigen::VectorXd& part) const;
@@ -140,7 +140,7 @@ void SurfaceSampler::Impl::draw(const Observation& header, const Eigen::VectorXd
   for (std::size_t i = 0; i < 2; ++i) all[i] = inverse_depths(everything[i]);
 }
 
-SampledView SurfaceSampler::Impl::look(const Lookup& lookup, std::size_t view) const {
+SampledView SurfaceSampler::Impl::measure_evidence(const Lookup& lookup, std::size_t view) const {
   SampledView out{cv::Mat3f(kSampleGrid, kSampleGrid, cv::Vec3f(0, 0, 0)),
                   cv::Mat1b(kSampleGrid, kSampleGrid, uchar{0}),
                   {}};
@@ -224,8 +224,8 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
                      {}};
   const Lookup second{self.tiles.resamplers()[1].lens(), intrinsics(plan.header.views[1].camera),
                       frame.views[1].color, colors};
-  out.views[0] = self.look(first, 0);
-  out.views[1] = self.look(second, 1);
+  out.views[0] = self.measure_evidence(first, 0);
+  out.views[1] = self.measure_evidence(second, 1);
   self.pair(second, plan.header, out);
   const TileCamera& grid = plan.header.views[0].camera;
   out.points = self.points(out.views[0], grid, own);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
-#include "track/judge/surface_samples.hpp"
+#include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Fits the weights of core/src/track/judge/weights.hpp to tables of collect_evidence.
+"""Fits the weights of core/src/track/verify/weights.hpp to tables of collect_evidence.
 
-    fit.py TABLE.csv... > core/src/track/judge/weights.hpp
+    fit.py TABLE.csv... > core/src/track/verify/weights.hpp
 
 A network with one hidden layer says whether a model's landmarks are within 10 mm of the truth, against
 more than 20 mm or nothing there; what lies between is left out. A quarter of the tables is held out, and
@@ -92,11 +92,11 @@ def main():
                         cells.append(f"{only[:4]} {name} {(p[m] >= threshold).mean():.3f}/{m.sum()}")
             print(label, threshold, "; ".join(cells), file=sys.stderr)
         shown[label] = fit(x[usable], right[usable], copies[usable])
-    print("// Made by tools/fit_judge/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
-    print('#include "judge/evidence.hpp"\n')
-    print("/// Weights of networks over ModelJudge::features(): how likely a model's landmarks are within\n"
+    print("// Made by tools/fit_verifier/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
+    print('#include "track/verify/evidence.hpp"\n')
+    print("/// Weights of networks over ModelVerifier::features(): how likely a model's landmarks are within\n"
           f"/// {RIGHT_MM} mm of where they are in truth, and not more than {WRONG_MM} mm off.\n"
-          "namespace hypotrack::judge_weights {\n")
+          "namespace hypotrack::verifier_weights {\n")
     print(f"inline constexpr int kHidden = {HIDDEN};\n")
     print("/// One hidden layer of rectified linear units; the output is the logarithm of the odds.\n"
           "struct Network {\n"
@@ -113,7 +113,7 @@ def main():
         print(f"}}}}, {{{{{numbers(hidden_bias)}}}}}, {{{{{numbers(out)}}}}}, {out_bias:.5g}}};\n")
     print("/// Of the usual likeness times its difference to the likeness.\n"
           f"inline constexpr double kLikeness = {LIKENESS:.2g};\n")
-    print("}  // namespace hypotrack::judge_weights")
+    print("}  // namespace hypotrack::verifier_weights")
 
 
 if __name__ == "__main__":

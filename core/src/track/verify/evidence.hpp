@@ -6,8 +6,8 @@
 #include <string_view>
 
 #include "hypotrack/export.hpp"
-#include "track/judge/foreground_colors.hpp"
-#include "track/judge/surface_samples.hpp"
+#include "track/verify/foreground_colors.hpp"
+#include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
 

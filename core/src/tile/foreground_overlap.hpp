@@ -10,7 +10,7 @@
 namespace hypotrack {
 
 /// Overlap of a scene with the foreground masks of a frame.
-enum class OnForeground {
+enum class ForegroundOverlap {
   unknown,   ///< no view has a mask
   nowhere,   ///< the scene covers no foreground pixel of any mask
   in_parts,  ///< it covers some, but no scene point is on the foreground of all masks
@@ -19,7 +19,8 @@ enum class OnForeground {
 
 /// Tests where a scene lies in the foreground masks, at pixel centres. `world_from_scene` maps the
 /// posed scene's frame to the world. Lens distortion moves triangle corners; edges stay straight.
-OnForeground on_foreground(const PosedScene& scene, const Eigen::Isometry3d& world_from_scene,
-                           std::span<const Camera> cameras, std::span<const View> views);
+ForegroundOverlap foreground_overlap(const PosedScene& scene,
+                                     const Eigen::Isometry3d& world_from_scene,
+                                     std::span<const Camera> cameras, std::span<const View> views);
 
 }  // namespace hypotrack

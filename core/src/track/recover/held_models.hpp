@@ -11,7 +11,7 @@
 namespace hypotrack {
 
 /// A rigid model that moves with the sought one, such as an object in a hand.
-struct Held {
+struct HeldModel {
   std::size_t model;
   Eigen::Isometry3d pose;  ///< in the frame of the sought model
 };

@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// Returns a solution's verdicts on the frame and on each model that has landmarks.
-HYPOTRACK_API FrameVerdicts verdicts_of(const Scene& scene, const Solution& solution);
+/// Returns a solution's statuses of the frame and of each model that has landmarks.
+HYPOTRACK_API FrameStatuses statuses_of(const Scene& scene, const Solution& solution);
 
 }  // namespace hypotrack

@@ -1,4 +1,4 @@
-#include "tile/on_foreground.hpp"
+#include "tile/foreground_overlap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -77,22 +77,23 @@ bool any_point(const PosedScene& scene, const Eigen::Isometry3d& world_from_scen
 
 }  // namespace
 
-OnForeground on_foreground(const PosedScene& scene, const Eigen::Isometry3d& world_from_scene,
-                           std::span<const Camera> cameras, std::span<const View> views) {
+ForegroundOverlap foreground_overlap(const PosedScene& scene,
+                                     const Eigen::Isometry3d& world_from_scene,
+                                     std::span<const Camera> cameras, std::span<const View> views) {
   std::vector<Masked> masked;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (!views[i].mask.empty()) masked.push_back({cameras[i], views[i].mask});
-  if (masked.empty()) return OnForeground::unknown;
+  if (masked.empty()) return ForegroundOverlap::unknown;
   bool covers = false;
   const auto in_all = [&](const Eigen::Vector3d& point) {
     covers = true;
     return std::all_of(masked.begin() + 1, masked.end(),
                        [&](const Masked& view) { return view.has(point); });
   };
-  if (any_point(scene, world_from_scene, masked.front(), in_all)) return OnForeground::yes;
+  if (any_point(scene, world_from_scene, masked.front(), in_all)) return ForegroundOverlap::yes;
   for (std::size_t i = 1; i < masked.size() && !covers; ++i)
     covers = any_point(scene, world_from_scene, masked[i], [](const auto&) { return true; });
-  return covers ? OnForeground::in_parts : OnForeground::nowhere;
+  return covers ? ForegroundOverlap::in_parts : ForegroundOverlap::nowhere;
 }
 
 }  // namespace hypotrack
