@@ -1,6 +1,6 @@
 // Whole evaluations per second and what each stage takes: a hand drawn in both views of a rectified
-// pair and scored by stereo_color, or drawn in one view and scored by rgbd_depth, at the spread of
-// a search around the last solution. Run on a quiet machine:
+// pair and scored by stereo_color, or drawn in one view and scored by rgbd_depth. Hypotheses are as
+// far apart as those of a search around the last solution. Run on a quiet machine:
 //   build/release/bin/bench_evaluate
 #include <benchmark/benchmark.h>
 

@@ -21,7 +21,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// Exit code if a way of tracking failed while it tracked.
+/// Exit code if a configuration failed while it tracked.
 constexpr int kFailedExitCode = 3;
 
 struct BenchOptions {
@@ -40,7 +40,7 @@ class Bench {
         options_(options),
         plugins_(plugins),
         frames_(plugins, options.limits.warm_up + options.limits.frames),
-        progress_(static_cast<int>(plan.cases.size() * plan.ways.size()) * options.rounds,
+        progress_(static_cast<int>(plan.cases.size() * plan.configurations.size()) * options.rounds,
                   Progress::Unit::runs) {}
 
   /// Returns false if the user interrupted it.
@@ -48,10 +48,12 @@ class Bench {
     write();  // finds an unwritable file before anything is measured
     for (int round = 1; round <= options_.rounds; ++round)
       for (std::size_t c = 0; c < plan_.cases.size(); ++c)
-        for (std::size_t way = 0; way < plan_.ways.size(); ++way) {
-          bench::Measurement measurement = measure(plan_.cases[c], plan_.ways[way]);
+        for (std::size_t configuration = 0; configuration < plan_.configurations.size();
+             ++configuration) {
+          bench::Measurement measurement =
+              measure(plan_.cases[c], plan_.configurations[configuration]);
           if (interrupt_.interrupted()) return false;
-          add({round, c, way, std::move(measurement)});
+          add({round, c, configuration, std::move(measurement)});
         }
     return true;
   }
@@ -59,14 +61,14 @@ class Bench {
   const std::vector<bench::Row>& rows() const { return rows_; }
 
  private:
-  bench::Measurement measure(const bench::Case& c, const bench::Way& way) {
+  bench::Measurement measure(const bench::Case& c, const bench::Configuration& configuration) {
     std::vector<Frame>* frames = nullptr;
     try {
       frames = &frames_.of(c);
     } catch (const std::exception& e) {
       return {.outcome = bench::Outcome::unavailable, .message = e.what()};
     }
-    return bench::measure(c, way, *frames, plugins_, options_.limits,
+    return bench::measure(c, configuration, *frames, plugins_, options_.limits,
                           [&] { return !interrupt_.interrupted(); });
   }
 
@@ -76,7 +78,8 @@ class Bench {
     const bench::Row& last = rows_.back();
     write();
     progress_.say(fmt::format("{}, {}: {}", plan_.cases[last.case_index].label,
-                              plan_.ways[last.way].name, bench::in_words(last.measurement)));
+                              plan_.configurations[last.configuration].name,
+                              bench::in_words(last.measurement)));
     progress_.advance({});
   }
 

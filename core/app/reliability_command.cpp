@@ -35,12 +35,12 @@ void print_bins(const Reliability& reliability) {
     fmt::print("within {} sigma: {:.1f} %\n", sigmas, 100 * reliability.within(sigmas));
 }
 
-void print_statuses(const SelfJudgement& judgement) {
+void print_statuses(const UncertaintyCalibration& calibration) {
   fmt::print("\n{:>16} {:>9} {:>12} {:>12} {:>12}\n", "status", "frames", "median error",
              "95 % below", "largest");
   for (const char* status : {"tracked", "uncertain", "lost"}) {
-    const auto found = judgement.errors_by_status.find(status);
-    if (found == judgement.errors_by_status.end()) continue;
+    const auto found = calibration.errors_by_status.find(status);
+    if (found == calibration.errors_by_status.end()) continue;
     const std::vector<double>& errors = found->second;
     fmt::print("{:>16} {:>9} {:>12.2f} {:>12.2f} {:>12.2f}\n", status, errors.size(),
                1000 * percentile(errors, 0.5), 1000 * percentile(errors, 0.95),
@@ -49,14 +49,14 @@ void print_statuses(const SelfJudgement& judgement) {
 }
 
 int print_reliability(const ReliabilityOptions& options) {
-  SelfJudgement judgement;
-  for (const std::filesystem::path& run : options.runs) add_run(run, judgement);
-  if (judgement.reliability.count() == 0)
+  UncertaintyCalibration calibration;
+  for (const std::filesystem::path& run : options.runs) add_run(run, calibration);
+  if (calibration.reliability.count() == 0)
     throw DataError(fmt::format("{}: no landmark has both a sigma and a known error",
                                 options.runs.front().string()));
-  print_bins(judgement.reliability);
-  print_statuses(judgement);
-  write_whole(options.out, reliability_svg(judgement.reliability, options.title));
+  print_bins(calibration.reliability);
+  print_statuses(calibration);
+  write_whole(options.out, reliability_svg(calibration.reliability, options.title));
   fmt::print("\nplot in {}\n", options.out.string());
   return 0;
 }

@@ -23,7 +23,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
   const int parameters = session.scene->dimension();
   const std::size_t models = session.scene->items().size();
   const std::size_t cameras = session.parts.cameras.size();
-  (void)make_hindsight(session);
+  (void)make_fixed_lag_smoother(session);
   SceneTracker tracker(*session.scene, std::move(session.parts),
                        usable ? initial_state(session, *first) : session.scene->rest_state(),
                        session.seed);

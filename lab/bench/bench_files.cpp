@@ -23,7 +23,7 @@ Json json_of(const Plan& plan, const Row& row, const std::vector<Row>& rows) {
   const auto n = numbers_of(m);
   Json json;
   json["scene"] = plan.cases[row.case_index].label;
-  json["backend"] = plan.ways[row.way].name;
+  json["backend"] = plan.configurations[row.configuration].name;
   json["round"] = row.round;
   json["status"] = to_string(m.outcome);
   json["device"] = m.device;
@@ -39,9 +39,9 @@ Json json_of(const Plan& plan, const Row& row, const std::vector<Row>& rows) {
   json["lost_frames"] = n ? Json(m.metrics.lost_frames) : Json();
   json["tracked_share"] = n ? number(m.metrics.status.tracked_share) : Json();
   json["device_mib"] = n && m.device_mib ? number(*m.device_mib) : Json();
-  for (std::size_t way = 0; way < plan.ways.size(); ++way) {
-    const auto speed = speed_over(row, way, rows);
-    json["speed_over_" + plan.ways[way].name] = speed ? number(*speed) : Json();
+  for (std::size_t configuration = 0; configuration < plan.configurations.size(); ++configuration) {
+    const auto speed = speed_over(row, configuration, rows);
+    json["speed_over_" + plan.configurations[configuration].name] = speed ? number(*speed) : Json();
   }
   json["message"] = m.message;
   return json;

@@ -20,10 +20,12 @@ std::optional<Numbers> numbers_of(const Measurement& measurement) {
   return numbers;
 }
 
-std::optional<double> speed_over(const Row& row, std::size_t way, const std::vector<Row>& rows) {
+std::optional<double> speed_over(const Row& row, std::size_t configuration,
+                                 const std::vector<Row>& rows) {
   const auto own = numbers_of(row.measurement);
   for (const Row& other : rows) {
-    if (other.round != row.round || other.case_index != row.case_index || other.way != way)
+    if (other.round != row.round || other.case_index != row.case_index ||
+        other.configuration != configuration)
       continue;
     const auto numbers = numbers_of(other.measurement);
     if (own && numbers) return numbers->median / own->median;

@@ -23,8 +23,9 @@ std::vector<std::string> assignments(const std::vector<study::Change>& changes) 
   return overrides;
 }
 
-/// Removes the axis of the ways from the study's grid and returns them.
-std::vector<Way> take_ways(study::Study& study, const std::filesystem::path& table) {
+/// Removes the axis of the configurations from the study's grid and returns them.
+std::vector<Configuration> take_configurations(study::Study& study,
+                                               const std::filesystem::path& table) {
   const auto axis = std::find_if(study.axes.begin(), study.axes.end(),
                                  [](const study::Axis& other) { return other.name == kWays; });
   if (axis == study.axes.end() || axis->is_key)
@@ -32,11 +33,11 @@ std::vector<Way> take_ways(study::Study& study, const std::filesystem::path& tab
         fmt::format("{}: a table of bench needs an axis '{}' with a case for every way to track, "
                     "`grid: {{{}: {{cpu: {{evaluate.backend: cpu}}, ...}}}}`",
                     table.string(), kWays, kWays));
-  std::vector<Way> ways;
+  std::vector<Configuration> configurations;
   for (const study::Choice& choice : axis->choices)
-    ways.push_back({choice.label, assignments(choice.changes)});
+    configurations.push_back({choice.label, assignments(choice.changes)});
   study.axes.erase(axis);
-  return ways;
+  return configurations;
 }
 
 std::vector<Case> cases_of(const study::Study& study) {
@@ -77,8 +78,9 @@ std::vector<Case> find_cases(const std::vector<Case>& table, const std::string& 
   return {{scene, scene, std::filesystem::absolute(scene), {}, std::filesystem::current_path()}};
 }
 
-void keep_ways(std::vector<Way>& ways, const std::vector<std::string>& kept) {
-  const auto names = names_of(ways);
+void keep_configurations(std::vector<Configuration>& configurations,
+                         const std::vector<std::string>& kept) {
+  const auto names = names_of(configurations);
   for (const std::string& name : kept)
     if (std::find(names.begin(), names.end(), name) == names.end())
       throw ConfigError(
@@ -86,8 +88,8 @@ void keep_ways(std::vector<Way>& ways, const std::vector<std::string>& kept) {
                       "{}",
                       name, did_you_mean(name, names), fmt::join(names, ", ")));
   if (kept.empty()) return;
-  std::erase_if(ways, [&](const Way& way) {
-    return std::find(kept.begin(), kept.end(), way.name) == kept.end();
+  std::erase_if(configurations, [&](const Configuration& configuration) {
+    return std::find(kept.begin(), kept.end(), configuration.name) == kept.end();
   });
 }
 
@@ -95,8 +97,8 @@ void keep_ways(std::vector<Way>& ways, const std::vector<std::string>& kept) {
 
 Plan make_plan(const Request& request) {
   study::Study study = study::load_study(request.table, request.variant);
-  Plan plan{study.title, {}, take_ways(study, request.table), study.frames};
-  keep_ways(plan.ways, request.backends);
+  Plan plan{study.title, {}, take_configurations(study, request.table), study.frames};
+  keep_configurations(plan.configurations, request.backends);
   const std::vector<Case> table = cases_of(study);
   if (request.scenes.empty()) plan.cases = table;
   for (const std::string& scene : request.scenes)

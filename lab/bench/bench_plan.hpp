@@ -18,17 +18,18 @@ struct Case {
   std::filesystem::path directory;     ///< base of relative paths in the overrides
 };
 
-/// A way to track every scene: a backend, perhaps with an optimizer made for it.
-struct Way {
+/// A configuration in which every scene is tracked: a backend, perhaps with an optimizer made for
+/// it.
+struct Configuration {
   std::string name;
   std::vector<std::string> overrides;  ///< applied after those of the case
 };
 
-/// Cases and ways of a benchmark; every case is tracked in every way.
+/// Cases and configurations of a benchmark; every case is tracked in every configuration.
 struct Plan {
   std::string title;
   std::vector<Case> cases;
-  std::vector<Way> ways;
+  std::vector<Configuration> configurations;
   std::optional<int> frames;  ///< number to measure of each
 };
 
@@ -39,7 +40,7 @@ struct Request {
   /// Names of the table's scenes, or scene files to measure in their place; empty: the whole table.
   std::vector<std::string> scenes;
   std::vector<std::string> set;       ///< further overrides for every case
-  std::vector<std::string> backends;  ///< ways to keep; empty: all
+  std::vector<std::string> backends;  ///< configurations to keep; empty: all
 };
 
 /// Makes a plan. Throws ConfigError if the table or a scene cannot be read, a scene does not fit

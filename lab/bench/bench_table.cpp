@@ -59,33 +59,36 @@ class Table {
   const Plan& plan_;
   const std::vector<Row>& rows_;
   int round_;
-  std::size_t case_width_ = 5, way_width_ = 7;
+  std::size_t case_width_ = 5, configuration_width_ = 7;
   bool tells_memory_ = false;
-  std::vector<std::size_t> references_;  ///< ways to compare with: all measured ones, if there are
-                                         ///< two
+  std::vector<std::size_t> references_;  ///< configurations to compare with: all measured ones, if
+                                         ///< there are two
   Lines reasons_;
 };
 
 Table::Table(const Plan& plan, const std::vector<Row>& rows, int round)
     : plan_(plan), rows_(rows), round_(round) {
   for (const Case& c : plan.cases) case_width_ = std::max(case_width_, c.label.size());
-  for (const Way& way : plan.ways) way_width_ = std::max(way_width_, way.name.size());
-  for (std::size_t way = 0; way < plan.ways.size(); ++way)
-    if (std::any_of(rows.begin(), rows.end(),
-                    [&](const Row& row) { return row.way == way && numbers_of(row.measurement); }))
-      references_.push_back(way);
+  for (const Configuration& configuration : plan.configurations)
+    configuration_width_ = std::max(configuration_width_, configuration.name.size());
+  for (std::size_t configuration = 0; configuration < plan.configurations.size(); ++configuration)
+    if (std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+          return row.configuration == configuration && numbers_of(row.measurement);
+        }))
+      references_.push_back(configuration);
   if (references_.size() < 2) references_.clear();
   tells_memory_ = std::any_of(rows.begin(), rows.end(),
                               [](const Row& row) { return row.measurement.device_mib; });
 }
 
 std::string Table::head() const {
-  std::string text = fmt::format("{:<{}}  {:<{}} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}",
-                                 "scene", case_width_, "backend", way_width_, "frames", "median ms",
-                                 "5 %", "95 %", "fps", "evals/s", "error mm", "tracked %");
+  std::string text =
+      fmt::format("{:<{}}  {:<{}} {:>7} {:>9} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9}", "scene",
+                  case_width_, "backend", configuration_width_, "frames", "median ms", "5 %",
+                  "95 %", "fps", "evals/s", "error mm", "tracked %");
   if (tells_memory_) text += fmt::format(" {:>9}", "GPU MiB");
-  for (const std::size_t way : references_)
-    text += fmt::format(" {:>9}", "x " + plan_.ways[way].name);
+  for (const std::size_t configuration : references_)
+    text += fmt::format(" {:>9}", "x " + plan_.configurations[configuration].name);
   return text + "\n";
 }
 
@@ -97,8 +100,8 @@ std::string Table::numbers(const Row& row, const Numbers& n) const {
       error_text(m.metrics.mean_error_mm), share_text(m.metrics.status.tracked_share));
   if (tells_memory_)
     text += fmt::format(" {:>9}", m.device_mib ? fmt::format("{:.0f}", *m.device_mib) : "-");
-  for (const std::size_t way : references_) {
-    const auto speed = speed_over(row, way, rows_);
+  for (const std::size_t configuration : references_) {
+    const auto speed = speed_over(row, configuration, rows_);
     text += fmt::format(" {:>9}", speed ? short_number(*speed) : "-");
   }
   return text;
@@ -109,7 +112,7 @@ std::string Table::line(const Row& row) {
   const auto n = numbers_of(m);
   return fmt::format(
       "{:<{}}  {:<{}} {}\n", plan_.cases[row.case_index].label, case_width_,
-      plan_.ways[row.way].name, way_width_,
+      plan_.configurations[row.configuration].name, configuration_width_,
       n ? numbers(row, *n)
         : fmt::format("      - {} [{}]", to_string(m.outcome), reasons_.number_of(m.message)));
 }
@@ -121,7 +124,8 @@ std::string Table::text() {
     if (row.round != round_) continue;
     text += line(row);
     if (!row.measurement.device.empty())
-      devices.number_of(plan_.ways[row.way].name + ": " + row.measurement.device);
+      devices.number_of(plan_.configurations[row.configuration].name + ": " +
+                        row.measurement.device);
   }
   text += "\n";
   for (const std::string& device : devices.all()) text += device + "\n";

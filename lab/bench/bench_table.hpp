@@ -11,11 +11,11 @@
 
 namespace hypotrack::bench {
 
-/// A measurement with its round, case and way.
+/// A measurement with its round, case and configuration.
 struct Row {
   int round = 1;
-  std::size_t case_index = 0;  ///< into Plan::cases
-  std::size_t way = 0;         ///< into Plan::ways
+  std::size_t case_index = 0;     ///< into Plan::cases
+  std::size_t configuration = 0;  ///< into Plan::configurations
   Measurement measurement;
 };
 

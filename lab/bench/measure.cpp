@@ -7,8 +7,8 @@
 
 #include "cost/cuda/device.hpp"
 #include "lab/bench/frames.hpp"
+#include "output/frame_statuses.hpp"
 #include "output/true_landmarks.hpp"
-#include "output/verdicts.hpp"
 #include "session/opened_scene.hpp"
 #include "track/scene_tracker.hpp"
 
@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// A scene that is ready to be tracked in one way.
+/// A scene that is ready to be tracked in one configuration.
 struct Opened {
   OpenedScene session;
   SceneTracker tracker;
@@ -35,9 +35,9 @@ struct Opened {
   }
 };
 
-OpenedScene open(const Case& c, const Way& way, PluginLoader& plugins) {
+OpenedScene open(const Case& c, const Configuration& configuration, PluginLoader& plugins) {
   std::vector<std::string> overrides = c.overrides;
-  overrides.insert(overrides.end(), way.overrides.begin(), way.overrides.end());
+  overrides.insert(overrides.end(), configuration.overrides.begin(), configuration.overrides.end());
   enter_directory(c);
   return open_scene(c.file, overrides, plugins);
 }
@@ -80,7 +80,7 @@ void track(Opened& opened, const std::vector<Frame>& frames, const Limits& limit
     }
     result.seconds.push_back(seconds);
     result.evaluations.push_back(static_cast<double>(solution.evaluations));
-    metrics.add(frame.index, frame.time, verdicts_of(scene, solution),
+    metrics.add(frame.index, frame.time, statuses_of(scene, solution),
                 scene.landmarks(solution.state),
                 true_landmarks(scene, frame).value_or(Eigen::Matrix3Xd()),
                 frame.truth ? frame.truth->absent : std::vector<bool>());
@@ -106,12 +106,12 @@ std::string_view to_string(Outcome outcome) {
   return outcome == Outcome::unavailable ? "unavailable" : "failed";
 }
 
-Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
+Measurement measure(const Case& c, const Configuration& configuration, std::vector<Frame>& frames,
                     PluginLoader& plugins, const Limits& limits,
                     const std::function<bool()>& again) {
   Measurement result{.outcome = Outcome::unavailable};
   try {
-    OpenedScene session = open(c, way, plugins);
+    OpenedScene session = open(c, configuration, plugins);
     renew_images(frames);
     const DeviceMemory memory(session.parts.evaluate.device);
     Opened opened(std::move(session), frames.front());

@@ -17,12 +17,12 @@ namespace hypotrack::bench {
 
 enum class Outcome {
   measured,
-  unavailable,  ///< this machine, build or scene does not support this way
+  unavailable,  ///< this machine, build or scene does not support this configuration
   failed,       ///< it failed while tracking
 };
 HYPOTRACK_API std::string_view to_string(Outcome outcome);
 
-/// Time, memory and accuracy of tracking a case in one way.
+/// Time, memory and accuracy of tracking a case in one configuration.
 struct Measurement {
   Outcome outcome = Outcome::measured;
   std::string message = {};  ///< reason if there are no numbers
@@ -36,10 +36,10 @@ struct Measurement {
 };
 
 /// Tracks frames in memory, one after the other. The first must have views. Moves their images to
-/// where a source would allocate them for this way. Calls `again` before every frame; it ends the
-/// work by returning false. Reports errors in the result and does not throw.
-HYPOTRACK_API Measurement measure(const Case& c, const Way& way, std::vector<Frame>& frames,
-                                  PluginLoader& plugins, const Limits& limits,
-                                  const std::function<bool()>& again);
+/// where a source would allocate them for this configuration. Calls `again` before every frame; it
+/// ends the work by returning false. Reports errors in the result and does not throw.
+HYPOTRACK_API Measurement measure(const Case& c, const Configuration& configuration,
+                                  std::vector<Frame>& frames, PluginLoader& plugins,
+                                  const Limits& limits, const std::function<bool()>& again);
 
 }  // namespace hypotrack::bench

@@ -9,10 +9,10 @@ namespace hypotrack::bench {
 inline constexpr int kFewestFrames = 3;
 inline constexpr double kLongest = 3;
 
-/// Amount to measure of every case in every way.
+/// Amount to measure of every case in every configuration.
 struct Limits {
   int frames = 50;
-  int warm_up = 5;      ///< frames tracked before; fewer for a slow way or a short source
+  int warm_up = 5;      ///< frames tracked before; fewer for a slow configuration or a short source
   double seconds = 10;  ///< for warm-up and measured frames
 };
 

@@ -35,7 +35,7 @@ std::string status_letters(const CsvTable& table, int column, const fs::path& fi
   std::string letters;
   for (const CsvTable::Row& row : table.rows()) {
     const std::string_view word = row.cells[static_cast<std::size_t>(column)];
-    if (!verdict_named(word))
+    if (!status_named(word))
       throw DataError(fmt::format(
           "{}: the status is '{}'; expected tracked, uncertain, lost, absent or missing",
           table.where(row), word));

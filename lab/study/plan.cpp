@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
 
-/// The content of a scene's file and, where it takes parts from other scenes, what it comes to.
+/// The content of a scene's file and, where it includes other files, its resolved content.
 std::string read_scene_text(const StudyScene& scene) {
   std::ifstream in(scene.file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};

@@ -27,12 +27,11 @@ struct PlannedRun {
 /// order in which they are made: all cells with the first seed before any with the second.
 ///
 /// A run's id consists of the scene's name, the seed and a hash of all that decides the result: the
-/// content of the scene file, all changes, the parts that they take from other scenes, the seed and
+/// content of the scene file, all changes with their includes, the seed and
 /// the number of frames. So a study may grow (further seeds, values, scenes) and keeps its runs.
 struct Plan {
   Study study;
-  std::vector<std::string> scene_texts;  ///< text of each scene's file, with the parts it takes
-                                         ///< from others
+  std::vector<std::string> scene_texts;  ///< text of each scene's file, with its includes
   std::vector<Cell> cells;
   std::vector<PlannedRun> runs;
 
@@ -56,8 +55,8 @@ struct Shard {
 /// 100,000 runs.
 HYPOTRACK_API Plan make_plan(Study study);
 
-/// Returns the indices of the runs of a shard. Each cell's seeds are spread over the shards, so
-/// that no shard gets all the slow cells.
+/// Returns the indices of the runs of a shard. Each cell's seeds are distributed over the shards,
+/// so that no shard gets all the slow cells.
 HYPOTRACK_API std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
 
 }  // namespace hypotrack::study

@@ -160,8 +160,8 @@ void apply_variant(Study& study, const ConfigNode& node) {
   for (StudyScene& scene : study.scenes) add_changes(scene.changes, changes);
 }
 
-/// Finds out what the changes take from other scenes.
-void take_parts(Study& study) {
+/// Finds out what the changes include from other scenes.
+void resolve_includes(Study& study) {
   std::map<std::string, std::string> contents;  // of assignments, which scenes share
   const auto take = [&](std::vector<Change>& changes) {
     for (Change& change : changes) {
@@ -184,7 +184,7 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
   for (const std::string& other : names) {
     Study copy = study;
     apply_variant(copy, variants.get(other));
-    take_parts(copy);
+    resolve_includes(copy);
   }
   if (!name) return;
   if (std::find(names.begin(), names.end(), *name) == names.end())
@@ -286,7 +286,7 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   check_plots(study, root.get("plots"));
   check_table_per(study, root.get("table_per"));
   apply_variants(study, keys.variants, file.string(), variant);
-  take_parts(study);
+  resolve_includes(study);
   return study;
 }
 

@@ -18,10 +18,9 @@ struct Change {
   std::string key;              ///< dotted path
   std::string value;            ///< YAML on one line
   std::string where;            ///< place in the study: `study.yaml:12:5`
-  std::string content = value;  ///< the value, with the parts that it takes from other scenes
+  std::string content = value;  ///< the value, with its includes resolved
   std::string assignment() const { return key + "=" + value; }
-  /// Returns the change with resolved content, independent of the names of the files it takes parts
-  /// from.
+  /// Returns the change with resolved content, independent of the names of the included files.
   std::string meaning() const { return key + "=" + content; }
 };
 

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "base/numbers.hpp"
+#include "config/includes.hpp"
 #include "config/overrides.hpp"
-#include "config/parts.hpp"
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/suggest.hpp"
@@ -112,8 +112,8 @@ std::string content_of(const Change& change, const std::filesystem::path& direct
     scene->kind = detail::YamlNode::Kind::kMap;
     scene->origin = origin;
     scene->add("tracker", std::move(value));
-    detail::Parts parts;
-    detail::take_tracker(*scene, {}, parts);
+    detail::Includes includes;
+    detail::take_tracker(*scene, {}, includes);
     value = std::move(scene);
   }
   return to_flow(ConfigNode::parse(detail::write_yaml(*value), change.where));

@@ -13,8 +13,8 @@ namespace hypotrack::study {
 /// ConfigError.
 std::vector<Change> read_changes(const ConfigNode& map);
 
-/// Returns the value of a change, with the parts that it takes from other scenes. File names are
-/// relative to `directory`. Throws ConfigError.
+/// Returns the value of a change, with its includes resolved. File names are relative to
+/// `directory`. Throws ConfigError.
 std::string content_of(const Change& change, const std::filesystem::path& directory);
 
 /// Adds changes; one of the same key replaces an earlier one.

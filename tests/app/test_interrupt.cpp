@@ -114,9 +114,9 @@ TEST_F(InterruptTest, AnErrorThatNobodyHearsIsOneStill) {
   EXPECT_EQ(run_program(start).exit_code, 1);
 }
 
-TEST_F(InterruptTest, CtrlCLeavesTheFramesThatHindsightStillWaitedFor) {
+TEST_F(InterruptTest, CtrlCLeavesTheFramesThatSmoothingStillWaitedFor) {
   Start start = long_run();
-  for (const char* set : {"hindsight.enabled=true", "budget.evaluations=256"})
+  for (const char* set : {"smoothing.fixed_lag.enabled=true", "budget.evaluations=256"})
     start.arguments.insert(start.arguments.end(), {"--set", set});
   Program program(start);
   wait_for_lines(program, "out/.part.online.csv", 4);

@@ -198,7 +198,7 @@ std::vector<int> evaluations_in(const std::filesystem::path& table) {
   return column;
 }
 
-TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
+TEST_F(RunTest, FixedLagSmoothingLeavesWhatWasFoundBesideTheTables) {
   const std::string file = scene(box_scene());
   const auto track = [&](const std::string& out, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"run",   file,
@@ -210,19 +210,19 @@ TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   };
   track("plain", {"--set", "budget.evaluations=36"});
-  track("hind", {"--set", "budget.evaluations=72", "--set", "hindsight.enabled=true", "--set",
-                 "hindsight.evaluations=36"});
-  EXPECT_THAT(names_in(path("hind")),
+  track("smooth", {"--set", "budget.evaluations=72", "--set", "smoothing.fixed_lag.enabled=true",
+                   "--set", "smoothing.fixed_lag.evaluations=36"});
+  EXPECT_THAT(names_in(path("smooth")),
               ElementsAre("errors.csv", "joints.csv", "metrics.json", "online.csv",
                           "online_joints.csv", "run.yaml", "summary.json", "track.csv",
                           "truth_landmarks.csv", "truth_states.csv"));
   std::filesystem::create_directory(path("online"));
-  std::filesystem::copy(path("hind/online.csv"), path("online/track.csv"));
+  std::filesystem::copy(path("smooth/online.csv"), path("online/track.csv"));
   EXPECT_EQ(track_without_times(path("online")), track_without_times(path("plain")));
-  EXPECT_EQ(read_text(path("hind/online_joints.csv")), read_text(path("plain/joints.csv")));
-  EXPECT_NE(read_text(path("hind/joints.csv")), read_text(path("plain/joints.csv")));
-  const std::vector<int> online = evaluations_in(path("hind/online.csv"));
-  const std::vector<int> settled = evaluations_in(path("hind/track.csv"));
+  EXPECT_EQ(read_text(path("smooth/online_joints.csv")), read_text(path("plain/joints.csv")));
+  EXPECT_NE(read_text(path("smooth/joints.csv")), read_text(path("plain/joints.csv")));
+  const std::vector<int> online = evaluations_in(path("smooth/online.csv"));
+  const std::vector<int> settled = evaluations_in(path("smooth/track.csv"));
   ASSERT_THAT(settled, SizeIs(5));
   ASSERT_EQ(online.size(), settled.size());
   for (std::size_t i = 0; i < settled.size(); ++i) {
@@ -231,19 +231,27 @@ TEST_F(RunTest, HindsightLeavesWhatWasFoundBesideTheTables) {
   }
 }
 
-TEST_F(RunTest, HindsightIsRefusedWhereItCannotWork) {
+TEST_F(RunTest, FixedLagSmoothingIsRefusedWhereItCannotWork) {
   expect_refused(box_scene(),
-                 {"hindsight takes 128 evaluations", "which is 32",
-                  "budget.evaluations 256 or more", "leave hindsight.enabled off"},
-                 {"--set", "hindsight.enabled=true"});
-  const std::vector<std::string> on{"--set", "hindsight.enabled=true", "--set",
+                 {"fixed-lag smoothing takes 128 evaluations", "which is 32",
+                  "budget.evaluations 256 or more", "leave smoothing.fixed_lag.enabled off"},
+                 {"--set", "smoothing.fixed_lag.enabled=true"});
+  const std::vector<std::string> on{"--set", "smoothing.fixed_lag.enabled=true", "--set",
                                     "budget.evaluations=1024"};
   expect_refused(
       replaced(box_scene(), "{type: stereo_color}", "{type: stereo_color, aggregation: mean_seen}"),
-      {"hindsight needs residuals", "objective stereo_color", "offers no residuals"}, on);
-  expect_refused(box_scene() + "tracker: {uncertainty: {enabled: true}}\n",
-                 {"hindsight.enabled and tracker.uncertainty.enabled", "switch one of them off"},
-                 on);
+      {"fixed-lag smoothing needs residuals", "objective stereo_color", "offers no residuals"}, on);
+  expect_refused(
+      box_scene() + "tracker: {uncertainty: {enabled: true}}\n",
+      {"smoothing.fixed_lag.enabled and tracker.uncertainty.enabled", "switch one of them off"},
+      on);
+}
+
+TEST_F(RunTest, TheOldKeyOfFixedLagSmoothingIsRefusedWithTheNewOne) {
+  const std::string found = "found the key 'hindsight'", write = "write `smoothing: {fixed_lag:";
+  expect_refused(box_scene() + "hindsight: {enabled: true}\n", {"scene.yaml:", found, write});
+  expect_refused(box_scene(), {"--set hindsight.enabled=true", found, write},
+                 {"--set", "hindsight.enabled=true"});
 }
 
 TEST_F(RunTest, SetChangesKeysOfTheScene) {

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 constexpr const char* kScene = "models: []\nsource: {}\nobjective: {}\noptimizer: {}\n";
 
-/// A test with a table of two scenes, one of them at two tile sizes, in two ways.
+/// A test with a table of two scenes, one of them at two tile sizes, in two configurations.
 class BenchPlanTest : public testing::Test {
  protected:
   BenchPlanTest() {
@@ -49,9 +49,9 @@ variants:
     for (const auto& c : plan.cases) labels.push_back(c.label);
     return labels;
   }
-  static std::vector<std::string> ways(const bench::Plan& plan) {
+  static std::vector<std::string> configurations(const bench::Plan& plan) {
     std::vector<std::string> names;
-    for (const auto& way : plan.ways) names.push_back(way.name);
+    for (const auto& configuration : plan.configurations) names.push_back(configuration.name);
     return names;
   }
 
@@ -65,8 +65,9 @@ TEST_F(BenchPlanTest, EveryPointOfTheGridIsACaseAndTheBackendsAreWays) {
   EXPECT_EQ(plan.title, "Some");
   EXPECT_THAT(labels(plan), ElementsAre("A box, tile.size 32", "A box, tile.size 64",
                                         "hand, tile.size 32", "hand, tile.size 64"));
-  EXPECT_THAT(ways(plan), ElementsAre("cpu", "one"));
-  EXPECT_THAT(plan.ways[1].overrides, ElementsAre("evaluate.backend=cpu", "evaluate.threads=1"));
+  EXPECT_THAT(configurations(plan), ElementsAre("cpu", "one"));
+  EXPECT_THAT(plan.configurations[1].overrides,
+              ElementsAre("evaluate.backend=cpu", "evaluate.threads=1"));
   EXPECT_EQ(plan.cases[0].file, path("box.yaml"));
 }
 
@@ -97,7 +98,7 @@ TEST_F(BenchPlanTest, ScenesAreNamesOfTheTableOrFiles) {
 TEST_F(BenchPlanTest, BackendsAreThoseOfTheTable) {
   Request r = request();
   r.backends = {"one"};
-  EXPECT_THAT(ways(make_plan(r)), ElementsAre("one"));
+  EXPECT_THAT(configurations(make_plan(r)), ElementsAre("one"));
   r.backends = {"cpu", "ones"};
   EXPECT_THAT(message_of<ConfigError>([&] { make_plan(r); }),
               AllOf(HasSubstr("--backends ones"), HasSubstr("did you mean 'one'"),
@@ -126,7 +127,7 @@ TEST_F(BenchPlanTest, TheTableThatComesWithHypotrackFitsItsScenes) {
   EXPECT_THAT(labels(plan), testing::IsSupersetOf({"1 hand 32x32", "1 hand 64x64", "2 hands 32x32",
                                                    "1 hand 32x32, tile 256", "1 hand 1024x32",
                                                    "1 hand 4096x32"}));
-  EXPECT_THAT(ways(plan), ElementsAre("cpu", "egl", "cuda", "pso_cuda"));
+  EXPECT_THAT(configurations(plan), ElementsAre("cpu", "egl", "cuda", "pso_cuda"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ bench::Plan plan_of_two_ways() {
   bench::Plan plan;
   plan.title = "Some";
   plan.cases.push_back({"box", "A box, small", "box.yaml", {}, {}});
-  plan.ways = {{"cpu", {}}, {"gpu", {}}};
+  plan.configurations = {{"cpu", {}}, {"gpu", {}}};
   return plan;
 }
 
@@ -79,7 +79,7 @@ TEST(BenchNumbersTest, WaysAreComparedWithinTheirRoundAndCase) {
 
 TEST(BenchTableTest, TellsNumbersRatiosDevicesAndReasons) {
   auto plan = plan_of_two_ways();
-  plan.ways.push_back({"other", {}});
+  plan.configurations.push_back({"other", {}});
   const std::vector<Row> rows = {{1, 0, 0, frames_of(0.010, 3)},
                                  {1, 0, 1, frames_of(0.002, 3)},
                                  {1, 0, 2, unavailable("there is no such thing")}};

@@ -73,10 +73,10 @@ TEST_F(TrackerFile, MayBeAnotherOneWithChanges) {
 TEST_F(TrackerFile, AndASceneMayNotReferToEachOther) {
   write("trackers/a.yaml", "objective: \"@../scene.yaml\"\n");
   EXPECT_THAT(error("models: []\ntracker: \"@trackers/a\"\n"),
-              HasSubstr("takes parts of this file itself"));
+              HasSubstr("includes this file itself"));
   write("trackers/b.yaml", "tracker: \"@c.yaml\"\n");
   write("trackers/c.yaml", "tracker: \"@b.yaml\"\n");
-  EXPECT_THAT(error("tracker: \"@trackers/b\"\n"), HasSubstr("takes parts of this file itself"));
+  EXPECT_THAT(error("tracker: \"@trackers/b\"\n"), HasSubstr("includes this file itself"));
 }
 
 TEST_F(TrackerFile, ComesWithHypotrackWhereTheSceneHasNone) {

@@ -67,8 +67,8 @@ void expect_cpu_costs(Evaluator& evaluator, const Scene& scene, const Observatio
   }
   EXPECT_LE((costs - expected).cwiseAbs().mean(), kEdgeSum / kEdgePixels)
       << "more than one pixel per tile";
-  const double spread = expected.maxCoeff() - expected.minCoeff();
-  EXPECT_GT(spread, 4 * kEdgeSum) << "these hypotheses could be mixed up without notice";
+  const double range = expected.maxCoeff() - expected.minCoeff();
+  EXPECT_GT(range, 4 * kEdgeSum) << "these hypotheses could be mixed up without notice";
 }
 
 /// Skips where OpenGL and CUDA have no GPU in common.

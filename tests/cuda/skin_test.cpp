@@ -43,14 +43,14 @@ Observation box_in_views(int frame) {
   return out;
 }
 
-void expect_what_the_cpu_tells(DeviceForeground& device, std::vector<ForegroundTeller>& tellers,
-                               const Observation& observation) {
+void expect_equals_cpu(DeviceForeground& device, std::vector<ForegroundEstimator>& estimators,
+                       const Observation& observation) {
   const test::DeviceFrame frame(observation, {});
   device.enqueue(frame.observation(), {});
   double sum = 0;
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
     SCOPED_TRACE("view " + std::to_string(i));
-    const ViewForeground expected = tellers[i].tell(observation, i);
+    const ViewForeground expected = estimators[i].estimate(observation, i);
     const auto* found = device.pixels(static_cast<int>(i));
     const auto size = static_cast<std::size_t>(expected.pixels.width()) *
                       static_cast<std::size_t>(expected.pixels.height());
@@ -77,8 +77,8 @@ TEST_F(SkinOnDevice, SeesTheForegroundAsTheCpu) {
     Settings settings;
     settings.foreground = foreground;
     DeviceForeground device(settings);
-    std::vector<ForegroundTeller> tellers(3, ForegroundTeller(settings));
-    expect_what_the_cpu_tells(device, tellers, box_in_views(0));
+    std::vector<ForegroundEstimator> estimators(3, ForegroundEstimator(settings));
+    expect_equals_cpu(device, estimators, box_in_views(0));
   }
 }
 
@@ -87,12 +87,12 @@ TEST_F(SkinOnDevice, LearnsColoursOnTheFramesThatTheCpuLearnsOn) {
   settings.foreground = Foreground::color;
   settings.learn_frames = 2;
   DeviceForeground device(settings);
-  std::vector<ForegroundTeller> tellers(3, ForegroundTeller(settings));
+  std::vector<ForegroundEstimator> estimators(3, ForegroundEstimator(settings));
   for (const int number : {0, 0, 1, 2}) {
     SCOPED_TRACE(number);
     Observation observation = box_in_views(number);
     observation.start[0] += 0.01 * number;  // what is learned there is another thing
-    expect_what_the_cpu_tells(device, tellers, observation);
+    expect_equals_cpu(device, estimators, observation);
   }
 }
 

@@ -212,7 +212,7 @@ std::array<std::vector<float>, kQuantities> sorted_quantities(const TileView& vi
   return out;
 }
 
-TEST_F(FeatureMapsTest, FindExactMiddlesOfOddAndEvenCounts) {
+TEST_F(FeatureMapsTest, FindExactMediansOfOddAndEvenCounts) {
   for (const auto texture : {test::Texture::noise, test::Texture::waves, test::Texture::flat}) {
     for (const int count : {1, 2, 3, 4, 999, 1000, 16000, 16001, 33333, 60000}) {
       const int size = count > 16000 ? 256 : 128;
@@ -221,14 +221,14 @@ TEST_F(FeatureMapsTest, FindExactMiddlesOfOddAndEvenCounts) {
       const DeviceFrame frame(observation, device_->stream());
       FeatureMaps maps{Settings{}};
       maps.enqueue(frame.observation(), device_->stream());
-      const auto found = download(maps.middles(), 2 * kQuantities, device_->stream());
+      const auto found = download(maps.medians(), 2 * kQuantities, device_->stream());
       for (std::size_t view = 0; view < 2; ++view) {
         const auto expected = sorted_quantities(observation.views[view]);
         for (std::size_t q = 0; q < kQuantities; ++q) {
-          const Middle middle = found[view * kQuantities + q];
+          const MedianPair median = found[view * kQuantities + q];
           const std::size_t n = expected[q].size();
-          EXPECT_EQ(middle.low, expected[q][(n - 1) / 2]) << count << " of quantity " << q;
-          EXPECT_EQ(middle.high, expected[q][n / 2]) << count << " of quantity " << q;
+          EXPECT_EQ(median.low, expected[q][(n - 1) / 2]) << count << " of quantity " << q;
+          EXPECT_EQ(median.high, expected[q][n / 2]) << count << " of quantity " << q;
         }
       }
     }

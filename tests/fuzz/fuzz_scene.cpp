@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A folder for the scene and for the other one of which it may take parts.
+/// A folder for the scene and for the other one that it may include.
 const std::filesystem::path& folder() {
   static const std::filesystem::path path = [] {
     std::string name = (std::filesystem::temp_directory_path() / "fuzz_scene_XXXXXX").string();

@@ -28,7 +28,7 @@ inline bool same_content(const ConfigNode& a, const ConfigNode& b) {
   return true;
 }
 
-/// Writes a scene and a tracker of which others in the folder may take parts.
+/// Writes a scene and a tracker that others in the folder may include.
 inline void write_other_scene(const std::filesystem::path& folder) {
   std::ofstream(folder / "other.yaml")
       << "optimizer: {file: a.png, particles: 8, words: [a, b]}\nempty:\n";

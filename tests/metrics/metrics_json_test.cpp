@@ -13,7 +13,7 @@ nlohmann::ordered_json json_of(double error_mm, bool lost) {
   MetricsCollector collector(landmark_layout(std::vector<std::string>{"ball.center"}));
   Eigen::Matrix3Xd estimate = Eigen::Matrix3Xd::Zero(3, 1);
   estimate(0, 0) = error_mm / 1000;
-  collector.add(0, 0, {lost ? FrameVerdict::lost : FrameVerdict::solved}, estimate,
+  collector.add(0, 0, {lost ? FrameStatus::lost : FrameStatus::solved}, estimate,
                 Eigen::Matrix3Xd::Zero(3, 1));
   return nlohmann::ordered_json::parse(to_json(collector.metrics()));
 }

@@ -17,10 +17,10 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// One landmark at the origin, found off by so many millimetres along x; ten frames a second.
 class Sequence {
  public:
-  Sequence& add(double error_mm, FrameVerdict verdict = FrameVerdict::solved) {
+  Sequence& add(double error_mm, FrameStatus status = FrameStatus::solved) {
     Eigen::Matrix3Xd estimate = Eigen::Matrix3Xd::Zero(3, 1);
     estimate(0, 0) = error_mm / 1000;
-    collector_.add(frame_, 5 + frame_ / 10.0, {verdict}, estimate, Eigen::Matrix3Xd::Zero(3, 1));
+    collector_.add(frame_, 5 + frame_ / 10.0, {status}, estimate, Eigen::Matrix3Xd::Zero(3, 1));
     ++frame_;
     return *this;
   }
@@ -52,7 +52,7 @@ TEST(Metrics, StatisticsOfHandMadeErrors) {
 
 TEST(Metrics, AFrameIsLostBeyond40MmOrWhenTheTrackerSaysSo) {
   const Metrics m =
-      Sequence().add(10).add(39.9).add(40.1).add(5, FrameVerdict::lost).add(2).metrics();
+      Sequence().add(10).add(39.9).add(40.1).add(5, FrameStatus::lost).add(2).metrics();
   EXPECT_EQ(m.lost_frames, 2);
   EXPECT_DOUBLE_EQ(m.lost_share, 0.4);
   EXPECT_EQ(m.frames_to_loss, 2);
@@ -78,7 +78,7 @@ TEST(Metrics, EverythingLost) {
 }
 
 TEST(Metrics, MissingFramesAreCountedAndLeftOut) {
-  const Metrics m = Sequence().add(10).add(500, FrameVerdict::missing).add(20).add(45).metrics();
+  const Metrics m = Sequence().add(10).add(500, FrameStatus::missing).add(20).add(45).metrics();
   EXPECT_EQ(m.frames, 4);
   EXPECT_EQ(m.missing_frames, 1);
   EXPECT_EQ(m.evaluated_frames, 3);
@@ -119,7 +119,7 @@ TEST(Metrics, ASteadyOrSteadilyGrowingErrorIsNoJitter) {
 TEST(Metrics, JitterNeedsThreeFramesInARow) {
   EXPECT_TRUE(std::isnan(Sequence().add(0).add(9).skip().add(0).add(9).metrics().jitter_mm));
   const Metrics missing =
-      Sequence().add(0).add(9).add(4, FrameVerdict::missing).add(0).add(9).metrics();
+      Sequence().add(0).add(9).add(4, FrameStatus::missing).add(0).add(9).metrics();
   EXPECT_TRUE(std::isnan(missing.jitter_mm));
   EXPECT_NEAR(Sequence().add(7).skip().add(0).add(0).add(2).metrics().jitter_mm, 2, 1e-9);
 }

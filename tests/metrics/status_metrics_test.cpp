@@ -11,17 +11,17 @@ namespace hypotrack {
 namespace {
 
 using testing::IsNan;
-using enum FrameVerdict;
+using enum FrameStatus;
 
 /// Frames of one model.
 class Frames {
  public:
-  Frames& seen(FrameVerdict verdict, double error_mm) {
-    collector_.add(verdict, {{.verdict = verdict, .error_mm = error_mm, .in_view = true}});
+  Frames& seen(FrameStatus status, double error_mm) {
+    collector_.add(status, {{.status = status, .error_mm = error_mm, .in_view = true}});
     return *this;
   }
-  Frames& away(FrameVerdict verdict, int count = 1) {
-    for (int i = 0; i < count; ++i) collector_.add(verdict, {{.verdict = verdict, .absent = true}});
+  Frames& away(FrameStatus status, int count = 1) {
+    for (int i = 0; i < count; ++i) collector_.add(status, {{.status = status, .absent = true}});
     return *this;
   }
   StatusMetrics metrics() const { return collector_.metrics(); }
@@ -31,11 +31,11 @@ class Frames {
 };
 
 TEST(StatusMetrics, WordsOfAStatusColumn) {
-  EXPECT_EQ(verdict_named("tracked"), tracked);
-  EXPECT_EQ(verdict_named("absent"), absent);
-  EXPECT_EQ(verdict_named("missing"), missing);
-  EXPECT_FALSE(verdict_named("solved"));
-  EXPECT_FALSE(verdict_named(""));
+  EXPECT_EQ(status_named("tracked"), tracked);
+  EXPECT_EQ(status_named("absent"), absent);
+  EXPECT_EQ(status_named("missing"), missing);
+  EXPECT_FALSE(status_named("solved"));
+  EXPECT_FALSE(status_named(""));
 }
 
 TEST(StatusMetrics, CountsAndShares) {
@@ -111,12 +111,12 @@ TEST(StatusMetrics, WithoutAWordThereIsNothingToJudge) {
 /// Two models with a landmark each, found 1 and 3 mm off.
 class Pair {
  public:
-  Pair& add(FrameVerdicts verdict, std::vector<bool> gone = {}, Eigen::Vector2d sigma = {0, 0}) {
+  Pair& add(FrameStatuses status, std::vector<bool> gone = {}, Eigen::Vector2d sigma = {0, 0}) {
     Eigen::Matrix3Xd truth = Eigen::Matrix3Xd::Zero(3, 2), estimate = truth;
     estimate.row(0) << 0.001, 0.003;
     for (std::size_t m = 0; m < gone.size(); ++m)
       if (gone[m]) truth.col(static_cast<Eigen::Index>(m)).setConstant(std::nan(""));
-    collector_.add(frame_, frame_, verdict, estimate, truth, gone, sigma);
+    collector_.add(frame_, frame_, status, estimate, truth, gone, sigma);
     ++frame_;
     return *this;
   }

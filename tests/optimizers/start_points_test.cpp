@@ -12,8 +12,9 @@ namespace {
 constexpr int kMany = 3000;
 
 /// Offsets of the points in spreads, without the first one.
-Eigen::MatrixXd offsets(const SearchRegion& region, const StartSpread& spread, int count = kMany) {
-  const Eigen::MatrixXd points = StartPoints(region, spread, 3).points(0, count);
+Eigen::MatrixXd offsets(const SearchRegion& region, const StartDistribution& starts,
+                        int count = kMany) {
+  const Eigen::MatrixXd points = StartPoints(region, starts, 3).points(0, count);
   return ((points.colwise() - region.start).array().colwise() / region.spread.array())
       .matrix()
       .rightCols(count - 1);
@@ -40,17 +41,17 @@ TEST(StartPoints, TheFirstIsTheStartAndTheOthersAreNormalAboutIt) {
 
 TEST(StartPoints, EachIsAFunctionOfItsNumber) {
   const SearchRegion region = test::tracking_region(27);
-  StartSpread spread;
-  spread.group_share = 0.3;
-  const StartPoints points(region, spread, 3);
+  StartDistribution starts;
+  starts.group_share = 0.3;
+  const StartPoints points(region, starts, 3);
   EXPECT_EQ(points.points(4, 3), points.points(0, 7).rightCols(3));
 }
 
 TEST(StartPoints, TheyStayWithinTheBounds) {
   const SearchRegion region = test::tracking_region(27);
-  StartSpread spread;
-  spread.sigma = 10;
-  const Eigen::MatrixXd points = StartPoints(region, spread, 3).points(0, 100);
+  StartDistribution starts;
+  starts.sigma = 10;
+  const Eigen::MatrixXd points = StartPoints(region, starts, 3).points(0, 100);
   for (const auto& point : points.colwise()) {
     EXPECT_TRUE((point.array() >= region.lower.array()).all());
     EXPECT_TRUE((point.array() <= region.upper.array()).all());
@@ -59,10 +60,10 @@ TEST(StartPoints, TheyStayWithinTheBounds) {
 
 TEST(StartPoints, AShareOfTheGroupsMovesByAllOfSigma) {
   const SearchRegion region = wide_region();
-  StartSpread spread;
-  spread.group_share = 0.3;
-  spread.group_rest = 0;
-  const Eigen::MatrixXd u = offsets(region, spread);
+  StartDistribution starts;
+  starts.group_share = 0.3;
+  starts.group_rest = 0;
+  const Eigen::MatrixXd u = offsets(region, starts);
   int moved = 0;
   double squares = 0;
   for (Eigen::Index n = 0; n < u.cols(); ++n) {
@@ -78,19 +79,19 @@ TEST(StartPoints, AShareOfTheGroupsMovesByAllOfSigma) {
 }
 
 TEST(StartPoints, TheOtherGroupsMoveByTheRestOfIt) {
-  StartSpread spread;
-  spread.group_share = 0;
-  spread.group_rest = 0.1;
-  EXPECT_NEAR(std::sqrt(offsets(wide_region(), spread).array().square().mean()), 0.05, 0.002);
+  StartDistribution starts;
+  starts.group_share = 0;
+  starts.group_rest = 0.1;
+  EXPECT_NEAR(std::sqrt(offsets(wide_region(), starts).array().square().mean()), 0.05, 0.002);
 }
 
 TEST(StartPoints, WithoutGroupsEveryDimensionIsOne) {
   SearchRegion region = wide_region();
   region.groups.clear();
-  StartSpread spread;
-  spread.group_share = 0.3;
-  spread.group_rest = 0;
-  const Eigen::MatrixXd u = offsets(region, spread);
+  StartDistribution starts;
+  starts.group_share = 0.3;
+  starts.group_rest = 0;
+  const Eigen::MatrixXd u = offsets(region, starts);
   int moved = 0, pairs = 0;
   for (Eigen::Index n = 0; n < u.cols(); ++n) {
     moved += static_cast<int>((u.col(n).array() != 0).count());

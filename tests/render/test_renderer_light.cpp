@@ -24,7 +24,7 @@ cv::Vec3b center_color(const Scene& scene, const RenderStyle& style) {
 }
 
 TEST(RendererLight, ambient_one_shows_the_texture_as_it_is) {
-  // Blocks of 16x16 texels, wide enough on screen that filtering leaves their middles alone.
+  // Blocks of 16x16 texels, wide enough on screen that filtering leaves their centres alone.
   Mesh mesh = wall();
   mesh.texture.create(64, 64, CV_8UC3);
   for (int y = 0; y < 64; ++y) {

@@ -32,8 +32,8 @@ Means means(const ViewForeground& foreground) {
 }
 
 TEST(SkinColors, AreLearnedUnderThePose) {
-  ForegroundTeller teller({});
-  const Means p = means(teller.tell(colored_box(), 0));
+  ForegroundEstimator estimator({});
+  const Means p = means(estimator.estimate(colored_box(), 0));
   EXPECT_GT(p.inside, 0.95);
   EXPECT_LT(p.outside, 0.05);
 }
@@ -42,8 +42,8 @@ TEST(SkinColors, AreLearnedUnderAPoseThatIsWrong) {
   Observation observation = colored_box();
   observation.start[0] += 0.012;  // of a box of 60 mm x 40 mm
   observation.start[1] += 0.006;
-  ForegroundTeller teller({});
-  const Means p = means(teller.tell(observation, 0));
+  ForegroundEstimator estimator({});
+  const Means p = means(estimator.estimate(observation, 0));
   EXPECT_GT(p.inside, 0.9);
   EXPECT_LT(p.outside, 0.15);
 }
@@ -55,8 +55,8 @@ TEST(SkinColors, OfASleeveThatGoesOnOutsideAreInDoubt) {
   const int top = box.y + box.height * 4 / 5;
   const cv::Rect sleeve(box.x, top, box.width, color.rows - top);
   color(sleeve).setTo(cv::Scalar(10, 10, 10));
-  ForegroundTeller teller({});
-  const ViewForeground seen = teller.tell(observation, 0);
+  ForegroundEstimator estimator({});
+  const ViewForeground seen = estimator.estimate(observation, 0);
   const auto mean = [&](const cv::Rect& where) {
     double sum = 0;
     for (int y = where.y; y < where.br().y; ++y)
@@ -73,28 +73,28 @@ TEST(SkinColors, AreKeptAfterTheFirstFrames) {
   Observation second = colored_box();
   second.frame = 1;
   second.views[0].color(box_outline()).setTo(cv::Scalar(0, 255, 0));
-  ForegroundTeller once({}), again({.learn_frames = 2});
-  once.tell(first, 0);
-  again.tell(first, 0);
-  EXPECT_LT(means(once.tell(second, 0)).inside, 0.01);
-  EXPECT_GT(means(again.tell(second, 0)).inside, 0.9);
+  ForegroundEstimator once({}), again({.learn_frames = 2});
+  once.estimate(first, 0);
+  again.estimate(first, 0);
+  EXPECT_LT(means(once.estimate(second, 0)).inside, 0.01);
+  EXPECT_GT(means(again.estimate(second, 0)).inside, 0.9);
 }
 
 TEST(SkinColors, OfAFrameAreLearnedOnce) {
   const Observation observation = colored_box();
   Observation moved = observation;
   moved.start[0] += 1;
-  ForegroundTeller teller({.learn_frames = 5});
-  const double before = teller.tell(observation, 0).sum;
-  EXPECT_EQ(teller.tell(moved, 0).sum, before);
+  ForegroundEstimator estimator({.learn_frames = 5});
+  const double before = estimator.estimate(observation, 0).sum;
+  EXPECT_EQ(estimator.estimate(moved, 0).sum, before);
 }
 
 TEST(SkinColors, OfAGuessCountForLess) {
   Observation guess = colored_box();
   guess.start_is_guess = true;
-  ForegroundTeller sure({}), half({.guess_trust = 0.5}), none({.guess_trust = 0});
-  const Means known = means(sure.tell(colored_box(), 0));
-  const Means half_known = means(half.tell(guess, 0)), unknown = means(none.tell(guess, 0));
+  ForegroundEstimator sure({}), half({.guess_trust = 0.5}), none({.guess_trust = 0});
+  const Means known = means(sure.estimate(colored_box(), 0));
+  const Means half_known = means(half.estimate(guess, 0)), unknown = means(none.estimate(guess, 0));
   EXPECT_NEAR(half_known.inside, 0.5 + 0.5 * (known.inside - 0.5), 1e-4);
   EXPECT_NEAR(half_known.outside, 0.5 + 0.5 * (known.outside - 0.5), 1e-4);
   EXPECT_NEAR(unknown.inside, 0.5, 1e-4);
@@ -109,12 +109,12 @@ TEST(SkinColors, OfAGuessAreForgottenWhereTheStartIsASolution) {
   Observation later = colored_box();
   later.frame = 1;
   later.start[0] += 0.03;
-  ForegroundTeller teller({}), fresh({});
-  const double guessed = teller.tell(guess, 0).sum;
-  const double found = teller.tell(solution, 0).sum;
+  ForegroundEstimator estimator({}), fresh({});
+  const double guessed = estimator.estimate(guess, 0).sum;
+  const double found = estimator.estimate(solution, 0).sum;
   EXPECT_NE(found, guessed);
-  EXPECT_EQ(found, fresh.tell(solution, 0).sum);
-  EXPECT_EQ(teller.tell(later, 0).sum, found) << "and what a solution taught is kept";
+  EXPECT_EQ(found, fresh.estimate(solution, 0).sum);
+  EXPECT_EQ(estimator.estimate(later, 0).sum, found) << "and what a solution taught is kept";
 }
 
 TEST(SkinColors, ThatNoFrameHasShownYetMayBeEither) {
@@ -122,34 +122,34 @@ TEST(SkinColors, ThatNoFrameHasShownYetMayBeEither) {
   Observation before = colored_box();
   before.frame = -1;
   before.views[0].valid.setTo(0);  // out of the image
-  ForegroundTeller teller({});
-  teller.tell(before, 0);
+  ForegroundEstimator estimator({});
+  estimator.estimate(before, 0);
   before.frame = -2;
   before.views[0].valid.colRange(0, 20).setTo(255);  // beside the box
-  const Means unknown = means(teller.tell(before, 0));
+  const Means unknown = means(estimator.estimate(before, 0));
   EXPECT_NEAR(unknown.inside, 0, 1e-6) << "not valid";
   EXPECT_NEAR(unknown.outside, 0.5 * 20 * 96 / (96 * 96 - box_outline().area()), 1e-3);
-  const Means p = means(teller.tell(entering, 0));
+  const Means p = means(estimator.estimate(entering, 0));
   EXPECT_GT(p.inside, 0.95);
   EXPECT_LT(p.outside, 0.05);
 }
 
 TEST(SkinColors, ThatWereNeverSeenAreBackground) {
   Observation observation = colored_box();
-  ForegroundTeller teller({});
-  teller.tell(observation, 0);
+  ForegroundEstimator estimator({});
+  estimator.estimate(observation, 0);
   observation.views[0].color.setTo(cv::Scalar(0, 255, 0));
-  EXPECT_LT(means(teller.tell(observation, 0)).inside, 0.01);
+  EXPECT_LT(means(estimator.estimate(observation, 0)).inside, 0.01);
 }
 
 TEST(SkinColors, DoNotComeFromInvalidPixels) {
   Observation observation = colored_box();
   observation.views[0].valid.colRange(0, 48).setTo(0);
   observation.views[0].color.colRange(0, 48).setTo(cv::Scalar(0, 255, 0));
-  ForegroundTeller teller({});
-  teller.tell(observation, 0);
+  ForegroundEstimator estimator({});
+  estimator.estimate(observation, 0);
   observation.views[0].valid.setTo(255);
-  const ViewForeground all = teller.tell(observation, 0);
+  const ViewForeground all = estimator.estimate(observation, 0);
   EXPECT_LT(all.pixels.row(48)[40] & 0xFFFF, 700u) << "green, inside the box";
 }
 

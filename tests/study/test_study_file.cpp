@@ -127,7 +127,7 @@ TEST_F(StudyFileTest, EveryVariantIsReadWhicheverIsAskedFor) {
 TEST_F(StudyFileTest, PartsOfOtherScenesThatAreNotThereAreNamedWithTheirPlace) {
   EXPECT_THAT(
       complaint("{type: stereo_color, window: 3}", "\"@box.yaml\""),
-      AllOf(HasSubstr("study.yaml:5:33: '@box.yaml' stands for a part of another scene: "),
+      AllOf(HasSubstr("study.yaml:5:33: '@box.yaml' cannot be included: "),
             HasSubstr("box.yaml has nothing at 'objective'"), HasSubstr("a map of models")));
   EXPECT_THAT(complaint("{type: random_search}", "\"@bax.yaml\""),
               AllOf(HasSubstr("study.yaml:11:14"), HasSubstr("bax.yaml: cannot be opened")));

@@ -9,15 +9,15 @@
 namespace hypotrack {
 namespace {
 
-/// Pairs around `level` that spread by `spread`, of which the first view shows
+/// Pairs around `level` of standard deviation `deviation`, of which the first view shows
 /// gain * other + offset, with noise of 2 in both.
-ColorSamples pairs(double level, double spread, double gain, double offset, int count = 800) {
+ColorSamples pairs(double level, double deviation, double gain, double offset, int count = 800) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   ColorSamples out;
   for (int n = 0; n < count; ++n) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const double there = level + spread * normal(random);
+      const double there = level + deviation * normal(random);
       const double here = gain * there + offset;
       out.first[i].push_back(static_cast<float>(std::clamp(here + 2 * normal(random), 0.0, 255.0)));
       out.other[i].push_back(

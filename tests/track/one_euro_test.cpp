@@ -16,7 +16,7 @@ constexpr double kFrame = 1 / 30.0;
 
 struct Fixture {
   Scene scene{{{"hand", std::make_shared<Model>(test::make_test_hand())}}};
-  SmoothingSettings settings;
+  OneEuroSettings settings;
 
   /// The hand at rest, moved.
   Eigen::VectorXd state(const Eigen::Vector3d& position, const Eigen::Vector3d& turn,

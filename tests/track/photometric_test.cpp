@@ -270,11 +270,11 @@ double difference_of_tiles(const PhotometricSettings& settings, double strength)
 
 TEST(PhotometricMatch, TakesHighlightsOffWhereItIsToldTo) {
   const PhotometricSettings without, with{.highlights = true};
-  const double matt = difference_of_tiles(without, 0);
+  const double diffuse = difference_of_tiles(without, 0);
   const double shiny = difference_of_tiles(without, 60);
-  EXPECT_GT(shiny, matt + 2);
-  EXPECT_LT(difference_of_tiles(with, 60), matt + 0.3 * (shiny - matt));
-  EXPECT_LT(difference_of_tiles(with, 0), matt + 0.2);
+  EXPECT_GT(shiny, diffuse + 2);
+  EXPECT_LT(difference_of_tiles(with, 60), diffuse + 0.3 * (shiny - diffuse));
+  EXPECT_LT(difference_of_tiles(with, 0), diffuse + 0.2);
 }
 
 TEST(PhotometricMatch, LeavesTheFirstViewsTileAsItIs) {

@@ -9,20 +9,20 @@ namespace hypotrack {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr auto kNoMask = OnForeground::unknown;
+constexpr auto kNoMask = ForegroundOverlap::unknown;
 
 /// The status of an answer of which pictures say nothing.
 Status judge(StatusMonitor&& monitor, double cost, double visible, double sigma,
-             OnForeground on_foreground) {
+             ForegroundOverlap foreground_overlap) {
   return monitor.judge({.cost = cost,
                         .probability = kUnknown,
                         .visible = visible,
                         .sigma = sigma,
-                        .on_foreground = on_foreground});
+                        .foreground_overlap = foreground_overlap});
 }
 Status judge(StatusMonitor& monitor, double cost, double visible, double sigma,
-             OnForeground on_foreground) {
-  return judge(std::move(monitor), cost, visible, sigma, on_foreground);
+             ForegroundOverlap foreground_overlap) {
+  return judge(std::move(monitor), cost, visible, sigma, foreground_overlap);
 }
 
 /// The status of an answer by how likely pictures make it.
@@ -79,10 +79,12 @@ TEST(Status, OutOfViewIsLostAndHalfOutIsUncertain) {
 }
 
 TEST(Status, BesideTheForegroundOfAllMasksIsLostAndOfSomeUncertain) {
-  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, OnForeground::nowhere), Status::lost);
-  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, OnForeground::in_parts),
+  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, ForegroundOverlap::nowhere),
+            Status::lost);
+  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, ForegroundOverlap::in_parts),
             Status::uncertain);
-  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, OnForeground::yes), Status::tracked);
+  EXPECT_EQ(judge(experienced_monitor(), -99, 1.0, kUnknown, ForegroundOverlap::yes),
+            Status::tracked);
 }
 
 TEST(Status, AnInfeasibleSolutionIsLost) {

@@ -83,7 +83,7 @@ struct Fixture {
   std::shared_ptr<MovingTarget> target = std::make_shared<MovingTarget>();
   Sampling* optimizer = nullptr;
   SearchSettings search;
-  SmoothingSettings smoothing;
+  OneEuroSettings one_euro;
   StatusSettings status;
   std::string needs_device;
 
@@ -106,7 +106,7 @@ struct Fixture {
     parts.evaluate.threads = 1;
     parts.budget.evaluations = evaluations;
     parts.search = search;
-    parts.smoothing = smoothing;
+    parts.one_euro = one_euro;
     parts.status = status;
     return SceneTracker(scene, std::move(parts), start(), seed);
   }
@@ -282,7 +282,7 @@ TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
 
 TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
   Fixture plain, smooth;
-  smooth.smoothing.enabled = true;
+  smooth.one_euro.enabled = true;
   SceneTracker a = plain.make(1), b = smooth.make(1);
   double largest = 0;
   for (int i = 0; i < 8; ++i) {

@@ -45,8 +45,8 @@ void for_each_texel(const std::array<Vector2d, 3>& corners, int size, const Visi
     }
 }
 
-/// Breadth first from the charts: every texel near one takes the colour it was reached from.
-void spread(cv::Mat& image, cv::Mat& distance) {
+/// Pads the charts: every texel near one takes the colour of the nearest texel, breadth first.
+void pad(cv::Mat& image, cv::Mat& distance) {
   std::deque<cv::Point> front;
   for (int y = 0; y < image.rows; ++y)
     for (int x = 0; x < image.cols; ++x)
@@ -116,7 +116,7 @@ cv::Mat skin_texture(const TriangleMesh& mesh, const SkinAttributes& attributes,
       distance.at<uchar>(y, x) = 1;
     });
   }
-  spread(image, distance);
+  pad(image, distance);
   return image;
 }
 

@@ -51,9 +51,9 @@ struct Observation {
   /// and after photometric correction. It is mostly noise. Euclidean norm of RGB in 0..1; 0 =
   /// unknown.
   double color_difference = 0;
-  /// True if the search must not assume a motion from `start`, as in fixed-lag smoothing, where one
-  /// prior covers all frames together. Temporal terms then contribute nothing.
-  bool in_hindsight = false;
+  /// True if terms must not assume a motion from `start`: in fixed-lag smoothing, where one prior
+  /// covers all frames together, and in recovery. Temporal terms then contribute nothing.
+  bool no_motion_prior = false;
 };
 
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 
 namespace hypotrack {
 
-/// Verdict of a tracker on a frame, or on one model in it.
+/// Status that a tracker gives a frame, or one model in it.
 enum class Status {
   tracked,    ///< likely right, judged by the pictures or, where they do not tell, by the cost
   uncertain,  ///< perhaps right, sigma is large, or part of the scene is out of view

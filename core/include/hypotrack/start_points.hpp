@@ -11,7 +11,7 @@
 namespace hypotrack {
 
 /// Parameters of a population's first points; an optimizer's parameter struct includes them.
-struct StartParams : StartSpread {
+struct StartParams : StartDistribution {
   void visit(ParamVisitor& v) {
     v("sigma", sigma,
       {.help = "standard deviation of the first points about the start, as a share of the search "
@@ -38,12 +38,12 @@ inline std::vector<int> groups_or_dimensions(const SearchRegion& region) {
 }
 
 /// The numbered first points of a population. Point 0 is the start; the others are normal samples
-/// about it, clamped to the bounds. Point k is a function of (region, spread, seed, k).
+/// about it, clamped to the bounds. Point k is a function of (region, starts, seed, k).
 class StartPoints {
  public:
   /// The region must outlive this object.
-  StartPoints(const SearchRegion& region, const StartSpread& spread, std::uint64_t seed)
-      : region_(region), spread_(spread), seed_(seed), group_of_(groups_or_dimensions(region)) {}
+  StartPoints(const SearchRegion& region, const StartDistribution& starts, std::uint64_t seed)
+      : region_(region), starts_(starts), seed_(seed), group_of_(groups_or_dimensions(region)) {}
 
   /// Returns points `first` to `first + count - 1` (DxN).
   Eigen::MatrixXd points(std::int64_t first, std::int64_t count) const {
@@ -60,12 +60,12 @@ class StartPoints {
   double sample(Eigen::Index d, std::uint32_t number) const {
     const auto group = static_cast<std::uint32_t>(group_of_[static_cast<std::size_t>(d)]);
     return start_sample(
-        region_.start[d], region_.spread[d] * spread_.of_group(seed_, group, number),
+        region_.start[d], region_.spread[d] * starts_.of_group(seed_, group, number),
         {region_.lower[d], region_.upper[d]}, seed_, static_cast<std::uint32_t>(d), number);
   }
 
   const SearchRegion& region_;
-  StartSpread spread_;
+  StartDistribution starts_;
   std::uint64_t seed_;
   std::vector<int> group_of_;
 };

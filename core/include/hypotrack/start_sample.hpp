@@ -20,7 +20,7 @@ struct Interval {
 };
 
 /// The distribution of a population's first points about the start.
-struct StartSpread {
+struct StartDistribution {
   double sigma = 0.5;       ///< standard deviation, in units of the region's spread
   double group_share = 1;   ///< probability that a group uses all of sigma
   double group_rest = 0.1;  ///< share of sigma that the other groups use

@@ -15,8 +15,7 @@ namespace hypotrack {
 /// Tracks a scene through frames that the caller hands over. Session::tracker() makes one.
 ///
 /// Use one tracker per sequence of frames, from one thread at a time. It ignores fixed-lag
-/// smoothing
-/// (`hindsight`), which only Session::run() does.
+/// smoothing (`smoothing.fixed_lag`), which only Session::run() does.
 class HYPOTRACK_API Tracker {
  public:
   Tracker(Tracker&&) noexcept;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/includes.hpp"
 #include "config/overrides.hpp"
-#include "config/parts.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
@@ -40,10 +40,10 @@ ConfigNode ConfigNode::load(const std::filesystem::path& file) {
 ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
                                   std::span<const std::string> overrides) {
   auto root = detail::read_yaml_file(file);
-  detail::Parts parts(file);
-  const std::vector<std::string> left = detail::take_tracker(*root, overrides, parts);
+  detail::Includes includes(file);
+  const std::vector<std::string> left = detail::take_tracker(*root, overrides, includes);
   std::vector<std::string> path;
-  parts.take(root, path);
+  includes.resolve(root, path);
   for (const std::string& assignment : left) detail::apply_override(*root, assignment);
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
 }

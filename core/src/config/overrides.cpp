@@ -7,7 +7,7 @@
 #include <charconv>
 #include <utility>
 
-#include "config/parts.hpp"
+#include "config/includes.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail {
@@ -115,7 +115,7 @@ std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_vie
   } else {
     value = read_yaml(text, origin);
   }
-  take_parts(value, split_path(path));
+  resolve_includes(value, split_path(path));
   return value;
 }
 

@@ -9,7 +9,7 @@
 #include <system_error>
 #include <utility>
 
-#include "config/parts.hpp"
+#include "config/includes.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 /// Keys that an override replaces. What is left belongs to the recording or the machine.
 constexpr std::array<std::string_view, 8> kKeysOfTrackers{
-    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "hindsight"};
+    "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "smoothing"};
 
 /// A reference to a tracker file, and where it is written.
 struct TrackerName {
@@ -81,10 +81,10 @@ fs::path find(const TrackerName& name) {
 }
 
 /// Reads a tracker file. Returns null if it is a scene.
-const YamlNode* read(const TrackerName& name, Parts& parts) {
+const YamlNode* read(const TrackerName& name, Includes& includes) {
   const fs::path file = find(name);
   try {
-    const YamlNode& tracker = parts.document(file);
+    const YamlNode& tracker = includes.document(file);
     const bool is_map = tracker.kind == YamlNode::Kind::kMap;
     if (is_map && tracker.find("models") && is_file_name(name.text)) return nullptr;
     for (const char* key : {"models", "source", "scenes"})
@@ -141,10 +141,10 @@ std::unique_ptr<YamlNode> tracker_value(const std::string& assignment) {
 
 /// Replaces the tracker's keys of a document by what an override names. Returns false if it names
 /// no tracker file.
-bool take_from_override(YamlNode& document, const std::string& assignment, Parts& parts) {
+bool take_from_override(YamlNode& document, const std::string& assignment, Includes& includes) {
   auto value = tracker_value(assignment);
   const auto name = value ? name_in(*value) : std::nullopt;
-  const YamlNode* tracker = name ? read(*name, parts) : nullptr;
+  const YamlNode* tracker = name ? read(*name, includes) : nullptr;
   if (!tracker) return false;
   for (const std::string_view key : kKeysOfTrackers) remove(document, key);
   if (value->kind == YamlNode::Kind::kMap) {
@@ -158,11 +158,11 @@ bool take_from_override(YamlNode& document, const std::string& assignment, Parts
 }  // namespace
 
 std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
-                                      Parts& parts) {
+                                      Includes& includes) {
   std::vector<std::string> left(overrides.begin(), overrides.end());
   if (document.kind != YamlNode::Kind::kMap) return left;
   for (std::size_t i = left.size(); i-- > 0;) {
-    if (!take_from_override(document, left[i], parts)) continue;
+    if (!take_from_override(document, left[i], includes)) continue;
     // Those before it have no effect any more.
     const auto names_one = [](const std::string& assignment) {
       const auto value = tracker_value(assignment);
@@ -173,7 +173,7 @@ std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::s
   }
   const YamlNode::Entry* own = document.find("tracker");
   const auto name = own ? name_in(*own->value) : std::nullopt;
-  const YamlNode* tracker = name ? read(*name, parts) : nullptr;
+  const YamlNode* tracker = name ? read(*name, includes) : nullptr;
   if (!tracker) return left;
   if (own->value->kind == YamlNode::Kind::kMap)
     remove(*own->value, "from");

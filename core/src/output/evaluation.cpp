@@ -87,19 +87,19 @@ std::vector<std::string> full_names(std::vector<std::string> names,
   return names;
 }
 
-FrameVerdict verdict_of(const CsvTable& table, const CsvTable::Row& row, int column) {
+FrameStatus status_of(const CsvTable& table, const CsvTable::Row& row, int column) {
   const std::string_view status = row.cells[static_cast<std::size_t>(column)];
-  if (const auto verdict = verdict_named(status)) return *verdict;
+  if (const auto named = status_named(status)) return *named;
   throw DataError(
       fmt::format("{}: the status is '{}'; expected tracked, uncertain, lost, absent or missing",
                   table.where(row), status));
 }
 
-/// Reads the tracker's verdict on each frame; empty for a table from elsewhere.
-std::map<int, FrameVerdicts> read_verdicts(const fs::path& run,
+/// Reads the tracker's status of each frame; empty for a table from elsewhere.
+std::map<int, FrameStatuses> read_statuses(const fs::path& run,
                                            const std::vector<std::string>& models) {
-  std::map<int, FrameVerdicts> verdicts;
-  if (!fs::is_directory(run) || !fs::exists(run / "track.csv")) return verdicts;
+  std::map<int, FrameStatuses> statuses;
+  if (!fs::is_directory(run) || !fs::exists(run / "track.csv")) return statuses;
   const CsvTable table(run / "track.csv");
   const int frame = table.find("frame"), status = table.find("status");
   if (frame < 0 || status < 0)
@@ -109,12 +109,12 @@ std::map<int, FrameVerdicts> read_verdicts(const fs::path& run,
   for (const std::string& model : models) columns.push_back(table.find(model + ".status"));
   const bool by_model = std::ranges::find(columns, -1) == columns.end();
   for (const CsvTable::Row& row : table.rows()) {
-    FrameVerdicts& verdict = verdicts[table.frame(row, frame)];
-    verdict.frame = verdict_of(table, row, status);
+    FrameStatuses& of_frame = statuses[table.frame(row, frame)];
+    of_frame.frame = status_of(table, row, status);
     if (!by_model) continue;
-    for (const int column : columns) verdict.models.push_back(verdict_of(table, row, column));
+    for (const int column : columns) of_frame.models.push_back(status_of(table, row, column));
   }
-  return verdicts;
+  return statuses;
 }
 
 /// Reads the tracker's sigma of each landmark; empty if there is none.
@@ -179,7 +179,7 @@ void check_units(const Side& run, const Side& truth) {
 }
 
 Metrics compare(const std::vector<std::string>& names, const Side& run, const Side& truth,
-                const std::map<int, FrameVerdicts>& verdicts,
+                const std::map<int, FrameStatuses>& statuses,
                 const std::map<int, Eigen::VectorXd>& sigmas) {
   const auto landmarks_count = static_cast<Eigen::Index>(names.size());
   const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Constant(3, landmarks_count, kNan);
@@ -193,14 +193,14 @@ Metrics compare(const std::vector<std::string>& names, const Side& run, const Si
   for (const int frame : frames) {
     const LandmarkRow* estimate = run.find(frame);
     const LandmarkRow* answer = truth.find(frame);
-    const auto verdict = verdicts.find(frame);
+    const auto status = statuses.find(frame);
     const auto sigma = sigmas.find(frame);
     const bool missing = estimate == nullptr || estimate->landmarks.array().isNaN().all();
     const double time = run.time(frame);
     collector.add(frame, std::isnan(time) ? truth.time(frame) : time,
-                  missing                     ? FrameVerdicts{FrameVerdict::missing}
-                  : verdict != verdicts.end() ? verdict->second
-                                              : FrameVerdicts{},
+                  missing                    ? FrameStatuses{FrameStatus::missing}
+                  : status != statuses.end() ? status->second
+                                             : FrameStatuses{},
                   estimate == nullptr ? nothing : estimate->landmarks,
                   answer == nullptr ? Eigen::Matrix3Xd() : answer->landmarks,
                   answer == nullptr ? std::vector<bool>()
@@ -242,7 +242,7 @@ Evaluation evaluate(const EvaluationInput& input) {
                   .owner = evaluation.truth_table.string()});
   check_units(run, truth);
   evaluation.metrics =
-      compare(names, run, truth, read_verdicts(input.run, landmark_layout(names).models),
+      compare(names, run, truth, read_statuses(input.run, landmark_layout(names).models),
               read_sigmas(input.run, names));
   check_overlap(run, truth, evaluation.metrics);
   return evaluation;

@@ -12,7 +12,7 @@ namespace hypotrack {
 
 /// Tables to compare, and their units.
 struct EvaluationInput {
-  /// A folder of `hypotrack run`, with joints.csv and, for the verdicts, track.csv; or a table of
+  /// A folder of `hypotrack run`, with joints.csv and, for the statuses, track.csv; or a table of
   /// landmarks (tables.hpp) of any other tracker.
   std::filesystem::path run;
   /// A folder with truth_landmarks.csv (a recording or a run), or a table of landmarks. Nothing:

@@ -47,7 +47,7 @@ std::map<int, std::string> status_by_frame(const fs::path& file) {
 
 }  // namespace
 
-void add_run(const fs::path& run, SelfJudgement& judgement) {
+void add_run(const fs::path& run, UncertaintyCalibration& calibration) {
   const SigmaTable sigmas(
       table_in(run, "uncertainty.csv", " with tracker.uncertainty.enabled, which has ended"));
   const auto estimates = landmarks_by_frame(table_in(run, "joints.csv", ""), sigmas.names());
@@ -61,8 +61,8 @@ void add_run(const fs::path& run, SelfJudgement& judgement) {
     if (estimate == estimates.end() || truth == truths.end() || status == statuses.end()) continue;
     if (status->second == "missing") continue;
     const FrameError error = frame_error(layout, estimate->second, truth->second);
-    judgement.reliability.add(sigma, error.landmarks);
-    if (!std::isnan(error.mean)) judgement.errors_by_status[status->second].push_back(error.mean);
+    calibration.reliability.add(sigma, error.landmarks);
+    if (!std::isnan(error.mean)) calibration.errors_by_status[status->second].push_back(error.mean);
   }
 }
 

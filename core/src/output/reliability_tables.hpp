@@ -11,7 +11,7 @@
 namespace hypotrack {
 
 /// Predicted uncertainty of runs with ground truth, and their true errors.
-struct SelfJudgement {
+struct UncertaintyCalibration {
   Reliability reliability;
   std::map<std::string, std::vector<double>> errors_by_status;  ///< of frames, in metres
 };
@@ -19,6 +19,6 @@ struct SelfJudgement {
 /// Adds a run, frame by frame. Compares joints.csv with truth_landmarks.csv, and reads
 /// uncertainty.csv and the status in track.csv. Leaves out frames without a known error. Throws
 /// DataError on missing and damaged files, naming what is missing.
-HYPOTRACK_API void add_run(const std::filesystem::path& run, SelfJudgement& judgement);
+HYPOTRACK_API void add_run(const std::filesystem::path& run, UncertaintyCalibration& calibration);
 
 }  // namespace hypotrack

@@ -4,10 +4,10 @@
 
 #include <utility>
 
+#include "output/frame_statuses.hpp"
 #include "output/overlay_video.hpp"
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
-#include "output/verdicts.hpp"
 #include "picture/picture.hpp"
 
 namespace hypotrack {
@@ -56,7 +56,7 @@ RunOutput::RunOutput(const Scene& scene, const Camera& camera, Options options)
   track_.write(track + "\n");
   const std::string landmarks = landmarks_header(scene.landmark_names());
   joints_.write(landmarks);
-  if (!options_.hindsight) return;
+  if (!options_.fixed_lag) return;
   online_.emplace(directory_.part("online.csv")).write(track + "\n");
   online_joints_.emplace(directory_.part("online_joints.csv")).write(landmarks);
 }
@@ -87,7 +87,7 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
   joints_.write(table_line(solution.frame, solution.time, landmarks.reshaped()));
   const std::string_view status = to_string(solution.status);
   const FrameError error =
-      metrics_.add(solution.frame, solution.time, verdicts_of(*scene_, solution), landmarks,
+      metrics_.add(solution.frame, solution.time, statuses_of(*scene_, solution), landmarks,
                    truth.value_or(Eigen::Matrix3Xd()),
                    frame.truth ? frame.truth->absent : std::vector<bool>(), solution.sigma);
   if (truth) {

@@ -36,7 +36,7 @@ class HYPOTRACK_API RunOutput {
     double frame_rate = 30;
     std::string resolved;  ///< content of run.yaml
     std::string backend;
-    bool hindsight = false;  ///< fixed-lag smoothing: frames come twice, online and smoothed
+    bool fixed_lag = false;  ///< fixed-lag smoothing: frames come twice, online and smoothed
   };
 
   /// The scene must outlive the output. Throws OutputError or DeviceError and then leaves nothing

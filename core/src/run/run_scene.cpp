@@ -9,7 +9,7 @@
 
 #include "camera/pair_check.hpp"
 #include "hypotrack/error.hpp"
-#include "output/hindsight_output.hpp"
+#include "output/fixed_lag_output.hpp"
 #include "output/run_output.hpp"
 #include "output/true_landmarks.hpp"
 #include "session/opened_scene.hpp"
@@ -77,7 +77,7 @@ EstimatedScene open_for_run(const std::filesystem::path& scene,
 /// Results of a run in a folder.
 class Results {
  public:
-  Results(const OpenedScene& scene, std::unique_ptr<Hindsight> hindsight,
+  Results(const OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
           const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
       : watcher_(watcher),
         folder_(folder),
@@ -88,8 +88,8 @@ class Results {
                  .frame_rate = scene.source->frame_rate(),
                  .resolved = scene.resolved,
                  .backend = backend,
-                 .hindsight = hindsight != nullptr}),
-        frames_(std::move(hindsight), output_) {}
+                 .fixed_lag = smoother != nullptr}),
+        frames_(std::move(smoother), output_) {}
 
   double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
     return frames_.add(tracker, frame, solution);
@@ -132,7 +132,7 @@ class Results {
   RunWatcher& watcher_;
   std::filesystem::path folder_;
   RunOutput output_;
-  HindsightOutput frames_;
+  FixedLagOutput frames_;
 };
 
 /// Returns the mean distance of the landmarks from the ground truth, in metres; NaN: unknown.
@@ -186,14 +186,14 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   if (latch.stopped()) return {};
   OpenedScene& opened = estimated.scene;
   const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
-  if (options.out.empty()) opened.parts.hindsight.enabled = false;
-  std::unique_ptr<Hindsight> hindsight = make_hindsight(opened);
+  if (options.out.empty()) opened.parts.fixed_lag.enabled = false;
+  std::unique_ptr<FixedLagSmoother> smoother = make_fixed_lag_smoother(opened);
   SceneTracker tracker(*opened.scene, std::move(opened.parts), initial_state(opened, first.back()),
                        opened.seed);
   std::unique_ptr<Results> results;
   if (!options.out.empty())
-    results = std::make_unique<Results>(opened, std::move(hindsight), tracker.backend(),
-                                        options.out, watcher);
+    results = std::make_unique<Results>(opened, std::move(smoother), tracker.backend(), options.out,
+                                        watcher);
   watcher.say(fmt::format("tracking with {}", tracker.backend()));
   for (const std::string& problem : {problem_of_pair(opened.source->cameras(), first.back()),
                                      tracker.problem_of_start(first.back())})

@@ -40,7 +40,7 @@ Tracker::Impl::Impl(OpenedScene opened, std::vector<Camera> from)
         "shape.estimate_s fits the shape to the first frames of the scene's own source; for frames "
         "of a program, find it with `hypotrack fit-shape` and give the models its shape_file");
   // Smoothing by later frames is a run's, as is its share of the budget.
-  scene.parts.hindsight.enabled = false;
+  scene.parts.fixed_lag.enabled = false;
   if (scene.init.from != InitFrom::truth) start = initial_state(scene, {});
   const bool sizes_known =
       std::ranges::all_of(cameras, [](const Camera& c) { return c.width > 0 && c.height > 0; });

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "scene/mesh_topology.hpp"
+#include "scene/quantized_weights.hpp"
 #include "scene/vertex_order.hpp"
-#include "scene/whole_weights.hpp"
 
 namespace hypotrack {
 namespace {
@@ -34,7 +34,7 @@ ScenePlan::ScenePlan(const Scene& scene) {
   aligned_weights_ = to_aligned(std::exchange(weights_, {}));
   blocks.aligned_positions = aligned_positions_.get();
   blocks.aligned_weights = aligned_weights_.get();
-  blocks.weight_unit = 1.0f / cuda::kWholeWeight;
+  blocks.weight_unit = 1.0f / cuda::kUnitWeight;
   for (const Scene::Item& item : scene.items()) {
     if (item.model->poses_itself()) add_posed(item);
   }
@@ -58,7 +58,7 @@ void ScenePlan::add_skinned(const Scene::Item& item) {
 }
 
 void ScenePlan::add_block(const Mesh& mesh, int first_bone, const int* vertices, int count) {
-  std::vector<WholeWeights> held;
+  std::vector<QuantizedWeights> held;
   std::set<int> bones;
   const std::size_t at = positions_.size();
   positions_.resize(at + 3 * kBlock, 0.0f);
@@ -67,7 +67,7 @@ void ScenePlan::add_block(const Mesh& mesh, int first_bone, const int* vertices,
       positions_[at + static_cast<std::size_t>(axis * kBlock + i)] =
           mesh.vertices(axis, vertices[i]);
     }
-    const WholeWeights& own = held.emplace_back(whole_weights(mesh, vertices[i]));
+    const QuantizedWeights& own = held.emplace_back(quantize_weights(mesh, vertices[i]));
     for (std::size_t k = 0; k < 4; ++k) {
       if (own.weight[k] > 0) bones.insert(own.bone[k]);
     }
@@ -77,7 +77,7 @@ void ScenePlan::add_block(const Mesh& mesh, int first_bone, const int* vertices,
     blocks.bone.push_back(static_cast<std::uint32_t>(first_bone + bone));
     weights_.resize(weights_.size() + kBlock, 0.0f);
     float* lanes = weights_.data() + weights_.size() - kBlock;
-    for (const WholeWeights& own : held) {
+    for (const QuantizedWeights& own : held) {
       for (std::size_t k = 0; k < 4; ++k) {
         if (own.bone[k] == bone) *lanes += own.weight[k];
       }

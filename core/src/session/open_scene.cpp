@@ -184,8 +184,8 @@ OpenedScene Opening::finish() {
   session_.parts.photometric = file_.photometric;
   session_.parts.search = file_.search;
   session_.parts.status = file_.tracker;
-  session_.parts.smoothing = file_.output.smoothing;
-  session_.parts.hindsight = file_.hindsight;
+  session_.parts.one_euro = file_.output.smoothing;
+  session_.parts.fixed_lag = file_.smoothing.fixed_lag;
   session_.parts.budget.evaluations = file_.budget.evaluations;
   if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
   session_.init = file_.init;
@@ -232,17 +232,18 @@ OpenedScene open_source(const std::filesystem::path& scene_file,
   return opening.finish();
 }
 
-std::unique_ptr<Hindsight> make_hindsight(const OpenedScene& session) {
+std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session) {
   const TrackerParts& parts = session.parts;
-  if (!parts.hindsight.enabled) return nullptr;
+  if (!parts.fixed_lag.enabled) return nullptr;
   if (parts.status.uncertainty.enabled)
     throw ConfigError(
-        "hindsight.enabled and tracker.uncertainty.enabled are both on, but sigmas are of states "
+        "smoothing.fixed_lag.enabled and tracker.uncertainty.enabled are both on, but sigmas are "
+        "of states "
         "as "
         "they were found; switch one of them off");
-  return std::make_unique<Hindsight>(*session.scene, parts.objective, parts.evaluate,
-                                     parts.hindsight,
-                                     parts.photometric.match && parts.photometric.highlights);
+  return std::make_unique<FixedLagSmoother>(
+      *session.scene, parts.objective, parts.evaluate, parts.fixed_lag,
+      parts.photometric.match && parts.photometric.highlights);
 }
 
 Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first) {

@@ -14,7 +14,7 @@
 #include "hypotrack/source.hpp"
 #include "session/scene_file.hpp"
 #include "track/scene_tracker.hpp"
-#include "track/smooth/hindsight.hpp"
+#include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
 
@@ -57,7 +57,7 @@ HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
 
 /// Makes the fixed-lag smoother of a session that still has its parts. Returns null if the scene
 /// does not ask for it. Throws ConfigError.
-HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const OpenedScene& session);
+HYPOTRACK_API std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
 
 /// Returns the state from which the first search starts. `first` is the first usable frame of the
 /// source. Throws ConfigError if the scene asks for a ground truth that does not exist.

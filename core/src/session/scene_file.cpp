@@ -13,6 +13,20 @@ std::span<const std::string_view> enum_names(InitFrom) {
   return names;
 }
 
+namespace {
+
+/// Refuses keys that have another name today.
+void refuse_old_keys(const ConfigNode& root) {
+  constexpr const char* kOld = "hindsight";
+  if (!root.get(kOld).defined()) return;
+  throw ConfigError(fmt::format(
+      "{}: found the key '{}', which is called 'smoothing.fixed_lag' now; write `smoothing: "
+      "{{fixed_lag: {{...}}}}` with the same settings, or --set smoothing.fixed_lag.KEY=VALUE",
+      root.where_key(kOld), kOld));
+}
+
+}  // namespace
+
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
   LoadedScene scene;
   scene.root = ConfigNode::load_scene(path, overrides);
@@ -23,6 +37,7 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
     throw ConfigError(fmt::format(
         "{}: this is a study, no scene: it has `scenes`; `hypotrack compare` makes its runs",
         path.string()));
+  refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
   if (scene.file.init.from == InitFrom::file && scene.file.init.file.empty())
     throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",

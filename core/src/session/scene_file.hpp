@@ -16,7 +16,7 @@
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
 #include "track/search_space.hpp"
-#include "track/smooth/hindsight_settings.hpp"
+#include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 
 namespace hypotrack {
@@ -91,7 +91,7 @@ struct BudgetSettings {
 struct OutputSettings {
   bool overlay = true;
   int worst_frames = 3;
-  SmoothingSettings smoothing;
+  OneEuroSettings smoothing;
   void visit(ParamVisitor& v) {
     v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
     v("worst_frames", worst_frames,
@@ -100,6 +100,14 @@ struct OutputSettings {
        .min = 0,
        .max = 100});
     v("smoothing", smoothing, {.help = "how states are smoothed before they are written"});
+  }
+};
+
+/// `smoothing:` of a scene.
+struct SmoothingSettings {
+  FixedLagSettings fixed_lag;
+  void visit(ParamVisitor& v) {
+    v("fixed_lag", fixed_lag, {.help = "smoothing of a window of frames at once"});
   }
 };
 
@@ -112,7 +120,7 @@ struct SceneFile {
   PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings tracker;
-  HindsightSettings hindsight;
+  SmoothingSettings smoothing;
   ShapeEstimateSettings shape;
   InitSettings init;
   OutputSettings output;
@@ -133,7 +141,7 @@ struct SceneFile {
     v("search", search,
       {.help = "where the next solution is expected, and how far from there it may be"});
     v("tracker", tracker, {.help = "when a solution counts as tracked, uncertain or lost"});
-    v("hindsight", hindsight, {.help = "how solutions are changed by what later frames show"});
+    v("smoothing", smoothing, {.help = "how later frames correct states before they are written"});
     v("shape", shape, {.help = "how the models' shapes are estimated"});
     v("init", init, {.help = "where the first search starts"});
     v("output", output, {.help = "what a run writes"});

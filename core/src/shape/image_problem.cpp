@@ -23,8 +23,8 @@ SearchSettings steps_of(double length) {
 constexpr double kShapeStep = 0.2;  // deviations
 
 /// Returns a shape with one parameter a step up (or down), within its bounds.
-VectorXd stepped(const VectorXd& shape, const std::vector<ShapeParameter>& parameters, Index i,
-                 double step) {
+VectorXd with_step(const VectorXd& shape, const std::vector<ShapeParameter>& parameters, Index i,
+                   double step) {
   const ShapeParameter& p = parameters[static_cast<std::size_t>(i)];
   VectorXd other = shape;
   other[i] = std::clamp(shape[i] + step * kShapeStep * p.deviation, p.lower, p.upper);
@@ -170,8 +170,8 @@ std::vector<FrameSystem> ImageProblem::systems(const JointTrial& trial) {
   std::vector<Built> forth, back;
   VectorXd widths(p);
   for (Index i = 0; i < p; ++i) {
-    const VectorXd up = stepped(trial.shape, targets_.wanted(), i, steps_);
-    const VectorXd down = stepped(trial.shape, targets_.wanted(), i, -steps_);
+    const VectorXd up = with_step(trial.shape, targets_.wanted(), i, steps_);
+    const VectorXd down = with_step(trial.shape, targets_.wanted(), i, -steps_);
     widths[i] = up[i] - down[i];
     forth.push_back(built(up));
     back.push_back(built(down));

@@ -107,9 +107,9 @@ VectorXd LandmarkProblem::costs(const JointTrial& trial) {
 std::vector<FrameSystem> LandmarkProblem::systems(const JointTrial& trial) {
   const Index d = space_.dimension(), p = trial.shape.size();
   const auto scene = targets_.reshaped(scene_, trial.shape);
-  std::vector<std::unique_ptr<Scene>> stepped;
+  std::vector<std::unique_ptr<Scene>> moved_shapes;
   for (Index i = 0; i < p; ++i)
-    stepped.push_back(targets_.reshaped(scene_, trial.shape + kStep * VectorXd::Unit(p, i)));
+    moved_shapes.push_back(targets_.reshaped(scene_, trial.shape + kStep * VectorXd::Unit(p, i)));
   std::vector<FrameSystem> systems;
   for (std::size_t k = 0; k < landmarks_.size(); ++k) {
     const VectorXd& pose = trial.poses[k];
@@ -122,7 +122,8 @@ std::vector<FrameSystem> LandmarkProblem::systems(const JointTrial& trial) {
       jacobian.col(i) = (residuals(*scene, k, space_.states(point, pose)) - r) / kStep;
     }
     for (Index i = 0; i < p; ++i)
-      jacobian.col(d + i) = (residuals(*stepped[static_cast<std::size_t>(i)], k, pose) - r) / kStep;
+      jacobian.col(d + i) =
+          (residuals(*moved_shapes[static_cast<std::size_t>(i)], k, pose) - r) / kStep;
     systems.push_back(
         {r.squaredNorm(), 2 * jacobian.transpose() * r, 2 * jacobian.transpose() * jacobian});
   }

@@ -13,7 +13,7 @@
 #include "scene/posed_scene.hpp"
 #include "scene/visible_share.hpp"
 #include "tile/crop.hpp"
-#include "tile/on_foreground.hpp"
+#include "tile/foreground_overlap.hpp"
 
 namespace hypotrack {
 namespace {
@@ -131,10 +131,11 @@ double TileMaker::visible_share(const Eigen::VectorXd& state) const {
   return impl_->visible.of(posed(state));
 }
 
-OnForeground TileMaker::on_foreground(const Frame& frame, const Eigen::VectorXd& state) const {
+ForegroundOverlap TileMaker::foreground_overlap(const Frame& frame,
+                                                const Eigen::VectorXd& state) const {
   impl_->check(frame);
-  return hypotrack::on_foreground(posed(state), impl_->rig.ideal_from_world[0].inverse(),
-                                  impl_->cameras, frame.views);
+  return hypotrack::foreground_overlap(posed(state), impl_->rig.ideal_from_world[0].inverse(),
+                                       impl_->cameras, frame.views);
 }
 
 TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {

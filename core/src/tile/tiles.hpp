@@ -12,7 +12,7 @@
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/posed_scene.hpp"
-#include "tile/on_foreground.hpp"
+#include "tile/foreground_overlap.hpp"
 #include "tile/resample.hpp"
 
 namespace hypotrack {
@@ -62,7 +62,7 @@ class HYPOTRACK_API TileMaker {
 
   /// Returns where the scene posed in `state` lies in the frame's masks. It is fast if the scene
   /// covers much of the foreground.
-  OnForeground on_foreground(const Frame& frame, const Eigen::VectorXd& state) const;
+  ForegroundOverlap foreground_overlap(const Frame& frame, const Eigen::VectorXd& state) const;
 
   /// Returns the scene posed in `state`, cached for the last state. Call it from one thread at a
   /// time.

@@ -33,8 +33,8 @@ double as_likely(double highest) {
 
 double Candidate::probability() const {
   double least = std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t m = 0; m < verdict.size(); ++m)
-    if (shown[m]) least = std::fmin(least, verdict[m]);  // fmin ignores NaN
+  for (std::size_t m = 0; m < probabilities.size(); ++m)
+    if (shown[m]) least = std::fmin(least, probabilities[m]);  // fmin ignores NaN
   return least;
 }
 
@@ -44,24 +44,26 @@ CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
       settings_(settings),
       budget_(parts.budget),
       search_(scene, parts),
-      judge_(scene, parts.cameras),
+      verifier_(scene, parts.cameras),
       recovery_(scene, parts.cameras, parts.status.recovery),
       believed_(scene.items().size(), std::numeric_limits<double>::quiet_NaN()) {
   if (budget_.evaluations == 0) budget_.evaluations = search_.default_evaluations();
 }
 
-Candidate CandidateFinder::judged(const Frame& frame, Found found) {
+Candidate CandidateFinder::verified(const Frame& frame, Found found) {
   const std::size_t models = scene_.items().size();
-  Candidate out{std::move(found), Verdict(models, std::numeric_limits<double>::quiet_NaN()),
+  Candidate out{std::move(found),
+                ModelProbabilities(models, std::numeric_limits<double>::quiet_NaN()),
                 search_.shown(), ModelFlags(models, true), ModelFlags(models, false)};
   if (settings_.evidence && out.answers())
-    out.verdict = judge_.judge(frame, search_.drawn(out.found.state), search_.second_view_colors(),
-                               out.shown);
+    out.probabilities = verifier_.verify(frame, search_.drawn(out.found.state),
+                                         search_.second_view_colors(), out.shown);
   if (std::isnan(out.probability())) return out;
   // A hidden model keeps its last probability, which decays with time.
   const double left = std::exp(-std::max(frame.time - believed_time_, 0.0) / kForgotten);
   for (std::size_t m = 0; m < models; ++m)
-    if (out.shown[m] && std::isnan(out.verdict[m])) out.verdict[m] = left * believed_[m];
+    if (out.shown[m] && std::isnan(out.probabilities[m]))
+      out.probabilities[m] = left * believed_[m];
   return out;
 }
 
@@ -77,7 +79,7 @@ Candidate CandidateFinder::begin(const Frame& frame, const Eigen::VectorXd& star
         k == 0 ? start : displaced(scene_, start, off, seed_of_part(seed, 100 + part));
     if (k > 0 && search_.tiles().visible_share(from) == 0) continue;
     search_.forget_colors();
-    candidates.push_back(judged(
+    candidates.push_back(verified(
         frame, search_.from_guess(frame, from, budget_, k == 0 ? seed : seed_of_part(seed, part))));
     evaluations += candidates.back().found.evaluations;
     if (std::isnan(candidates.back().probability())) break;
@@ -116,13 +118,13 @@ Candidate CandidateFinder::follow(const Frame& frame, const Eigen::MatrixXd& sta
   left.evaluations -= compared;
   Found found = search_.from(prior, left, reach, seed);
   found.evaluations += compared;
-  return judged(frame, std::move(found));
+  return verified(frame, std::move(found));
 }
 
 Candidate CandidateFinder::go_on(const Frame& frame, const Candidate& from, std::uint64_t seed) {
   search_.show(from.shown);
   search_.look(frame, from.found.state, false);
-  Candidate out = judged(frame, search_.settled(from.found.state, budget_, seed));
+  Candidate out = verified(frame, search_.settled(from.found.state, budget_, seed));
   out.found.evaluations += from.found.evaluations;
   return out;
 }
@@ -163,7 +165,7 @@ Candidate CandidateFinder::best_of(const Frame& frame, const std::vector<Candida
 }
 
 void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) {
-  if (!judge_.experienced()) {
+  if (!verifier_.experienced()) {
     // Colours learned from another start are wrong here.
     search_.forget_colors();
     search_.look(frame, state, true);
@@ -171,7 +173,8 @@ void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) 
   search_.look(frame, state, false);
 }
 
-std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const LossReport& report,
+std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
+                                                     const RecoveryRequest& request,
                                                      const Candidate& base, Candidate& best,
                                                      std::size_t model, const ModelFlags& held,
                                                      std::uint64_t seed) {
@@ -180,18 +183,18 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
     to.segment(item.offset, item.model->dimension()) =
         from.segment(item.offset, item.model->dimension());
   };
-  LastKnown last{base.answers() ? base.found.state : report.kept, report.seconds[model]};
-  put(last.state, report.kept);
+  LastKnown last{base.answers() ? base.found.state : request.kept, request.seconds[model]};
+  put(last.state, request.kept);
   const bool has_answer = best.answers() && best.shown[model];
-  if (has_answer && best.verdict[model] >= kLeastPromising) {
+  if (has_answer && best.probabilities[model] >= kLeastPromising) {
     last.hint = last.state;
     put(last.hint, best.found.state);
   }
-  last.near_hint_only = report.near_only;
-  last.before = report.together;
-  const Recovery::Quest quest = recovery_.begin(search_, frame, judge_, std::move(last), model,
-                                                base.shown, held, settings_.motion);
-  best.in_view[model] = quest.in_view;
+  last.near_hint_only = request.near_only;
+  last.before = request.together;
+  const Recovery::Task task = recovery_.begin(search_, frame, verifier_, std::move(last), model,
+                                              base.shown, held, settings_.motion);
+  best.in_view[model] = task.in_view;
   ModelFlags shown = base.shown, moving(shown.size(), false);
   shown[model] = moving[model] = true;
   for (std::size_t m = 0; m < held.size(); ++m)
@@ -200,21 +203,21 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   if (has_answer && shown == best.shown) all.push_back(best);
   std::uint32_t part = 0;
   bool sure = false;
-  const bool is_recent = report.seconds[model] < kRecent;
-  for (const PoseGuess& guess : quest.guesses) {
+  const bool is_recent = request.seconds[model] < kRecent;
+  for (const PoseGuess& guess : task.guesses) {
     if (sure || (is_recent && has_confirmed(all, model))) break;
     const Candidates found =
-        recovery_.find(quest, guess, settings_.motion, seed_of_part(seed, part++));
+        recovery_.find(task, guess, settings_.motion, seed_of_part(seed, part++));
     best.found.evaluations += found.evaluations;
     search_.show(shown, moving);
     for (const Eigen::VectorXd& state : found.states) {
       if (search_.tiles().visible_share(state) == 0) continue;
       search_.look(frame, state, false);
-      Candidate one = judged(frame, search_.settled(state, budget_, seed_of_part(seed, part++)));
+      Candidate one = verified(frame, search_.settled(state, budget_, seed_of_part(seed, part++)));
       best.found.evaluations += std::exchange(one.found.evaluations, 0);
-      Eigen::VectorXd moved = report.kept;
+      Eigen::VectorXd moved = request.kept;
       put(moved, one.found.state);
-      if (!is_within(scene_, reach_within(settings_.motion, quest.last.seconds), report.kept,
+      if (!is_within(scene_, reach_within(settings_.motion, task.last.seconds), request.kept,
                      moved))
         continue;
       sure = sure || one.probability() >= kSure;
@@ -225,7 +228,7 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame, const L
   if (all.empty()) return std::nullopt;
   std::vector<double> apart;
   for (const Candidate& one : all)
-    apart.push_back(moved_in_hand(scene_, report.together, one.found.state, shown));
+    apart.push_back(moved_in_hand(scene_, request.together, one.found.state, shown));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
   for (std::size_t m = 0; m < moving.size(); ++m)
@@ -242,7 +245,7 @@ bool CandidateFinder::is_confirmed(const std::vector<Candidate>& all, const Cand
 bool CandidateFinder::has_confirmed(const std::vector<Candidate>& all, std::size_t model) const {
   for (auto a = all.begin(); a != all.end(); ++a)
     for (auto b = all.begin(); b != a; ++b)
-      if (std::min(a->verdict[model], b->verdict[model]) >= settings_.confirmed_above &&
+      if (std::min(a->probabilities[model], b->probabilities[model]) >= settings_.confirmed_above &&
           is_same(*a, *b, model))
         return true;
   return false;
@@ -257,34 +260,35 @@ bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_
   return (landmarks(a) - landmarks(b)).colwise().norm().mean() < kSame;
 }
 
-ModelFlags CandidateFinder::lost_with(const LossReport& report, const Candidate& base,
+ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Candidate& base,
                                       std::size_t model) const {
-  ModelFlags out = held_by(scene_, model, report.together);
+  ModelFlags out = held_by(scene_, model, request.together);
   for (std::size_t m = 0; m < out.size(); ++m)
-    out[m] = out[m] && report.sought[m] && !base.shown[m] && !report.near_only;
+    out[m] = out[m] && request.sought[m] && !base.shown[m] && !request.near_only;
   return out;
 }
 
 bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
-                               const LossReport& report, std::size_t model) const {
-  if (!(with.verdict[model] >= settings_.uncertain_above)) return false;
+                               const RecoveryRequest& request, std::size_t model) const {
+  if (!(with.probabilities[model] >= settings_.uncertain_above)) return false;
   for (std::size_t m = 0; m < base.shown.size(); ++m) {
-    if (!base.shown[m] || m == model || std::isnan(base.verdict[m])) continue;
-    if (!(with.verdict[m] >= std::min(report.needed[m], base.verdict[m]))) return false;
+    if (!base.shown[m] || m == model || std::isnan(base.probabilities[m])) continue;
+    if (!(with.probabilities[m] >= std::min(request.needed[m], base.probabilities[m])))
+      return false;
   }
   return true;
 }
 
-void CandidateFinder::recover(const Frame& frame, const LossReport& report, Candidate& best,
+void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request, Candidate& best,
                               std::uint64_t seed) {
   Candidate base = best;
-  for (std::size_t m = 0; m < report.sought.size(); ++m)
-    if (report.sought[m]) {
+  for (std::size_t m = 0; m < request.sought.size(); ++m)
+    if (request.sought[m]) {
       base.shown[m] = false;
-      if (report.lost) judge_.set_tracked(m, false);
+      if (request.lost) verifier_.set_tracked(m, false);
     }
   if (!any(base.shown)) base.found.cost = std::numeric_limits<double>::infinity();
-  ModelFlags left = report.sought;
+  ModelFlags left = request.sought;
   std::uint32_t part = 0;
   while (any(left)) {
     std::optional<Candidate> chosen;
@@ -292,25 +296,25 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
     for (std::size_t m = 0; m < left.size(); ++m) {
       if (!left[m]) continue;
       std::optional<Candidate> one;
-      const ModelFlags held = lost_with(report, base, m);
+      const ModelFlags held = lost_with(request, base, m);
       if (any(held))
-        one = with_model(frame, report, base, best, m, held, seed_of_part(seed, ++part));
+        one = with_model(frame, request, base, best, m, held, seed_of_part(seed, ++part));
       if (!one || !(one->probability() >= settings_.uncertain_above))
-        one = with_model(frame, report, base, best, m, {}, seed_of_part(seed, ++part));
-      if (!one || (chosen && !(one->verdict[m] > chosen->verdict[joins]))) continue;
+        one = with_model(frame, request, base, best, m, {}, seed_of_part(seed, ++part));
+      if (!one || (chosen && !(one->probabilities[m] > chosen->probabilities[joins]))) continue;
       chosen = std::move(one);
       joins = m;
     }
     // With nothing else found, a poor candidate still reports its probability.
-    if (!chosen || (any(base.shown) && !may_join(*chosen, base, report, joins))) break;
+    if (!chosen || (any(base.shown) && !may_join(*chosen, base, request, joins))) break;
     base = std::move(*chosen);
     for (std::size_t m = 0; m < left.size(); ++m)
       if (base.shown[m]) left[m] = false;
-    if (!(base.verdict[joins] >= settings_.uncertain_above)) break;
+    if (!(base.probabilities[joins] >= settings_.uncertain_above)) break;
   }
   base.in_view = best.in_view;
   for (std::size_t m = 0; m < base.shown.size(); ++m)
-    if (base.shown[m] && base.verdict[m] >= report.needed[m]) base.in_view[m] = true;
+    if (base.shown[m] && base.probabilities[m] >= request.needed[m]) base.in_view[m] = true;
   base.found.evaluations = best.found.evaluations;
   best = std::move(base);
   if (!best.answers()) return;
@@ -319,19 +323,19 @@ void CandidateFinder::recover(const Frame& frame, const LossReport& report, Cand
 }
 
 void CandidateFinder::accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked) {
-  const bool is_judged = best.answers() && !std::isnan(best.probability());
+  const bool is_verified = best.answers() && !std::isnan(best.probability());
   for (std::size_t m = 0; m < best.shown.size(); ++m) {
-    if (is_judged && best.shown[m])
-      believed_[m] = best.verdict[m];
-    else if (judge_.experienced(m) && !(best.answers() && best.shown[m]))
+    if (is_verified && best.shown[m])
+      believed_[m] = best.probabilities[m];
+    else if (verifier_.experienced(m) && !(best.answers() && best.shown[m]))
       believed_[m] = 0;  // lost: it is not assumed to hide behind others
   }
   believed_time_ = frame.time;
-  for (std::size_t m = 0; m < tracked.size(); ++m) judge_.set_tracked(m, tracked[m]);
+  for (std::size_t m = 0; m < tracked.size(); ++m) verifier_.set_tracked(m, tracked[m]);
   // Do not learn from doubtful models: the tracker would follow a model that slides off.
   ModelFlags sure = tracked;
   for (std::size_t m = 0; m < sure.size(); ++m)
-    if (judge_.experienced(m) && best.verdict[m] < settings_.surely_above) sure[m] = false;
+    if (verifier_.experienced(m) && best.probabilities[m] < settings_.surely_above) sure[m] = false;
   if (any(sure)) learn(frame, best, sure);
 }
 
@@ -340,8 +344,9 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   const bool is_time = learned_ < kAtFirst || learned_ % kEvery == 0;
   if (settings_.evidence && !std::isnan(best.probability()) && is_time) {
     const Eigen::VectorXd drawn = search_.drawn(best.found.state);
-    if (!judge_.judged(drawn)) judge_.judge(frame, drawn, search_.second_view_colors(), best.shown);
-    judge_.learn(sure);
+    if (!verifier_.verified(drawn))
+      verifier_.verify(frame, drawn, search_.second_view_colors(), best.shown);
+    verifier_.learn(sure);
   }
   ++learned_;
   search_.show(sure);

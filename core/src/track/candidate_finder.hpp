@@ -12,10 +12,10 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
-#include "track/judge/judge.hpp"
 #include "track/recover/recovery.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
+#include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
 
@@ -33,7 +33,7 @@ inline constexpr double kLeastPromising = 0.02;
 /// pose was found.
 struct Candidate {
   Found found{{}, std::numeric_limits<double>::infinity(), 0};
-  Verdict verdict = {};     ///< probability by model
+  ModelProbabilities probabilities = {};  ///< probability by model
   ModelFlags shown = {};    ///< models that this candidate poses; the state's values of the others
                             ///< are meaningless
   ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
@@ -45,7 +45,7 @@ struct Candidate {
 };
 
 /// Input of a recovery: the last known poses and the models to find.
-struct LossReport {
+struct RecoveryRequest {
   Eigen::VectorXd kept;      ///< each model's last pose that was surely right
   Eigen::VectorXd together;  ///< the last state in which all models were surely right at once
   std::vector<double> seconds = {};  ///< time since `kept`, by model
@@ -75,9 +75,10 @@ class HYPOTRACK_API CandidateFinder {
   Candidate follow(const Frame& frame, const Eigen::MatrixXd& starts, const ModelFlags& models,
                    const Budget& budget, const std::optional<Reach>& reach, std::uint64_t seed);
 
-  /// Finds the models that `best` lacks or has in doubtful poses. Models that the report does not
+  /// Finds the models that `best` lacks or has in doubtful poses. Models that the request does not
   /// seek stay as they are.
-  void recover(const Frame& frame, const LossReport& report, Candidate& best, std::uint64_t seed);
+  void recover(const Frame& frame, const RecoveryRequest& request, Candidate& best,
+               std::uint64_t seed);
 
   /// Searches this frame from a candidate of an earlier frame.
   Candidate go_on(const Frame& frame, const Candidate& from, std::uint64_t seed);
@@ -88,24 +89,25 @@ class HYPOTRACK_API CandidateFinder {
 
   FrameSearch& search() { return search_; }
   const FrameSearch& search() const { return search_; }
-  const Judge& judge() const { return judge_; }
+  const PoseVerifier& verifier() const { return verifier_; }
   const Budget& budget() const { return budget_; }
   Budget& budget() { return budget_; }
 
  private:
   void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
-  Candidate judged(const Frame& frame, Found found);
+  Candidate verified(const Frame& frame, Found found);
   /// Returns the most probable candidate; among about equally probable ones the cheapest. All must
   /// show the same models. Prepares the search for the frame around the result.
   Candidate best_of(const Frame& frame, const std::vector<Candidate>& candidates,
                     const std::vector<double>& apart = {});
   void look_at(const Frame& frame, const Eigen::VectorXd& state);
   /// Returns the best candidate that has `model` in addition to those of `base`.
-  std::optional<Candidate> with_model(const Frame& frame, const LossReport& report,
+  std::optional<Candidate> with_model(const Frame& frame, const RecoveryRequest& request,
                                       const Candidate& base, Candidate& best, std::size_t model,
                                       const ModelFlags& held, std::uint64_t seed);
   /// Returns the lost models that the last sure state has in the hand of this one.
-  ModelFlags lost_with(const LossReport& report, const Candidate& base, std::size_t model) const;
+  ModelFlags lost_with(const RecoveryRequest& request, const Candidate& base,
+                       std::size_t model) const;
   /// Returns whether two candidates have a model in the same pose.
   bool is_same(const Candidate& a, const Candidate& b, std::size_t model) const;
   /// Returns whether another candidate has a model in the same pose as the chosen one.
@@ -114,14 +116,14 @@ class HYPOTRACK_API CandidateFinder {
   /// Returns whether any two likely candidates have a model in the same pose.
   bool has_confirmed(const std::vector<Candidate>& all, std::size_t model) const;
   /// Returns whether a model may join: the pictures support it, and still support the others.
-  bool may_join(const Candidate& with, const Candidate& base, const LossReport& report,
+  bool may_join(const Candidate& with, const Candidate& base, const RecoveryRequest& request,
                 std::size_t model) const;
 
   const Scene& scene_;
   StatusSettings settings_;
   Budget budget_;
   FrameSearch search_;
-  Judge judge_;
+  PoseVerifier verifier_;
   Recovery recovery_;
   std::vector<double> believed_;  ///< probability of each model in the last candidate accepted
   double believed_time_ = 0;      ///< time of that candidate

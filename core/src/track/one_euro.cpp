@@ -16,7 +16,7 @@ double weight_of(double cutoff, double seconds) {
 
 }  // namespace
 
-OneEuroFilter::OneEuroFilter(const Scene& scene, const SmoothingSettings& settings)
+OneEuroFilter::OneEuroFilter(const Scene& scene, const OneEuroSettings& settings)
     : scene_(&scene), settings_(settings) {}
 
 Eigen::VectorXd OneEuroFilter::filter(const Eigen::VectorXd& state, double time) {

@@ -9,7 +9,7 @@
 namespace hypotrack {
 
 /// `output.smoothing:` of a scene.
-struct SmoothingSettings {
+struct OneEuroSettings {
   bool enabled = false;
   double min_cutoff = 1.5;
   double position_beta = 40;
@@ -46,7 +46,7 @@ struct SmoothingSettings {
 class HYPOTRACK_API OneEuroFilter {
  public:
   /// The scene must outlive the filter.
-  OneEuroFilter(const Scene& scene, const SmoothingSettings& settings);
+  OneEuroFilter(const Scene& scene, const OneEuroSettings& settings);
 
   /// Returns the smoothed state for a normalised state found at a time (s). A time that is not
   /// later than the last one restarts the filter.
@@ -59,7 +59,7 @@ class HYPOTRACK_API OneEuroFilter {
   double cutoff(double beta, double speed) const { return settings_.min_cutoff + beta * speed; }
 
   const Scene* scene_;
-  SmoothingSettings settings_;
+  OneEuroSettings settings_;
   Eigen::VectorXd state_;  ///< the last smoothed state; empty: none
   Eigen::VectorXd found_;  ///< the last unsmoothed state
   Eigen::VectorXd speed_;  ///< smoothed speed, per second

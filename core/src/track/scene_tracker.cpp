@@ -43,7 +43,7 @@ StatusSettings of_pictures(StatusSettings settings, const std::vector<ObjectiveT
 
 /// Returns the root mean square distance that a scene may have moved since it was last seen, in
 /// metres.
-double spread_after(double seconds) {
+double sigma_after(double seconds) {
   constexpr double kAtOnce = 0.03, kPerSecond = 0.3;
   return kAtOnce + kPerSecond * std::max(seconds, 0.0);
 }
@@ -59,15 +59,16 @@ Status worst(const std::vector<Status>& models) {
 
 /// Subtracts the evaluations of fixed-lag smoothing from a search's budget. Throws ConfigError if
 /// less than half would be left.
-void reserve_for(const HindsightSettings& hindsight, Budget& budget) {
-  if (budget.evaluations < 2 * hindsight.evaluations)
-    throw ConfigError(
-        fmt::format("hindsight takes {} evaluations of a frame's budget, which is {}; give "
-                    "budget.evaluations {} "
-                    "or more, hindsight.evaluations {} or less, or leave hindsight.enabled off",
-                    hindsight.evaluations, budget.evaluations, 2 * hindsight.evaluations,
-                    budget.evaluations / 2));
-  budget.evaluations -= hindsight.evaluations;
+void reserve_for(const FixedLagSettings& settings, Budget& budget) {
+  if (budget.evaluations < 2 * settings.evaluations)
+    throw ConfigError(fmt::format(
+        "fixed-lag smoothing takes {} evaluations of a frame's budget, which is {}; give "
+        "budget.evaluations {} "
+        "or more, smoothing.fixed_lag.evaluations {} or less, or leave smoothing.fixed_lag.enabled "
+        "off",
+        settings.evaluations, budget.evaluations, 2 * settings.evaluations,
+        budget.evaluations / 2));
+  budget.evaluations -= settings.evaluations;
 }
 
 /// Subtracts the evaluations of sigmas from a search's budget. Throws ConfigError if less than half
@@ -91,8 +92,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       first_(std::move(start)),
       finder_(scene, parts, settings_),
       predictor_(scene, parts.search.prediction),
-      smoother_(scene, parts.smoothing),
-      smoothing_(parts.smoothing.enabled),
+      smoother_(scene, parts.one_euro),
+      smoothing_(parts.one_euro.enabled),
       seed_(seed) {
   Eigen::Index landmarks = 0;
   for (const Scene::Item& item : scene.items()) {
@@ -101,7 +102,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
   }
   scene.normalize(first_);
   state_ = kept_ = together_ = output_ = first_;
-  if (parts.hindsight.enabled) reserve_for(parts.hindsight, finder_.budget());
+  if (parts.fixed_lag.enabled) reserve_for(parts.fixed_lag, finder_.budget());
   if (settings_.uncertainty.enabled)
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
 }
@@ -149,7 +150,7 @@ Candidate SceneTracker::follow(const Frame& frame) {
   }
   const ModelFlags models = followed();
   if (!any(models)) {
-    return {.verdict = Verdict(models.size(), kUnknown),
+    return {.probabilities = ModelProbabilities(models.size(), kUnknown),
             .shown = models,
             .in_view = ModelFlags(models.size(), true),
             .confirmed = ModelFlags(models.size(), false)};
@@ -161,7 +162,7 @@ Candidate SceneTracker::follow(const Frame& frame) {
   if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
   Candidate best = finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
   // The models may still come to the start that was given.
-  if (recovers() && !finder_.judge().experienced() &&
+  if (recovers() && !finder_.verifier().experienced() &&
       best.probability() < settings_.uncertain_above) {
     const bool several = begun_++ % kSeveralAgain == 0;
     if (finder_.begin_again(frame, first_, several ? settings_.recovery.first_starts : 1,
@@ -173,17 +174,18 @@ Candidate SceneTracker::follow(const Frame& frame) {
   return best;
 }
 
-LossReport SceneTracker::report(const Frame& frame, const Candidate& best) {
-  LossReport out{.kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
+RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candidate& best) {
+  RecoveryRequest out{
+      .kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
   ModelFlags confirmed = out.sought, doubtful = out.sought;
   constexpr double kDoubt = 0.8;  // probability
   bool doubts = false;
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const ModelTrack& model = models_[m];
-    const double p = best.verdict[m];
+    const double p = best.probabilities[m];
     out.seconds.push_back(std::max(frame.time - model.kept_time, 1e-3));
     out.needed.push_back(model.monitor.needed());
-    if (!finder_.judge().experienced(m)) continue;
+    if (!finder_.verifier().experienced(m)) continue;
     out.sought[m] = !best.answers() || !best.shown[m] || p < out.needed[m];
     out.lost = out.lost || out.sought[m];
     confirmed[m] = model.confirmations > 0;
@@ -201,23 +203,24 @@ LossReport SceneTracker::report(const Frame& frame, const Candidate& best) {
 
 bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   if (!recovers() || (best.answers() && std::isnan(best.probability()))) return true;
-  const LossReport loss = report(frame, best);
-  if (!any(loss.sought)) return true;
+  const RecoveryRequest request = recovery_request(frame, best);
+  if (!any(request.sought)) return true;
   if (settings_.recovery.run == RecoveryRun::background) {
-    if (!loss.lost) return true;
+    if (!request.lost) return true;
     bool follows_some = false;
     for (std::size_t m = 0; m < models_.size(); ++m)
-      follows_some = follows_some || (best.answers() && best.shown[m] && !loss.sought[m]);
+      follows_some = follows_some || (best.answers() && best.shown[m] && !request.sought[m]);
     if (!follows_some) {
-      start_job(frame, loss, best);
+      start_job(frame, request, best);
       return false;
     }
   }
-  finder_.recover(frame, loss, best, seed_of_part(frame_seed(seed_, frame.index), 7));
+  finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), 7));
   return true;
 }
 
-void SceneTracker::start_job(const Frame& frame, const LossReport& loss, const Candidate& best) {
+void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
+                             const Candidate& best) {
   // The source may reuse its images.
   Frame copy = frame;
   for (View& view : copy.views) {
@@ -227,8 +230,8 @@ void SceneTracker::start_job(const Frame& frame, const LossReport& loss, const C
   }
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
   job_ = std::async(std::launch::async,
-                    [this, copy = std::move(copy), loss, seed, from = best]() mutable {
-                      finder_.recover(copy, loss, from, seed);
+                    [this, copy = std::move(copy), request, seed, from = best]() mutable {
+                      finder_.recover(copy, request, from, seed);
                       return from;
                     });
 }
@@ -241,9 +244,9 @@ void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
     // The job searched an earlier frame: search this one from its result.
     const std::uint64_t seed = frame_seed(seed_, frame.index);
     best = finder_.go_on(frame, best, seed);
-    LossReport loss = report(frame, best);
-    loss.near_only = true;
-    if (loss.lost) finder_.recover(frame, loss, best, seed_of_part(seed, 7));
+    RecoveryRequest request = recovery_request(frame, best);
+    request.near_only = true;
+    if (request.lost) finder_.recover(frame, request, best, seed_of_part(seed, 7));
   } else {
     best.found.cost = kInfinite;
   }
@@ -273,7 +276,7 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
   if (best.answers() && finder_.search().tiles().visible_share(best.found.state) > 0)
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const bool never_found =
-          !finder_.judge().experienced(m) && (begun_ >= kPatientFrames || any_good);
+          !finder_.verifier().experienced(m) && (begun_ >= kPatientFrames || any_good);
       good[m] = good[m] || (best.shown[m] && (!recovers() || never_found));
     }
   go_on_from(frame, best, good);
@@ -290,14 +293,14 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
 void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solution& solution) {
   solution.cost = best.found.cost;
   solution.evaluations = best.found.evaluations;
-  solution.probabilities = best.verdict;
+  solution.probabilities = best.probabilities;
   FrameSearch& search = finder_.search();
   StatusEvidence evidence{.cost = best.found.cost, .sigma = kUnknown};
   if (best.answers()) {
     search.show(best.shown);
     const Eigen::VectorXd drawn = search.drawn(best.found.state);
     evidence.visible = search.tiles().visible_share(best.found.state);
-    evidence.on_foreground = search.tiles().on_foreground(frame, drawn);
+    evidence.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
     if (uncertainty_) {
       solution.sigma = uncertainty_->of(search.evaluator(), drawn);
       solution.evaluations += uncertainty_->evaluations();
@@ -306,7 +309,7 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
   for (std::size_t m = 0; m < models_.size(); ++m) {
     StatusEvidence own = evidence;
     if (!best.shown[m]) own.cost = kInfinite;
-    own.probability = best.verdict[m];
+    own.probability = best.probabilities[m];
     if (solution.sigma.size() > 0 && models_[m].landmarks > 0)
       own.sigma = models_[m].part_of(solution.sigma).mean();
     own.in_view = best.in_view[m];
@@ -320,7 +323,7 @@ ModelFlags SceneTracker::followed() const {
   ModelFlags out;
   for (std::size_t m = 0; m < models_.size(); ++m)
     out.push_back(found_any_ &&
-                  (!recovers() || models_[m].is_followed() || !finder_.judge().experienced(m)));
+                  (!recovers() || models_[m].is_followed() || !finder_.verifier().experienced(m)));
   return out;
 }
 
@@ -388,9 +391,9 @@ void SceneTracker::widen(const Frame& frame, Solution& solution) const {
   if (solution.sigma.size() == 0) return;
   for (const ModelTrack& model : models_) {
     if (model.is_followed()) continue;
-    const double spread = spread_after(frame.time - model.kept_time);
+    const double wider = sigma_after(frame.time - model.kept_time);
     for (double& sigma : model.part_of(solution.sigma))
-      if (!(sigma > spread)) sigma = spread;
+      if (!(sigma > wider)) sigma = wider;
   }
 }
 
@@ -415,13 +418,14 @@ std::string SceneTracker::problem_of_start(const Frame& frame) const {
         "{:.0f} % of what the models cover at the start is inside every image, and a frame with "
         "less than {:.0f} % counts as lost (tracker.min_visible); {}",
         100 * visible, 100 * settings_.min_visible, kQuestion);
-  const OnForeground on_foreground = finder_.search().tiles().on_foreground(frame, state_);
-  if (on_foreground == OnForeground::nowhere)
+  const ForegroundOverlap foreground_overlap =
+      finder_.search().tiles().foreground_overlap(frame, state_);
+  if (foreground_overlap == ForegroundOverlap::nowhere)
     return fmt::format(
         "the models at the start cover no foreground pixel of any mask, and such a frame counts as "
         "lost; {}",
         kQuestion);
-  if (on_foreground == OnForeground::in_parts)
+  if (foreground_overlap == ForegroundOverlap::in_parts)
     return fmt::format(
         "no point of the models at the start is on the foreground of all masks, and such a frame "
         "counts as uncertain; {}",

@@ -18,7 +18,7 @@
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
-#include "track/smooth/hindsight_settings.hpp"
+#include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
 #include "track/uncertainty.hpp"
@@ -81,11 +81,11 @@ class HYPOTRACK_API SceneTracker {
   /// if the settings say so and no model can be followed. Returns false then: the frame has no
   /// result.
   bool complete(const Frame& frame, Candidate& best);
-  LossReport report(const Frame& frame, const Candidate& best);
+  RecoveryRequest recovery_request(const Frame& frame, const Candidate& best);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
   void judge_models(const Frame& frame, const Candidate& best, Solution& solution);
   // Recovery in the background. While a job runs, nothing else uses the finder.
-  void start_job(const Frame& frame, const LossReport& loss, const Candidate& best);
+  void start_job(const Frame& frame, const RecoveryRequest& request, const Candidate& best);
   void wait_for_job(const Frame& frame, Solution& solution);
   void stay_lost(const Frame& frame, Solution& solution);
 

@@ -50,7 +50,8 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
   if (!evidence.in_view) return Status::absent;
   // The cost may be meaningless off the foreground: pixels off the mask may weigh nothing.
   if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
-      evidence.sigma > settings_.lost_sigma || evidence.on_foreground == OnForeground::nowhere ||
+      evidence.sigma > settings_.lost_sigma ||
+      evidence.foreground_overlap == ForegroundOverlap::nowhere ||
       evidence.probability < settings_.uncertain_above) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
@@ -60,7 +61,7 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
       evidence.confirmed ? std::min(needed(), settings_.confirmed_above) : needed();
   const bool doubtful = evidence.probability < enough ||
                         evidence.visible < 2 * settings_.min_visible ||
-                        evidence.on_foreground == OnForeground::in_parts ||
+                        evidence.foreground_overlap == ForegroundOverlap::in_parts ||
                         evidence.sigma > settings_.uncertain_sigma;
   if (doubtful) return Status::uncertain;
   remember(evidence.cost);
@@ -74,7 +75,7 @@ Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
   // cost.
   remember(evidence.cost);
   if (outlier || evidence.visible < 2 * settings_.min_visible ||
-      evidence.on_foreground == OnForeground::in_parts)
+      evidence.foreground_overlap == ForegroundOverlap::in_parts)
     return ++uncertain_in_a_row_ >= settings_.patience ? Status::lost : Status::uncertain;
   uncertain_in_a_row_ = 0;
   // A sigma that stays large, as of hidden fingers, does not make a model lost.

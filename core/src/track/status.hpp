@@ -5,7 +5,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/solution.hpp"
-#include "tile/on_foreground.hpp"
+#include "tile/foreground_overlap.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/uncertainty_settings.hpp"
@@ -86,7 +86,7 @@ struct StatusEvidence {
   double probability = 0;  ///< that the pose is right, from the pictures; NaN: unknown
   double visible = 0;      ///< share of the models' vertices that project into every image
   double sigma = 0;        ///< mean over a model's landmarks, in metres; NaN: unknown
-  OnForeground on_foreground = OnForeground::unknown;
+  ForegroundOverlap foreground_overlap = ForegroundOverlap::unknown;
   bool in_view = true;     ///< false: a search of the whole pictures did not find the model
   bool confirmed = false;  ///< searches from other starts ended in the same pose
 };

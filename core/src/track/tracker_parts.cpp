@@ -6,10 +6,10 @@ namespace hypotrack {
 
 ResidualUse residual_use(const TrackerParts& parts) {
   const bool search = parts.optimizer->needs_residuals();
-  const bool hindsight = parts.hindsight.enabled;
-  return {search || hindsight || parts.status.uncertainty.enabled,
+  const bool fixed_lag = parts.fixed_lag.enabled;
+  return {search || fixed_lag || parts.status.uncertainty.enabled,
           std::max(search ? parts.optimizer->linearization() : Linearization::unused,
-                   hindsight ? Linearization::welcome : Linearization::unused)};
+                   fixed_lag ? Linearization::welcome : Linearization::unused)};
 }
 
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms) {

@@ -10,7 +10,7 @@
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
 #include "track/search_space.hpp"
-#include "track/smooth/hindsight_settings.hpp"
+#include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 
 namespace hypotrack {
@@ -25,8 +25,8 @@ struct TrackerParts {
   PhotometricSettings photometric;
   SearchSettings search;
   StatusSettings status;
-  SmoothingSettings smoothing;
-  HindsightSettings hindsight;
+  OneEuroSettings one_euro;
+  FixedLagSettings fixed_lag;
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 

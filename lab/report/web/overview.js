@@ -27,9 +27,9 @@ hypotrack.bestSettings = function (page) {
       var cell = row.cells[column];
       if (!cell.best && !(table.rows.length === 1 && cell.mean !== null)) return;
       var settings = row.keys.map(function (key, i) { return table.keys[i] + ' ' + key; });
-      var spread = cell.sd === null ? '' : ' ± ' + cell.sd.toFixed(2);
+      var deviation = cell.sd === null ? '' : ' ± ' + cell.sd.toFixed(2);
       facts.push([table.title + (settings.length ? ', best: ' + settings.join(', ') : ''),
-                  cell.mean.toFixed(2) + spread + ' mm']);
+                  cell.mean.toFixed(2) + deviation + ' mm']);
     });
   });
   return facts;

@@ -27,8 +27,8 @@ hypotrack.isGeometric = function (values) {
     ratios.push(values[i] / values[i - 1]);
     steps.push(values[i] - values[i - 1]);
   }
-  var spread = function (list) { return Math.max.apply(null, list) / Math.min.apply(null, list); };
-  return Math.min.apply(null, ratios) > 1 && spread(ratios) < spread(steps);
+  var ratio = function (list) { return Math.max.apply(null, list) / Math.min.apply(null, list); };
+  return Math.min.apply(null, ratios) > 1 && ratio(ratios) < ratio(steps);
 };
 
 hypotrack.plotConfig = function (theme) {

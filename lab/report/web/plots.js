@@ -54,12 +54,12 @@ hypotrack.barMarks = function (data, band, theme) {
   bar[band === 'x' ? 'width' : 'height'] = {scale: 'inner', band: 1};
   bar[value] = {scale: 'value', field: 'mean'};
   bar[value + '2'] = {scale: 'value', value: 0};
-  var spread = {stroke: {value: theme.text}, strokeWidth: {value: 1.5}};
-  spread[band] = place(0.5);
-  spread[value] = {scale: 'value', field: 'lo'};
-  spread[value + '2'] = {scale: 'value', field: 'hi'};
+  var interval = {stroke: {value: theme.text}, strokeWidth: {value: 1.5}};
+  interval[band] = place(0.5);
+  interval[value] = {scale: 'value', field: 'lo'};
+  interval[value + '2'] = {scale: 'value', field: 'hi'};
   return [{type: 'rect', from: {data: data}, encode: {update: bar}},
-          {type: 'rule', from: {data: data}, encode: {update: spread}}];
+          {type: 'rule', from: {data: data}, encode: {update: interval}}];
 };
 
 /** Upright bars, or lying ones where the names would not fit below. */

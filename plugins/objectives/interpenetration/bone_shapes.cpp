@@ -54,7 +54,7 @@ struct Line {
   double radius;         // median distance from the surface, without the ends
 };
 
-/// Returns the principal axes, largest spread first, as columns. `along` replaces the first if
+/// Returns the principal axes, largest variance first, as columns. `along` replaces the first if
 /// given.
 Eigen::Matrix3d spread_axes(const Points& points, const std::optional<Eigen::Vector3d>& along) {
   Points centred = points.colwise() - points.rowwise().mean();

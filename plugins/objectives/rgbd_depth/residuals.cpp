@@ -46,21 +46,21 @@ namespace hypotrack::rgbd_depth {
 HWY_EXPORT(write_covered);
 
 PixelPlane<float> uncovered_residuals(const PixelPlane<float>& observed,
-                                      const PixelPrices& prices) {
+                                      const PixelPenalties& penalties) {
   PixelPlane<float> plane(observed.width(), observed.height());
   for (int y = 0; y < observed.height(); ++y) {
     std::transform(observed.row(y), observed.row(y) + observed.width(), plane.row(y),
-                   [&](float o) { return uncovered_residual(o, prices); });
+                   [&](float o) { return uncovered_residual(o, penalties); });
   }
   return plane;
 }
 
 void write_residuals(const PixelPlane<float>& observed, const DepthTile& tile, float d_max,
-                     const PixelPrices& prices, const PixelPlane<float>& uncovered,
+                     const PixelPenalties& penalties, const PixelPlane<float>& uncovered,
                      std::span<float> residuals) {
   std::copy_n(uncovered.row(0), residuals.size(), residuals.data());
   HWY_DYNAMIC_DISPATCH(write_covered)
-  (observed, tile, d_max, std::sqrt(prices.wrong), uncovered, residuals.data());
+  (observed, tile, d_max, std::sqrt(penalties.wrong), uncovered, residuals.data());
 }
 
 }  // namespace hypotrack::rgbd_depth

@@ -39,9 +39,9 @@ void RgbdDepth::prepare(const Observation& observation) {
 void RgbdDepth::price_pixels() {
   std::int64_t foreground = 0;
   for (const PreparedView& view : views_) foreground += view.observed.foreground;
-  prices_ = pixel_prices(static_cast<float>(foreground), weights());
+  penalties_ = pixel_penalties(static_cast<float>(foreground), weights());
   for (PreparedView& view : views_) {
-    view.uncovered = uncovered_residuals(view.observed.pixels, prices_);
+    view.uncovered = uncovered_residuals(view.observed.pixels, penalties_);
   }
 }
 
@@ -59,7 +59,7 @@ void RgbdDepth::write_residuals(const RenderedHypothesis& hypothesis,
   for (const PreparedView& view : views_) {
     const auto size = static_cast<std::size_t>(view.uncovered.width()) * view.uncovered.height();
     rgbd_depth::write_residuals(view.observed.pixels, hypothesis.views[view.index],
-                                static_cast<float>(params_.d_max), prices_, view.uncovered,
+                                static_cast<float>(params_.d_max), penalties_, view.uncovered,
                                 residuals.first(size));
     residuals = residuals.subspan(size);
   }

@@ -53,7 +53,7 @@ namespace hypotrack::rgbd_depth {
 /// - S is 1, its worst value, where nothing was observed and nothing is drawn.
 ///
 /// E is no sum of squares. Its residuals approximate it near the observation. P is what a pixel
-/// adds to E (pixel_prices.hpp). A covered pixel has sqrt(P) (r_d - o_d) / d_M, clamped to
+/// adds to E (pixel_penalties.hpp). A covered pixel has sqrt(P) (r_d - o_d) / d_M, clamped to
 /// +-sqrt(P). A pixel in only one of hypothesis and foreground has sqrt(P). A pair of fingers has
 /// sqrt(lambda_k / 0.1) max(-phi, 0), whose square is E's term where fingers cross by 0.1 radians.
 class RgbdDepth : public Objective, public ResidualTerm {
@@ -89,7 +89,7 @@ class RgbdDepth : public Objective, public ResidualTerm {
 
   Params params_;
   std::vector<PreparedView> views_;
-  PixelPrices prices_;
+  PixelPenalties penalties_;
   std::vector<FingerPair> fingers_;
 };
 

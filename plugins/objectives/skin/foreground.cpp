@@ -26,7 +26,7 @@ ViewForeground fill(const TileView& view, Probability probability) {
 
 }  // namespace
 
-ViewForeground ForegroundTeller::tell(const Observation& observation, std::size_t index) {
+ViewForeground ForegroundEstimator::estimate(const Observation& observation, std::size_t index) {
   const TileView& view = observation.views[index];
   switch (
       rule_of(settings_.foreground, !view.color.empty(), !view.mask.empty(), !view.depth.empty())) {

@@ -18,11 +18,12 @@ struct ViewForeground {
 };
 
 /// Estimates the foreground of one view, frame after frame.
-class ForegroundTeller {
+class ForegroundEstimator {
  public:
-  explicit ForegroundTeller(const Settings& settings) : settings_(settings), colors_(settings) {}
+  explicit ForegroundEstimator(const Settings& settings) : settings_(settings), colors_(settings) {}
 
-  ViewForeground tell(const Observation& observation, std::size_t view);
+  /// Estimates the foreground of the view with that index.
+  ViewForeground estimate(const Observation& observation, std::size_t view);
 
  private:
   Settings settings_;

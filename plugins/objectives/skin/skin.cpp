@@ -28,9 +28,9 @@ void Skin::prepare(const Observation& observation) {
   views_.clear();
   view_numbers_.clear();
   check(observation, params_.foreground);
-  while (tellers_.size() < observation.views.size()) tellers_.emplace_back(params_);
+  while (estimators_.size() < observation.views.size()) estimators_.emplace_back(params_);
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
-    ViewForeground foreground = tellers_[i].tell(observation, i);
+    ViewForeground foreground = estimators_[i].estimate(observation, i);
     if (foreground.pixels.width() == 0) continue;
     views_.push_back({i, std::move(foreground), {}});
     view_numbers_.push_back(static_cast<int>(i));

@@ -64,7 +64,7 @@ class Skin : public Objective, public ResidualTerm {
   float share() const;  ///< weight of each view
 
   Params params_;
-  std::vector<ForegroundTeller> tellers_;  ///< one per view of the observation
+  std::vector<ForegroundEstimator> estimators_;  ///< one per view of the observation
   std::vector<PreparedView> views_;
   std::vector<int> view_numbers_;  ///< indices of views_ among the observation's
 };

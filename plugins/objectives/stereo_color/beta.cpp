@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "hypotrack/observation.hpp"
-#include "hypotrack/stepped.hpp"
+#include "hypotrack/quantize.hpp"
 
 namespace hypotrack::stereo_color {
 
@@ -11,7 +11,7 @@ double beta_of(const Settings& settings, const Observation& observation) {
   if (settings.beta_by_difference <= 0 || observation.color_difference <= 0) return settings.beta;
   const double wanted = settings.beta_by_difference / observation.color_difference;
   // StereoColor checks the bounds.
-  return std::clamp(stepped(wanted), settings.beta_min, settings.beta_max);
+  return std::clamp(quantize_log(wanted), settings.beta_min, settings.beta_max);
 }
 
 }  // namespace hypotrack::stereo_color

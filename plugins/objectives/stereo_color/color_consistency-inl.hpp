@@ -20,7 +20,7 @@ struct ColorSample {
 
 /// Parameters of the similarity of colours as a function of their distance.
 template <class F>
-struct Likeness {
+struct SimilarityCurve {
   F beta, charge;
   bool gaussian;
 };
@@ -29,7 +29,7 @@ struct Likeness {
 /// (exp(-x) - charge), x = beta ||I_l - I_r|| or its square.
 template <class F>
 HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSample<F>& right,
-                                    const Likeness<F>& likeness) {
+                                    const SimilarityCurve<F>& curve) {
   using pixel::exp;
   using pixel::min;
   using pixel::mul_add;
@@ -38,9 +38,9 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
   const F d1 = left.channel_1 - right.channel_1;
   const F d2 = left.channel_2 - right.channel_2;
   const F square = mul_add(d0, d0, mul_add(d1, d1, d2 * d2));
-  const F beta = likeness.beta;
-  const F x = likeness.gaussian ? beta * beta * square : beta * quick_sqrt(square);
-  return min(left.weight, right.weight) * (exp(F(0.0f) - x) - likeness.charge);
+  const F beta = curve.beta;
+  const F x = curve.gaussian ? beta * beta * square : beta * quick_sqrt(square);
+  return min(left.weight, right.weight) * (exp(F(0.0f) - x) - curve.charge);
 }
 
 /// Returns the residual of a pixel of weight C: sqrt(share (C - s)), with s = 0 unless both views

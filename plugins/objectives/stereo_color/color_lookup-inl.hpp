@@ -16,7 +16,7 @@ namespace hypotrack::stereo_color::HWY_NAMESPACE {
 
 using namespace hypotrack::HWY_NAMESPACE;  // Lanes and the walk
 
-HYPOTRACK_PIXEL Likeness<Lanes> likeness_of(const Settings& settings) {
+HYPOTRACK_PIXEL SimilarityCurve<Lanes> similarity_curve(const Settings& settings) {
   return {Lanes(static_cast<float>(settings.beta)), Lanes(static_cast<float>(settings.charge)),
           settings.falloff == Falloff::gaussian};
 }

@@ -45,8 +45,8 @@ HYPOTRACK_PIXEL Texture texture(const Curvature& c) {
           c.major > 0.0f ? c.minor / c.major : 0.0f};
 }
 
-/// The middle one or two of the valid pixels' values; the two are equal for an odd count.
-struct Middle {
+/// Lower and upper median of the valid pixels' values; equal for an odd count.
+struct MedianPair {
   float low, high;
 };
 
@@ -55,7 +55,7 @@ struct Medians {
   float exp_d, a;
 };
 
-HYPOTRACK_PIXEL Medians medians(const Middle& norm, const Middle& ratio) {
+HYPOTRACK_PIXEL Medians medians(const MedianPair& norm, const MedianPair& ratio) {
   return {pixel::sqrt(norm.low) * pixel::sqrt(norm.high),
           0.5f * (std::atan(ratio.low) + std::atan(ratio.high))};
 }

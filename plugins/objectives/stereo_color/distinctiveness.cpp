@@ -43,9 +43,9 @@ struct Products {
 // the order of values.
 std::size_t bucket(float value) { return std::bit_cast<std::uint32_t>(value) >> 20; }
 
-// Returns the middle one or two of non-negative values. It is exact; buckets only reduce the values
-// to sort.
-Middle middle(const std::vector<float>& values) {
+// Returns the lower and upper median of non-negative values. It is exact; buckets only reduce the
+// values to sort.
+MedianPair median_pair(const std::vector<float>& values) {
   std::array<std::size_t, 2048> counts{};
   for (const float v : values) ++counts[bucket(v)];
   const auto ranked = [&](std::size_t rank) {
@@ -110,7 +110,7 @@ std::vector<float> distinctiveness(const Curvatures& curvatures,
     valid_ratio.push_back(ratio[i]);
   }
   if (valid_norm.empty()) return c;
-  const Medians m = medians(middle(valid_norm), middle(valid_ratio));
+  const Medians m = medians(median_pair(valid_norm), median_pair(valid_ratio));
   for (std::size_t i = 0; i < size; ++i) {
     if (valid[i]) c[i] = distinctiveness({norm[i], ratio[i]}, m, static_cast<float>(w_t));
   }

@@ -17,7 +17,7 @@ struct ResidualWriter {
 
   const Features& left;
   const Features& right;
-  Likeness<Lanes> likeness;
+  SimilarityCurve<Lanes> curve;
   Lanes share;
   float* out;
   int width;
@@ -28,7 +28,7 @@ struct ResidualWriter {
   HYPOTRACK_PIXEL void pixels(const StereoPixels& p) {
     const auto here = sample_here(left, p);
     const Lanes s = select(
-        p.seen, color_consistency(here, sample_there<kBilinear>(right, p), likeness), Lanes(0.0f));
+        p.seen, color_consistency(here, sample_there<kBilinear>(right, p), curve), Lanes(0.0f));
     rendered += count(p.seen || p.occluded);
     seen += count(p.seen);
     sum.add(p.seen, s);
@@ -41,8 +41,13 @@ struct ResidualWriter {
 template <bool kBilinear>
 Similarity run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
                const Params& params, float share, float* out) {
-  ResidualWriter<kBilinear> writer{
-      here.features, there.features, likeness_of(params), Lanes(share), out, here.tile.width, {}};
+  ResidualWriter<kBilinear> writer{here.features,
+                                   there.features,
+                                   similarity_curve(params),
+                                   Lanes(share),
+                                   out,
+                                   here.tile.width,
+                                   {}};
   for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
                         covered_box(here.tile), writer);
   return {writer.sum.total(), writer.seen, writer.rendered};

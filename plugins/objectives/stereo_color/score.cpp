@@ -14,7 +14,7 @@ struct ColorTerm {
 
   const Features& left;
   const Features& right;
-  Likeness<Lanes> likeness;
+  SimilarityCurve<Lanes> curve;
   LaneSum sum;
   std::int64_t seen = 0;
   std::int64_t rendered = 0;
@@ -24,7 +24,7 @@ struct ColorTerm {
     if (!any(p.seen)) return;
     seen += count(p.seen);
     sum.add(p.seen,
-            color_consistency(sample_here(left, p), sample_there<kBilinear>(right, p), likeness));
+            color_consistency(sample_here(left, p), sample_there<kBilinear>(right, p), curve));
   }
   HYPOTRACK_PIXEL void end_row() { sum.end_row(); }
 };
@@ -32,7 +32,7 @@ struct ColorTerm {
 template <bool kBilinear>
 Similarity run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
                const Params& params) {
-  ColorTerm<kBilinear> term{here.features, there.features, likeness_of(params), {}};
+  ColorTerm<kBilinear> term{here.features, there.features, similarity_curve(params), {}};
   for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
                         covered_box(here.tile), term);
   return {term.sum.total(), term.seen, term.rendered};

@@ -18,7 +18,7 @@ struct SlopeWriter {
   const Features& left;
   const Features& right;
   const StereoMap& map;
-  Likeness<Lanes> likeness;
+  SimilarityCurve<Lanes> curve;
   Lanes share;
   float* residuals;
   float* slopes;
@@ -26,7 +26,7 @@ struct SlopeWriter {
 
   template <bool kInterpolated>
   HYPOTRACK_PIXEL Lanes residual(const ColorSample<Lanes>& here, const StereoPixels& p) const {
-    const Lanes s = color_consistency(here, sample_there<kInterpolated>(right, p), likeness);
+    const Lanes s = color_consistency(here, sample_there<kInterpolated>(right, p), curve);
     return sqrt(share * max(here.weight - s, Lanes(0.0f)));
   }
 
@@ -66,7 +66,7 @@ struct SlopeWriter {
 template <bool kBilinear>
 void run(const ScoredView& here, const ScoredView& there, const StereoMap& map,
          const Params& params, float share, float* residuals, float* slopes) {
-  SlopeWriter<kBilinear> writer{here.features, there.features, map,    likeness_of(params),
+  SlopeWriter<kBilinear> writer{here.features, there.features, map,    similarity_curve(params),
                                 Lanes(share),  residuals,      slopes, here.tile.width};
   for_each_stereo_pixel(here.tile, there.tile, map, static_cast<float>(params.r),
                         covered_box(here.tile), writer);

@@ -3,14 +3,14 @@
 #include <algorithm>
 
 #include "hypotrack/observation.hpp"
-#include "hypotrack/stepped.hpp"
+#include "hypotrack/quantize.hpp"
 
 namespace hypotrack::stereo_patch {
 
 double share_of(const Settings& settings, const Observation& observation) {
   if (settings.full_at_difference <= 0 || observation.color_difference <= 0) return 1;
   const double ratio = observation.color_difference / settings.full_at_difference;
-  return std::min(stepped(ratio * ratio), 1.0);
+  return std::min(quantize_log(ratio * ratio), 1.0);
 }
 
 }  // namespace hypotrack::stereo_patch

@@ -12,7 +12,7 @@ namespace hypotrack {
 namespace {
 
 /// Parameters of the particles' motion.
-struct Swarming {
+struct SwarmSettings {
   Constriction constriction;
   LimbReset reset;
   Limbs limbs;
@@ -26,15 +26,15 @@ struct Swarm {
   Eigen::MatrixXd own_best;
   Eigen::VectorXd own_best_cost;
 
-  Swarm(const SearchRegion& region, Eigen::Index particles, const StartSpread& spread,
+  Swarm(const SearchRegion& region, Eigen::Index particles, const StartDistribution& starts,
         std::uint64_t seed)
-      : position(StartPoints(region, spread, seed).points(0, particles)),
+      : position(StartPoints(region, starts, seed).points(0, particles)),
         velocity(Eigen::MatrixXd::Zero(region.start.size(), particles)),
         own_best(position),
         own_best_cost(
             Eigen::VectorXd::Constant(particles, std::numeric_limits<double>::infinity())) {}
 
-  void move(const Swarming& how, const SearchRegion& region, const Eigen::VectorXd& swarm_best,
+  void move(const SwarmSettings& how, const SearchRegion& region, const Eigen::VectorXd& swarm_best,
             std::uint32_t generation, std::uint64_t seed) {
     const bool due = how.reset.due(generation) && how.limbs.count > 0;
     for (Eigen::Index p = 0; p < position.cols(); ++p) {
@@ -84,7 +84,7 @@ OptimizerResult Pso::minimize(CostFunction& cost, const SearchRegion& region, co
   const std::int64_t limit = budget.evaluations;
   const std::int64_t particles = std::min<std::int64_t>(params_.particles, limit);
 
-  const Swarming how{constriction_, params_.reset, Limbs(region), params_.start.sigma};
+  const SwarmSettings how{constriction_, params_.reset, Limbs(region), params_.start.sigma};
   Swarm swarm(region, particles, params_.start, seed);
   Eigen::VectorXd costs(particles);
   BestSoFar best;

@@ -20,7 +20,8 @@ namespace hypotrack {
 ///   actually made, so that particles do not keep pushing against the bound.
 ///
 /// Extensions, off by default, for regions with groups:
-/// - The initial particles move only some of the groups fully (StartSpread), since a hand rarely
+/// - The initial particles move only some of the groups fully (StartDistribution), since a hand
+/// rarely
 ///   moves all its fingers at once.
 /// - Every few generations some of the particles get one of their limbs replaced (LimbReset).
 ///

@@ -49,13 +49,13 @@ struct CapturedFor {
 class Search {
  public:
   Search(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
-         const cuda::Swarming& how, const StartSpread& spread)
+         const cuda::SwarmSettings& how, const StartDistribution& starts)
       : cost_(cost),
         stream_(cost.stream()),
         swarm_(swarm),
         schedule_(schedule),
         how_(how),
-        spread_(spread) {}
+        starts_(starts) {}
 
   CapturedFor captured_for() const {
     return {&cost_, stream_.handle, cost_.revision(), schedule_, swarm_};
@@ -78,7 +78,7 @@ class Search {
  private:
   void enqueue_generation(int most_blocks, std::int64_t generation) {
     if (generation == 0) {
-      cuda::enqueue_initial(swarm_, most_blocks, spread_, stream_);
+      cuda::enqueue_initial(swarm_, most_blocks, starts_, stream_);
     } else {
       cuda::enqueue_move(swarm_, most_blocks, how_, generation, stream_);
     }
@@ -90,8 +90,8 @@ class Search {
   Stream stream_;
   SwarmLayout swarm_;
   Schedule schedule_;
-  cuda::Swarming how_;
-  StartSpread spread_;
+  cuda::SwarmSettings how_;
+  StartDistribution starts_;
 };
 
 void wait_for(Stream stream) {
@@ -121,7 +121,7 @@ struct PsoCuda::OnDevice {
 
   /// Enqueues the search as one kernel. Returns false if that is impossible.
   bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
-                      const cuda::Swarming& how, const StartSpread& start,
+                      const cuda::SwarmSettings& how, const StartDistribution& start,
                       const SearchRegion& region, std::uint64_t seed) {
     if (!schedule.whole() || schedule.generations() > kMostCaptured) return false;
     if (swarm.dimension > cuda::kMostSwarmDimensions) return false;
@@ -173,7 +173,7 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
   const SwarmLayout swarm = on_device_->memory.reserve(schedule.particles, cost.dimension());
   const bool timed = std::isfinite(budget.seconds);
   std::int64_t generations = schedule.generations();
-  const cuda::Swarming how{constriction_, params_.reset, params_.start.sigma};
+  const cuda::SwarmSettings how{constriction_, params_.reset, params_.start.sigma};
   if (timed ||
       !on_device_->enqueue_as_one(*device, swarm, schedule, how, params_.start, region, seed)) {
     on_device_->memory.write(region, seed);

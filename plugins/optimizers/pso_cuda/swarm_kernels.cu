@@ -64,7 +64,7 @@ struct Draw {
   bool anew = false;  ///< the element is placed anew instead of moved
   double offset = 0;  ///< from the swarm's best, if placed anew
 
-  __device__ Draw(const Region& region, const Element& at, const Swarming& how,
+  __device__ Draw(const Region& region, const Element& at, const SwarmSettings& how,
                   std::uint32_t generation) {
     const RandomIndex index{static_cast<std::uint32_t>(at.dimension),
                             static_cast<std::uint32_t>(at.particle), generation, kMoveStream};
@@ -87,7 +87,7 @@ __global__ void __launch_bounds__(kThreads) copy_region(const SwarmLayout swarm)
 // Lets the next kernel start only after the wait. So every later kernel finds the region, even
 // before its own wait.
 __global__ void __launch_bounds__(kThreads)
-    initial(const SwarmLayout swarm, const Generation now, const StartSpread spread) {
+    initial(const SwarmLayout swarm, const Generation now, const StartDistribution starts) {
   wait_for_previous();
   let_next_start();
   constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -100,7 +100,7 @@ __global__ void __launch_bounds__(kThreads)
     if (at.particle > 0) {
       const auto number = static_cast<std::uint32_t>(at.particle);
       const auto group = static_cast<std::uint32_t>(region.membership_of(d).group);
-      x = start_sample(x, region.spread[d] * spread.of_group(region.seed, group, number),
+      x = start_sample(x, region.spread[d] * starts.of_group(region.seed, group, number),
                        region.bounds(d), region.seed, static_cast<std::uint32_t>(d), number);
     } else {
       now.best[d] = x;
@@ -166,8 +166,8 @@ constexpr int kKept = 2048;
 // this kernel start only after its own wait for that move (let_next_start()). The results are in
 // the L2 cache; a multiprocessor's L1 cache may hold older data. Only the costs need the wait.
 __global__ void __launch_bounds__(kThreads)
-    move(const SwarmLayout swarm, const Generation before, const Generation now, const Swarming how,
-         const std::uint32_t generation) {
+    move(const SwarmLayout swarm, const Generation before, const Generation now,
+         const SwarmSettings how, const std::uint32_t generation) {
   __shared__ double kept[kKept];
   let_next_start();
   const std::int64_t elements = swarm.particles * swarm.dimension;
@@ -252,13 +252,13 @@ void enqueue_region(const SwarmLayout& swarm, Stream stream) {
   launch(copy_region, 1, kThreads, 0, stream, false, swarm);
 }
 
-void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartSpread& spread,
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartDistribution& starts,
                      Stream stream) {
   launch(initial, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm, swarm.generation(0),
-         spread);
+         starts);
 }
 
-void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const SwarmSettings& how,
                   std::int64_t generation, Stream stream) {
   launch(move, blocks(swarm, most_blocks), kThreads, 0, stream, true, swarm,
          swarm.generation(generation - 1), swarm.generation(generation), how,

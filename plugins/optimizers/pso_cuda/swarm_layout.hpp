@@ -20,7 +20,7 @@ struct Membership {
 constexpr std::int64_t region_words(std::int64_t dimension) { return 2 + 5 * dimension; }
 
 /// Parameters of the particles' motion.
-struct Swarming {
+struct SwarmSettings {
   Constriction constriction;
   LimbReset reset;
   double sigma;
@@ -62,10 +62,10 @@ int most_blocks();
 /// Enqueues the copy of `frame` to `region`.
 void enqueue_region(const SwarmLayout& swarm, Stream stream);
 /// Enqueues generation 0: the start and samples around it.
-void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartSpread& spread,
+void enqueue_initial(const SwarmLayout& swarm, int most_blocks, const StartDistribution& starts,
                      Stream stream);
 /// Enqueues the move to generation `generation` >= 1, after the costs of the one before.
-void enqueue_move(const SwarmLayout& swarm, int most_blocks, const Swarming& how,
+void enqueue_move(const SwarmLayout& swarm, int most_blocks, const SwarmSettings& how,
                   std::int64_t generation, Stream stream);
 /// Enqueues writing the answer, after the costs of the first `count` particles of generation
 /// `last`.

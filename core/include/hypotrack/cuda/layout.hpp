@@ -39,9 +39,9 @@ struct ModelLayout {
 struct alignas(8) VertexLayout {
   float position[3];        ///< model frame at the bind pose
   std::uint8_t bone[4];     ///< indices into the scene's bones
-  std::uint16_t weight[4];  ///< in units of 1 / kWholeWeight; sum to kWholeWeight
+  std::uint16_t weight[4];  ///< in units of 1 / kUnitWeight; sum to kUnitWeight
 };
-inline constexpr int kWholeWeight = 65535;
+inline constexpr int kUnitWeight = 65535;
 inline constexpr int kMostBones = 256;
 
 /// Three vertex indices of 21 bits, lowest first, and one bit for a two-sided triangle.

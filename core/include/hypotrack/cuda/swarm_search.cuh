@@ -98,10 +98,10 @@ class SwarmParticle {
     }
   }
 
-  /// Makes the position visible before tell() publishes its cost. The thread that will call tell()
-  /// calls it well before, after a barrier behind the movers, because a fence takes time.
-  __device__ void before_telling() const { __threadfence(); }
-  __device__ void tell(std::int32_t generation, double cost) const {
+  /// Makes the position visible before publish() publishes its cost. The thread that will call
+  /// publish() calls it well before, after a barrier behind the movers, because a fence takes time.
+  __device__ void before_publishing() const { __threadfence(); }
+  __device__ void publish(std::int32_t generation, double cost) const {
     fill_slot(slot(generation, number()), cost);
   }
 
@@ -123,7 +123,7 @@ class SwarmParticle {
     return static_cast<std::int32_t>(blockIdx.x / static_cast<unsigned>(plan_.bands));
   }
   /// Returns true in the block that publishes the particle's cost.
-  __device__ bool tells() const { return blockIdx.x % static_cast<unsigned>(plan_.bands) == 0; }
+  __device__ bool publishes() const { return blockIdx.x % static_cast<unsigned>(plan_.bands) == 0; }
   /// Returns this thread's dimension; may lie beyond the last.
   __device__ int dimension() const {
     return static_cast<int>(threadIdx.x) - (static_cast<int>(blockDim.x) - movers(swarm_));
@@ -143,7 +143,7 @@ class SwarmParticle {
 
   __device__ void place(std::int32_t generation, double x) const {
     put_in_point(dimension(), x, plan_.pose);
-    if (tells()) {
+    if (publishes()) {
       __stcg(positions(generation) + (number() * swarm_.dimension + dimension()), x);
     }
   }
@@ -191,7 +191,7 @@ class SwarmParticle {
       mine(kBestCost) = found.cost;
     }
     // All blocks have read the previous generation's costs; otherwise this one's would not exist.
-    if (tells() && dimension() == 0 && generation > 0) {
+    if (publishes() && dimension() == 0 && generation > 0) {
       clear_slot(slot(generation - 1, number()));
     }
     return best;
@@ -211,11 +211,11 @@ class SwarmParticle {
 };
 
 /// Publishes the cost of its block's particle.
-struct Telling {
+struct CostPublisher {
   const SwarmParticle& particle;
   std::int32_t generation;
-  __device__ void prepare() const { particle.before_telling(); }
-  __device__ void put(double cost) const { particle.tell(generation, cost); }
+  __device__ void prepare() const { particle.before_publishing(); }
+  __device__ void put(double cost) const { particle.publish(generation, cost); }
 };
 
 /// Runs a whole search. All blocks must be on the device at once (launch_together()).
@@ -235,7 +235,7 @@ __global__ void __launch_bounds__(kMostThreads)
 #pragma unroll 1
   for (std::int32_t generation = 0;;) {
     __syncthreads();
-    block.run(static_cast<unsigned>(generation), Telling{particle, generation});
+    block.run(static_cast<unsigned>(generation), CostPublisher{particle, generation});
     if (++generation == swarm.generations) break;
     block.begin_again(others);
     if (moves) particle.move_to(generation);

@@ -30,7 +30,7 @@ struct SwarmSearch {
   std::uint64_t seed;
   Constriction constriction;
   LimbReset reset;
-  StartSpread start;
+  StartDistribution start;
   SwarmDimension dimensions[kMostSwarmDimensions];
   double* positions;  ///< device memory for 2 generations
   double* costs;      ///< device memory, 3 slots per particle (bands.cuh), kSlotStride apart; empty

@@ -85,7 +85,7 @@ __device__ __forceinline__ float3 skin(const VertexWords& vertex, const float* b
     sum.y = fmaf(weight, affine(r1, x, y, z), sum.y);
     sum.z = fmaf(weight, affine(r2, x, y, z), sum.z);
   }
-  constexpr float kUnit = 1.0f / kWholeWeight;
+  constexpr float kUnit = 1.0f / kUnitWeight;
   return {sum.x * kUnit, sum.y * kUnit, sum.z * kUnit};
 }
 

@@ -8,8 +8,8 @@
 #include "cost/cuda/triangle_order.hpp"
 #include "hypotrack/skeleton.hpp"
 #include "scene/mesh_topology.hpp"
+#include "scene/quantized_weights.hpp"
 #include "scene/vertex_order.hpp"
-#include "scene/whole_weights.hpp"
 
 namespace hypotrack::cuda {
 namespace {
@@ -46,7 +46,7 @@ void HostSurface::add_vertices(const Mesh& mesh, const std::vector<int>& order,
   for (const int v : order) {
     VertexLayout vertex{};
     for (int i = 0; i < 3; ++i) vertex.position[i] = mesh.vertices(i, v);
-    const WholeWeights held = whole_weights(mesh, v);
+    const QuantizedWeights held = quantize_weights(mesh, v);
     for (std::size_t k = 0; k < 4; ++k) {
       vertex.weight[k] = held.weight[k];
       vertex.bone[k] =

@@ -13,20 +13,21 @@ constexpr double kMmPerMetre = 1000;
 
 }  // namespace
 
-FrameError MetricsCollector::add(int frame, double time, const FrameVerdicts& verdicts,
+FrameError MetricsCollector::add(int frame, double time, const FrameStatuses& statuses,
                                  const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
                                  const std::vector<bool>& absent, const Eigen::VectorXd& sigma) {
   const int frames_before = counts_.frames++;
   if (frames_before == 0) first_time_ = time;
-  const bool missing = verdicts.frame == FrameVerdict::missing;
+  const bool missing = statuses.frame == FrameStatus::missing;
   counts_.missing_frames += missing;
   FrameError error = frame_error(layout_, estimate, missing ? Eigen::Matrix3Xd() : truth);
   const double mean_mm = kMmPerMetre * error.mean;
-  const std::vector<StatusCollector::Judged> models = judged(verdicts, error, truth, absent, sigma);
-  status_.add(verdicts.frame, models);
-  const bool said_lost = std::ranges::any_of(models, [](const StatusCollector::Judged& m) {
-    return (m.verdict == FrameVerdict::lost && !m.absent) ||
-           (m.verdict == FrameVerdict::absent && m.in_view);
+  const std::vector<StatusCollector::ModelStatus> models =
+      model_statuses(statuses, error, truth, absent, sigma);
+  status_.add(statuses.frame, models);
+  const bool said_lost = std::ranges::any_of(models, [](const StatusCollector::ModelStatus& m) {
+    return (m.status == FrameStatus::lost && !m.absent) ||
+           (m.status == FrameStatus::absent && m.in_view);
   });
   if (said_lost || mean_mm > kLostErrorMm) {
     if (counts_.lost_frames++ == 0) {
@@ -48,16 +49,14 @@ FrameError MetricsCollector::add(int frame, double time, const FrameVerdicts& ve
   return error;
 }
 
-std::vector<StatusCollector::Judged> MetricsCollector::judged(const FrameVerdicts& verdicts,
-                                                              const FrameError& error,
-                                                              const Eigen::Matrix3Xd& truth,
-                                                              const std::vector<bool>& absent,
-                                                              const Eigen::VectorXd& sigma) const {
-  std::vector<StatusCollector::Judged> out(layout_.models.size());
+std::vector<StatusCollector::ModelStatus> MetricsCollector::model_statuses(
+    const FrameStatuses& statuses, const FrameError& error, const Eigen::Matrix3Xd& truth,
+    const std::vector<bool>& absent, const Eigen::VectorXd& sigma) const {
+  std::vector<StatusCollector::ModelStatus> out(layout_.models.size());
   const std::vector<double> sigmas =
       sigma.size() > 0 ? model_means(layout_, sigma) : std::vector<double>(out.size(), kNan);
   for (std::size_t m = 0; m < out.size(); ++m)
-    out[m] = {.verdict = verdicts.models.empty() ? verdicts.frame : verdicts.models[m],
+    out[m] = {.status = statuses.models.empty() ? statuses.frame : statuses.models[m],
               .error_mm = error.models.empty() ? kNan : kMmPerMetre * error.models[m],
               .absent = !absent.empty() && absent[m],
               .sigma_mm = kMmPerMetre * sigmas[m]};

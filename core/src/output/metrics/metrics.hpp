@@ -66,7 +66,7 @@ class HYPOTRACK_API MetricsCollector {
   /// where nothing is known. `time` is in seconds, NaN if unknown. `absent` flags the models that
   /// the truth knows to be in no picture (empty: none). `sigma` is the tracker's uncertainty of
   /// each landmark (L, metres; empty: none).
-  FrameError add(int frame, double time, const FrameVerdicts& verdicts,
+  FrameError add(int frame, double time, const FrameStatuses& statuses,
                  const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
                  const std::vector<bool>& absent = {}, const Eigen::VectorXd& sigma = {});
 
@@ -79,11 +79,11 @@ class HYPOTRACK_API MetricsCollector {
     Eigen::Matrix3Xd vectors;
   };
   /// Collects the data of each model for StatusCollector::add().
-  std::vector<StatusCollector::Judged> judged(const FrameVerdicts& verdicts,
-                                              const FrameError& error,
-                                              const Eigen::Matrix3Xd& truth,
-                                              const std::vector<bool>& absent,
-                                              const Eigen::VectorXd& sigma) const;
+  std::vector<StatusCollector::ModelStatus> model_statuses(const FrameStatuses& statuses,
+                                                           const FrameError& error,
+                                                           const Eigen::Matrix3Xd& truth,
+                                                           const std::vector<bool>& absent,
+                                                           const Eigen::VectorXd& sigma) const;
   void add_jitter(int frame, const Eigen::Matrix3Xd& vectors);
 
   LandmarkLayout layout_;

@@ -16,7 +16,7 @@ Json table(const std::vector<std::pair<std::string, double>>& entries) {
   return json;
 }
 
-/// Writes the status numbers. Counts are null if no frame has a verdict.
+/// Writes the status numbers. Counts are null if no frame has a status.
 Json numbers(const StatusMetrics& s) {
   const auto count = [&](int frames) { return s.judged_frames > 0 ? Json(frames) : Json(); };
   Json json;

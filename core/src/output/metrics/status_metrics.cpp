@@ -7,12 +7,12 @@
 
 namespace hypotrack {
 
-std::optional<FrameVerdict> verdict_named(std::string_view word) {
+std::optional<FrameStatus> status_named(std::string_view word) {
   static constexpr std::array<std::string_view, 5> kNames{"tracked", "uncertain", "lost", "absent",
                                                           "missing"};
   const auto* found = std::find(kNames.begin(), kNames.end(), word);
   if (found == kNames.end()) return std::nullopt;
-  return static_cast<FrameVerdict>(found - kNames.begin());
+  return static_cast<FrameStatus>(found - kNames.begin());
 }
 
 void StatusCollector::Share::add(bool is_part) {
@@ -24,15 +24,15 @@ double StatusCollector::Share::value() const {
   return of > 0 ? static_cast<double>(part) / of : std::numeric_limits<double>::quiet_NaN();
 }
 
-void StatusCollector::add(FrameVerdict verdict, const std::vector<Judged>& models) {
-  if (verdict == FrameVerdict::solved) return;
-  add_verdict(verdict);
+void StatusCollector::add(FrameStatus status, const std::vector<ModelStatus>& models) {
+  if (status == FrameStatus::solved) return;
+  add_status(status);
   models_.resize(models.size());
   for (std::size_t m = 0; m < models.size(); ++m) add_model(models[m], models_[m]);
 }
 
-void StatusCollector::add_model(const Judged& model, Presence& presence) {
-  const bool is_tracked = model.verdict == FrameVerdict::tracked;
+void StatusCollector::add_model(const ModelStatus& model, Presence& presence) {
+  const bool is_tracked = model.status == FrameStatus::tracked;
   if (is_tracked && (model.absent || !std::isnan(model.error_mm)))
     false_tracked_.add(model.absent || model.error_mm > kFalseErrorMm);
   if (!model.absent && model.error_mm <= kRightErrorMm) right_tracked_.add(is_tracked);
@@ -40,19 +40,19 @@ void StatusCollector::add_model(const Judged& model, Presence& presence) {
   presence.absent_in_a_row = model.absent ? presence.absent_in_a_row + 1 : 0;
   if (presence.absent_in_a_row > kGrace) absent_tracked_.add(is_tracked);
   add_return(model, presence);
-  if (model.verdict == FrameVerdict::lost)
+  if (model.status == FrameStatus::lost)
     least_lost_sigma_ = std::fmin(least_lost_sigma_, model.sigma_mm);  // fmin ignores NaN
 }
 
-void StatusCollector::add_verdict(FrameVerdict verdict) {
+void StatusCollector::add_status(FrameStatus status) {
   ++counts_.judged_frames;
-  counts_.tracked_frames += verdict == FrameVerdict::tracked;
-  counts_.uncertain_frames += verdict == FrameVerdict::uncertain;
-  counts_.said_lost_frames += verdict == FrameVerdict::lost;
-  counts_.absent_frames += verdict == FrameVerdict::absent;
+  counts_.tracked_frames += status == FrameStatus::tracked;
+  counts_.uncertain_frames += status == FrameStatus::uncertain;
+  counts_.said_lost_frames += status == FrameStatus::lost;
+  counts_.absent_frames += status == FrameStatus::absent;
 }
 
-void StatusCollector::add_return(const Judged& model, Presence& presence) {
+void StatusCollector::add_return(const ModelStatus& model, Presence& presence) {
   if (model.absent) {
     if (presence.is_back) returns_.push_back(presence.last);
     presence.away = true;
@@ -67,7 +67,7 @@ void StatusCollector::add_return(const Judged& model, Presence& presence) {
   if (!presence.is_back) return;
   Return& last = presence.last;
   ++last.frames;
-  const bool is_right = model.verdict == FrameVerdict::tracked && model.error_mm <= kFalseErrorMm;
+  const bool is_right = model.status == FrameStatus::tracked && model.error_mm <= kFalseErrorMm;
   if (is_right && last.recovered == 0) last.recovered = last.frames;
 }
 

@@ -12,25 +12,25 @@ namespace hypotrack {
 inline constexpr double kRightErrorMm = 10;  ///< up to this error a frame should be tracked
 inline constexpr double kFalseErrorMm = 20;  ///< beyond this error no frame should be tracked
 
-/// A tracker's verdict on a frame, without the landmarks.
-enum class FrameVerdict {
+/// Status that a tracker gives a frame.
+enum class FrameStatus {
   tracked,
   uncertain,
   lost,     ///< the tracker lost the scene
   absent,   ///< the tracker found that the scene is in no picture
   missing,  ///< there is no solution; its values are ignored
-  solved,   ///< there is a solution without a verdict, as of other trackers
+  solved,   ///< there is a solution without a status, as of other trackers
 };
 
-/// Returns the verdict that a word of a status column means, all but `solved`; nothing for other
+/// Returns the status that a word of a status column means, all but `solved`; nothing for other
 /// words.
-HYPOTRACK_API std::optional<FrameVerdict> verdict_named(std::string_view word);
+HYPOTRACK_API std::optional<FrameStatus> status_named(std::string_view word);
 
-/// Metrics of how well a tracker's verdicts fit the truth, and of how it recovers;
+/// Metrics of how well a tracker's statuses fit the truth, and of how it recovers;
 /// docs/reference/metrics.md defines every number. NaN: unknown, because no frame has the data for
 /// it.
 struct StatusMetrics {
-  int judged_frames = 0;  ///< with a verdict, missing ones included
+  int judged_frames = 0;  ///< with a status, missing ones included
   int tracked_frames = 0;
   int uncertain_frames = 0;
   int said_lost_frames = 0;
@@ -48,18 +48,18 @@ struct StatusMetrics {
   double lost_sigma_min_mm = 0;
 };
 
-/// A tracker's verdicts on a frame and its models.
-struct FrameVerdicts {
-  FrameVerdict frame = FrameVerdict::solved;
-  std::vector<FrameVerdict> models = {};  ///< of each model; empty: all have the frame's
+/// Statuses that a tracker gives a frame and its models.
+struct FrameStatuses {
+  FrameStatus frame = FrameStatus::solved;
+  std::vector<FrameStatus> models = {};  ///< of each model; empty: all have the frame's
 };
 
 /// Collects StatusMetrics frame by frame.
 class HYPOTRACK_API StatusCollector {
  public:
-  /// Verdict and truth of one model in a frame.
-  struct Judged {
-    FrameVerdict verdict = FrameVerdict::solved;
+  /// Status and truth of one model in a frame.
+  struct ModelStatus {
+    FrameStatus status = FrameStatus::solved;
     double error_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: unknown
     bool in_view = false;  ///< the truth knows some landmark's position
     bool absent = false;   ///< the truth says that the model is in no picture
@@ -67,9 +67,9 @@ class HYPOTRACK_API StatusCollector {
                                                                  ///< unknown
   };
 
-  /// Adds the next frame: the verdict on all, and on each model. The number of models must not
+  /// Adds the next frame: the status of all, and of each model. The number of models must not
   /// change.
-  void add(FrameVerdict verdict, const std::vector<Judged>& models);
+  void add(FrameStatus status, const std::vector<ModelStatus>& models);
 
   StatusMetrics metrics() const;
 
@@ -92,9 +92,9 @@ class HYPOTRACK_API StatusCollector {
     bool is_back = false;  ///< it came back and stayed
     Return last = {};
   };
-  void add_verdict(FrameVerdict verdict);
-  void add_model(const Judged& model, Presence& presence);
-  void add_return(const Judged& model, Presence& presence);
+  void add_status(FrameStatus status);
+  void add_model(const ModelStatus& model, Presence& presence);
+  void add_return(const ModelStatus& model, Presence& presence);
 
   StatusMetrics counts_;
   Share false_tracked_, right_tracked_, absent_tracked_;

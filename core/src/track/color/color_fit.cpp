@@ -60,7 +60,7 @@ struct Line {
 };
 
 /// Fits a line through the deciles of both views by least squares. A prior pulls the gain to the
-/// ratio of the means with the weight of deciles that spread by kFlat.
+/// ratio of the means with the weight of deciles that differ by kFlat.
 Line fit_line(const Histogram& first, const Histogram& other) {
   std::array<double, kDeciles> shares{};
   for (std::size_t i = 0; i < shares.size(); ++i) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "track/color/color_fit.hpp"
-#include "track/color/spread.hpp"
+#include "track/color/extrapolate.hpp"
 
 namespace hypotrack {
 namespace {
@@ -95,8 +95,8 @@ void PhotometricMatch::learn_both(Learned& learned, const ColorSamples& samples,
   const auto found = fit_color_map(darkened(samples, highlights.expected(samples.normals, to)));
   if (!found) return;
   highlights.learn(samples.normals, gray_difference(samples, *found), to);
-  const ColorSamples matt = darkened(samples, highlights.expected(samples.normals, to));
-  update(learned, *found, median_difference(matt, *found));
+  const ColorSamples diffuse = darkened(samples, highlights.expected(samples.normals, to));
+  update(learned, *found, median_difference(diffuse, *found));
 }
 
 void PhotometricMatch::update(Learned& learned, const ColorMap& found, double difference) const {
@@ -129,7 +129,7 @@ void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& s
     const Eigen::VectorXf missing =
         views_[i].highlights.expected(grid.normals, sampler_.directions(i + 1));
     const TileCamera& camera = plan.header.views[i + 1].camera;
-    plan.cuts[i + 1].brightness = spread(grid.inside, missing, {camera.width, camera.height});
+    plan.cuts[i + 1].brightness = extrapolate(grid.inside, missing, {camera.width, camera.height});
   }
 }
 

@@ -9,7 +9,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
-#include "track/judge/foreground_colors.hpp"
+#include "track/verify/foreground_colors.hpp"
 
 namespace hypotrack {
 
@@ -17,7 +17,7 @@ namespace hypotrack {
 struct Place {
   Eigen::Vector3d center;  ///< in the world, metres
   double score = 0;        ///< larger is likelier; comparable within one frame
-  /// Points at the depth of the place, spread over the pixels with the model's colours around it.
+  /// Points at the depth of the place, over the pixels with the model's colours around it.
   std::vector<Eigen::Vector3d> points = {};
 };
 

@@ -79,11 +79,11 @@ Eigen::MatrixXd PoseSearch::hypotheses(const PoseGuess& guess, int count,
         posed_landmarks(*item_.model, {one.data(), static_cast<std::size_t>(dimension)})
             .rowwise()
             .mean();
-    const bool spread = !guess.points.empty() && uniform(random) < 0.5;
+    const bool elsewhere = !guess.points.empty() && uniform(random) < 0.5;
     const auto point =
         static_cast<std::size_t>(uniform(random) * static_cast<double>(guess.points.size()));
     const Eigen::Vector3d& center =
-        spread ? guess.points[std::min(point, guess.points.size() - 1)] : guess.center;
+        elsewhere ? guess.points[std::min(point, guess.points.size() - 1)] : guess.center;
     one.head<3>() =
         center - at + Eigen::Vector3d(scatter(random), scatter(random), 2 * scatter(random));
     out.col(i) = one;
@@ -100,16 +100,16 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
   for (const Scene::Item& item : scene_.items())
     plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
   plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
-  plan.header.in_hindsight = true;  // no motion leads here
+  plan.header.no_motion_prior = true;
   search.take_in(tiles_, frame, std::move(plan));
 }
 
 std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
                                       const Eigen::VectorXd& base, const std::vector<bool>& hidden,
-                                      const std::vector<Held>& held, const PoseGuess& guess,
-                                      const PoseEffort& effort, std::uint64_t seed) {
+                                      const std::vector<HeldModel>& held, const PoseGuess& guess,
+                                      const HypothesisCounts& counts, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  const Eigen::MatrixXd own = hypotheses(guess, effort.hypotheses, random);
+  const Eigen::MatrixXd own = hypotheses(guess, counts.hypotheses, random);
   if (tiles_.visible_share(own.col(0)) == 0) return {};
   take_in(search, frame, base, own.col(0));
   Evaluator& evaluator = search.evaluator();
@@ -119,7 +119,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
     Eigen::VectorXd state = others;
     state.segment(item_.offset, own.rows()) = own.col(i);
     const Eigen::Isometry3d pose = pose_of(item_, state);
-    for (const Held& one : held) set_pose(scene_.items()[one.model], pose * one.pose, state);
+    for (const HeldModel& one : held) set_pose(scene_.items()[one.model], pose * one.pose, state);
     states.col(i) = state;
   }
   Eigen::VectorXd costs(states.cols());
@@ -127,11 +127,11 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
-  order.resize(std::min(order.size(), static_cast<std::size_t>(effort.refined)));
+  order.resize(std::min(order.size(), static_cast<std::size_t>(counts.refined)));
 
   std::vector<bool> free(hidden.size(), false);
   free[model_] = true;
-  for (const Held& one : held) free[one.model] = true;
+  for (const HeldModel& one : held) free[one.model] = true;
   std::vector<Refined> all;
   for (const Eigen::Index i : order)
     if (std::isfinite(costs[i])) all.push_back({states.col(i), costs[i], 0});
@@ -140,7 +140,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
     LeastSquares least_squares(scene_, evaluator, free);
     for (Refined& one : all) one = least_squares.refine(std::move(one), kIterations);
     std::ranges::stable_sort(all, by_cost);
-    for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(effort.improved));
+    for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(counts.improved));
          ++i)
       improve_limbs(least_squares, evaluator, all[i]);
   }

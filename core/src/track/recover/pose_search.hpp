@@ -11,7 +11,7 @@
 #include "hypotrack/scene.hpp"
 #include "tile/tiles.hpp"
 #include "track/frame_search.hpp"
-#include "track/recover/held.hpp"
+#include "track/recover/held_models.hpp"
 #include "track/recover/least_squares.hpp"
 #include "track/recover/place_finder.hpp"
 #include "track/recover/postures.hpp"
@@ -33,7 +33,7 @@ struct PoseGuess {
 };
 
 /// Numbers of hypotheses that a search of one place scores and refines.
-struct PoseEffort {
+struct HypothesisCounts {
   int hypotheses = 0;  ///< number scored
   int refined = 0;     ///< number of the best refined by least squares
   int improved = 0;    ///< number of the refined ones that are improved limb by limb
@@ -51,8 +51,9 @@ class PoseSearch {
   /// with each other only. `base` is the scene's state. Models with `hidden` are not drawn, except
   /// those held; the others keep their poses. The first pose counts the evaluations of all.
   std::vector<Refined> find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
-                            const std::vector<bool>& hidden, const std::vector<Held>& held,
-                            const PoseGuess& guess, const PoseEffort& effort, std::uint64_t seed);
+                            const std::vector<bool>& hidden, const std::vector<HeldModel>& held,
+                            const PoseGuess& guess, const HypothesisCounts& counts,
+                            std::uint64_t seed);
 
   /// Returns the state with the hidden models and the sought one moved behind the camera, where
   /// nothing draws them.

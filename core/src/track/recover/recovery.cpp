@@ -90,31 +90,31 @@ void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& stat
   }
 }
 
-Places Recovery::places(const Quest& quest) const {
-  const PlaceFinder& finder = finders_[quest.model];
-  const std::vector<View>& views = quest.frame.views;
-  std::vector<bool> others = quest.hidden;
+Places Recovery::places(const Task& task) const {
+  const PlaceFinder& finder = finders_[task.model];
+  const std::vector<View>& views = task.frame.views;
+  std::vector<bool> others = task.hidden;
   others.flip();
   std::array<cv::Mat1f, 2> weights;
   for (std::size_t i = 0; i < std::min<std::size_t>(2, views.size()); ++i) {
     if (views[i].color.empty()) continue;
     weights[i] = backgrounds_[i].changed(finder.reduced(views[i].color, i));
     weights[i].setTo(
-        0, silhouettes(scene_, others, quest.last.state, cameras_[i], finder.reduction(i)));
+        0, silhouettes(scene_, others, task.last.state, cameras_[i], finder.reduction(i)));
   }
-  return finder.find(quest.frame, quest.judge.model(quest.model).colors(),
-                     quest.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
+  return finder.find(task.frame, task.verifier.model(task.model).colors(),
+                     task.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
                      weights);
 }
 
-std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& places,
+std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
                                          const MotionLimits& limits) {
-  const Scene::Item& item = scene_.items()[quest.model];
-  const LastKnown& last = quest.last;
+  const Scene::Item& item = scene_.items()[task.model];
+  const LastKnown& last = task.last;
   const auto own = [&](const Eigen::VectorXd& state) -> Eigen::VectorXd {
     return state.segment(item.offset, item.model->dimension());
   };
-  const PoseSearch& search = *searches_[quest.model];
+  const PoseSearch& search = *searches_[task.model];
   const double turn = std::min(0.25 + last.seconds, 1.2);
   const Eigen::Vector3d was = search.center(last.state);
   std::vector<PoseGuess> out;
@@ -122,86 +122,90 @@ std::vector<PoseGuess> Recovery::guesses(const Quest& quest, const Places& place
     out.push_back({search.center(last.hint), own(last.hint), kNearHint, kHintTurn});
   if (last.near_hint_only) return out;
   if (last.before.size() > 0)
-    for (std::size_t m = 0; m < quest.hidden.size(); ++m)
-      if (m != quest.model && !quest.hidden[m]) out.push_back(beside(quest, m));
-  SearchedPlaces& searched = (quest.held.empty() ? searched_ : searched_held_)[quest.model];
-  if (last.seconds < kPlaceRemembered && searched.is_worth(quest.frame, was))
+    for (std::size_t m = 0; m < task.hidden.size(); ++m)
+      if (m != task.model && !task.hidden[m]) out.push_back(beside(task, m));
+  SearchedPlaces& searched = (task.held.empty() ? searched_ : searched_held_)[task.model];
+  if (last.seconds < kPlaceRemembered && searched.is_worth(task.frame, was))
     out.push_back({was, own(last.state), kNearLast, turn});
   const double reach = reach_within(limits, last.seconds).position + search.radius();
   for (const Place& place : places.best)
-    if ((place.center - was).norm() <= reach && searched.is_worth(quest.frame, place.center))
+    if ((place.center - was).norm() <= reach && searched.is_worth(task.frame, place.center))
       out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter, place.points});
   searched.end_frame();
   return out;
 }
 
-PoseGuess Recovery::beside(const Quest& quest, std::size_t other) const {
+PoseGuess Recovery::beside(const Task& task, std::size_t other) const {
   constexpr double kShare = 0.9, kTurn = 0.15, kScatter = 0.006;
-  const Scene::Item& own = scene_.items()[quest.model];
+  const Scene::Item& own = scene_.items()[task.model];
   const Eigen::VectorXd state =
-      moved_with(scene_, quest.model, other, quest.last.before, quest.last.state);
-  PoseGuess out{searches_[quest.model]->center(state),
+      moved_with(scene_, task.model, other, task.last.before, task.last.state);
+  PoseGuess out{searches_[task.model]->center(state),
                 state.segment(own.offset, own.model->dimension()), kShare, kTurn, kScatter};
   out.covered = kHeldCovered;
   return out;
 }
 
-bool Recovery::hides_others(const Quest& quest, const Eigen::VectorXd& state,
+bool Recovery::hides_others(const Task& task, const Eigen::VectorXd& state,
                             const ColorMap& colors) {
-  for (std::size_t m = 0; m < quest.hidden.size(); ++m)
-    if (!quest.hidden[m] &&
-        quest.judge.model(m).look(quest.frame, state, colors).covered > quest.covered[m] + kHides)
+  for (std::size_t m = 0; m < task.hidden.size(); ++m)
+    if (!task.hidden[m] &&
+        task.verifier.model(m).measure_evidence(task.frame, state, colors).covered >
+            task.covered[m] + kHides)
       return true;
   return false;
 }
 
-Recovery::Quest Recovery::begin(FrameSearch& search, const Frame& frame, Judge& judge,
-                                LastKnown last, std::size_t model, const std::vector<bool>& shown,
-                                const std::vector<bool>& held, const MotionLimits& limits) {
-  Quest quest{search, frame, judge, model, std::move(last), shown};
-  quest.hidden[model] = false;
-  quest.hidden.flip();
+Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVerifier& verifier,
+                               LastKnown last, std::size_t model, const std::vector<bool>& shown,
+                               const std::vector<bool>& held, const MotionLimits& limits) {
+  Task task{search, frame, verifier, model, std::move(last), shown};
+  task.hidden[model] = false;
+  task.hidden.flip();
   for (std::size_t m = 0; m < held.size(); ++m)
     if (held[m])
-      quest.held.push_back({m, pose_of(scene_.items()[model], quest.last.before).inverse() *
-                                   pose_of(scene_.items()[m], quest.last.before)});
-  const Places seen = places(quest);
-  const ModelJudge& of_model = judge.model(model);
-  quest.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
-  if (!quest.in_view) return quest;
-  quest.guesses = guesses(quest, seen, limits);
-  const Eigen::VectorXd others = searches_[model]->without(quest.last.state, quest.hidden);
+      task.held.push_back({m, pose_of(scene_.items()[model], task.last.before).inverse() *
+                                  pose_of(scene_.items()[m], task.last.before)});
+  const Places seen = places(task);
+  const ModelVerifier& of_model = verifier.model(model);
+  task.in_view = !of_model.experienced() || seen.seen >= kSeen * of_model.usual(Evidence::kInside);
+  if (!task.in_view) return task;
+  task.guesses = guesses(task, seen, limits);
+  const Eigen::VectorXd others = searches_[model]->without(task.last.state, task.hidden);
   for (std::size_t m = 0; m < shown.size(); ++m)
-    quest.covered.push_back(
-        quest.hidden[m] ? 0
-                        : judge.model(m).look(frame, others, search.second_view_colors()).covered);
-  return quest;
+    task.covered.push_back(task.hidden[m]
+                               ? 0
+                               : verifier.model(m)
+                                     .measure_evidence(frame, others, search.second_view_colors())
+                                     .covered);
+  return task;
 }
 
-Candidates Recovery::find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+Candidates Recovery::find(const Task& task, const PoseGuess& guess, const MotionLimits& limits,
                           std::uint64_t seed) {
-  const Scene::Item& item = scene_.items()[quest.model];
-  const Eigen::VectorXd& base = quest.last.state;
-  const ColorMap colors = quest.search.second_view_colors();
-  const PoseEffort effort{settings_.hypotheses, settings_.refined, (settings_.refined + 3) / 4};
-  ModelJudge& judge = quest.judge.model(quest.model);
-  const Reach reach = reach_within(limits, quest.last.seconds);
+  const Scene::Item& item = scene_.items()[task.model];
+  const Eigen::VectorXd& base = task.last.state;
+  const ColorMap colors = task.search.second_view_colors();
+  const HypothesisCounts counts{settings_.hypotheses, settings_.refined,
+                                (settings_.refined + 3) / 4};
+  ModelVerifier& verifier = task.verifier.model(task.model);
+  const Reach reach = reach_within(limits, task.last.seconds);
   Candidates out;
   std::vector<Refined> seen;
-  for (Refined& one : searches_[quest.model]->find(quest.search, quest.frame, base, quest.hidden,
-                                                   quest.held, guess, effort, seed)) {
+  for (Refined& one : searches_[task.model]->find(task.search, task.frame, base, task.hidden,
+                                                  task.held, guess, counts, seed)) {
     out.evaluations += std::exchange(one.evaluations, 0);
-    const Evidence evidence = judge.look(quest.frame, one.state, colors);
+    const Evidence evidence = verifier.measure_evidence(task.frame, one.state, colors);
     // Behind another model any pose fits.
-    if (evidence.covered > guess.covered || hides_others(quest, one.state, colors)) continue;
+    if (evidence.covered > guess.covered || hides_others(task, one.state, colors)) continue;
     // The pictures' evidence tells more than costs in a coarse tile.
-    one.cost = -judge.log_odds(evidence);
+    one.cost = -verifier.log_odds(evidence);
     if (one.cost > kHopeless) continue;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());
     Eigen::VectorXd from = base;
-    for (const Held& held : quest.held) {
+    for (const HeldModel& held : task.held) {
       const Scene::Item& with = scene_.items()[held.model];
       for (Eigen::VectorXd* to : {&state, &from}) set_pose(with, pose_of(with, one.state), *to);
     }

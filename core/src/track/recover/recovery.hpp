@@ -11,14 +11,14 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/frame_search.hpp"
-#include "track/judge/judge.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/background_model.hpp"
-#include "track/recover/held.hpp"
+#include "track/recover/held_models.hpp"
 #include "track/recover/place_finder.hpp"
 #include "track/recover/pose_search.hpp"
 #include "track/recover/recovery_settings.hpp"
 #include "track/recover/searched_places.hpp"
+#include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
 
@@ -44,14 +44,14 @@ struct Candidates {
 class HYPOTRACK_API Recovery {
  public:
   /// The search for one model in one frame.
-  struct Quest {
+  struct Task {
     FrameSearch& search;
     const Frame& frame;
-    Judge& judge;
+    PoseVerifier& verifier;
     std::size_t model;
     LastKnown last;
     std::vector<bool> hidden = {};     ///< models that are not in the scene now, and the lost one
-    std::vector<Held> held = {};       ///< hidden models that move with the lost one
+    std::vector<HeldModel> held = {};  ///< hidden models that move with the lost one
     std::vector<double> covered = {};  ///< share of each model that others hide
     bool in_view = true;               ///< false: no picture shows colours of the lost model
     std::vector<PoseGuess> guesses = {};  ///< poses to search around, likeliest first
@@ -63,14 +63,14 @@ class HYPOTRACK_API Recovery {
 
   /// Finds places where a model may be, except places that were searched in vain and look the same.
   /// Other models with `shown` keep their poses of `last`. Those with `held` move with the lost one
-  /// (held_by()). The rest are hidden. All arguments must outlive the quest.
-  Quest begin(FrameSearch& search, const Frame& frame, Judge& judge, LastKnown last,
-              std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
-              const MotionLimits& limits);
+  /// (held_by()). The rest are hidden. All arguments must outlive the task.
+  Task begin(FrameSearch& search, const Frame& frame, PoseVerifier& verifier, LastKnown last,
+             std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
+             const MotionLimits& limits);
 
   /// Finds up to `settings.searched` poses of the model, and of what it holds, at one of the
   /// places.
-  Candidates find(const Quest& quest, const PoseGuess& guess, const MotionLimits& limits,
+  Candidates find(const Task& task, const PoseGuess& guess, const MotionLimits& limits,
                   std::uint64_t seed);
 
   /// Learns the postures of the models with `tracked`, which are surely right. Learns the
@@ -78,15 +78,14 @@ class HYPOTRACK_API Recovery {
   void remember(const Frame& frame, const Eigen::VectorXd& state, const std::vector<bool>& tracked);
 
  private:
-  std::vector<PoseGuess> guesses(const Quest& quest, const Places& places,
+  std::vector<PoseGuess> guesses(const Task& task, const Places& places,
                                  const MotionLimits& limits);
-  Places places(const Quest& quest) const;
+  Places places(const Task& task) const;
   /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
-  PoseGuess beside(const Quest& quest, std::size_t other) const;
+  PoseGuess beside(const Task& task, std::size_t other) const;
   void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
   /// Returns whether a state hides models that are visible without the lost one.
-  static bool hides_others(const Quest& quest, const Eigen::VectorXd& state,
-                           const ColorMap& colors);
+  static bool hides_others(const Task& task, const Eigen::VectorXd& state, const ColorMap& colors);
 
   const Scene& scene_;
   std::vector<Camera> cameras_;

@@ -8,13 +8,13 @@
 namespace hypotrack {
 namespace {
 
-double seconds_between(const Moment& before, const Moment& after) {
+double seconds_between(const TimedState& before, const TimedState& after) {
   return std::max(after.time - before.time, 1e-3);
 }
 
 }  // namespace
 
-MotionPrior::MotionPrior(const Scene& scene, const HindsightSettings& settings) : scene_(&scene) {
+MotionPrior::MotionPrior(const Scene& scene, const FixedLagSettings& settings) : scene_(&scene) {
   const std::vector<TangentPart> parts = tangent_parts(scene);
   weight_.resize(parts.back().first + parts.back().size);
   for (const TangentPart& part : parts) {
@@ -25,8 +25,8 @@ MotionPrior::MotionPrior(const Scene& scene, const HindsightSettings& settings) 
   }
 }
 
-MotionPrior::Change MotionPrior::change(const Moment& before, const Moment& here,
-                                        const Moment& after) const {
+MotionPrior::Change MotionPrior::change(const TimedState& before, const TimedState& here,
+                                        const TimedState& after) const {
   const double first = seconds_between(before, here), second = seconds_between(here, after);
   const double scale = 1 / std::sqrt((first + second) / 2);
   return {scale * (difference(*scene_, here.state, after.state) / second -
@@ -34,7 +34,8 @@ MotionPrior::Change MotionPrior::change(const Moment& before, const Moment& here
           {scale / first, -scale / first - scale / second, scale / second}};
 }
 
-double MotionPrior::cost(const Moment& before, const Moment& here, const Moment& after) const {
+double MotionPrior::cost(const TimedState& before, const TimedState& here,
+                         const TimedState& after) const {
   return weight_.dot(change(before, here, after).residual.cwiseAbs2());
 }
 

@@ -2,18 +2,19 @@
 
 #include "tile/resample.hpp"
 #include "track/color/color_fit.hpp"
-#include "track/color/spread.hpp"
+#include "track/color/extrapolate.hpp"
 
 namespace hypotrack {
 
-void TileHighlights::learn(const std::vector<Sight>& sights, const std::vector<Moment>& moments) {
+void TileHighlights::learn(const std::vector<FrameTiles>& tiles,
+                           const std::vector<TimedState>& states) {
   for (Highlights& view : views_) view.forget();
-  for (std::size_t i = 0; i < sights.size(); ++i) {
-    if (!sights[i] || sights[i]->views.size() < 2) continue;
-    views_.resize(sights[i]->views.size() - 1, Highlights(1));
-    sampler_.draw(*sights[i], moments[i].state);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    if (!tiles[i] || tiles[i]->views.size() < 2) continue;
+    views_.resize(tiles[i]->views.size() - 1, Highlights(1));
+    sampler_.draw(*tiles[i], states[i].state);
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      const ColorSamples samples = sampler_.take(*sights[i], k + 1, true);
+      const ColorSamples samples = sampler_.take(*tiles[i], k + 1, true);
       if (samples.size() == 0) continue;
       views_[k].learn(samples.normals, gray_difference(samples, {}), sampler_.directions(k + 1));
     }
@@ -29,7 +30,7 @@ Observation TileHighlights::off(const Observation& tiles, const Eigen::VectorXd&
     if (view.color.empty()) continue;
     const ColorSampler::NormalGrid grid = sampler_.normals(k + 1);
     const Eigen::VectorXf missing = views_[k].expected(grid.normals, sampler_.directions(k + 1));
-    view.color = brightened(view.color, spread(grid.inside, missing, view.color.size()));
+    view.color = brightened(view.color, extrapolate(grid.inside, missing, view.color.size()));
   }
   return out;
 }

@@ -7,7 +7,7 @@
 #include "hypotrack/export.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"
-#include "track/smooth/sight.hpp"
+#include "track/smooth/lag_window.hpp"
 
 namespace hypotrack {
 
@@ -20,7 +20,7 @@ class HYPOTRACK_API TileHighlights {
 
   /// Relearns the highlights from tiles that still have them, and the scene's states in those
   /// frames (one per tile set). The former strengths only decide which samples are outliers.
-  void learn(const std::vector<Sight>& sights, const std::vector<Moment>& moments);
+  void learn(const std::vector<FrameTiles>& tiles, const std::vector<TimedState>& states);
 
   /// Returns the tiles without highlights, for the scene in a normalised state.
   Observation off(const Observation& tiles, const Eigen::VectorXd& state);

@@ -40,8 +40,8 @@ constexpr double kSurprise = 0.5;  // tolerated excess of a cost over its predic
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// States that differ from one by steps[i] in one dimension, in the other direction at a limit.
-struct Beside {
-  Beside(const Scene& scene, const Eigen::VectorXd& state, double share) {
+struct PerturbedStates {
+  PerturbedStates(const Scene& scene, const Eigen::VectorXd& state, double share) {
     const std::vector<TangentPart> parts = tangent_parts(scene);
     steps.resize(parts.back().first + parts.back().size);
     states.resize(state.size(), steps.size() + 1);
@@ -66,69 +66,70 @@ struct Beside {
 
 }  // namespace
 
-std::int64_t TrajectoryFit::evaluations_per_look() const {
+std::int64_t TrajectoryFit::evaluations_per_linearization() const {
   return evaluator_->can_linearize() ? 2 : motion_->weight().size() + 1;
 }
 
-TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorXd& state,
-                                        double blur) {
+TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
+                                                        const Eigen::VectorXd& state, double blur) {
   const Eigen::Index d = motion_->weight().size();
-  Look look{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
-  if (!sight) return look;
-  evaluator_->prepare(*sight);
+  LinearizedFrame frame{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
+  if (!tiles) return frame;
+  evaluator_->prepare(*tiles);
   if (evaluator_->can_linearize()) {
-    const Beside beside(*scene_, state, kSlopeShare);
+    const PerturbedStates perturbed(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
     evaluator_->evaluate(state, cost);
-    look.cost = cost[0];
-    if (std::isfinite(look.cost))
-      look.equations = evaluator_->linearize(beside.states, beside.steps, blur);
-    return look;
+    frame.cost = cost[0];
+    if (std::isfinite(frame.cost))
+      frame.equations = evaluator_->linearize(perturbed.states, perturbed.steps, blur);
+    return frame;
   }
-  const Beside beside(*scene_, state, 1);
+  const PerturbedStates perturbed(*scene_, state, 1);
   Eigen::MatrixXf residuals(evaluator_->residual_count(), d + 1);
   Eigen::VectorXd costs(d + 1);
-  evaluator_->evaluate(beside.states, residuals, costs);
-  look.cost = costs[0];
-  if (!costs.allFinite()) return look;
+  evaluator_->evaluate(perturbed.states, residuals, costs);
+  frame.cost = costs[0];
+  if (!costs.allFinite()) return frame;
   const Eigen::VectorXf r = residuals.col(0);
   const Eigen::MatrixXf j = (residuals.rightCols(d).colwise() - r) *
-                            beside.steps.cast<float>().cwiseInverse().asDiagonal();
-  look.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
-  return look;
+                            perturbed.steps.cast<float>().cwiseInverse().asDiagonal();
+  frame.equations = {(j.transpose() * j).cast<double>(), (j.transpose() * r).cast<double>()};
+  return frame;
 }
 
-std::vector<Sight> TrajectoryFit::matt(const std::vector<Moment>& moments,
-                                       const std::vector<Sight>& sights, std::size_t fixed) {
-  if (!highlights_) return sights;
-  highlights_->learn(sights, moments);
-  std::vector<Sight> out = sights;
-  for (std::size_t i = fixed; i < moments.size(); ++i)
-    if (sights[i]) out[i] = highlights_->off(*sights[i], moments[i].state);
+std::vector<FrameTiles> TrajectoryFit::without_highlights(const std::vector<TimedState>& states,
+                                                          const std::vector<FrameTiles>& tiles,
+                                                          std::size_t fixed) {
+  if (!highlights_) return tiles;
+  highlights_->learn(tiles, states);
+  std::vector<FrameTiles> out = tiles;
+  for (std::size_t i = fixed; i < states.size(); ++i)
+    if (tiles[i]) out[i] = highlights_->off(*tiles[i], states[i].state);
   return out;
 }
 
-std::vector<TrajectoryFit::Look> TrajectoryFit::look_at_all(const std::vector<Moment>& moments,
-                                                            const std::vector<Sight>& sights,
-                                                            std::size_t fixed, double blur) {
-  std::vector<Look> looks;
-  for (std::size_t i = fixed; i < moments.size(); ++i)
-    looks.push_back(look(sights[i], moments[i].state, blur));
-  return looks;
+std::vector<TrajectoryFit::LinearizedFrame> TrajectoryFit::linearize_all(
+    const std::vector<TimedState>& states, const std::vector<FrameTiles>& tiles, std::size_t fixed,
+    double blur) {
+  std::vector<LinearizedFrame> frames;
+  for (std::size_t i = fixed; i < states.size(); ++i)
+    frames.push_back(linearize(tiles[i], states[i].state, blur));
+  return frames;
 }
 
-Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
-                                    const std::vector<Look>& looks,
+Eigen::VectorXd TrajectoryFit::step(const std::vector<TimedState>& states,
+                                    const std::vector<LinearizedFrame>& frames,
                                     const std::vector<Damping>& damping, double looseness,
                                     std::size_t fixed) const {
   const Eigen::VectorXd& full_weight = motion_->weight();
   const Eigen::VectorXd weight = full_weight / (looseness * looseness);
   const Eigen::Index d = weight.size();
-  const auto rows = static_cast<Eigen::Index>(looks.size()) * d;
+  const auto rows = static_cast<Eigen::Index>(frames.size()) * d;
   std::vector<Eigen::Triplet<double>> entries;  // of the lower triangle
   Eigen::VectorXd gradient(rows);
-  for (std::size_t i = 0; i < looks.size(); ++i) {
-    const NormalEquations& eq = looks[i].equations;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const NormalEquations& eq = frames[i].equations;
     const Eigen::Index at = static_cast<Eigen::Index>(i) * d;
     gradient.segment(at, d) = eq.g;
     for (Eigen::Index c = 0; c < d; ++c) {
@@ -137,9 +138,9 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
       for (Eigen::Index r = c + 1; r < d; ++r) entries.emplace_back(at + r, at + c, eq.a(r, c));
     }
   }
-  for (std::size_t i = 1; i + 1 < moments.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < states.size(); ++i) {
     if (i + 1 < fixed) continue;
-    const MotionPrior::Change change = motion_->change(moments[i - 1], moments[i], moments[i + 1]);
+    const MotionPrior::Change change = motion_->change(states[i - 1], states[i], states[i + 1]);
     for (std::size_t k = 0; k < 3; ++k) {
       if (i + k - 1 < fixed) continue;
       const Eigen::Index row = static_cast<Eigen::Index>(i + k - 1 - fixed) * d;
@@ -162,26 +163,26 @@ Eigen::VectorXd TrajectoryFit::step(const std::vector<Moment>& moments,
   return solver.solve(-gradient);
 }
 
-std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments,
-                                              const std::vector<Moment>& trial,
-                                              const std::vector<Look>& looks,
-                                              const std::vector<Look>& seen,
+std::vector<bool> TrajectoryFit::worth_taking(const std::vector<TimedState>& states,
+                                              const std::vector<TimedState>& trial,
+                                              const std::vector<LinearizedFrame>& frames,
+                                              const std::vector<LinearizedFrame>& trial_frames,
                                               double looseness) const {
-  // Viterbi algorithm over the decisions of two consecutive moments: bit 1 the first, bit 0 the
+  // Viterbi algorithm over the decisions of two consecutive states: bit 1 the first, bit 0 the
   // second.
-  const std::size_t fixed = moments.size() - looks.size();
-  const auto at = [&](std::size_t i, int taken) -> const Moment& {
-    return taken ? trial[i] : moments[i];
+  const std::size_t fixed = states.size() - frames.size();
+  const auto at = [&](std::size_t i, int taken) -> const TimedState& {
+    return taken ? trial[i] : states[i];
   };
   const auto cost = [&](std::size_t i, int taken) {
     if (i < fixed) return taken ? kInfinity : 0.0;
-    return (taken ? seen : looks)[i - fixed].cost;
+    return (taken ? trial_frames : frames)[i - fixed].cost;
   };
-  std::vector<std::array<int, 4>> before(moments.size());  // best decision of the moment before the
-                                                           // two
+  std::vector<std::array<int, 4>> before(states.size());  // best decision of the state before the
+                                                          // two
   std::array<double, 4> sum{};
   for (int two = 0; two < 4; ++two) sum[two] = cost(0, two >> 1) + cost(1, two & 1);
-  for (std::size_t i = 2; i < moments.size(); ++i) {
+  for (std::size_t i = 2; i < states.size(); ++i) {
     std::array<double, 4> next{};
     for (int two = 0; two < 4; ++two) {
       next[two] = kInfinity;
@@ -198,49 +199,51 @@ std::vector<bool> TrajectoryFit::worth_taking(const std::vector<Moment>& moments
     sum = next;
   }
   auto two = static_cast<int>(std::ranges::min_element(sum) - sum.begin());
-  std::vector<bool> take(moments.size());
-  for (std::size_t i = moments.size(); i-- > 0;) {
+  std::vector<bool> take(states.size());
+  for (std::size_t i = states.size(); i-- > 0;) {
     take[i] = two & 1;
     two = (i >= 2 ? before[i][two] << 1 : 0) | two >> 1;
   }
   return take;
 }
 
-std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vector<Sight>& sights,
-                                    std::size_t fixed, std::int64_t evaluations) {
-  const std::int64_t looks_left = evaluations / evaluations_per_look();
-  if (looks_left < 2 || moments.size() <= fixed || moments.size() < 2) return 0;
+std::int64_t TrajectoryFit::improve(std::vector<TimedState>& states,
+                                    const std::vector<FrameTiles>& tiles, std::size_t fixed,
+                                    std::int64_t evaluations) {
+  const std::int64_t allowed = evaluations / evaluations_per_linearization();
+  if (allowed < 2 || states.size() <= fixed || states.size() < 2) return 0;
   const Eigen::Index d = motion_->weight().size();
   double blur = kFirstBlur, looseness = kFirstLooseness;
-  std::vector<Sight> shown = matt(moments, sights, fixed);
-  std::vector<Look> looks = look_at_all(moments, shown, fixed, blur);
-  const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(looks_left));
-  std::vector<Damping> damping(looks.size(), Damping(kDamping));
+  std::vector<FrameTiles> shown = without_highlights(states, tiles, fixed);
+  std::vector<LinearizedFrame> frames = linearize_all(states, shown, fixed, blur);
+  const double tightening = std::pow(kFirstLooseness, -2.0 / static_cast<double>(allowed));
+  std::vector<Damping> damping(frames.size(), Damping(kDamping));
   std::int64_t done = 1;
   std::size_t learned = 0;
-  for (int idle = 0; done < looks_left && idle < kPatience;) {
-    if (highlights_ && learned < kLearnAfter.size() && done + 2 <= looks_left &&
-        static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(looks_left)) {
+  for (int idle = 0; done < allowed && idle < kPatience;) {
+    if (highlights_ && learned < kLearnAfter.size() && done + 2 <= allowed &&
+        static_cast<double>(done) >= kLearnAfter[learned] * static_cast<double>(allowed)) {
       ++learned;
-      shown = matt(moments, sights, fixed);
-      looks = look_at_all(moments, shown, fixed, blur);
+      shown = without_highlights(states, tiles, fixed);
+      frames = linearize_all(states, shown, fixed, blur);
       ++done;
     }
-    const Eigen::VectorXd steps = step(moments, looks, damping, looseness, fixed);
+    const Eigen::VectorXd steps = step(states, frames, damping, looseness, fixed);
     if (!steps.allFinite()) break;
-    std::vector<Moment> trial = moments;
+    std::vector<TimedState> trial = states;
     for (std::size_t i = fixed; i < trial.size(); ++i)
-      trial[i].state = moved(*scene_, moments[i].state,
+      trial[i].state = moved(*scene_, states[i].state,
                              steps.segment(static_cast<Eigen::Index>(i - fixed) * d, d));
-    std::vector<Look> seen = look_at_all(trial, shown, fixed, blur);
+    std::vector<LinearizedFrame> trial_frames = linearize_all(trial, shown, fixed, blur);
     ++done;
-    const std::vector<bool> take = worth_taking(moments, trial, looks, seen, looseness);
+    const std::vector<bool> take = worth_taking(states, trial, frames, trial_frames, looseness);
     double gain = 0;
-    for (std::size_t i = 0; i < looks.size(); ++i) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
       // Damp a frame more if its cost exceeds the prediction of its normal equations.
       const auto dx = steps.segment(static_cast<Eigen::Index>(i) * d, d);
-      const NormalEquations& eq = looks[i].equations;
-      const bool kept = seen[i].cost <= looks[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;
+      const NormalEquations& eq = frames[i].equations;
+      const bool kept =
+          trial_frames[i].cost <= frames[i].cost + dx.dot(2 * eq.g + eq.a * dx) + kSurprise;
       const bool taken = take[i + fixed];
       if (kept) {
         damping[i].accept();
@@ -251,15 +254,15 @@ std::int64_t TrajectoryFit::improve(std::vector<Moment>& moments, const std::vec
       }
       if (!taken) continue;
       gain = std::max(gain, dx.cwiseAbs().cwiseProduct(motion_->weight().cwiseSqrt()).maxCoeff());
-      moments[i + fixed] = std::move(trial[i + fixed]);
-      looks[i] = std::move(seen[i]);
+      states[i + fixed] = std::move(trial[i + fixed]);
+      frames[i] = std::move(trial_frames[i]);
     }
     const bool settled = gain < kLeastStep && looseness == 1;
     idle = settled ? idle + 1 : 0;
     if (settled) blur = std::max(blur / 2, kLeastBlur);
     looseness = std::max(looseness * tightening, 1.0);
   }
-  return done * evaluations_per_look();
+  return done * evaluations_per_linearization();
 }
 
 }  // namespace hypotrack

@@ -27,37 +27,43 @@ class HYPOTRACK_API TrajectoryFit {
       : scene_(&scene), evaluator_(&evaluator), motion_(&motion), highlights_(highlights) {}
 
   /// Returns the evaluations that linearising one frame takes.
-  std::int64_t evaluations_per_look() const;
+  std::int64_t evaluations_per_linearization() const;
 
-  /// Improves all moments but the first `fixed`, with at most `evaluations` per frame. `sights` has
-  /// one entry per moment. Does nothing if the evaluations do not suffice for two linearisations.
+  /// Improves all states but the first `fixed`, with at most `evaluations` per frame. `tiles` has
+  /// one entry per state. Does nothing if the evaluations do not suffice for two linearisations.
   /// Returns the evaluations spent on each frame that has tiles.
-  std::int64_t improve(std::vector<Moment>& moments, const std::vector<Sight>& sights,
+  std::int64_t improve(std::vector<TimedState>& states, const std::vector<FrameTiles>& tiles,
                        std::size_t fixed, std::int64_t evaluations);
 
  private:
   /// A frame's cost and its normal equations at a state.
-  struct Look {
+  struct LinearizedFrame {
     double cost = 0;
     NormalEquations equations;
   };
-  /// Returns the sights without the highlights at the free moments' states.
-  std::vector<Sight> matt(const std::vector<Moment>& moments, const std::vector<Sight>& sights,
-                          std::size_t fixed);
-  Look look(const Sight& sight, const Eigen::VectorXd& state, double blur);
-  std::vector<Look> look_at_all(const std::vector<Moment>& moments,
-                                const std::vector<Sight>& sights, std::size_t fixed, double blur);
-  /// Returns the steps of all free moments, one after the other. `looseness` divides the prior's
+  /// Returns the tiles with the highlights removed, for the free states.
+  std::vector<FrameTiles> without_highlights(const std::vector<TimedState>& states,
+                                             const std::vector<FrameTiles>& tiles,
+                                             std::size_t fixed);
+  LinearizedFrame linearize(const FrameTiles& tiles, const Eigen::VectorXd& state, double blur);
+  std::vector<LinearizedFrame> linearize_all(const std::vector<TimedState>& states,
+                                             const std::vector<FrameTiles>& tiles,
+                                             std::size_t fixed, double blur);
+  /// Returns the steps of all free states, one after the other. `looseness` divides the prior's
   /// root weights: velocities may change by that factor more.
-  Eigen::VectorXd step(const std::vector<Moment>& moments, const std::vector<Look>& looks,
+  Eigen::VectorXd step(const std::vector<TimedState>& states,
+                       const std::vector<LinearizedFrame>& frames,
                        const std::vector<Damping>& damping, double looseness,
                        std::size_t fixed) const;
 
-  /// Chooses the moments that take their step so that the total cost is lowest. `looks` and `seen`
-  /// are from before and after the step. A frame whose step fails does not hold up the others.
-  std::vector<bool> worth_taking(const std::vector<Moment>& moments,
-                                 const std::vector<Moment>& trial, const std::vector<Look>& looks,
-                                 const std::vector<Look>& seen, double looseness) const;
+  /// Chooses the states that take their step so that the total cost is lowest. `frames` and
+  /// `trial_frames` are from before and after the step. A frame whose step fails does not hold up
+  /// the others.
+  std::vector<bool> worth_taking(const std::vector<TimedState>& states,
+                                 const std::vector<TimedState>& trial,
+                                 const std::vector<LinearizedFrame>& frames,
+                                 const std::vector<LinearizedFrame>& trial_frames,
+                                 double looseness) const;
 
   const Scene* scene_;
   Evaluator* evaluator_;

@@ -5,7 +5,7 @@
 #include "energy.hpp"
 #include "finger_pair.hpp"
 #include "hypotrack/cuda/pixel_walk.cuh"
-#include "pixel_prices.hpp"
+#include "pixel_penalties.hpp"
 
 namespace hypotrack::rgbd_depth {
 
@@ -32,10 +32,10 @@ struct DepthTerm {
     sums[0] += agreement.closeness;
     sums[1] += agreement.matched ? 1.0f : 0.0f;
     sums[2] += agreement.beyond ? 1.0f : 0.0f;
-    return pixel::sqrt(prices().wrong) * scalar::depth_residual(p.inverse_depth, here, d_max);
+    return pixel::sqrt(penalties().wrong) * scalar::depth_residual(p.inverse_depth, here, d_max);
   }
   __device__ float uncovered_residual(int view, int i) const {
-    return rgbd_depth::uncovered_residual(observed[view][i], prices());
+    return rgbd_depth::uncovered_residual(observed[view][i], penalties());
   }
   HYPOTRACK_PIXEL int state_residual_count() const { return finger_count; }
   __device__ float state_residual(int i, const float* state) const {
@@ -49,8 +49,8 @@ struct DepthTerm {
   }
 
  private:
-  __device__ __forceinline__ PixelPrices prices() const {
-    return pixel_prices(static_cast<float>(counts->foreground), weights);
+  __device__ __forceinline__ PixelPenalties penalties() const {
+    return pixel_penalties(static_cast<float>(counts->foreground), weights);
   }
 };
 

@@ -24,7 +24,7 @@ struct ForegroundJob {
 };
 
 /// Enqueues the separation of foreground and background, with the results of
-/// ForegroundTeller::tell().
+/// ForegroundEstimator::estimate().
 void enqueue_foreground(const ForegroundJob& job, cuda::Stream stream);
 
 }  // namespace hypotrack::skin

@@ -20,8 +20,8 @@ struct ColorTerm {
 
   using Texel = PackedFeatures;
 
-  const PackedFeatures* features[2];  ///< per view, device memory
-  scalar::Likeness<float> likeness;   ///< beta per kUnit of colour
+  const PackedFeatures* features[2];     ///< per view, device memory
+  scalar::SimilarityCurve<float> curve;  ///< beta per kUnit of colour
   float tolerance;
   Direction direction;
   Aggregation aggregation;
@@ -69,10 +69,10 @@ struct ColorTerm {
   __device__ __forceinline__ float consistency(const Texel& here, const There& there,
                                                const cuda::StereoPixel& p) const {
     if constexpr (kBilinear) {
-      return scalar::color_consistency(sample(here), blended(there, p), likeness);
+      return scalar::color_consistency(sample(here), blended(there, p), curve);
     } else {
       // Only differences of colours count, so both may keep the bias.
-      return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), likeness);
+      return scalar::color_consistency(biased(here), biased(there(p.column, p.row)), curve);
     }
   }
 

@@ -8,11 +8,11 @@
 #include "settings.hpp"
 
 /// The three kernels that turn two tiles into features, and their intermediate data:
-///   textures   pixels -> norm and ratio of every pixel, and a histogram of each over buckets
-///   middles    -> the middle values of the valid pixels
-///   features   -> channels and weight
+///   textures        pixels -> norm and ratio of every pixel, and a histogram of each over buckets
+///   select_medians  -> the medians of the valid pixels
+///   features        -> channels and weight
 /// Each kernel takes both views in one launch. The sources are compiled without fused
-/// multiply-adds, so that everything up to the middle values has the CPU's bits.
+/// multiply-adds, so that everything up to the medians has the CPU's bits.
 namespace hypotrack::stereo_color {
 
 /// Three channels and the weight of a pixel as 16-bit fractions (pack_unorm16).
@@ -34,7 +34,7 @@ struct ViewJob {
   cuda::TileLayout tile;
   Key* keys[kQuantities];    ///< per pixel, aligned to 16 bytes
   std::uint32_t* counts;     ///< valid pixels per quantity and bucket; zero between frames
-  Middle* middles;           ///< per quantity; zero if no pixel is valid
+  MedianPair* medians;       ///< per quantity; zero if no pixel is valid
   PackedFeatures* features;  ///< per pixel
   std::int32_t masked;       ///< whether background weighs nothing
 };
@@ -60,7 +60,7 @@ struct FeatureJob {
 
 /// Enqueues a kernel. With `overlap` it may start early (hypotrack/cuda/runtime.cuh).
 void enqueue_textures(const FeatureJob& job, cuda::Stream stream, bool overlap);
-void enqueue_middles(const FeatureJob& job, cuda::Stream stream, bool overlap);
+void enqueue_medians(const FeatureJob& job, cuda::Stream stream, bool overlap);
 void enqueue_features(const FeatureJob& job, cuda::Stream stream, bool overlap);
 
 }  // namespace hypotrack::stereo_color

@@ -20,7 +20,7 @@ bool can_overlap() {
 }  // namespace
 
 void FeatureMaps::make_shared_buffers(cuda::Stream stream) {
-  if (middles_.data()) return;
+  if (medians_.data()) return;
   overlap_ = can_overlap();
   counts_.reserve(2 * kQuantities * kBuckets);
   cuda::check(cudaMemsetAsync(counts_.data(), 0, counts_.size() * sizeof(std::uint32_t),
@@ -33,7 +33,7 @@ void FeatureMaps::make_shared_buffers(cuda::Stream stream) {
                                 cudaMemcpyHostToDevice, cuda::native(stream)),
                 "uploading a table");
   }
-  middles_.reserve(2 * kQuantities);
+  medians_.reserve(2 * kQuantities);
 }
 
 ViewJob FeatureMaps::view_job(const cuda::DeviceTile& tile, int view) {
@@ -47,7 +47,7 @@ ViewJob FeatureMaps::view_job(const cuda::DeviceTile& tile, int view) {
   job.tile = tile.layout;
   for (int q = 0; q < kQuantities; ++q) job.keys[q] = v.keys.data() + q * plane;
   job.counts = counts_.data() + view * kQuantities * kBuckets;
-  job.middles = middles_.data() + view * kQuantities;
+  job.medians = medians_.data() + view * kQuantities;
   job.features = v.features.data();
   job.masked = settings_.use_mask && tile.has_mask;
   return job;
@@ -66,7 +66,7 @@ void FeatureMaps::enqueue(const cuda::DeviceObservation& observation, cuda::Stre
   job.lab_nodes = lab_nodes_.data();
   if (job.weighted) {
     enqueue_textures(job, stream, overlap_);
-    enqueue_middles(job, stream, overlap_);
+    enqueue_medians(job, stream, overlap_);
   }
   enqueue_features(job, stream, overlap_);
 }

@@ -18,8 +18,8 @@ class FeatureMaps {
   /// Returns device memory: the features of view 0 or 1, row by row without gaps. The address
   /// changes only when a larger tile comes.
   const PackedFeatures* of_view(int view) const { return views_[view].features.data(); }
-  /// Returns device memory: the middle norms and ratios of view 0, then those of view 1.
-  const Middle* middles() const { return middles_.data(); }
+  /// Returns device memory: the median norms and ratios of view 0, then those of view 1.
+  const MedianPair* medians() const { return medians_.data(); }
 
  private:
   struct View {
@@ -32,7 +32,7 @@ class FeatureMaps {
   Settings settings_;
   View views_[2];
   cuda::DeviceBuffer<std::uint32_t> counts_;
-  cuda::DeviceBuffer<Middle> middles_;
+  cuda::DeviceBuffer<MedianPair> medians_;
   cuda::DeviceBuffer<LabNode> lab_nodes_;
   bool overlap_ = false;
 };

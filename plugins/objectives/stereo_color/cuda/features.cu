@@ -27,11 +27,11 @@ __device__ float weight(const FeatureJob& job, const ViewJob& view, int i, std::
   if ((pixel & needed) != needed) return 0.0f;
   if (!job.weighted) return 1.0f;
   const Texture t{__uint_as_float(view.keys[0][i]), __uint_as_float(view.keys[1][i])};
-  return distinctiveness(t, medians(view.middles[0], view.middles[1]), job.w_t);
+  return distinctiveness(t, medians(view.medians[0], view.medians[1]), job.w_t);
 }
 
-// May read the pixels while the kernel `middles` still runs, which itself waited for the end of the
-// first kernel. The results of `middles` need a wait.
+// May read the pixels while the kernel `select_medians` still runs, which itself waited for the end
+// of the first kernel. The results of `select_medians` need a wait.
 __global__ void __launch_bounds__(kThreads) features(const __grid_constant__ FeatureJob job) {
   const ViewJob& view = job.views[blockIdx.y];
   const int i = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);

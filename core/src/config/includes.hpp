@@ -1,0 +1,61 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "config/yaml.hpp"
+#include "hypotrack/export.hpp"
+
+namespace hypotrack::detail {
+
+/// Replaces includes of other files by their values, and remembers the files that it read.
+///
+/// `@FILE.yaml` becomes the value at the same path in the scene FILE, `@FILE.yaml#key.path` the
+/// value at that path. FILE is relative to the folder of the text. A copied value keeps its origin,
+/// so that its relative paths still refer to FILE's folder.
+class HYPOTRACK_API Includes {
+ public:
+  /// `file` is the file of the scene whose includes are replaced; others may not include it.
+  explicit Includes(const std::filesystem::path& file = {});
+  ~Includes();
+  Includes(const Includes&) = delete;
+  Includes& operator=(const Includes&) = delete;
+
+  /// Replaces the includes in `value`, which stands at `path`, recursively. Throws ConfigError.
+  void resolve(std::unique_ptr<YamlNode>& value, std::vector<std::string>& path);
+
+  /// Returns what a file has, its includes replaced. Throws ConfigError, also if the file includes
+  /// one that is being read.
+  const YamlNode& document(const std::filesystem::path& file);
+
+ private:
+  std::unique_ptr<YamlNode> included(const std::filesystem::path& file,
+                                     const std::vector<std::string>& path, std::size_t level);
+
+  /// Documents with their includes replaced; null while one is being read.
+  std::map<std::filesystem::path, std::unique_ptr<YamlNode>> documents_;
+  std::size_t values_ = 0;
+};
+
+/// Replaces the includes in `value`, which stands at `path`. Throws ConfigError.
+void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string> path);
+
+/// Adds the keys of a tracker file to a document that names one, and returns the overrides that are
+/// left to apply.
+///
+/// A document names one as `tracker: "@trackers/recommended"`, or by `from` in the map `tracker`;
+/// the last override that does so wins. A tracker file is a map with the objective, the optimizer
+/// and any other key of a scene but models and source. `@trackers/recommended` is
+/// trackers/recommended.yaml in the document's folder, or among the configurations that come with
+/// hypotrack; `@FILE.yaml` is a path, and one of a scene is left to Includes::resolve(). Keys of
+/// the document stay, and maps without a `type` are joined. An override replaces all keys of a
+/// tracker. Throws ConfigError.
+HYPOTRACK_API std::vector<std::string> take_tracker(YamlNode& document,
+                                                    std::span<const std::string> overrides,
+                                                    Includes& includes);
+
+}  // namespace hypotrack::detail

@@ -1,0 +1,42 @@
+#include "output/fixed_lag_output.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace hypotrack {
+
+double FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
+                           const Solution& solution) {
+  if (!smoother_) return output_->add(frame, solution);
+  output_->add_online(frame, solution);
+  Frame kept = frame;
+  kept.views.clear();
+  waiting_.push_back({std::move(kept), solution});
+  const bool seen = solution.status == Status::tracked || solution.status == Status::uncertain;
+  smoother_->add(seen ? FrameTiles(tracker.seen(frame)) : FrameTiles(),
+                 {frame.time, solution.state});
+  write(smoother_->take());
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void FixedLagOutput::write(const std::vector<FixedLagSmoother::Settled>& settled) {
+  for (const FixedLagSmoother::Settled& one : settled) {
+    Waiting& frame = waiting_.front();
+    frame.solution.state = one.state;
+    frame.solution.landmarks = output_->scene().landmarks(one.state);
+    frame.solution.evaluations += one.evaluations;
+    output_->add(frame.frame, frame.solution);
+    waiting_.pop_front();
+  }
+}
+
+void FixedLagOutput::finish() {
+  if (smoother_) write(smoother_->finish());
+}
+
+void FixedLagOutput::finish_unchanged() {
+  for (const Waiting& frame : waiting_) output_->add(frame.frame, frame.solution);
+  waiting_.clear();
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/export.hpp"
+#include "output/run_output.hpp"
+#include "track/scene_tracker.hpp"
+#include "track/smooth/fixed_lag_smoother.hpp"
+
+namespace hypotrack {
+
+/// Passes a run's frames to its output: at once or, with fixed-lag smoothing, when their states are
+/// settled.
+class HYPOTRACK_API FixedLagOutput {
+ public:
+  /// The output must outlive the object. Without a smoother (null) frames are written as they
+  /// come.
+  FixedLagOutput(std::unique_ptr<FixedLagSmoother> smoother, RunOutput& output)
+      : smoother_(std::move(smoother)), output_(&output) {}
+
+  /// Adds the frame that `tracker` has just solved. Returns the solution's error in metres, NaN
+  /// where it is unknown, also while it waits.
+  double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution);
+
+  /// Smooths and writes the frames that still wait.
+  void finish();
+  /// Writes the frames that still wait as they are. Use it after an error.
+  void finish_unchanged();
+
+ private:
+  struct Waiting {
+    Frame frame;  ///< without its pictures
+    Solution solution;
+  };
+  void write(const std::vector<FixedLagSmoother::Settled>& settled);
+
+  std::unique_ptr<FixedLagSmoother> smoother_;
+  RunOutput* output_;
+  std::deque<Waiting> waiting_;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "hypotrack/export.hpp"
+#include "hypotrack/scene.hpp"
+#include "output/metrics/status_metrics.hpp"
+#include "track/scene_tracker.hpp"
+
+namespace hypotrack {
+
+/// Returns a solution's statuses of the frame and of each model that has landmarks.
+HYPOTRACK_API FrameStatuses statuses_of(const Scene& scene, const Solution& solution);
+
+}  // namespace hypotrack

@@ -1,0 +1,314 @@
+#include "track/verify/evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hypotrack/median.hpp"
+
+namespace hypotrack {
+namespace {
+
+constexpr int kWindow = 5;              // grid points along a patch
+constexpr float kFaintContrast = 2.5f;  // of a channel, 0 .. 255: contrast below it says nothing
+constexpr float kClearEdge = 20.0f;     // change of colour that is an edge, 0 .. 255
+constexpr double kLeastPoints = 20;
+
+double log10_of(double value) { return std::log10(std::max(value, 0.1)); }
+
+/// Two views' colours of the same points.
+struct Pairs {
+  const cv::Mat3f &first, &other;
+  cv::Mat1b mask;
+};
+
+/// Sums of products of two views' colours.
+struct Products {
+  double both = 0, first = 0, other = 0, count = 0;
+
+  double correlation(double floor) const {
+    const double noise = floor * floor * 3 * count;
+    const double scale = std::sqrt((first + noise) * (other + noise));
+    return scale > 0 ? both / scale : 0;
+  }
+};
+
+/// Computes the correlation around the means of all points.
+double plain_correlation(const Pairs& pairs) {
+  const cv::Scalar a = cv::mean(pairs.first, pairs.mask), b = cv::mean(pairs.other, pairs.mask);
+  Products sums;
+  for (int y = 0; y < pairs.mask.rows; ++y)
+    for (int x = 0; x < pairs.mask.cols; ++x) {
+      if (!pairs.mask(y, x)) continue;
+      ++sums.count;
+      for (int i = 0; i < 3; ++i) {
+        const double p = pairs.first(y, x)[i] - a[i], q = pairs.other(y, x)[i] - b[i];
+        sums.both += p * q;
+        sums.first += p * p;
+        sums.other += q * q;
+      }
+    }
+  return sums.correlation(kFaintContrast);
+}
+
+/// Subtracts from each colour the weighted mean of its patch.
+cv::Mat3f without_local_mean(const cv::Mat3f& color, const cv::Mat1f& weight,
+                             const cv::Mat1f& weight_sum) {
+  cv::Mat3f weighted, local;
+  cv::Mat weights[] = {weight, weight, weight};
+  cv::Mat3f weight3;
+  cv::merge(weights, 3, weight3);
+  cv::multiply(color, weight3, weighted);
+  cv::boxFilter(weighted, local, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  cv::Mat3f out(color.size(), cv::Vec3f(0, 0, 0));
+  for (int y = 0; y < color.rows; ++y)
+    for (int x = 0; x < color.cols; ++x)
+      if (weight(y, x) > 0) out(y, x) = color(y, x) - local(y, x) * (1 / weight_sum(y, x));
+  return out;
+}
+
+/// Averages a measurement over pieces of the grid that overlap by half.
+class Pieces {
+ public:
+  Pieces() : sum_(kPieces * kPieces), count_(sum_.size()) {}
+
+  void add(int x, int y, double value) {
+    for (const int row : {y / kStep - 1, y / kStep})
+      for (const int column : {x / kStep - 1, x / kStep}) {
+        if (row < 0 || column < 0 || row >= kPieces || column >= kPieces) continue;
+        const auto i = static_cast<std::size_t>(row * kPieces + column);
+        sum_[i] += value;
+        count_[i] += 1;
+      }
+  }
+  /// Returns the mean of the lowest tenth of the pieces with enough points; `otherwise` if there is
+  /// none.
+  double lowest(double otherwise) const { return extreme(otherwise, std::less<>()); }
+  double highest(double otherwise) const { return extreme(otherwise, std::greater<>()); }
+
+ private:
+  static constexpr int kStep = 4, kPieces = kSampleGrid / kStep - 1;
+
+  template <class Before>
+  double extreme(double otherwise, Before before) const {
+    constexpr double kHalfAPiece = 2 * kStep * kStep;  // half a piece
+    std::vector<double> means;
+    for (std::size_t i = 0; i < sum_.size(); ++i)
+      if (count_[i] >= kHalfAPiece) means.push_back(sum_[i] / count_[i]);
+    if (means.empty()) return otherwise;
+    std::ranges::sort(means, before);
+    const std::size_t few = (means.size() + 9) / 10;
+    return std::accumulate(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(few), 0.0) /
+           static_cast<double>(few);
+  }
+
+  std::vector<double> sum_, count_;
+};
+
+/// Patch statistics: correlation over all, share of patches that agree, contrast.
+struct Texture {
+  double correlation = 0, agreement = 0, contrast = 0, worst_agreement = 0;
+};
+
+Texture texture(const Pairs& pairs) {
+  cv::Mat1f weight, weight_sum;
+  pairs.mask.convertTo(weight, CV_32F, 1 / 255.0);
+  cv::boxFilter(weight, weight_sum, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  const cv::Mat3f a = without_local_mean(pairs.first, weight, weight_sum);
+  const cv::Mat3f b = without_local_mean(pairs.other, weight, weight_sum);
+  cv::Mat3f products(a.size(), cv::Vec3f(0, 0, 0));  // a b, a a, b b at every point
+  Products sums;
+  for (int y = 0; y < a.rows; ++y)
+    for (int x = 0; x < a.cols; ++x) {
+      if (!pairs.mask(y, x)) continue;
+      const cv::Vec3f &p = a(y, x), &q = b(y, x);
+      const cv::Vec3f product(p.dot(q), p.dot(p), q.dot(q));
+      products(y, x) = product;
+      ++sums.count;
+      sums.both += double{product[0]};
+      sums.first += double{product[1]};
+      sums.other += double{product[2]};
+    }
+  if (sums.count < kLeastPoints) return {};
+  cv::boxFilter(products, products, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
+  int agree = 0;
+  Pieces pieces;
+  for (int y = 0; y < a.rows; ++y)
+    for (int x = 0; x < a.cols; ++x) {
+      if (!pairs.mask(y, x)) continue;
+      const cv::Vec3f& p = products(y, x);
+      const float noise = kFaintContrast * kFaintContrast * weight_sum(y, x);
+      const bool agrees = p[0] > 0.5f * std::sqrt((p[1] + noise) * (p[2] + noise));
+      agree += agrees;
+      pieces.add(x, y, agrees);
+    }
+  const double variance = std::sqrt(sums.first * sums.other) / (3 * sums.count);
+  const double agreement = agree / sums.count;
+  return {sums.correlation(kFaintContrast), agreement, log10_of(std::sqrt(variance)),
+          pieces.lowest(agreement)};
+}
+
+double median_difference(const Pairs& pairs) {
+  std::vector<float> distances;
+  for (int y = 0; y < pairs.mask.rows; ++y)
+    for (int x = 0; x < pairs.mask.cols; ++x)
+      if (pairs.mask(y, x))
+        distances.push_back(static_cast<float>(cv::norm(pairs.first(y, x) - pairs.other(y, x))));
+  return log10_of(distances.empty() ? 0 : double{upper_median(std::move(distances))});
+}
+
+/// Computes the total variation distance of the colour histograms inside and beside a silhouette,
+/// in bins of 32 levels.
+double separation(const SampledView& view) {
+  constexpr int kLevels = 8;
+  std::vector<double> inside(kLevels * kLevels * kLevels), ring(inside.size());
+  double n = 0, m = 0;
+  for (int y = 0; y < view.color.rows; ++y)
+    for (int x = 0; x < view.color.cols; ++x) {
+      if (!view.inside(y, x) && !view.ring(y, x)) continue;
+      const cv::Vec3f& c = view.color(y, x);
+      int bin = 0;
+      for (int i = 0; i < 3; ++i)
+        bin = bin * kLevels + std::clamp(static_cast<int>(c[i] / 32), 0, kLevels - 1);
+      const auto k = static_cast<std::size_t>(bin);
+      view.inside(y, x) ? ++inside[k] : ++ring[k];
+      view.inside(y, x) ? ++n : ++m;
+    }
+  if (n == 0 || m == 0) return 0;
+  double distance = 0;
+  for (std::size_t i = 0; i < inside.size(); ++i) distance += std::abs(inside[i] / n - ring[i] / m);
+  return distance / 2;
+}
+
+/// Colour changes across a silhouette, compared with changes along the same lines on either side.
+struct Edges {
+  double share = 0, ratio = 0, worst_share = 0;
+};
+
+Edges edges(const SampledView& view) {
+  static const std::array<cv::Point, 4> kNeighbors{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+  const cv::Rect grid(0, 0, view.color.cols, view.color.rows);
+  const auto shown = [&](const cv::Mat1b& mask, cv::Point p) {
+    return grid.contains(p) && mask(p) != 0;
+  };
+  double across = 0, nearby = 0, clear = 0;
+  int count = 0, others = 0;
+  const cv::Moments shape = cv::moments(view.inside, true);
+  const double x0 = shape.m10 / std::max(shape.m00, 1.0), y0 = shape.m01 / std::max(shape.m00, 1.0);
+  constexpr int kSectors = 8;
+  std::array<int, kSectors> sector_count{}, sector_clear{};
+  for (int y = 0; y < view.color.rows; ++y)
+    for (int x = 0; x < view.color.cols; ++x) {
+      const cv::Point p(x, y);
+      if (!view.inside(p)) continue;
+      for (const cv::Point& step : kNeighbors) {
+        const cv::Point in = p - step, out = p + 2 * step;
+        if (!shown(view.ring, p + step) || !shown(view.ring, out) || !shown(view.inside, in))
+          continue;
+        const double change = cv::norm(view.color(in) - view.color(out));
+        across += change;
+        const bool is_clear = change > double{kClearEdge};
+        const double angle = std::atan2(y - y0, x - x0) / (2 * std::numbers::pi) + 0.5;
+        const auto sector =
+            static_cast<std::size_t>(std::min(kSectors - 1, static_cast<int>(angle * kSectors)));
+        ++sector_count[sector];
+        sector_clear[sector] += is_clear;
+        clear += is_clear;
+        ++count;
+        for (const auto& [a, b, mask] : {std::tuple{in, in - 3 * step, &view.inside},
+                                         std::tuple{out, out + 3 * step, &view.ring}}) {
+          if (!shown(*mask, b)) continue;
+          nearby += cv::norm(view.color(a) - view.color(b));
+          ++others;
+        }
+      }
+    }
+  if (count == 0) return {};
+  const double here = across / count, there = others > 0 ? nearby / others : 0;
+  double worst = 1;
+  for (std::size_t i = 0; i < kSectors; ++i)
+    if (sector_count[i] >= 6) worst = std::min(worst, double(sector_clear[i]) / sector_count[i]);
+  return {clear / count, std::log10((here + 5) / (there + 5)), worst};
+}
+
+/// Foreground probability over the points of a mask, in both views.
+struct Probability {
+  double mean = 0, lowest = 0, highest = 0;
+};
+
+Probability probability(const SurfaceSamples& samples, const ForegroundColors& colors,
+                        cv::Mat1b SampledView::*mask) {
+  double sum = 0, lowest = 1, highest = 0;
+  int count = 0;
+  for (const SampledView& view : samples.views) {
+    Pieces pieces;
+    for (int y = 0; y < view.color.rows; ++y)
+      for (int x = 0; x < view.color.cols; ++x) {
+        if (!(view.*mask)(y, x)) continue;
+        const double p = double{colors.probability(view.color(y, x))};
+        sum += p;
+        ++count;
+        pieces.add(x, y, p);
+      }
+    lowest = std::min(lowest, pieces.lowest(1));
+    highest = std::max(highest, pieces.highest(0));
+  }
+  return {count > 0 ? sum / count : 0, lowest, highest};
+}
+
+}  // namespace
+
+std::array<std::string_view, Evidence::kCount> evidence_names() {
+  return {"correlation", "texture",      "agreement",       "contrast",
+          "difference",  "ring_texture", "ring_difference", "separation",
+          "edges",       "edge_ratio",   "inside",          "ring",
+          "paired",      "visible",      "worst_agreement", "worst_inside",
+          "worst_ring",  "worst_edges"};
+}
+
+Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) {
+  Evidence out;
+  out.values[Evidence::kVisible] = samples.visible;
+  out.covered = samples.covered;
+  if (samples.empty()) return out;
+  const SampledView& first = samples.views[0];
+  cv::Mat1b core;
+  cv::erode(first.inside, core, cv::Mat());
+  const Pairs inside{first.color, samples.other, core & samples.paired};
+  const Pairs ring{first.color, samples.other, first.ring & samples.paired};
+  out.points = cv::countNonZero(first.inside);
+  const double core_points = cv::countNonZero(core);
+  if (core_points < kLeastPoints) return out;
+  out.known = true;
+  const Texture surface = texture(inside), beside = texture(ring);
+  const Edges left = edges(samples.views[0]), right = edges(samples.views[1]);
+  out.values[Evidence::kCorrelation] = plain_correlation(inside);
+  out.values[Evidence::kTexture] = surface.correlation;
+  out.values[Evidence::kAgreement] = surface.agreement;
+  out.values[Evidence::kContrast] = surface.contrast;
+  out.values[Evidence::kDifference] = median_difference(inside);
+  out.values[Evidence::kRingTexture] = beside.correlation;
+  out.values[Evidence::kRingDifference] = median_difference(ring);
+  out.values[Evidence::kSeparation] =
+      (separation(samples.views[0]) + separation(samples.views[1])) / 2;
+  out.values[Evidence::kEdges] = std::min(left.share, right.share);
+  out.values[Evidence::kEdgeRatio] = std::min(left.ratio, right.ratio);
+  const Probability on = probability(samples, colors, &SampledView::inside);
+  const Probability off = probability(samples, colors, &SampledView::ring);
+  out.values[Evidence::kInside] = on.mean;
+  out.values[Evidence::kRing] = off.mean;
+  out.values[Evidence::kWorstInside] = on.lowest;
+  out.values[Evidence::kWorstRing] = off.highest;
+  out.values[Evidence::kWorstAgreement] = surface.worst_agreement;
+  out.values[Evidence::kWorstEdges] = std::min(left.worst_share, right.worst_share);
+  out.values[Evidence::kPaired] = cv::countNonZero(inside.mask) / core_points;
+  return out;
+}
+
+}  // namespace hypotrack
