@@ -173,6 +173,23 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"source", "gives_nothing", "it yields frames", "there is none", kFrames}),
     [](const auto& each) { return each.param.fault; });
 
+INSTANTIATE_TEST_SUITE_P(
+    Start, Contract,
+    ::testing::Values(
+        Case{"start", "gives_nothing", "it gives a state for a frame",
+             "it gives nothing and throws nothing"},
+        Case{"start", "too_short", "its state fits the scene", "has 26 numbers, expected 27"},
+        Case{"start", "not_a_number", "its state fits the scene", "expected a finite number"},
+        Case{"start", "beyond_the_bounds", "its state fits the scene", "is 10 rad, expected"},
+        Case{"start", "long_quaternion", "its state fits the scene", "has the length 2.0"},
+        Case{"start", "throws_a_stranger",
+             "it gives a state or an error of hypotrack for a frame without ground truth", "truth"},
+        Case{"start", "changes_with_the_frame", "without a frame it gives that state or nothing",
+             "it gives another one"},
+        Case{"start", "remembers", "asked twice it gives the same", "it gives another one"},
+        Case{"start", "never_the_same", "a second object gives the same", "it gives another one"}),
+    [](const auto& each) { return each.param.fault; });
+
 class ContractKept : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
@@ -185,7 +202,7 @@ TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
 INSTANTIATE_TEST_SUITE_P(All, ContractKept,
                          ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
                                            Case{"model", "", "", "", kItself},
-                                           Case{"source", "", "", "", kFrames}));
+                                           Case{"source", "", "", "", kFrames}, Case{"start"}));
 
 Outcome run_on_device(const std::string& fault) {
   const test::TemporaryDirectory folder;

@@ -12,6 +12,7 @@
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
+#include "hypotrack/start.hpp"
 #include "session/scene_file.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/hindsight.hpp"
@@ -23,6 +24,7 @@ struct OpenedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Source> source;
   TrackerParts parts;
+  std::unique_ptr<Start> start;
   InitSettings init;
   OutputSettings output;
   std::uint64_t seed = 0;
@@ -31,8 +33,8 @@ struct OpenedScene {
   std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
-/// Opens a scene: models first, then the source, the objective and the optimizer. Throws the error
-/// of the part that fails.
+/// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws
+/// the error of the part that fails.
 HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
                                      std::span<const std::string> overrides, PluginLoader& plugins);
 
@@ -59,8 +61,13 @@ HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
 /// does not ask for it. Throws ConfigError.
 HYPOTRACK_API std::unique_ptr<Hindsight> make_hindsight(const OpenedScene& session);
 
-/// Returns the state from which the first search starts. `first` is the first usable frame of the
-/// source. Throws ConfigError if the scene asks for a ground truth that does not exist.
+/// Returns the state from which the search of a frame starts: that of the scene's start, changed as
+/// `init` says. Returns nothing if there is no frame (null) and the start needs one. Throws
+/// ConfigError or DataError, for example if the scene asks for a ground truth that does not exist.
+HYPOTRACK_API std::optional<Eigen::VectorXd> start_state(const OpenedScene& session,
+                                                         const Frame* frame);
+
+/// Returns start_state() of the first usable frame of the source.
 HYPOTRACK_API Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
 
 }  // namespace hypotrack

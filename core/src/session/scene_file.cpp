@@ -2,16 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
-
-std::span<const std::string_view> enum_names(InitFrom) {
-  static constexpr std::array<std::string_view, 3> names{"truth", "rest", "file"};
-  return names;
-}
 
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
   LoadedScene scene;
@@ -24,7 +17,8 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
         "{}: this is a study, no scene: it has `scenes`; `hypotrack compare` makes its runs",
         path.string()));
   scene.file = ParamReader(scene.root).read<SceneFile>();
-  if (scene.file.init.from == InitFrom::file && scene.file.init.file.empty())
+  const InitSettings& init = scene.file.init;
+  if (init.from.scalar() == kStartFromFile && init.file.empty())
     throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",
                                   scene.root.get("init").where()));
   return scene;

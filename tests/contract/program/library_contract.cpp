@@ -156,5 +156,6 @@ template bool check_parameters<Model>(Report&, const Subject&, bool);
 template bool check_parameters<Objective>(Report&, const Subject&, bool);
 template bool check_parameters<Optimizer>(Report&, const Subject&, bool);
 template bool check_parameters<Source>(Report&, const Subject&, bool);
+template bool check_parameters<Start>(Report&, const Subject&, bool);
 
 }  // namespace hypotrack::contract

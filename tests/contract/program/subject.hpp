@@ -51,5 +51,6 @@ void check_model(Report& report, const Subject& subject);
 void check_objective(Report& report, const Subject& subject);
 void check_optimizer(Report& report, const Subject& subject);
 void check_source(Report& report, const Subject& subject);
+void check_start(Report& report, const Subject& subject);
 
 }  // namespace hypotrack::contract
