@@ -17,6 +17,7 @@
 #include "hypotrack/model.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/output.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
@@ -39,6 +40,8 @@ template <>
 inline constexpr std::string_view kPluginKind<Source> = "source";
 template <>
 inline constexpr std::string_view kPluginKind<Start> = "start";
+template <>
+inline constexpr std::string_view kPluginKind<Output> = "output";
 
 template <class T>
 concept PluginInterface = !kPluginKind<T>.empty();
@@ -158,6 +161,7 @@ using objective = Objective;
 using optimizer = Optimizer;
 using source = Source;
 using start = Start;
+using output = Output;
 }  // namespace detail
 
 }  // namespace hypotrack
@@ -166,9 +170,9 @@ using start = Start;
 #define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
 
 /// Makes a class the plugin of its library; use it once per library. The class derives from Model,
-/// Objective, Optimizer, Source or Start and has a nested ParamStruct `Params`. It is constructible
-/// from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in CMake gives
-/// kind, name, version and licence.
+/// Objective, Optimizer, Source, Start or Output and has a nested ParamStruct `Params`. It is
+/// constructible from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in
+/// CMake gives kind, name, version and licence.
 #define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                          \
   extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*         \
   hypotrack_plugin() {                                                                          \

@@ -35,6 +35,7 @@ class Opening {
   void images();
   void optimizer();
   void start();
+  void outputs();
   OpenedScene finish();
 
  private:
@@ -179,6 +180,25 @@ void Opening::start() {
   record_.set("init", init);
 }
 
+void Opening::outputs() {
+  const auto add = [&](const ConfigNode& node) {
+    YamlDocument record;
+    auto output = make<Output>(node, {}, record);
+    session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
+    return record;
+  };
+  add(ConfigNode::parse("type: tables", "the outputs of a run"));
+  if (file_.output.overlay) add(ConfigNode::parse("type: overlay", "the outputs of a run"));
+  const ConfigNode& also = file_.output.also;
+  if (!also.defined()) return;
+  std::vector<YamlDocument> records;
+  for (std::size_t i = 0; i < (also.is_list() ? also.size() : 1); ++i)
+    records.push_back(add(also.is_list() ? also.at(i) : also));
+  YamlDocument output(dump_params(file_.output));
+  output.set_list("also", records);
+  record_.set("output", output);
+}
+
 OpenedScene Opening::finish() {
   session_.parts.tile = file_.tile;
   session_.parts.evaluate = file_.evaluate;
@@ -205,6 +225,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   opening.tracker();
   opening.images();
   opening.source();
+  opening.outputs();
   return opening.finish();
 }
 
@@ -215,6 +236,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   opening.tracker();
   opening.images();
   opening.source(std::move(source), source_resolved);
+  opening.outputs();
   return opening.finish();
 }
 

@@ -6,9 +6,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/output.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
@@ -19,6 +21,12 @@
 
 namespace hypotrack {
 
+/// An output and the name of its plugin.
+struct NamedOutput {
+  std::string name;
+  std::unique_ptr<Output> output;
+};
+
 /// Everything that a scene file names, made and checked, before the first frame.
 struct OpenedScene {
   std::unique_ptr<Scene> scene;
@@ -27,6 +35,7 @@ struct OpenedScene {
   std::unique_ptr<Start> start;
   InitSettings init;
   OutputSettings output;
+  std::vector<NamedOutput> outputs;  ///< of a scene with a source
   std::uint64_t seed = 0;
   ShapeEstimateSettings shape;
   std::string resolved;         ///< YAML that repeats the run, with the value of every parameter

@@ -90,6 +90,7 @@ struct BudgetSettings {
 struct OutputSettings {
   bool overlay = true;
   int worst_frames = 3;
+  ConfigNode also;
   SmoothingSettings smoothing;
   void visit(ParamVisitor& v) {
     v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
@@ -98,6 +99,7 @@ struct OutputSettings {
                "largest error (worst_<frame>.jpg)",
        .min = 0,
        .max = 100});
+    v("also", also, {.help = "further outputs: {type, ...}, or a list of them"});
     v("smoothing", smoothing, {.help = "how states are smoothed before they are written"});
   }
 };
