@@ -3,8 +3,8 @@
 #                      [CONTRACT_CONFIG parameters.yaml])
 #
 # Builds libhypotrack_<KIND>_<NAME>.so, which a scene names with `type: NAME`. KIND is model,
-# objective, optimizer or source. Inside the project the library goes where hypotrack looks for it
-# and is installed; outside, it goes to the build folder: put that on --plugin-path or
+# objective, optimizer, source, start or output. Inside the project the library goes where hypotrack
+# looks for it and is installed; outside, it goes to the build folder: put that on --plugin-path or
 # HYPOTRACK_PLUGIN_PATH. With enable_testing() the contract tests of its kind run on it, with the
 # parameters in CONTRACT_CONFIG (what stands in the plugin's place in a scene) or the defaults.
 #
@@ -40,9 +40,9 @@ endfunction()
 function(hypotrack_add_plugin_library kind name)
   cmake_parse_arguments(ARG "" "VERSION;LICENCE;CONTRACT_CONFIG"
     "LIBRARIES;CUDA_SOURCES;NO_CUDA_SOURCES" ${ARGN})
-  if(NOT kind MATCHES "^(model|objective|optimizer|source)$")
+  if(NOT kind MATCHES "^(model|objective|optimizer|source|start|output)$")
     message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected model, "
-      "objective, optimizer or source")
+      "objective, optimizer, source, start or output")
   endif()
   if(NOT ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hypotrack_add_plugin(${kind} ${name}): no source files given")

@@ -13,7 +13,7 @@ mkdir -p "$out"
   echo "# Plugins"
   echo
   echo "Made by \`scripts/update_plugin_pages.sh\` from the plugins' parameters."
-  for kind in model objective optimizer source; do
+  for kind in model objective optimizer source start output; do
     echo
     echo "**${kind^}s**"
     echo

@@ -166,6 +166,10 @@ TEST_F(BadInputTest, StartOfATableOutsideTheBounds) {
   expect_refused(with("from: file, file: states.csv"), {"states.csv:2", "finite"});
   expect_refused(with("from: file"), {"scene.yaml:11:", "init.file names none"});
   expect_refused(with("from: file, file: missing.csv"), {"missing.csv", "no such file"});
+  expect_refused(with("from: {type: file}"), {"scene.yaml:11:", "init.from.file: required key"});
+  expect_refused(with("from: landmarks"), {"scene.yaml:11:14: init.from.file: required key"});
+  expect_refused(with("from: trut"),
+                 {"scene.yaml:11:14: ", "there is no start 'trut'; did you mean 'truth'?"});
 }
 
 TEST_F(BadInputTest, StartBehindTheCameras) {

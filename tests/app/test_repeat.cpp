@@ -53,6 +53,20 @@ TEST_F(RepeatTest, ProtocolRepeatsTheRunWithSeedAndOverrides) {
   EXPECT_EQ(read_text(path("out/run.yaml")), read_text(path("out_again/run.yaml")));
 }
 
+TEST_F(RepeatTest, ProtocolHoldsEveryParameterOfAStart) {
+  const std::string file = scene(box_scene());
+  track(file, "labels");
+  EXPECT_THAT(read_text(path("labels/run.yaml")),
+              HasSubstr("init:\n  from: truth\n  file: \"\"\n  frame: 0\n"));
+  const std::string first = track(
+      file, "out",
+      {"--set", "init.from={type: landmarks, file: " + path("labels/joints.csv").string() + "}"});
+  EXPECT_THAT(read_text(path("out/run.yaml")),
+              HasSubstr("  from:\n    type: landmarks\n    file: "));
+  EXPECT_EQ(repeat("out"), first);
+  EXPECT_EQ(read_text(path("out/run.yaml")), read_text(path("out_again/run.yaml")));
+}
+
 TEST_F(RepeatTest, ProtocolHoldsEveryParameterOfAModelMadeByDefault) {
   const std::string text =
       replaced(replaced(box_scene(), "{name: box, type: rigid_box, size_mm: [90, 60, 40]}",

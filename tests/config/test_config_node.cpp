@@ -52,6 +52,19 @@ TEST(ConfigNode, EmptyFileIsAnEmptyMap) {
   }
 }
 
+TEST(ConfigNode, AMapOfNodesKeepsTheirPositions) {
+  const ConfigNode init = parse("init:\n  from: pso\n  frame: 3\n").get("init");
+  const std::vector<std::pair<std::string, ConfigNode>> entries{
+      {"type", init.get("from")}, {"file", init.get("file")}, {"number", init.get("frame")}};
+  const ConfigNode map = ConfigNode::map_of(entries);
+  EXPECT_THAT(map.keys(), ElementsAre("type", "number"));
+  EXPECT_EQ(map.get("type").scalar(), "pso");
+  EXPECT_EQ(map.get("number").where(), "scene.yaml:3:10");
+  EXPECT_EQ(map.where(), "scene.yaml:2:9");
+  EXPECT_EQ(map.get("type").path(), "init.from.type");
+  EXPECT_EQ(ConfigNode::map_of({}).size(), 0u);
+}
+
 TEST(ConfigNode, PositionsCountFromOneAsEditorsDo) {
   const ConfigNode root =
       parse("models:\n  - type: hand\n    name: 'left'\ntracker: {tile: 128}\n");

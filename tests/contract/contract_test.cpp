@@ -166,6 +166,42 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"source", "gives_nothing", "it yields frames", "there is none", kFrames}),
     [](const auto& each) { return each.param.fault; });
 
+INSTANTIATE_TEST_SUITE_P(
+    Start, Contract,
+    ::testing::Values(
+        Case{"start", "gives_nothing", "it gives a state for a frame",
+             "it gives nothing and throws nothing"},
+        Case{"start", "too_short", "its state fits the scene", "has 26 numbers, expected 27"},
+        Case{"start", "not_a_number", "its state fits the scene", "expected a finite number"},
+        Case{"start", "beyond_the_bounds", "its state fits the scene", "is 10 rad, expected"},
+        Case{"start", "long_quaternion", "its state fits the scene", "has the length 2.0"},
+        Case{"start", "throws_a_stranger",
+             "it gives a state or an error of hypotrack for a frame without ground truth", "truth"},
+        Case{"start", "changes_with_the_frame", "without a frame it gives that state or nothing",
+             "it gives another one"},
+        Case{"start", "remembers", "asked twice it gives the same", "it gives another one"},
+        Case{"start", "never_the_same", "a second object gives the same", "it gives another one"}),
+    [](const auto& each) { return each.param.fault; });
+
+const std::string kFileRow = "it writes the files that it asks for, and they are among its names";
+
+INSTANTIATE_TEST_SUITE_P(
+    Output, Contract,
+    ::testing::Values(
+        Case{"output", "writes_into_a_folder", "the names of its files are names",
+             "'tables/numbers.txt' is not the name of a file"},
+        Case{"output", "writes_what_it_does_not_name", kFileRow,
+             "it writes 'mine.txt', which is none of its file_names()"},
+        Case{"output", "forgets_a_file", kFileRow,
+             "it asked for 'last_5.txt' and did not write it"},
+        Case{"output", "does_not_ask", kFileRow, "it wrote 'extra.txt' without asking for it"},
+        Case{"output", "needs_pictures", "it takes smoothed solutions without pictures", "views"},
+        Case{"output", "needs_all_frames", "it completes the files of a run that ends early",
+             "there are more frames"},
+        Case{"output", "never_the_same", "a second object writes the same",
+             "'numbers.txt' has another content"}),
+    [](const auto& each) { return each.param.fault; });
+
 class ContractKept : public ::testing::TestWithParam<Case> {};
 
 TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
@@ -178,7 +214,8 @@ TEST_P(ContractKept, WithoutAFaultEveryRowPasses) {
 INSTANTIATE_TEST_SUITE_P(All, ContractKept,
                          ::testing::Values(Case{"optimizer"}, Case{"objective"}, Case{"model"},
                                            Case{"model", "", "", "", kItself},
-                                           Case{"source", "", "", "", kFrames}));
+                                           Case{"source", "", "", "", kFrames}, Case{"start"},
+                                           Case{"output"}));
 
 Outcome run_on_device(const std::string& fault) {
   const test::TemporaryDirectory folder;

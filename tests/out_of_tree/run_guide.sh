@@ -22,7 +22,7 @@ extract_blocks() {
     }
     out { print > out }' "$guide"
   local file
-  for file in silhouette.cpp hill_climb.cpp can.cpp CMakeLists.txt scene.yaml step_build.sh \
+  for file in silhouette.cpp hill_climb.cpp can.cpp in_front.cpp trajectory.cpp CMakeLists.txt scene.yaml step_build.sh \
     step_run.sh fast_silhouette{-inl.hpp,.hpp,.cpp,.cu} no_cuda.cpp upright{.hpp,.cpp,.cu} \
     upright_no_cuda.cpp euroc.cpp standing_can.yaml step_run_standing.sh; do
     [ -s "$file" ] || fail "the guide has no block for $file"
@@ -49,6 +49,7 @@ cmp euroc.cpp "$(dirname "$guide")/examples/plugin_source/euroc.cpp"
 bash -e step_build.sh
 bash -e step_run.sh
 check_run result cpu
+[ "$(wc -l <result/trajectory.txt)" = 10 ] || fail "the trajectory has not a line for every frame"
 
 built_with_cuda() { compgen -G 'build/CMakeFiles/*/CMakeCUDACompiler.cmake' >/dev/null; }
 backend=cpu

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <random>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/plugin.hpp"
 #include "hypotrack/tables.hpp"
 #include "session/opened_scene.hpp"
 #include "test_models.hpp"
@@ -15,15 +17,28 @@
 namespace hypotrack {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
-OpenedScene box_session() {
+/// Gives a session the start that `init.from` names by this map.
+void set_start(OpenedScene& session, const std::string& from) {
+  session.init.from = ConfigNode::parse(from, "test");
+  session.start = PluginLoader().make<Start>(session.init.from, session.scene.get());
+}
+
+OpenedScene session_of(const std::string& name, const ModelData& model) {
   OpenedScene session;
   session.scene =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
-          {"box", std::make_shared<Model>(test::make_test_box())}});
+          {name, std::make_shared<Model>(model)}});
+  set_start(session, "type: rest");
   return session;
 }
+
+OpenedScene box_session() { return session_of("box", test::make_test_box()); }
+OpenedScene hand_session() { return session_of("hand", test::make_test_hand()); }
+
+std::string quoted(const std::filesystem::path& file) { return '"' + file.string() + '"'; }
 
 std::string message_of(const OpenedScene& session, const Frame& frame) {
   try {
@@ -59,7 +74,7 @@ TEST(InitialState, RefusesAPoseThatIsNone) {
 
 TEST(InitialState, IsTheTruthOfTheFirstFrame) {
   OpenedScene session = box_session();
-  session.init.from = InitFrom::truth;
+  set_start(session, "type: truth");
   Frame frame;
   EXPECT_THAT(message_of(session, frame), HasSubstr("the source knows no true state"));
   frame.truth = GroundTruth{session.scene->rest_state(), {}};
@@ -85,10 +100,7 @@ TEST(InitialState, IsAsFarAwayAsAskedForInADirectionOfTheSeed) {
 }
 
 TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
-  OpenedScene session;
-  session.scene =
-      std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
-          {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  OpenedScene session = hand_session();
   const auto& parameters = session.scene->parameters();
   Eigen::VectorXd at = session.scene->rest_state();
   for (std::size_t i = 7; i < parameters.size(); ++i) {
@@ -96,7 +108,7 @@ TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
   }
   Frame frame;
   frame.truth = GroundTruth{at, {}};
-  session.init.from = InitFrom::truth;
+  set_start(session, "type: truth");
   constexpr double kDeviation = 5 * kDegree;
   session.init.away_angles = kDeviation;
   double squares = 0;
@@ -121,33 +133,127 @@ TEST(InitialState, HasJointAnglesAsFarOffAsAskedForWithinTheirBounds) {
 TEST(InitialState, IsAPoseFile) {
   const test::TemporaryDirectory folder;
   OpenedScene session = box_session();
-  session.init.from = InitFrom::file;
-  session.init.file = folder.path() / "pose.yaml";
-  std::ofstream(session.init.file) << "box:\n  position_mm: [0, 0, 700]\n";
+  const auto file = folder.path() / "pose.yaml";
+  std::ofstream(file) << "box:\n  position_mm: [0, 0, 700]\n";
+  set_start(session, "{type: file, file: " + quoted(file) + "}");
   EXPECT_NEAR(initial_state(session, {})[2], 0.700, 1e-12);
 }
 
 TEST(InitialState, IsARowOfAStateTable) {
   const test::TemporaryDirectory folder;
   OpenedScene session = box_session();
-  session.init.from = InitFrom::file;
-  session.init.file = folder.path() / "track.csv";
-  session.init.frame = 4;
+  const auto file = folder.path() / "track.csv";
+  set_start(session, "{type: file, frame: 4, file: " + quoted(file) + "}");
   const std::vector<StateRow> rows{{3, 0.1, session.scene->rest_state()},
                                    {4, 0.2, session.scene->rest_state()}};
-  write_states(session.init.file, *session.scene, rows);
+  write_states(file, *session.scene, rows);
   EXPECT_EQ(initial_state(session, {}), rows[1].state);
-  session.init.frame = 9;
+  set_start(session, "{type: file, frame: 9, file: " + quoted(file) + "}");
   EXPECT_THAT(message_of(session, {}), HasSubstr("has no frame 9 to start from; it has 3 to 4"));
 }
 
 TEST(InitialState, IsNotToBeHadFromATableWithoutRows) {
   const test::TemporaryDirectory folder;
   OpenedScene session = box_session();
-  session.init.from = InitFrom::file;
-  session.init.file = folder.path() / "track.csv";
-  write_states(session.init.file, *session.scene, {});
+  const auto file = folder.path() / "track.csv";
+  write_states(file, *session.scene, {});
+  set_start(session, "{type: file, file: " + quoted(file) + "}");
   EXPECT_THAT(message_of(session, {}), HasSubstr("has no rows; expected one to start from"));
+}
+
+TEST(InitialState, TakesAFrameOnlyWhereTheStartNeedsOne) {
+  OpenedScene session = box_session();
+  EXPECT_EQ(start_state(session, nullptr), session.scene->rest_state());
+  set_start(session, "type: truth");
+  EXPECT_EQ(start_state(session, nullptr), std::nullopt);
+}
+
+/// A hand in some pose, and a table of its landmarks in frame 2.
+class LandmarkStart : public ::testing::Test {
+ protected:
+  LandmarkStart() : file_(folder_.path() / "labels.csv") {
+    const Scene& scene = *session_.scene;
+    std::mt19937_64 random(4);
+    Eigen::VectorXd state = test::random_state(scene, random);
+    state.tail(20) = 0.5 * (state.tail(20) + scene.rest_state().tail(20));
+    truth_ = scene.landmarks(state);
+  }
+
+  void write(double scale = 1) {
+    const std::vector<LandmarkRow> rows{{1, 0, 2 * truth_}, {2, 0, scale * truth_}};
+    write_landmarks(file_, session_.scene->landmark_names(), rows);
+  }
+  void set(const std::string& more) {
+    set_start(session_, "{type: landmarks, file: " + quoted(file_) + ", " + more + "}");
+  }
+  double mean_error() {
+    return (session_.scene->landmarks(initial_state(session_, {})) - truth_)
+        .colwise()
+        .norm()
+        .mean();
+  }
+
+  const test::TemporaryDirectory folder_;
+  std::filesystem::path file_;
+  OpenedScene session_ = hand_session();
+  Eigen::Matrix3Xd truth_;
+};
+
+TEST_F(LandmarkStart, FitsTheModelToTheLandmarks) {
+  write();
+  set("frame: 2");
+  EXPECT_LT(mean_error(), 1e-3);
+  EXPECT_TRUE(start_state(session_, nullptr).has_value()) << "it needs no frame";
+}
+
+TEST_F(LandmarkStart, FitsToSomeLandmarksInOtherUnits) {
+  const Eigen::Matrix3Xd all = truth_;
+  truth_.rightCols(4).setConstant(std::nan(""));
+  write(1000);
+  truth_ = all;
+  set("frame: 2, units: mm");
+  EXPECT_LT(mean_error(), 10e-3);
+}
+
+TEST_F(LandmarkStart, RefusesLandmarksOfAnotherSize) {
+  write();
+  set("frame: 2, units: mm");
+  EXPECT_THAT(message_of(session_, {}),
+              AllOf(HasSubstr("labels.csv: frame 2 does not fit the model 'hand'"),
+                    HasSubstr("units (now mm)")));
+  set("frame: 2, units: cm");
+  EXPECT_THAT(message_of(session_, {}), HasSubstr("does not fit the model 'hand'"));
+}
+
+TEST_F(LandmarkStart, SaysWhatItDoesNotFind) {
+  write();
+  set("frame: 7");
+  EXPECT_THAT(message_of(session_, {}), HasSubstr("frame 7 is not there: the file has 1 to 2"));
+  truth_.rightCols(20).setConstant(std::nan(""));
+  write();
+  set("frame: 2");
+  EXPECT_THAT(message_of(session_, {}),
+              HasSubstr("frame 2 cannot place the model 'hand': 1 known landmarks"));
+  truth_.setConstant(std::nan(""));
+  write();
+  EXPECT_THAT(message_of(session_, {}), HasSubstr("frame 2 knows no landmark of the scene"));
+}
+
+TEST_F(LandmarkStart, LeavesAModelWithoutLandmarksAtRest) {
+  session_.scene =
+      std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{
+          {"box", std::make_shared<Model>(test::make_test_box())},
+          {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  const Eigen::Index box = session_.scene->landmarks(session_.scene->rest_state()).cols() - 21;
+  Eigen::Matrix3Xd both(3, box + 21);
+  both << Eigen::Matrix3Xd::Constant(3, box, std::nan("")), truth_;
+  truth_ = both;
+  write();
+  set("frame: 2");
+  const Eigen::VectorXd state = initial_state(session_, {});
+  EXPECT_EQ(state.head<7>(), session_.scene->rest_state().head<7>());
+  EXPECT_LT((session_.scene->landmarks(state) - truth_).rightCols(21).colwise().norm().mean(),
+            1e-3);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "picture/overlay.hpp"
+#include "hypotrack/overlay.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "picture/picture.hpp"
+#include "hypotrack/picture.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -16,6 +16,8 @@ namespace hypotrack {
 
 enum class LengthUnit { m, cm, mm };
 HYPOTRACK_API std::span<const std::string_view> enum_names(LengthUnit);
+/// Returns the length of a unit in metres.
+HYPOTRACK_API double metres_per(LengthUnit unit);
 HYPOTRACK_API std::span<const std::string_view> enum_names(DistortionModel);
 
 /// Parameters of a source's `calibration:` section, which names an OpenCV YAML file of one of three

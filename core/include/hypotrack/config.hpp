@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/export.hpp"
@@ -45,6 +46,10 @@ class HYPOTRACK_API ConfigNode {
   /// Relative paths refer to `directory`, or to the working directory if it is empty.
   static ConfigNode parse(std::string_view text, std::string name,
                           std::filesystem::path directory = {});
+
+  /// Makes a map of nodes that remember where they were written. Undefined nodes are left out. The
+  /// map has the position and path of its first value.
+  static ConfigNode map_of(std::span<const std::pair<std::string, ConfigNode>> entries);
 
   bool defined() const;
   bool is_map() const;

@@ -17,9 +17,11 @@
 #include "hypotrack/model.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/output.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
+#include "hypotrack/start.hpp"
 
 namespace hypotrack {
 
@@ -36,6 +38,10 @@ template <>
 inline constexpr std::string_view kPluginKind<Optimizer> = "optimizer";
 template <>
 inline constexpr std::string_view kPluginKind<Source> = "source";
+template <>
+inline constexpr std::string_view kPluginKind<Start> = "start";
+template <>
+inline constexpr std::string_view kPluginKind<Output> = "output";
 
 template <class T>
 concept PluginInterface = !kPluginKind<T>.empty();
@@ -154,6 +160,8 @@ using model = Model;
 using objective = Objective;
 using optimizer = Optimizer;
 using source = Source;
+using start = Start;
+using output = Output;
 }  // namespace detail
 
 }  // namespace hypotrack
@@ -162,9 +170,9 @@ using source = Source;
 #define HYPOTRACK_STRINGIZE(x) HYPOTRACK_STRINGIZE_(x)
 
 /// Makes a class the plugin of its library; use it once per library. The class derives from Model,
-/// Objective, Optimizer or Source and has a nested ParamStruct `Params`. It is constructible from
-/// (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in CMake gives kind,
-/// name, version and licence.
+/// Objective, Optimizer, Source, Start or Output and has a nested ParamStruct `Params`. It is
+/// constructible from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in
+/// CMake gives kind, name, version and licence.
 #define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                          \
   extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*         \
   hypotrack_plugin() {                                                                          \

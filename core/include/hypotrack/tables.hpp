@@ -64,6 +64,12 @@ HYPOTRACK_API std::vector<LandmarkRow> read_landmarks(const std::filesystem::pat
                                                       std::span<const std::string> landmark_names,
                                                       const LandmarkTableOptions& options = {});
 
+/// Returns the header line of a table of landmarks.
+HYPOTRACK_API std::string landmarks_header(std::span<const std::string> landmark_names);
+/// Returns a line of a table: numbers with as many digits as repeat them exactly.
+HYPOTRACK_API std::string table_line(int frame, double time,
+                                     const Eigen::Ref<const Eigen::VectorXd>& values);
+
 /// Write tables that read back bit for bit. The file appears only when it is complete. Throw
 /// OutputError if it cannot be written.
 HYPOTRACK_API void write_states(const std::filesystem::path& file, const Scene& scene,

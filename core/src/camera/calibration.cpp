@@ -150,7 +150,7 @@ double metres_per_unit(const ConfigNode& file, const CalibrationSettings& settin
     }
     units = in_file;
   }
-  return settings.scale * kMetresPerUnit[static_cast<std::size_t>(units.value_or(LengthUnit::m))];
+  return settings.scale * metres_per(units.value_or(LengthUnit::m));
 }
 
 Camera read_single(const ConfigNode& file, const CalibrationSettings& settings) {
@@ -272,6 +272,7 @@ void apply_size(std::vector<Camera>& cameras, const ConfigNode& file,
 }  // namespace
 
 std::span<const std::string_view> enum_names(LengthUnit) { return kUnitNames; }
+double metres_per(LengthUnit unit) { return kMetresPerUnit[static_cast<std::size_t>(unit)]; }
 std::span<const std::string_view> enum_names(DistortionModel) { return kModelNames; }
 
 std::vector<Camera> load_calibration(const CalibrationSettings& settings) {

@@ -54,6 +54,24 @@ ConfigNode ConfigNode::parse(std::string_view text, std::string name,
       std::shared_ptr<const YamlNode>(detail::read_document(text, std::move(name), directory)));
 }
 
+ConfigNode ConfigNode::map_of(std::span<const std::pair<std::string, ConfigNode>> entries) {
+  auto map = std::make_shared<YamlNode>();
+  map->kind = YamlNode::Kind::kMap;
+  map->origin = std::make_shared<YamlOrigin>();
+  for (const auto& [key, value] : entries) {
+    if (!value.defined()) continue;
+    if (map->entries.empty()) {
+      auto origin = std::make_shared<YamlOrigin>(*value.node_->origin);
+      origin->path = value.path();
+      map->origin = std::move(origin);
+      map->line = value.node_->line;
+      map->column = value.node_->column;
+    }
+    map->add(key, detail::clone(*value.node_));
+  }
+  return ConfigNode(std::shared_ptr<const YamlNode>(std::move(map)));
+}
+
 bool ConfigNode::defined() const { return node_ && !missing_; }
 bool ConfigNode::is_map() const { return defined() && node_->kind == YamlNode::Kind::kMap; }
 bool ConfigNode::is_list() const { return defined() && node_->kind == YamlNode::Kind::kList; }

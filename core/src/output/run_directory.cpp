@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <string_view>
 #include <system_error>
 
 #include "hypotrack/error.hpp"
@@ -17,8 +16,9 @@ namespace {
 
 constexpr const char* kPartPrefix = ".part.";
 
-/// Returns whether a name matches a result's name, # standing for digits.
-bool matches(std::string_view name, std::string_view result) {
+}  // namespace
+
+bool is_result(std::string_view name, std::string_view result) {
   const std::size_t hash = result.find('#');
   if (hash == std::string_view::npos) return name == result;
   const std::string_view head = result.substr(0, hash), tail = result.substr(hash + 1);
@@ -27,8 +27,6 @@ bool matches(std::string_view name, std::string_view result) {
   const auto digits = name.substr(head.size(), name.size() - head.size() - tail.size());
   return digits.find_first_not_of("0123456789") == std::string_view::npos;
 }
-
-}  // namespace
 
 RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::string> results)
     : directory_(std::move(directory)), results_(std::move(results)) {
@@ -62,7 +60,7 @@ void RunDirectory::spare_foreign_files() const {
                                                                       // its end
   const bool of_a_run =
       std::ranges::any_of(
-          there, [&](const std::string& name) { return matches(name, results_.front()); }) ||
+          there, [&](const std::string& name) { return is_result(name, results_.front()); }) ||
       std::ranges::find(parts, kPartPrefix + results_.front()) != parts.end();
   if (there.empty() || of_a_run) return;
   throw OutputError(fmt::format(
@@ -103,14 +101,14 @@ std::vector<std::string> RunDirectory::results_there(const std::string& prefix) 
     if (!name.starts_with(prefix)) continue;
     const std::string_view result = std::string_view(name).substr(prefix.size());
     if (std::any_of(results_.begin(), results_.end(),
-                    [&](const std::string& allowed) { return matches(result, allowed); }))
+                    [&](const std::string& allowed) { return is_result(result, allowed); }))
       names.push_back(name);
   }
   return names;
 }
 
 std::filesystem::path RunDirectory::part(const std::string& name) {
-  names_.push_back(name);
+  if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
   return part_path(name);
 }
 

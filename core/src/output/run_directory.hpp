@@ -2,11 +2,15 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/export.hpp"
 
 namespace hypotrack {
+
+/// Returns whether a file's name is that of a result. A # in the latter stands for any number.
+HYPOTRACK_API bool is_result(std::string_view name, std::string_view result);
 
 /// The folder of a run's results. Files are written under temporary names (`.part.track.csv`) and
 /// renamed together when the run ends, so that a file with its final name is complete.
@@ -26,8 +30,8 @@ class HYPOTRACK_API RunDirectory {
 
   const std::filesystem::path& path() const { return directory_; }
 
-  /// Returns the path at which to write the file that will be called `name`. Keeps a video's
-  /// suffix.
+  /// Returns the path at which to write the file that will be called `name`, the same for every
+  /// call. Keeps a video's suffix.
   std::filesystem::path part(const std::string& name);
 
   /// Keeps unfinished files from now on, whatever happens.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "hypotrack/tables.hpp"
+
 namespace hypotrack {
 
 std::string states_header(const Scene& scene) {

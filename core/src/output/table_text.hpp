@@ -16,10 +16,7 @@ namespace hypotrack {
 inline constexpr std::string_view kAbsent = "absent";
 
 std::string states_header(const Scene& scene);
-std::string landmarks_header(std::span<const std::string> landmark_names);
 
-/// Returns a line of numbers with as many digits as repeat them exactly.
-std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::VectorXd>& values);
 /// Returns a line of landmarks (3xL), one after the other. `absent` flags absent ones (empty:
 /// none).
 std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landmarks,

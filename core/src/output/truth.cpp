@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstdint>
 
 #include "hypotrack/error.hpp"
@@ -21,10 +20,8 @@ TruthTables::TruthTables(const TruthSettings& settings, const Scene& scene)
     }
   }
   if (!settings.landmarks.empty()) {
-    constexpr std::array<double, 3> kMetresPerUnit = {1.0, 1e-2, 1e-3};
-    const LandmarkTableOptions options = {
-        .metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(settings.units)],
-        .rename = settings.rename};
+    const LandmarkTableOptions options = {.metres_per_unit = metres_per(settings.units),
+                                          .rename = settings.rename};
     for (LandmarkRow& row : read_landmarks(settings.landmarks, scene.landmark_names(), options)) {
       GroundTruth& truth = frames_[row.frame - settings.offset];
       truth.absent = absent_models(row, landmark_owners(scene), scene.items().size());

@@ -4,15 +4,16 @@
 
 #include <string>
 
+#include "hypotrack/tables.hpp"
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 
 void TruthOutput::open() {
-  landmarks_.emplace(directory_->part("truth_landmarks.csv"));
-  landmarks_->write(landmarks_header(scene_->landmark_names()));
-  errors_.emplace(directory_->part("errors.csv"));
+  landmarks_.emplace(run_->file("truth_landmarks.csv"));
+  landmarks_->write(landmarks_header(run_->scene().landmark_names()));
+  errors_.emplace(run_->file("errors.csv"));
   std::string header = "frame,time,status,mean_joint_error_mm";
   for (const std::string& model : layout_->models) header += "," + model;
   errors_->write(header + "\n");
@@ -22,15 +23,15 @@ void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
                       const FrameError& error, std::string_view status) {
   if (!errors_) open();
   landmarks_->write(landmarks_line(frame.index, frame.time, landmarks,
-                                   absent_landmarks(*scene_, frame.truth->absent)));
+                                   absent_landmarks(run_->scene(), frame.truth->absent)));
   std::string line =
       fmt::format("{},{},{},{:.4f}", frame.index, frame.time, status, 1000 * error.mean);
   for (const double model : error.models) line += fmt::format(",{:.4f}", 1000 * model);
   errors_->write(line + "\n");
   if (frame.truth->state.size() == 0) return;
   if (!states_) {
-    states_.emplace(directory_->part("truth_states.csv"));
-    states_->write(states_header(*scene_));
+    states_.emplace(run_->file("truth_states.csv"));
+    states_->write(states_header(run_->scene()));
   }
   states_->write(table_line(frame.index, frame.time, frame.truth->state));
 }

@@ -4,11 +4,10 @@
 #include <optional>
 #include <string_view>
 
-#include "base/text_file.hpp"
 #include "hypotrack/frame.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/output.hpp"
+#include "hypotrack/text_file.hpp"
 #include "output/metrics/landmark_errors.hpp"
-#include "output/run_directory.hpp"
 
 namespace hypotrack {
 
@@ -16,9 +15,8 @@ namespace hypotrack {
 /// A file appears with the first frame that has data for it.
 class TruthOutput {
  public:
-  /// All arguments must outlive the object. `layout` is that of the scene's landmarks.
-  TruthOutput(const Scene& scene, const LandmarkLayout& layout, RunDirectory& directory)
-      : scene_(&scene), layout_(&layout), directory_(&directory) {}
+  /// Both arguments must outlive the object. `layout` is that of the scene's landmarks.
+  TruthOutput(const LandmarkLayout& layout, OutputContext& run) : layout_(&layout), run_(&run) {}
 
   /// Adds a frame. `landmarks` are its true ones; `error`, in metres, and `status` are the
   /// solution's. Throws OutputError.
@@ -31,9 +29,8 @@ class TruthOutput {
  private:
   void open();
 
-  const Scene* scene_;
   const LandmarkLayout* layout_;
-  RunDirectory* directory_;
+  OutputContext* run_;
   std::optional<TextFile> states_, landmarks_, errors_;
 };
 

@@ -10,9 +10,9 @@ namespace hypotrack {
 void UncertaintyOutput::add(const Solution& solution, const Eigen::VectorXd& errors) {
   if (solution.sigma.size() == 0) return;
   if (!file_) {
-    file_.emplace(directory_->part("uncertainty.csv"));
+    file_.emplace(run_->file("uncertainty.csv"));
     std::string header = "frame,time";
-    for (const std::string& name : scene_->landmark_names()) header += "," + name;
+    for (const std::string& name : run_->scene().landmark_names()) header += "," + name;
     file_->write(header + "\n");
   }
   std::string line = fmt::format("{},{}", solution.frame, solution.time);

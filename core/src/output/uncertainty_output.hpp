@@ -3,11 +3,10 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "base/text_file.hpp"
-#include "hypotrack/scene.hpp"
+#include "hypotrack/output.hpp"
+#include "hypotrack/solution.hpp"
+#include "hypotrack/text_file.hpp"
 #include "output/metrics/reliability.hpp"
-#include "output/run_directory.hpp"
-#include "track/scene_tracker.hpp"
 
 namespace hypotrack {
 
@@ -15,9 +14,8 @@ namespace hypotrack {
 /// millimetres. The file appears with the first frame that has data for it.
 class UncertaintyOutput {
  public:
-  /// Both arguments must outlive the object.
-  UncertaintyOutput(const Scene& scene, RunDirectory& directory)
-      : scene_(&scene), directory_(&directory) {}
+  /// `run` must outlive the object.
+  explicit UncertaintyOutput(OutputContext& run) : run_(&run) {}
 
   /// Adds a solution; does nothing if it has no sigma. `errors` are the landmarks' in metres, NaN
   /// where unknown. Throws OutputError.
@@ -29,8 +27,7 @@ class UncertaintyOutput {
   const Reliability& reliability() const { return reliability_; }
 
  private:
-  const Scene* scene_;
-  RunDirectory* directory_;
+  OutputContext* run_;
   std::optional<TextFile> file_;
   Reliability reliability_;
   double sum_ = 0;

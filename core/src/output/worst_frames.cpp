@@ -49,13 +49,13 @@ std::vector<WorstFrame> WorstFrames::frames() const {
   return chosen;
 }
 
-void WorstFrames::write(RunDirectory& directory, Renderer& renderer, const Camera& camera) const {
+void WorstFrames::write(OutputContext& run) const {
   for (const WorstFrame& worst : frames()) {
-    const cv::Mat picture =
-        draw_comparison(renderer, worst.picture, camera, worst.solution, worst.truth,
-                        fmt::format("frame {}   {:.1f} mm off   {}", worst.frame,
-                                    1000 * worst.error, worst.status));
-    const auto file = directory.part(fmt::format("worst_{}.jpg", worst.frame));
+    const cv::Mat picture = draw_comparison(
+        run.renderer(), worst.picture, run.cameras().front(), worst.solution, worst.truth,
+        fmt::format("frame {}   {:.1f} mm off   {}", worst.frame, 1000 * worst.error,
+                    worst.status));
+    const auto file = run.file(fmt::format("worst_{}.jpg", worst.frame));
     bool written = false;
     try {
       written = cv::imwrite(file.string(), picture, {cv::IMWRITE_JPEG_QUALITY, 90});

@@ -5,10 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
-#include "hypotrack/renderer.hpp"
-#include "output/run_directory.hpp"
+#include "hypotrack/output.hpp"
 #include "picture/comparison.hpp"
 
 namespace hypotrack {
@@ -39,8 +37,8 @@ class HYPOTRACK_API WorstFrames {
   /// Returns up to `count` frames, the worst first.
   std::vector<WorstFrame> frames() const;
 
-  /// Draws worst_<frame>.jpg for each of them. Throws OutputError.
-  void write(RunDirectory& directory, Renderer& renderer, const Camera& camera) const;
+  /// Draws worst_<frame>.jpg for each of them, in the first view. Throws OutputError.
+  void write(OutputContext& run) const;
 
  private:
   /// Returns the number of candidates to keep. A frame is near at most one other candidate on

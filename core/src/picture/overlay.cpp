@@ -1,4 +1,4 @@
-#include "picture/overlay.hpp"
+#include "hypotrack/overlay.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "picture/picture.hpp"
+#include "hypotrack/picture.hpp"
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>

@@ -17,7 +17,8 @@ struct PluginId {
   std::string name;
 };
 
-inline constexpr std::string_view kPluginKinds[] = {"model", "objective", "optimizer", "source"};
+inline constexpr std::string_view kPluginKinds[] = {"model",  "objective", "optimizer",
+                                                    "source", "start",     "output"};
 
 std::string library_file_name(std::string_view kind, std::string_view name);
 

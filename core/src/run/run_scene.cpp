@@ -77,18 +77,19 @@ EstimatedScene open_for_run(const std::filesystem::path& scene,
 /// Results of a run in a folder.
 class Results {
  public:
-  Results(const OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
-          const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
+  /// Takes the outputs of the scene.
+  Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother, const std::string& backend,
+          const std::filesystem::path& folder, RunWatcher& watcher)
       : watcher_(watcher),
         folder_(folder),
-        output_(*scene.scene, scene.source->cameras().front(),
+        output_(*scene.scene, scene.source->cameras(),
                 {.directory = folder,
-                 .overlay = scene.output.overlay,
                  .worst_frames = scene.output.worst_frames,
                  .frame_rate = scene.source->frame_rate(),
                  .resolved = scene.resolved,
                  .backend = backend,
-                 .fixed_lag = smoother != nullptr}),
+                 .fixed_lag = smoother != nullptr},
+                std::move(scene.outputs)),
         frames_(std::move(smoother), output_) {}
 
   double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {

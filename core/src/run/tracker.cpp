@@ -41,7 +41,8 @@ Tracker::Impl::Impl(OpenedScene opened, std::vector<Camera> from)
         "of a program, find it with `hypotrack fit-shape` and give the models its shape_file");
   // Smoothing by later frames is a run's, as is its share of the budget.
   scene.parts.fixed_lag.enabled = false;
-  if (scene.init.from != InitFrom::truth) start = initial_state(scene, {});
+  scene.parts.cameras = cameras;
+  start = start_state(scene, nullptr).value_or(Eigen::VectorXd());
   const bool sizes_known =
       std::ranges::all_of(cameras, [](const Camera& c) { return c.width > 0 && c.height > 0; });
   if (sizes_known && start.size() > 0) begin({});

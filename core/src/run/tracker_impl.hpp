@@ -22,7 +22,7 @@ struct Tracker::Impl {
 
   OpenedScene scene;
   std::vector<Camera> cameras;
-  Eigen::VectorXd start;                ///< of the first search; empty: the first frame's truth
+  Eigen::VectorXd start;                ///< of the first search; empty: it takes a frame to tell
   bool begun = false;                   ///< whether `scene.parts` were given to a tracker
   std::optional<SceneTracker> tracker;  ///< from the first usable frame on if that gives the start
   std::optional<int> last_index;

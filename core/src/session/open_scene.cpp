@@ -9,11 +9,8 @@
 #include "cost/cuda/page_locked_images.hpp"
 #include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/pose.hpp"
-#include "hypotrack/tables.hpp"
 #include "session/checked_source.hpp"
 #include "session/opened_scene.hpp"
-#include "track/displace.hpp"
 
 namespace hypotrack {
 namespace {
@@ -37,6 +34,8 @@ class Opening {
   void objective();
   void images();
   void optimizer();
+  void start();
+  void outputs();
   OpenedScene finish();
 
  private:
@@ -72,20 +71,11 @@ struct WeightParam {
   }
 };
 
-Eigen::VectorXd state_of_frame(const std::filesystem::path& file, const Scene& scene, int frame) {
-  const std::vector<StateRow> rows = read_states(file, scene);
-  for (const StateRow& row : rows)
-    if (row.frame == frame) return row.state;
-  if (rows.empty())
-    throw DataError(fmt::format("{}: has no rows; expected one to start from", file.string()));
-  throw DataError(fmt::format("{}: has no frame {} to start from; it has {} to {}", file.string(),
-                              frame, rows.front().frame, rows.back().frame));
-}
-
 void Opening::tracker() {
   models();
   objective();
   optimizer();
+  start();
 }
 
 void Opening::models() {
@@ -178,6 +168,37 @@ void Opening::optimizer() {
   record_.set("optimizer", record);
 }
 
+void Opening::start() {
+  const ConfigNode node = start_node(file_.init, root_.get("init"));
+  YamlDocument record;
+  session_.start = make<Start>(node, {}, record);
+  const std::string& word = file_.init.from.scalar();  // empty if it is a map
+  // The record has a word already, and the parameters of `file` beside it.
+  if (word == kStartFromFile || record.text() == fmt::format("type: {}\n", word)) return;
+  YamlDocument init(dump_params(file_.init));
+  init.set("from", record);
+  record_.set("init", init);
+}
+
+void Opening::outputs() {
+  const auto add = [&](const ConfigNode& node) {
+    YamlDocument record;
+    auto output = make<Output>(node, {}, record);
+    session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
+    return record;
+  };
+  add(ConfigNode::parse("type: tables", "the outputs of a run"));
+  if (file_.output.overlay) add(ConfigNode::parse("type: overlay", "the outputs of a run"));
+  const ConfigNode& also = file_.output.also;
+  if (!also.defined()) return;
+  std::vector<YamlDocument> records;
+  for (std::size_t i = 0; i < (also.is_list() ? also.size() : 1); ++i)
+    records.push_back(add(also.is_list() ? also.at(i) : also));
+  YamlDocument output(dump_params(file_.output));
+  output.set_list("also", records);
+  record_.set("output", output);
+}
+
 OpenedScene Opening::finish() {
   session_.parts.tile = file_.tile;
   session_.parts.evaluate = file_.evaluate;
@@ -204,6 +225,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   opening.tracker();
   opening.images();
   opening.source();
+  opening.outputs();
   return opening.finish();
 }
 
@@ -214,6 +236,7 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
   opening.tracker();
   opening.images();
   opening.source(std::move(source), source_resolved);
+  opening.outputs();
   return opening.finish();
 }
 
@@ -244,30 +267,6 @@ std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& ses
   return std::make_unique<FixedLagSmoother>(
       *session.scene, parts.objective, parts.evaluate, parts.fixed_lag,
       parts.photometric.match && parts.photometric.highlights);
-}
-
-Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first) {
-  const Scene& scene = *session.scene;
-  Eigen::VectorXd state = scene.rest_state();
-  if (session.init.from == InitFrom::truth) {
-    if (!first.truth || first.truth->state.size() == 0)
-      throw ConfigError(
-          "init.from is 'truth' but the source knows no true state for its first frame; give "
-          "init.pose or init.file instead");
-    state = first.truth->state;
-    scene.check(state, fmt::format("the source's true state of frame {}", first.index));
-  } else if (session.init.from == InitFrom::file) {
-    const std::string suffix = session.init.file.extension().string();
-    state = suffix == ".yaml" || suffix == ".yml"
-                ? read_pose(ConfigNode::load(session.init.file), scene, std::move(state))
-                : state_of_frame(session.init.file, scene, session.init.frame);
-    scene.check(state, session.init.file.string());
-  }
-  if (session.init.pose.defined()) state = read_pose(session.init.pose, scene, std::move(state));
-  const InitSettings& init = session.init;
-  if (init.away == 0 && init.away_turn == 0 && init.away_angles == 0) return state;
-  return displaced(scene, std::move(state), {init.away, init.away_turn, init.away_angles},
-                   session.seed);
 }
 
 }  // namespace hypotrack

@@ -6,33 +6,44 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
+#include "hypotrack/output.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
+#include "hypotrack/start.hpp"
 #include "session/scene_file.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
 
+/// An output and the name of its plugin.
+struct NamedOutput {
+  std::string name;
+  std::unique_ptr<Output> output;
+};
+
 /// Everything that a scene file names, made and checked, before the first frame.
 struct OpenedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Source> source;
   TrackerParts parts;
+  std::unique_ptr<Start> start;
   InitSettings init;
   OutputSettings output;
+  std::vector<NamedOutput> outputs;  ///< of a scene with a source
   std::uint64_t seed = 0;
   ShapeEstimateSettings shape;
   std::string resolved;         ///< YAML that repeats the run, with the value of every parameter
   std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
-/// Opens a scene: models first, then the source, the objective and the optimizer. Throws the error
-/// of the part that fails.
+/// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws
+/// the error of the part that fails.
 HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
                                      std::span<const std::string> overrides, PluginLoader& plugins);
 
@@ -59,8 +70,13 @@ HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
 /// does not ask for it. Throws ConfigError.
 HYPOTRACK_API std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
 
-/// Returns the state from which the first search starts. `first` is the first usable frame of the
-/// source. Throws ConfigError if the scene asks for a ground truth that does not exist.
+/// Returns the state from which the search of a frame starts: that of the scene's start, changed as
+/// `init` says. Returns nothing if there is no frame (null) and the start needs one. Throws
+/// ConfigError or DataError, for example if the scene asks for a ground truth that does not exist.
+HYPOTRACK_API std::optional<Eigen::VectorXd> start_state(const OpenedScene& session,
+                                                         const Frame* frame);
+
+/// Returns start_state() of the first usable frame of the source.
 HYPOTRACK_API Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
 
 }  // namespace hypotrack

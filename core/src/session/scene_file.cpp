@@ -2,17 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
-
-std::span<const std::string_view> enum_names(InitFrom) {
-  static constexpr std::array<std::string_view, 3> names{"truth", "rest", "file"};
-  return names;
-}
-
 namespace {
 
 /// Refuses keys that have another name today.
@@ -39,7 +31,8 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
         path.string()));
   refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
-  if (scene.file.init.from == InitFrom::file && scene.file.init.file.empty())
+  const InitSettings& init = scene.file.init;
+  if (init.from.scalar() == kStartFromFile && init.file.empty())
     throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",
                                   scene.root.get("init").where()));
   return scene;

@@ -21,17 +21,12 @@
 
 namespace hypotrack {
 
-/// Source of the state from which the first search starts.
-enum class InitFrom {
-  truth,  ///< the source's ground truth of the first frame
-  rest,   ///< the models' rest state
-  file,   ///< a pose (YAML) or a row of a state table (CSV)
-};
-HYPOTRACK_API std::span<const std::string_view> enum_names(InitFrom);
+/// The start that takes its parameters from `init.file` and `init.frame`.
+inline constexpr std::string_view kStartFromFile = "file";
 
 /// `init:` of a scene.
 struct InitSettings {
-  InitFrom from = InitFrom::rest;
+  ConfigNode from = ConfigNode::parse("rest", "the default of init.from");
   std::filesystem::path file;
   int frame = 0;
   ConfigNode pose;
@@ -40,8 +35,8 @@ struct InitSettings {
   double away_angles = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
-      {.help = "start of the first search: the source's ground truth, the models' rest state or a "
-               "file"});
+      {.help = "start of the first search: the name of a start without parameters (rest, truth), "
+               "file, or {type, ...}"});
     v("file", file,
       {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
                "track.csv for example)"});
@@ -73,6 +68,10 @@ struct InitSettings {
   }
 };
 
+/// Returns the map, with a `type`, that a start is made from: `init.from`, or what its word stands
+/// for. `written` is the scene's `init`.
+ConfigNode start_node(const InitSettings& init, const ConfigNode& written);
+
 /// `budget:` of a scene.
 struct BudgetSettings {
   std::int64_t evaluations = 0;
@@ -91,6 +90,7 @@ struct BudgetSettings {
 struct OutputSettings {
   bool overlay = true;
   int worst_frames = 3;
+  ConfigNode also;
   OneEuroSettings smoothing;
   void visit(ParamVisitor& v) {
     v("overlay", overlay, {.help = "write overlay.mp4, the solution drawn on the first view"});
@@ -99,6 +99,7 @@ struct OutputSettings {
                "largest error (worst_<frame>.jpg)",
        .min = 0,
        .max = 100});
+    v("also", also, {.help = "further outputs: {type, ...}, or a list of them"});
     v("smoothing", smoothing, {.help = "how states are smoothed before they are written"});
   }
 };

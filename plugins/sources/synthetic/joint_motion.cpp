@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -18,11 +17,9 @@ namespace hypotrack::synthetic {
 namespace {
 
 std::vector<LandmarkRow> read_rows(const JointFileParams& params, const Scene& scene) {
-  constexpr std::array<double, 3> kMetresPerUnit = {1.0, 1e-2, 1e-3};
   std::vector<LandmarkRow> rows =
       read_landmarks(params.file, scene.landmark_names(),
-                     {.metres_per_unit = kMetresPerUnit[static_cast<std::size_t>(params.units)],
-                      .rename = params.rename});
+                     {.metres_per_unit = metres_per(params.units), .rename = params.rename});
   std::erase_if(rows, [&](const LandmarkRow& row) {
     return row.frame < params.first ||
            (params.count > 0 && row.frame - params.first >= params.count);

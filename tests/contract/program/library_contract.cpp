@@ -155,6 +155,8 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config)
 template bool check_parameters<Model>(Report&, const Subject&, bool);
 template bool check_parameters<Objective>(Report&, const Subject&, bool);
 template bool check_parameters<Optimizer>(Report&, const Subject&, bool);
+template bool check_parameters<Output>(Report&, const Subject&, bool);
 template bool check_parameters<Source>(Report&, const Subject&, bool);
+template bool check_parameters<Start>(Report&, const Subject&, bool);
 
 }  // namespace hypotrack::contract

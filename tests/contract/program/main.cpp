@@ -13,10 +13,8 @@ using namespace hypotrack;
 using namespace hypotrack::contract;
 
 const std::map<std::string, void (*)(Report&, const Subject&)> kChecks = {
-    {"model", check_model},
-    {"objective", check_objective},
-    {"optimizer", check_optimizer},
-    {"source", check_source},
+    {"model", check_model},   {"objective", check_objective}, {"optimizer", check_optimizer},
+    {"source", check_source}, {"start", check_start},         {"output", check_output},
 };
 
 int run(Subject& subject) {
@@ -33,8 +31,9 @@ int run(Subject& subject) {
 int main(int argc, char** argv) {
   if (argc < 3 || argc > 4 || !kChecks.contains(argv[1])) {
     std::cerr << "usage: hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]\n"
-                 "KIND is model, objective, optimizer or source; PARAMETERS.yaml holds what stands "
-                 "in the plugin's place in a scene.\nThe scene around it is one hand of 27 "
+                 "KIND is model, objective, optimizer, source, start or output; PARAMETERS.yaml "
+                 "holds what "
+                 "stands in the plugin's place in a scene.\nThe scene around it is one hand of 27 "
                  "parameters, named `hand`.\n";
     return 2;
   }

@@ -50,6 +50,8 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config 
 void check_model(Report& report, const Subject& subject);
 void check_objective(Report& report, const Subject& subject);
 void check_optimizer(Report& report, const Subject& subject);
+void check_output(Report& report, const Subject& subject);
 void check_source(Report& report, const Subject& subject);
+void check_start(Report& report, const Subject& subject);
 
 }  // namespace hypotrack::contract

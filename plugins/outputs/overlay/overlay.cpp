@@ -1,14 +1,15 @@
-#include "output/overlay_video.hpp"
+#include "hypotrack/overlay.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <opencv2/videoio.hpp>
 
 #include "hypotrack/error.hpp"
-#include "picture/overlay.hpp"
-#include "picture/picture.hpp"
+#include "hypotrack/picture.hpp"
+#include "hypotrack/plugin.hpp"
 
 namespace hypotrack {
 namespace {
@@ -54,16 +55,36 @@ void draw_sigmas(cv::Mat& image, const Camera& camera, const Eigen::Matrix3Xd& l
   }
 }
 
-}  // namespace
+class Overlay final : public Output {
+ public:
+  struct Params {
+    void visit(ParamVisitor&) {}
+  };
+  explicit Overlay(const Params&) {}
 
-OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene,
-                           Renderer& renderer, const Camera& camera, double frame_rate)
-    : scene_(&scene), renderer_(&renderer), camera_(camera) {
+  std::vector<std::string> file_names() const override { return {"overlay.mp4"}; }
+  void begin(OutputContext& run) override;
+  void online(const Frame& frame, const Solution& solution) override;
+  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+  void finish(bool /*complete*/) override { writer_.release(); }
+
+ private:
+  OutputContext* run_ = nullptr;
+  Renderer* renderer_ = nullptr;
+  Camera camera_;
+  cv::VideoWriter writer_;
+};
+
+void Overlay::begin(OutputContext& run) {
+  const std::filesystem::path file = run.file("overlay.mp4");
+  run_ = &run;
+  renderer_ = &run.renderer();
+  camera_ = run.cameras().front();
   // Browsers play H.264, which not every FFmpeg can write, and not MPEG-4 Part 2.
   for (const char* codec : {"avc1", "mp4v"})
     if (!writer_.isOpened())
       writer_.open(file.string(), cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
-                   frame_rate, {camera.width, camera.height});
+                   run.frame_rate(), {camera_.width, camera_.height});
   if (!writer_.isOpened())
     throw OutputError(fmt::format(
         "{}: this OpenCV cannot write an .mp4 video there (it needs its FFmpeg backend); run with "
@@ -71,20 +92,24 @@ OverlayVideo::OverlayVideo(const std::filesystem::path& file, const Scene& scene
         file.string()));
 }
 
-void OverlayVideo::add(const Frame& frame, const Solution& solution) {
+void Overlay::online(const Frame& frame, const Solution& solution) {
+  const Scene& scene = run_->scene();
   cv::Mat image;
-  std::string caption = fmt::format("frame {}  {}", solution.frame, status_text(*scene_, solution));
+  std::string caption = fmt::format("frame {}  {}", solution.frame, status_text(scene, solution));
   if (frame.views.empty()) {
     image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(40, 40, 40));
     caption += ": " + frame.problem;
   } else {
-    image = draw_overlay(*renderer_, *scene_, picture_of(frame.views.front()), camera_,
+    image = draw_overlay(*renderer_, scene, picture_of(frame.views.front()), camera_,
                          solution.state, {.hidden = unknown_models(solution)});
     caption += fmt::format("  cost {:.4g}", solution.cost);
-    draw_sigmas(image, camera_, scene_->landmarks(solution.state), solution.sigma);
+    draw_sigmas(image, camera_, scene.landmarks(solution.state), solution.sigma);
   }
   write_caption(image, caption);
   writer_.write(image);
 }
 
+}  // namespace
 }  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Overlay, "overlay.mp4: the solution drawn on the first view", "")

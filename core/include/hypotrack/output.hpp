@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/renderer.hpp"
+#include "hypotrack/scene.hpp"
+#include "hypotrack/solution.hpp"
+
+namespace hypotrack {
+
+/// A run as its outputs see it.
+class HYPOTRACK_API OutputContext {
+ public:
+  OutputContext() = default;
+  virtual ~OutputContext();
+  OutputContext(const OutputContext&) = delete;
+  OutputContext& operator=(const OutputContext&) = delete;
+
+  virtual const Scene& scene() const = 0;
+  /// Returns the cameras in the order of a frame's views.
+  virtual const std::vector<Camera>& cameras() const = 0;
+  /// Returns the source's frames per second.
+  virtual double frame_rate() const = 0;
+  /// Returns true if the run smooths solutions over a fixed lag of later frames.
+  virtual bool fixed_lag() const = 0;
+  /// Returns the path at which to write the file of this name, one of Output::file_names(). The
+  /// file gets its name when the run ends. Throws PluginError for other names.
+  virtual std::filesystem::path file(const std::string& name) = 0;
+  /// Returns the run's renderer, made at the first call. Throws DeviceError.
+  virtual Renderer& renderer() = 0;
+};
+
+/// Writes something of every solution of a run.
+///
+/// A run calls begin(), then online() and frame() for every frame, then finish(). An output that is
+/// destroyed without finish() leaves its files as they are.
+class HYPOTRACK_API Output {
+ public:
+  Output() = default;
+  virtual ~Output();
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  /// Returns the names of all files that a run may write, without folders. One # in a name stands
+  /// for any number: `worst_#.jpg`. Files of these names from an earlier run are replaced or
+  /// removed.
+  virtual std::vector<std::string> file_names() const = 0;
+
+  /// Is called before the first frame. `run` lives until the output is destroyed. Throws
+  /// OutputError or DeviceError.
+  virtual void begin(OutputContext& run) = 0;
+
+  /// Receives every frame, with its pictures, and its solution before fixed-lag smoothing.
+  virtual void online(const Frame& /*frame*/, const Solution& /*solution*/) {}
+
+  /// Receives every frame and its final solution, in order. With fixed-lag smoothing it comes some
+  /// frames later and without pictures. A missing frame has no views either.
+  virtual void frame(const Frame& frame, const Solution& solution) = 0;
+
+  /// Completes the files. `complete` is false if the run was interrupted or an error ended it.
+  virtual void finish(bool /*complete*/) {}
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hypotrack/output.hpp"
+#include "output/metrics/metrics.hpp"
+#include "output/summary.hpp"
+#include "output/truth_output.hpp"
+#include "output/uncertainty_output.hpp"
+#include "output/worst_frames.hpp"
+
+namespace hypotrack {
+
+/// Measures a run: summary.json and, with predicted uncertainty, uncertainty.csv. With ground
+/// truth: truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
+class MetricsOutput final : public Output {
+ public:
+  /// `backend` describes what evaluates hypotheses.
+  MetricsOutput(int worst_frames, std::string backend)
+      : backend_(std::move(backend)), worst_(worst_frames) {}
+
+  std::vector<std::string> file_names() const override;
+  void begin(OutputContext& run) override;
+  void frame(const Frame& frame, const Solution& solution) override;
+  void finish(bool complete) override;
+
+  /// Returns the last frame's error in metres; NaN without ground truth or a solution.
+  double last_error() const { return last_error_; }
+  /// Returns the summary of a finished run.
+  const Summary& summary() const { return summary_; }
+
+ private:
+  void remember_if_bad(const Frame& frame, const Solution& solution, double error,
+                       const ScenePose& truth, const Eigen::Matrix3Xd& landmarks);
+  Summary summarize(bool complete) const;
+
+  OutputContext* run_ = nullptr;
+  std::string backend_;
+  std::optional<MetricsCollector> metrics_;
+  std::optional<TruthOutput> truth_;
+  std::optional<UncertaintyOutput> uncertainty_;
+  WorstFrames worst_;
+  Summary summary_;
+  double last_error_ = 0;
+  int frames_ = 0;
+  double seconds_ = 0;
+  double search_seconds_ = 0;  ///< of frames that are not tracked
+  int searched_frames_ = 0;
+  std::int64_t evaluations_ = 0;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,81 @@
+#include "hypotrack/tables.hpp"
+
+#include <fmt/format.h>
+
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/text_file.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Returns the header line of track.csv.
+std::string track_header(const Scene& scene) {
+  std::string line = "frame,time,status,cost,evaluations,milliseconds";
+  if (scene.items().size() == 1)
+    line += ",probability";
+  else
+    for (const Scene::Item& item : scene.items())
+      line += fmt::format(",{0}.status,{0}.probability", item.name);
+  for (const Parameter& p : scene.parameters()) line += "," + p.name;
+  return line + "\n";
+}
+
+/// Returns a line of track.csv.
+std::string track_line(const Solution& solution) {
+  std::string line = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
+                                 to_string(solution.status), solution.cost, solution.evaluations,
+                                 1000 * solution.seconds);
+  for (std::size_t m = 0; m < solution.models.size(); ++m) {
+    if (solution.models.size() > 1) line += fmt::format(",{}", to_string(solution.models[m]));
+    line += fmt::format(",{:.3f}", solution.probabilities[m]);
+  }
+  for (const double value : solution.state) line += fmt::format(",{}", value);
+  return line + "\n";
+}
+
+/// A table of solutions and one of their landmarks.
+class Pair {
+ public:
+  Pair(OutputContext& run, const std::string& solutions, const std::string& landmarks)
+      : scene_(&run.scene()), solutions_(run.file(solutions)), landmarks_(run.file(landmarks)) {
+    solutions_.write(track_header(*scene_));
+    landmarks_.write(landmarks_header(scene_->landmark_names()));
+  }
+  void add(const Solution& solution) {
+    solutions_.write(track_line(solution));
+    landmarks_.write(
+        table_line(solution.frame, solution.time, scene_->landmarks(solution.state).reshaped()));
+  }
+
+ private:
+  const Scene* scene_;
+  TextFile solutions_, landmarks_;
+};
+
+class Tables final : public Output {
+ public:
+  struct Params {
+    void visit(ParamVisitor&) {}
+  };
+  explicit Tables(const Params&) {}
+
+  std::vector<std::string> file_names() const override {
+    return {"track.csv", "joints.csv", "online.csv", "online_joints.csv"};
+  }
+  void begin(OutputContext& run) override {
+    track_.emplace(run, "track.csv", "joints.csv");
+    if (run.fixed_lag()) online_.emplace(run, "online.csv", "online_joints.csv");
+  }
+  void online(const Frame& /*frame*/, const Solution& solution) override {
+    if (online_) online_->add(solution);
+  }
+  void frame(const Frame& /*frame*/, const Solution& solution) override { track_->add(solution); }
+
+ private:
+  std::optional<Pair> track_, online_;
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Tables, "states and landmarks as CSV: track.csv and joints.csv", "")

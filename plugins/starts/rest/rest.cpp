@@ -1,0 +1,21 @@
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+class Rest final : public Start {
+ public:
+  struct Params {
+    void visit(ParamVisitor&) {}
+  };
+  explicit Rest(const Params&) {}
+
+  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+    return context.scene.rest_state();
+  }
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Rest, "the rest state of the models", "")

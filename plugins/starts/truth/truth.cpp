@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+class Truth final : public Start {
+ public:
+  struct Params {
+    void visit(ParamVisitor&) {}
+  };
+  explicit Truth(const Params&) {}
+
+  std::optional<Eigen::VectorXd> state(const StartContext& context) override {
+    const Frame* frame = context.frame;
+    if (!frame) return std::nullopt;
+    if (!frame->truth || frame->truth->state.size() == 0)
+      throw ConfigError(
+          "init.from is 'truth' but the source knows no true state for its first frame; give "
+          "init.pose or init.file instead");
+    context.scene.check(frame->truth->state,
+                        fmt::format("the source's true state of frame {}", frame->index));
+    return frame->truth->state;
+  }
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Truth, "the source's ground truth of the first frame", "")

@@ -1,0 +1,155 @@
+#include "output/run_output.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
+#include "test_models.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack {
+namespace {
+
+using test::message_of;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::UnorderedElementsAre;
+
+/// Writes its calls into one file.
+class Diary final : public Output {
+ public:
+  explicit Diary(std::string name) : names_{std::move(name)} {}
+
+  std::vector<std::string> file_names() const override { return names_; }
+  void begin(OutputContext& run) override {
+    file_.emplace(run.file(asks_for.empty() ? names_.front() : asks_for));
+    file_->write("begin");
+  }
+  void online(const Frame& frame, const Solution&) override {
+    file_->write(" online " + std::to_string(frame.index));
+  }
+  void frame(const Frame& frame, const Solution&) override {
+    file_->write(" frame " + std::to_string(frame.index));
+  }
+  void finish(bool complete) override { file_->write(complete ? " finish" : " finish early"); }
+
+  std::string asks_for;
+
+ private:
+  std::vector<std::string> names_;
+  std::optional<TextFile> file_;
+};
+
+class RunOutputTest : public ::testing::Test {
+ protected:
+  std::unique_ptr<RunOutput> open(std::vector<NamedOutput> outputs, bool fixed_lag = false) const {
+    Camera camera;
+    camera.width = 64;
+    camera.height = 48;
+    return std::make_unique<RunOutput>(
+        scene_, std::vector<Camera>{camera},
+        RunOutput::Options{
+            .directory = out(), .resolved = "seed: 1\n", .backend = "none", .fixed_lag = fixed_lag},
+        std::move(outputs));
+  }
+  std::unique_ptr<RunOutput> open(const std::string& name, bool fixed_lag = false) const {
+    return open(one(std::make_unique<Diary>(name)), fixed_lag);
+  }
+  static std::vector<NamedOutput> one(std::unique_ptr<Output> output) {
+    std::vector<NamedOutput> outputs;
+    outputs.push_back({"diary", std::move(output)});
+    return outputs;
+  }
+
+  std::filesystem::path out() const { return folder_.path() / "out"; }
+  std::string text(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(out() / name).rdbuf();
+    return text.str();
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(out()))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+
+  Frame frame(int index) const {
+    Frame frame;
+    frame.index = index;
+    return frame;
+  }
+  Solution solution(int index) const {
+    Solution solution;
+    solution.frame = index;
+    solution.state = scene_.rest_state();
+    solution.landmarks = scene_.landmarks(solution.state);
+    solution.models = {Status::tracked};
+    solution.probabilities = {1.0};
+    solution.status = Status::tracked;
+    return solution;
+  }
+
+  const test::TemporaryDirectory folder_;
+  const Scene scene_{{{"box", std::make_shared<Model>(test::make_test_box())}}};
+};
+
+TEST_F(RunOutputTest, FilesOfAnOutputGetTheirNamesWithThoseOfTheRun) {
+  const auto output = open("diary.txt");
+  output->add(frame(0), solution(0));
+  output->add(frame(1), solution(1));
+  EXPECT_THAT(names(), UnorderedElementsAre(".part.diary.txt", ".part.run.yaml"));
+  output->finish(true);
+  EXPECT_THAT(names(), UnorderedElementsAre("diary.txt", "run.yaml", "summary.json"));
+  EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0 online 1 frame 1 finish");
+}
+
+TEST_F(RunOutputTest, SmoothedFramesComeAfterTheOnlineOnes) {
+  const auto output = open("diary.txt", true);
+  for (const int i : {0, 1}) output->add_online(frame(i), solution(i));
+  for (const int i : {0, 1}) output->add(frame(i), solution(i));
+  output->finish(false);
+  EXPECT_EQ(text("diary.txt"), "begin online 0 online 1 frame 0 frame 1 finish early");
+}
+
+TEST_F(RunOutputTest, WithoutFramesNothingStays) {
+  open("diary.txt");
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RunOutputTest, FramesSoFarStayUnderTheirUnfinishedNames) {
+  open("diary.txt")->add(frame(0), solution(0));
+  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0");
+}
+
+TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
+  EXPECT_THAT(
+      message_of<ConfigError>([&] { open("summary.json"); }),
+      HasSubstr("output: metrics and diary both write summary.json; leave one of them out"));
+  EXPECT_THAT(message_of<ConfigError>([&] { open("run.yaml"); }), HasSubstr("the run and diary"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
+  EXPECT_THAT(message_of<PluginError>([&] { open("../diary.txt"); }),
+              AllOf(HasSubstr("output 'diary'"), HasSubstr("'../diary.txt'")));
+  auto diary = std::make_unique<Diary>("page_#.txt");
+  diary->asks_for = "page_x.txt";
+  EXPECT_THAT(message_of<PluginError>([&] { open(one(std::move(diary))); }),
+              HasSubstr("'page_x.txt', which is none of its file_names()"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  diary = std::make_unique<Diary>("page_#.txt");
+  diary->asks_for = "page_7.txt";
+  const auto output = open(one(std::move(diary)));
+  output->add(frame(0), solution(0));
+  output->finish(true);
+  EXPECT_THAT(names(), UnorderedElementsAre("page_7.txt", "run.yaml", "summary.json"));
+}
+
+}  // namespace
+}  // namespace hypotrack
