@@ -72,10 +72,10 @@ TEST_F(Includes, CanBeInOverrides) {
 }
 
 TEST_F(Includes, OfAnOverrideReferToTheWorkingDirectory) {
-  EXPECT_THAT(error("seed: 1", {"optimizer=@nowhere.yaml"}),
-              AllOf(StartsWith("--set optimizer=@nowhere.yaml: '@nowhere.yaml' stands for a part "
-                               "of another scene: "),
-                    HasSubstr((std::filesystem::current_path() / "nowhere.yaml").string())));
+  EXPECT_THAT(
+      error("seed: 1", {"optimizer=@nowhere.yaml"}),
+      AllOf(StartsWith("--set optimizer=@nowhere.yaml: '@nowhere.yaml' cannot be included: "),
+            HasSubstr((std::filesystem::current_path() / "nowhere.yaml").string())));
 }
 
 TEST_F(Includes, AreAsTheyWereWritten) {

@@ -261,9 +261,7 @@ std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& ses
   if (parts.status.uncertainty.enabled)
     throw ConfigError(
         "smoothing.fixed_lag.enabled and tracker.uncertainty.enabled are both on, but sigmas are "
-        "of states "
-        "as "
-        "they were found; switch one of them off");
+        "of states as they were found; switch one of them off");
   return std::make_unique<FixedLagSmoother>(
       *session.scene, parts.objective, parts.evaluate, parts.fixed_lag,
       parts.photometric.match && parts.photometric.highlights);

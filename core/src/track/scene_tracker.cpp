@@ -63,9 +63,8 @@ void reserve_for(const FixedLagSettings& settings, Budget& budget) {
   if (budget.evaluations < 2 * settings.evaluations)
     throw ConfigError(fmt::format(
         "fixed-lag smoothing takes {} evaluations of a frame's budget, which is {}; give "
-        "budget.evaluations {} "
-        "or more, smoothing.fixed_lag.evaluations {} or less, or leave smoothing.fixed_lag.enabled "
-        "off",
+        "budget.evaluations {} or more, smoothing.fixed_lag.evaluations {} or less, or leave "
+        "smoothing.fixed_lag.enabled off",
         settings.evaluations, budget.evaluations, 2 * settings.evaluations,
         budget.evaluations / 2));
   budget.evaluations -= settings.evaluations;
