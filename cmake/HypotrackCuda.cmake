@@ -1,7 +1,7 @@
 # CUDA for hypotrack and, installed, for plugins outside its tree.
 set(HYPOTRACK_CUDA AUTO CACHE STRING
-  "GPU code: AUTO builds it where a CUDA toolkit is found, ON demands one, OFF leaves it out; ON_CPU builds it for the CPU, to test it")
-set_property(CACHE HYPOTRACK_CUDA PROPERTY STRINGS AUTO ON OFF ON_CPU)
+  "GPU code: AUTO builds it where a CUDA toolkit is found, ON demands one, OFF leaves it out")
+set_property(CACHE HYPOTRACK_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(hypotrack_cuda_oldest 12.4)  # C++20, programmatic launches in graphs
 if(NOT hypotrack_cuda_architectures)  # an installed package says what hypotrack was built for
   # Real code for every generation and PTX for those to come.
@@ -10,18 +10,13 @@ endif()
 
 # hypotrack_find_cuda()
 #
-# Enables the language where a toolkit is found and wanted, and sets HYPOTRACK_HAS_CUDA and, where
-# that is off, hypotrack_why_no_cuda. A macro, because enable_language() has to happen at file scope.
+# Enables the language where a toolkit is found and wanted, and sets HYPOTRACK_HAS_CUDA. Sets
+# hypotrack_cuda_target to what the code is built for, or hypotrack_why_no_cuda. A macro, because
+# enable_language() has to happen at file scope.
 macro(hypotrack_find_cuda)
   set(HYPOTRACK_HAS_CUDA OFF)
   set(hypotrack_why_no_cuda "HYPOTRACK_CUDA is OFF: set it to AUTO or ON")
-  if(HYPOTRACK_CUDA STREQUAL "ON_CPU")
-    if(NOT COMMAND hypotrack_cuda_on_cpu)
-      message(FATAL_ERROR "HYPOTRACK_CUDA is ON_CPU, which is for hypotrack's own tests: set it to AUTO, "
-        "ON or OFF")
-    endif()
-    set(HYPOTRACK_HAS_CUDA ON)
-  elseif(HYPOTRACK_CUDA)
+  if(HYPOTRACK_CUDA)
     if(NOT CMAKE_CUDA_ARCHITECTURES AND NOT DEFINED ENV{CUDAARCHS})
       set(CMAKE_CUDA_ARCHITECTURES ${hypotrack_cuda_architectures})
     endif()
@@ -42,6 +37,7 @@ macro(hypotrack_find_cuda)
         set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
       endif()
       set(HYPOTRACK_HAS_CUDA ON)
+      set(hypotrack_cuda_target "${CMAKE_CUDA_ARCHITECTURES} with CUDA ${CUDAToolkit_VERSION}")
     else()
       string(CONCAT hypotrack_why_no_cuda "no CUDA toolkit ${hypotrack_cuda_oldest} or newer was "
         "found (found: ${CUDAToolkit_VERSION}): install one, or say where it is with "
@@ -71,9 +67,6 @@ function(hypotrack_cuda_sources target)
     # Every library has a runtime of its own; they share the device's primary context.
     set_target_properties(${target} PROPERTIES CUDA_RUNTIME_LIBRARY Static
       CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON CUDA_EXTENSIONS OFF CUDA_VISIBILITY_PRESET hidden)
-    if(HYPOTRACK_CUDA STREQUAL "ON_CPU")
-      hypotrack_cuda_on_cpu(${target} ${ARG_UNPARSED_ARGUMENTS})
-    endif()
   elseif(ARG_NO_CUDA_SOURCES)
     target_sources(${target} PRIVATE ${ARG_NO_CUDA_SOURCES})
   else()

@@ -28,7 +28,7 @@ function(hypotrack_add_layer name)
   endif()
   target_link_libraries(${layer} PUBLIC ${ARG_PACKAGES} PRIVATE hypotrack_options)
   if(NOT name STREQUAL base)  # which has neither Eigen nor OpenCV
-    target_precompile_headers(${layer} REUSE_FROM hypotrack_core_precompiled)
+    target_precompile_headers(${layer} REUSE_FROM hypotrack_precompiled)
   endif()
   set_property(GLOBAL APPEND PROPERTY HYPOTRACK_LAYERS ${layer})
 endfunction()

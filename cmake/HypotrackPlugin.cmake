@@ -82,7 +82,7 @@ function(hypotrack_add_plugin_library kind name)
   endif()
   if(TARGET hypotrack_options)  # inside the project
     target_link_libraries(${target} PRIVATE hypotrack_options)
-    target_precompile_headers(${target} REUSE_FROM hypotrack_plugin_precompiled)
+    target_precompile_headers(${target} REUSE_FROM hypotrack_precompiled)
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${HYPOTRACK_PLUGIN_DIR}
       INSTALL_RPATH "$ORIGIN/../..")

@@ -3,21 +3,26 @@
 set(HYPOTRACK_COMMON_HEADERS
   <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <memory> <optional>
   <span> <stdexcept> <string> <string_view> <unordered_map> <utility> <vector>
-  <Eigen/Core> <Eigen/Geometry> <opencv2/core.hpp>)
+  <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <opencv2/core.hpp>)
 
-# hypotrack_add_precompiled(NAME [HEADERS ...] [LIBRARIES ...])
+# hypotrack_add_precompiled(NAME [HEADERS ...] [LIBRARIES ...] [PROGRAM])
 #
 # Makes a target that holds the common headers and others, for
-# target_precompile_headers(... REUSE_FROM NAME) of targets with the same flags.
+# target_precompile_headers(... REUSE_FROM NAME) of targets with the same flags. PROGRAM: these are
+# programs, whose code is not that of shared libraries.
 function(hypotrack_add_precompiled name)
-  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ARG "PROGRAM" "" "HEADERS;LIBRARIES" ${ARGN})
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
-  file(CONFIGURE OUTPUT ${source} CONTENT "// Holds the precompiled header.\n")
-  add_library(${name} OBJECT ${source})
+  if(ARG_PROGRAM)
+    file(CONFIGURE OUTPUT ${source} CONTENT "int main() {}  // holds the precompiled header\n")
+    add_executable(${name} EXCLUDE_FROM_ALL ${source})
+  else()
+    file(CONFIGURE OUTPUT ${source} CONTENT "// Holds the precompiled header.\n")
+    add_library(${name} OBJECT ${source})
+  endif()
   target_compile_features(${name} PRIVATE cxx_std_20)
-  target_link_libraries(${name} PRIVATE Eigen3::Eigen opencv_core hypotrack_options ${ARG_LIBRARIES})
+  target_link_libraries(${name} PRIVATE Eigen3::Eigen fmt::fmt opencv_core hypotrack_options ${ARG_LIBRARIES})
   target_precompile_headers(${name} PRIVATE ${HYPOTRACK_COMMON_HEADERS} ${ARG_HEADERS})
 endfunction()
 
-hypotrack_add_precompiled(hypotrack_core_precompiled HEADERS <fmt/format.h> LIBRARIES fmt::fmt)
-hypotrack_add_precompiled(hypotrack_plugin_precompiled)
+hypotrack_add_precompiled(hypotrack_precompiled)  # for shared libraries

@@ -73,7 +73,10 @@ void Command::add(const std::string& name, OptionTarget target, const std::strin
 
 void Command::need_command() const { app_->require_subcommand(1); }
 
-void Command::ignore_others() const { app_->allow_extras(); }
+void Command::ignore_others() const {
+  app_->allow_extras();
+  app_->fallthrough(false);  // else the program itself gets them, and refuses them
+}
 
 void Command::on_call(std::function<void()> action) const { app_->callback(std::move(action)); }
 

@@ -29,11 +29,9 @@ TEST_F(BadInputTest, SceneThatIsNoMap) {
   expect_refused("- 1\n- 2\n", {"scene.yaml:1:1", "models, source, objective and optimizer"});
 }
 
-TEST_F(BadInputTest, AStudyIsNoSceneAndASceneNoStudy) {
+TEST_F(BadInputTest, AStudyIsNoScene) {
   expect_refused("title: T\nscenes: {a: {file: b.yaml}}\n",
                  {"scene.yaml: this is a study, no scene", "`hypotrack compare`"});
-  expect_refusal(run_program({"compare", scene(box_scene()), "--out", path("out").string()}),
-                 {"scene.yaml: this is a scene, no study", "`hypotrack run`"});
 }
 
 TEST_F(BadInputTest, UnknownKeys) {

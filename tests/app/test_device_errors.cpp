@@ -68,24 +68,6 @@ TEST_F(LostDeviceTest, LostOnTheFirstFrameItLeavesNothing) {
   expect_refusal(run_lost(lost_after(0)), {"the device is lost"});
 }
 
-TEST_F(LostDeviceTest, InAStudyItIsARow) {
-  scene(box_scene(), "box.yaml");
-  write_text(path("study.yaml"), R"(title: A lost device
-scenes: {box: {file: box.yaml}}
-grid:
-  objective:
-    good: {objective: {type: stereo_color}}
-    bad: {objective: {type: failing, frames: 1}}
-)");
-  const Outcome outcome =
-      run_program({"compare", path("study.yaml").string(), "--out", path("out").string(),
-                   "--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
-  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
-  EXPECT_THAT(read_text(path("out/results.csv")),
-              AllOf(HasSubstr("box,good,1,ok,,"), HasSubstr("box,bad,1,failed,"),
-                    HasSubstr("the device is lost")));
-}
-
 /// A test with a scene that asks for a GPU on a machine without one.
 class NoDeviceTest : public AppTest {
  protected:
@@ -113,16 +95,6 @@ TEST_F(NoDeviceTest, SoDoesValidate) {
   expect_refusal(run_program({"validate", scene(scene_for_cuda())}), message());
 }
 
-TEST_F(NoDeviceTest, SoDoesAStudyBeforeAnythingRuns) {
-  scene(scene_for_cuda(), "box.yaml");
-  write_text(path("study.yaml"), "title: A GPU\nscenes: {box: {file: box.yaml}}\n");
-  std::vector<std::string> pieces = message();
-  pieces.push_back("nothing was run");
-  const Outcome outcome =
-      run_program({"compare", path("study.yaml").string(), "--out", path("out").string()});
-  expect_refusal(outcome, pieces);
-}
-
 TEST_F(NoDeviceTest, AnOptimizerThatNeedsOneIsRefusedByValidateAsByARun) {
   for (const char* optimizer :
        {"{type: pso_cuda}", "{type: pipeline, stages: [{optimizer: {type: pso_cuda}}]}",
@@ -135,14 +107,6 @@ TEST_F(NoDeviceTest, AnOptimizerThatNeedsOneIsRefusedByValidateAsByARun) {
     expect_refusal(looked_at, {});
     EXPECT_EQ(looked_at.err, tracked.err);
   }
-}
-
-TEST_F(NoDeviceTest, ForBenchItIsARow) {
-  const Outcome outcome =
-      run_program({"bench", scene(box_scene()), "--backends", "cpu,cuda", "--frames", "3"});
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, AllOf(testing::ContainsRegex("cuda +- unavailable \\[1\\]"),
-                                 HasSubstr("[1] " + message()[0]), HasSubstr(message()[1])));
 }
 
 TEST_F(NoDeviceTest, AutomaticTakesTheCpuAndSaysWhy) {

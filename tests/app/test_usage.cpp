@@ -44,14 +44,9 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"run", "a.yaml", "--out", ""},
       {"synth", "a.yaml"},
       {"synth", "a.yaml", "--out", ""},
-      {"compare", "a.yaml", "--out", ""},
       {"fit-shape", "a.yaml", "--out", ""},
-      {"reliability", "a", "--out", ""},
       {"evaluate"},
       {"evaluate", "a", "--units", "inch"},
-      {"bench", "--frames", "0"},
-      {"bench", "--rounds", "many"},
-      {"bench", "--seconds", "0"},
       {"plugins"},
       {"plugins", "info"},
       {"plugins", "check"},
@@ -76,8 +71,6 @@ TEST_F(UsageTest, MistakesOfUsageSayWhatIsExpected) {
               HasSubstr("--seed: expected a whole number from 0 to"));
   EXPECT_THAT(message({"run", "a.yaml", "--out", ""}),
               HasSubstr("--out: is empty, expected a name"));
-  EXPECT_THAT(message({"bench", "--seconds", "0"}),
-              HasSubstr("--seconds: expected a number above 0, found '0'"));
 }
 
 TEST_F(UsageTest, ThePluginPathMayStandBeforeTheScene) {
@@ -88,16 +81,12 @@ TEST_F(UsageTest, ThePluginPathMayStandBeforeTheScene) {
 
 TEST_F(UsageTest, ChangesMayStandBeforeTheScene) {
   const std::string file = scene(box_scene());
-  for (const char* command : {"validate", "bench"})
-    EXPECT_THAT(run_program({command, "--set", "a=b", file}).err,
-                HasSubstr("--set a=b: a: unknown key. Allowed: models, source"))
-        << command;
+  EXPECT_THAT(run_program({"validate", "--set", "a=b", file}).err,
+              HasSubstr("--set a=b: a: unknown key. Allowed: models, source"));
   const Outcome two = run_program(
       {"run", "--set", "source.frames=2", "--set", "seed=3", file, "--out", path("out").string()});
   EXPECT_EQ(two.exit_code, 0) << two.err;
   EXPECT_THAT(read_text(path("out/run.yaml")), AllOf(HasSubstr("frames: 2"), HasSubstr("seed: 3")));
-  EXPECT_THAT(run_program({"bench", "--backends", "cpu,none", file}).err,
-              HasSubstr("--backends none: the table has no such case"));
   EXPECT_THAT(run_program({"evaluate", "--rename", "a=b", path("no_run").string()}).err,
               HasSubstr("no_run"));
 }
