@@ -7,12 +7,11 @@
 ///   #define HWY_TARGET_INCLUDE "my_term.cpp"  // is included again for every instruction set
 ///   #include <hypotrack/foreach_target-inl.hpp>
 ///
-/// On x86 these are AVX3, AVX2 and, for processors without them, plain C++. SSE4 and SSSE3 would be
-/// for processors from before 2013, AVX3_DL gains too little over AVX3. Scalable vectors are
-/// disabled because structs cannot hold them.
+/// Scalable vectors are disabled because structs cannot hold them. SSSE3 and AVX3_DL are disabled
+/// because they gain too little over SSE4 and AVX3.
 #undef HWY_DISABLED_TARGETS
 #define HWY_DISABLED_TARGETS \
-  (HWY_SSSE3 | HWY_SSE4 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+  (HWY_SSSE3 | HWY_AVX3_DL | HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
 
 #include <hwy/foreach_target.h>
 // foreach_target.h comes first:
