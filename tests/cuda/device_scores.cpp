@@ -94,8 +94,8 @@ void expect_residuals_like_the_cpu(const Scene& scene, const Observation& observ
                                    const std::vector<ObjectiveTerm>& cpu_terms,
                                    const std::vector<ObjectiveTerm>& gpu_terms,
                                    const Eigen::MatrixXd& states, double worst, double mean) {
-  Evaluator cpu(scene, cpu_terms, {.backend = Backend::cpu}, {.wanted = true});
-  Evaluator gpu(scene, gpu_terms, {.backend = Backend::cuda}, {.wanted = true});
+  Evaluator cpu(scene, cpu_terms, {.backend = Backend::cpu}, {.least_squares = true});
+  Evaluator gpu(scene, gpu_terms, {.backend = Backend::cuda}, {.least_squares = true});
   cpu.prepare(observation);
   gpu.prepare(observation);
   ASSERT_EQ(gpu.residual_count(), cpu.residual_count());

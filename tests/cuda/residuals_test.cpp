@@ -78,7 +78,7 @@ TEST_F(DeviceResiduals, WithAChargeAreThoseOfTheCpu) {
 TEST_F(DeviceResiduals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
   const Scene scene = test::hand_scene();
   Evaluator gpu(scene, {{4, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
-                {.wanted = true});
+                {.least_squares = true});
   gpu.prepare(frame_of(scene, 128));
   Eigen::MatrixXd states = test::scored_states(scene).leftCols(20);
   states(0, 0) = 30;  // beside the tiles
@@ -94,7 +94,7 @@ TEST_F(DeviceResiduals, AreTheSameWhateverTheBatch) {
   const Scene scene = test::hand_scene();
   // 2 MiB a hypothesis: they come down in two goes.
   const Observation frame = frame_of(scene, 512);
-  Evaluator gpu(scene, many_terms(scene), {.backend = Backend::cuda}, {.wanted = true});
+  Evaluator gpu(scene, many_terms(scene), {.backend = Backend::cuda}, {.least_squares = true});
   gpu.prepare(frame);
   const Eigen::MatrixXd states = test::scored_states(scene).leftCols(40);
   const test::Residuals all = test::residuals_of(gpu, states);
@@ -110,7 +110,7 @@ TEST_F(DeviceResiduals, SayWhichOfThemLookAtThePoseOnly) {
   const Scene scene = test::hand_scene();
   const Observation frame = frame_of(scene, 128);
   const auto rows = [&](Backend backend) {
-    Evaluator evaluator(scene, many_terms(scene), {.backend = backend}, {.wanted = true});
+    Evaluator evaluator(scene, many_terms(scene), {.backend = backend}, {.least_squares = true});
     evaluator.prepare(frame);
     std::vector<Eigen::Index> out;
     for (const ResidualRows& r : evaluator.pose_only_residuals()) {
@@ -152,18 +152,21 @@ TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
   const Scene scene = test::hand_scene();
   const std::vector<ObjectiveTerm> terms = {{1, colors(stereo_color::Direction::both)},
                                             {1, std::make_shared<CpuResiduals>(), "prior"}};
-  EXPECT_EQ(test::message_of<DeviceError>(
-                [&] { Evaluator(scene, terms, {.backend = Backend::cuda}, {.wanted = true}); }),
+  EXPECT_EQ(test::message_of<DeviceError>([&] {
+              Evaluator(scene, terms, {.backend = Backend::cuda}, {.least_squares = true});
+            }),
             "evaluate.backend: cuda: the optimizer needs residuals, and objective prior has them "
             "on the CPU only. Write `backend: cpu`, or `auto` to take what there is");
-  const Evaluator automatic(scene, terms, {}, {.wanted = true});
+  const Evaluator automatic(scene, terms, {}, {.least_squares = true});
   EXPECT_THAT(automatic.backend(), testing::HasSubstr("objective prior has them on the CPU only"));
 }
 
 TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
   const Scene scene = test::hand_scene();
   const auto backend = [&](std::vector<ObjectiveTerm> terms, Linearization linearization) {
-    return Evaluator(scene, std::move(terms), {}, {true, linearization}).backend();
+    return Evaluator(scene, std::move(terms), {},
+                     {.least_squares = true, .jacobian = linearization})
+        .backend();
   };
   const std::vector<ObjectiveTerm> sloped = {{1, colors(stereo_color::Direction::both)}};
   const std::vector<ObjectiveTerm> plain = {
@@ -177,7 +180,7 @@ TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
 TEST_F(DeviceResiduals, ThatDoNotFitIntoMemoryAreRefusedAndFewerStillWork) {
   const Scene scene = test::hand_scene();
   Evaluator gpu(scene, {{1, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
-                {.wanted = true});
+                {.least_squares = true});
   gpu.prepare(frame_of(scene, 1024));  // 8 MiB a hypothesis
   const std::size_t free = cuda::free_memory().value();
   const auto many = static_cast<Eigen::Index>(free / (std::size_t{8} << 20)) + 1000;

@@ -9,6 +9,11 @@ namespace {
 
 using EvaluatorResiduals = EvaluatorTest;
 
+struct DrawnSquares final : SquaresOfState {
+  using SquaresOfState::SquaresOfState;
+  bool needs_rendering() const override { return true; }
+};
+
 TEST_F(EvaluatorResiduals, ResidualsOfAllTermsAddUpToTheirWeightedSum) {
   const std::vector<ObjectiveTerm> terms = {{4, std::make_shared<SquaresOfState>(3)},
                                             {0, drawn(total_inverse_depth)},
@@ -16,7 +21,7 @@ TEST_F(EvaluatorResiduals, ResidualsOfAllTermsAddUpToTheirWeightedSum) {
   const Eigen::MatrixXd states = random_states(40);
   Eigen::MatrixXf expected;
   for (const int count : {1, 3}) {
-    Evaluator evaluator(scene_, terms, threads(count), {.wanted = true});
+    Evaluator evaluator(scene_, terms, threads(count), {.least_squares = true});
     evaluator.prepare(observation_);
     ASSERT_EQ(evaluator.residual_count(), 13);
     Eigen::MatrixXf residuals(13, 40);
@@ -35,7 +40,7 @@ TEST_F(EvaluatorResiduals, RefusesResidualsOfTermsThatHaveNone) {
   const auto plain = undrawn([](const RenderedHypothesis&) { return 0.0; });
   const auto why = [&](std::vector<ObjectiveTerm> terms, Backend backend) -> std::string {
     try {
-      Evaluator(scene_, std::move(terms), {.backend = backend}, {.wanted = true});
+      Evaluator(scene_, std::move(terms), {.backend = backend}, {.least_squares = true});
     } catch (const ConfigError& error) {
       return error.what();
     }
@@ -53,26 +58,36 @@ TEST_F(EvaluatorResiduals, RefusesResidualsOfTermsThatHaveNone) {
 TEST_F(EvaluatorResiduals, TakesAnalyticJacobiansOnTheCpu) {
   const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<SquaresOfState>(3)}};
   for (const auto linearization : {Linearization::needed, Linearization::welcome}) {
-    const Evaluator automatic(scene_, terms, {}, {true, linearization});
+    const Evaluator automatic(scene_, terms, {},
+                              {.least_squares = true, .jacobian = linearization});
     EXPECT_THAT(automatic.backend(),
                 testing::HasSubstr("not on a GPU: the optimizer takes analytic Jacobians"));
   }
   EXPECT_THAT(message_of<ConfigError>([&] {
-                Evaluator(scene_, terms, {.backend = Backend::cuda}, {true, Linearization::needed});
+                Evaluator(scene_, terms, {.backend = Backend::cuda},
+                          {.least_squares = true, .jacobian = Linearization::needed});
               }),
-              testing::StartsWith("evaluate.backend: cuda: the optimizer takes analytic Jacobians, "
-                                  "which are computed on the CPU. Write `jacobian: auto`"));
+              testing::StartsWith("the optimizer takes analytic Jacobians, which are computed on "
+                                  "the CPU: evaluate.backend is cuda. Write `jacobian: auto`"));
+}
+
+TEST_F(EvaluatorResiduals, RefusesAnalyticJacobiansOfTermsWithoutSlopes) {
+  const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<DrawnSquares>(3)}};
+  EXPECT_THAT(message_of<ConfigError>([&] {
+                Evaluator(scene_, terms, threads(1),
+                          {.least_squares = true, .jacobian = Linearization::needed});
+              }),
+              testing::EndsWith("a term has no slopes of its residuals. Write `jacobian: auto` or "
+                                "`numerical` in the optimizer"));
+  EXPECT_NO_THROW(Evaluator(scene_, terms, threads(1),
+                            {.least_squares = true, .jacobian = Linearization::welcome}));
 }
 
 TEST_F(EvaluatorResiduals, SaysWhichResidualsLookAtThePoseOnlyWhereItFellBackToo) {
-  struct DrawnSquares final : SquaresOfState {
-    using SquaresOfState::SquaresOfState;
-    bool needs_rendering() const override { return true; }
-  };
   for (const auto backend : {Backend::cpu, Backend::automatic}) {
     Evaluator evaluator(
         scene_, {{1, std::make_shared<DrawnSquares>(4)}, {1, std::make_shared<SquaresOfState>(3)}},
-        {.backend = backend, .threads = 1}, {.wanted = true});
+        {.backend = backend, .threads = 1}, {.least_squares = true});
     evaluator.prepare(observation_);
     const std::vector<ResidualRows> rows = evaluator.pose_only_residuals();
     ASSERT_EQ(rows.size(), 1u);

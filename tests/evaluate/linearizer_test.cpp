@@ -154,7 +154,7 @@ TEST_P(Linearize, IsTheNumericalJacobianWhereNoSilhouetteIsInSight) {
   state.segment<4>(3) << 0.98, 0.1, -0.15, 0.05;
   wall.normalize(state);
   Evaluator evaluator(wall, {{1, std::make_shared<DepthPattern>(0.5f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                      {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = observation(wall);
   evaluator.prepare(frame);
   ASSERT_TRUE(evaluator.can_linearize());
@@ -179,7 +179,7 @@ TEST_P(Linearize, KnowsWhatMovingSilhouettesChange) {
   // Without slopes there is nothing else.
   for (const float slope : {0.0f, 0.2f}) {
     Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(slope, 0.5f)}},
-                        {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                        {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
     const Observation frame = observation(scene);
     evaluator.prepare(frame);
     // Means over how the silhouette lies on the grid of pixels, and over lengths of differences.
@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(Pairs, Linearize, testing::Bool(),
 TEST(Linearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
   const Scene scene = test::hand_scene();
   Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.0f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                      {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
   evaluator.prepare(frame);
   const NormalEquations sharp = linearize(evaluator, scene, hand_state(scene), 1);
@@ -224,7 +224,8 @@ TEST(Linearizer, AddsTermsUpWithTheirWeights) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const auto of = [&](const std::vector<ObjectiveTerm>& terms) {
-    Evaluator evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+    Evaluator evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1},
+                        {.least_squares = true});
     evaluator.prepare(frame);
     return linearize(evaluator, scene, hand_state(scene));
   };
@@ -246,7 +247,7 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
   NormalEquations expected;
   for (const int threads : {1, 2, 5}) {
     Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                        {.backend = Backend::cpu, .threads = threads}, {.wanted = true});
+                        {.backend = Backend::cpu, .threads = threads}, {.least_squares = true});
     evaluator.prepare(frame);
     const NormalEquations found = linearize(evaluator, scene, hand_state(scene));
     if (threads == 1) expected = found;
@@ -258,7 +259,7 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
 TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   const Scene scene = test::hand_scene();
   Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                      {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
   evaluator.prepare(frame);
   const Eigen::VectorXd state = hand_state(scene);
@@ -280,7 +281,7 @@ class WithoutSlopes : public DepthPattern {
 TEST(Linearizer, NeedsSlopesOfEveryTermThatIsDrawn) {
   const Scene scene = test::hand_scene();
   const auto can = [&](const std::vector<ObjectiveTerm>& terms) {
-    return Evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.wanted = true})
+    return Evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.least_squares = true})
         .can_linearize();
   };
   const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);

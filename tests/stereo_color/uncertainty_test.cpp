@@ -38,7 +38,7 @@ TEST(Uncertainty, OfAHiddenFingerIsLargerThanOfAVisibleOne) {
   params.direction = Direction::both;
   const RenderedPair pair(index_hidden);
   Evaluator evaluator(pair.scene(), {{1.0, std::make_shared<StereoColor>(params)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                      {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   evaluator.prepare(pair.observation());
   const Eigen::VectorXd sigma = PoseUncertainty(pair.scene(), {}).of(evaluator, pair.truth());
   for (const std::string joint : {"_2", "_3", "_tip"}) {

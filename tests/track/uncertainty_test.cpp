@@ -64,7 +64,7 @@ struct Fixture {
   }
   double sigma(std::vector<ObjectiveTerm> terms, double away = 0) const {
     Evaluator evaluator(scene, std::move(terms), {.backend = Backend::cpu, .threads = 1},
-                        {.wanted = true});
+                        {.least_squares = true});
     evaluator.prepare(Observation{});
     Eigen::VectorXd state = scene.rest_state();
     state[0] = away;
@@ -136,7 +136,7 @@ TEST(PoseUncertainty, OfWhatAnExactReadingLeavesOpenIsWhatTheSettingsSay) {
 TEST(PoseUncertainty, HasAValueForEveryLandmarkAtTheBoundsToo) {
   const Scene scene({{"hand", std::make_shared<Model>(test::make_test_hand())}});
   Evaluator evaluator(scene, {{1.0, std::make_shared<Readings>(std::vector{0, 1, 2}, 50, 0.01)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+                      {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   evaluator.prepare(Observation{});
   Eigen::VectorXd state = scene.rest_state();
   for (Eigen::Index i = 7; i < state.size(); ++i)

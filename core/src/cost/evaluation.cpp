@@ -17,25 +17,24 @@ constexpr const char* kAnalytic =
 std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
                                                 const std::vector<ObjectiveTerm>& terms,
                                                 const EvaluateSettings& settings,
-                                                const ResidualUse& use) {
+                                                const Requirements& requirements) {
   std::string why_not = "the optimizer needs residuals, which the GPU has only of what CUDA draws";
-  if (!use.wanted) {
+  if (!requirements.least_squares) {
     if (auto shared = cuda::make_egl_evaluation(scene, terms, settings, why_not)) return shared;
   }
   return make_host_evaluation(scene, terms, settings, "scored on the CPU: " + why_not);
 }
 
-std::unique_ptr<Evaluation> make_cuda_evaluation(const Scene& scene,
-                                                 const std::vector<ObjectiveTerm>& terms,
-                                                 const EvaluateSettings& settings,
-                                                 const ResidualUse& use) {
-  if (use.wanted && use.linearization == Linearization::needed) {
-    throw ConfigError(fmt::format(
-        "evaluate.backend: cuda: {}. Write `jacobian: auto` or `numerical` in the optimizer, "
-        "or `backend: cpu`",
-        kAnalytic));
+/// Returns what the terms and the backend offer; `on_gpu` says whether CUDA evaluates the terms.
+CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, Backend backend, bool on_gpu) {
+  constexpr const char* kInstead = ". Write `jacobian: auto` or `numerical` in the optimizer";
+  CostOffer offer{.no_least_squares = TermResiduals::why_none(terms), .device = on_gpu};
+  if (backend == Backend::cuda) {
+    offer.no_jacobian = fmt::format("evaluate.backend is cuda{}, or `backend: cpu`", kInstead);
+  } else if (!Linearizer::can_linearize(terms)) {
+    offer.no_jacobian = fmt::format("a term has no slopes of its residuals{}", kInstead);
   }
-  return cuda::make_evaluation(scene, terms, settings, use.wanted);
+  return offer;
 }
 
 }  // namespace
@@ -50,36 +49,31 @@ NormalEquations Evaluation::linearize(const Eigen::MatrixXd&, const Eigen::Vecto
 }
 
 std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                                 const EvaluateSettings& settings, const ResidualUse& use) {
-  if (use.wanted &&
-      (use.linearization == Linearization::needed ||
-       (use.linearization == Linearization::welcome && Linearizer::can_linearize(terms)))) {
+                                 const EvaluateSettings& settings,
+                                 const Requirements& requirements) {
+  if (requirements.least_squares &&
+      (requirements.jacobian == Linearization::needed ||
+       (requirements.jacobian == Linearization::welcome && Linearizer::can_linearize(terms)))) {
     return kAnalytic;
   }
-  return cuda::why_not_evaluated(scene, terms, settings, use.wanted);
+  return cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares);
 }
 
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
                                             const EvaluateSettings& settings,
-                                            const ResidualUse& use) {
-  if (use.wanted) {
-    const std::string why = TermResiduals::why_none(terms);
-    if (!why.empty()) throw ConfigError("objective: the optimizer needs residuals: " + why);
+                                            const Requirements& requirements) {
+  const bool automatic = settings.backend == Backend::automatic;
+  const std::string why_on_cpu =
+      automatic ? why_automatic_on_cpu(scene, terms, settings, requirements) : std::string();
+  const bool on_gpu = automatic ? why_on_cpu.empty() : settings.backend == Backend::cuda;
+  check_requirements(requirements, offer_of(terms, settings.backend, on_gpu));
+  if (on_gpu) return cuda::make_evaluation(scene, terms, settings, requirements.least_squares);
+  if (settings.backend == Backend::egl) {
+    return make_egl_evaluation(scene, terms, settings, requirements);
   }
-  switch (settings.backend) {
-    case Backend::cpu:
-      return make_host_evaluation(scene, terms, settings);
-    case Backend::egl:
-      return make_egl_evaluation(scene, terms, settings, use);
-    case Backend::cuda:
-      return make_cuda_evaluation(scene, terms, settings, use);
-    case Backend::automatic:
-      break;
-  }
-  const std::string why = why_automatic_on_cpu(scene, terms, settings, use);
-  if (why.empty()) return cuda::make_evaluation(scene, terms, settings, use.wanted);
-  return make_host_evaluation(scene, terms, settings, "not on a GPU: " + why);
+  return make_host_evaluation(scene, terms, settings,
+                              automatic ? "not on a GPU: " + why_on_cpu : std::string());
 }
 
 void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what) {

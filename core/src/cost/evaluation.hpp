@@ -70,12 +70,12 @@ class Evaluation {
 };
 
 /// Makes the backend that the settings select; never a silent substitute. The scene must outlive
-/// it. Throws DeviceError if it is unavailable, and ConfigError if the terms or the backend lack
-/// what `use` needs.
+/// it. Throws DeviceError if it is unavailable, and by check_requirements() if the terms or the
+/// backend lack what is required.
 std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
                                             const std::vector<ObjectiveTerm>& terms,
                                             const EvaluateSettings& settings,
-                                            const ResidualUse& use);
+                                            const Requirements& requirements);
 
 /// Makes the evaluation that draws with a HypothesisRenderer and scores on the CPU. `why_here` is
 /// the reason for not using a GPU; its description() includes it.
@@ -86,7 +86,8 @@ std::unique_ptr<Evaluation> make_host_evaluation(const Scene& scene,
 
 /// Returns why `backend: auto` evaluates these terms on the CPU; empty if it uses the GPU.
 std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                                 const EvaluateSettings& settings, const ResidualUse& use);
+                                 const EvaluateSettings& settings,
+                                 const Requirements& requirements);
 
 /// Throws Error that says what a term did wrong for a hypothesis (`returned NaN`).
 [[noreturn]] void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what);

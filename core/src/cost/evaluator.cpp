@@ -52,10 +52,10 @@ Frame looked_at(const Frame& frame, const ImageUse& use) {
 
 struct Evaluator::Impl final : ResidualDifferences {
   Impl(const Scene& s, std::vector<ObjectiveTerm> t, const EvaluateSettings& settings,
-       const ResidualUse& use)
+       const Requirements& requirements)
       : scene(s),
         terms(checked(std::move(t))),
-        evaluation(make_evaluation(scene, terms, settings, use)) {}
+        evaluation(make_evaluation(scene, terms, settings, requirements)) {}
 
   // ResidualDifferences: normalises and forwards to the evaluation's.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
@@ -84,8 +84,8 @@ struct Evaluator::Impl final : ResidualDifferences {
 };
 
 Evaluator::Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms,
-                     const EvaluateSettings& settings, const ResidualUse& use)
-    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings, use)) {}
+                     const EvaluateSettings& settings, const Requirements& requirements)
+    : impl_(std::make_unique<Impl>(scene, std::move(terms), settings, requirements)) {}
 
 Evaluator::~Evaluator() = default;
 

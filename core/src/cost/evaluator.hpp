@@ -42,12 +42,6 @@ struct ObjectiveTerm {
   std::string name = {};  ///< for messages
 };
 
-/// The use of residuals by an optimizer.
-struct ResidualUse {
-  bool wanted = false;
-  Linearization linearization = Linearization::unused;  ///< of the wanted residuals
-};
-
 /// A range of consecutive residuals.
 struct ResidualRows {
   Eigen::Index first = 0, count = 0;
@@ -57,10 +51,10 @@ struct ResidualRows {
 /// views, and scores. It uses several threads; the result does not depend on their number.
 class HYPOTRACK_API Evaluator {
  public:
-  /// The scene must outlive the evaluator. Throws DeviceError if the backend is unavailable, and
-  /// ConfigError if a term or the backend lacks the residuals of `use`.
+  /// The scene must outlive the evaluator. Throws DeviceError if the backend is unavailable, and by
+  /// check_requirements() if the terms or the backend lack what is required.
   Evaluator(const Scene& scene, std::vector<ObjectiveTerm> terms, const EvaluateSettings& settings,
-            const ResidualUse& use = {});
+            const Requirements& requirements = {});
   ~Evaluator();
   Evaluator(const Evaluator&) = delete;
   Evaluator& operator=(const Evaluator&) = delete;
@@ -82,7 +76,7 @@ class HYPOTRACK_API Evaluator {
   /// wound outwards is drawn without back faces.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs);
 
-  /// Returns true if residuals are available; always true if `use` wanted them.
+  /// Returns true if residuals are available; always true if they were required.
   bool has_residuals() const;
   /// Returns the number M of residuals per state, for the prepared frame.
   Eigen::Index residual_count() const;

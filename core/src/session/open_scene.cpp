@@ -163,12 +163,13 @@ void Opening::objective() {
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
   const auto& terms = session_.parts.objective;
-  const ResidualUse use = residual_use(session_.parts);
+  const Requirements requirements = requirements_of(session_.parts);
   const bool on_gpu =
       (settings.backend == Backend::cuda &&
-       cuda::why_not_evaluated(*session_.scene, terms, settings, use.wanted).empty()) ||
+       cuda::why_not_evaluated(*session_.scene, terms, settings, requirements.least_squares)
+           .empty()) ||
       (settings.backend == Backend::automatic &&
-       why_automatic_on_cpu(*session_.scene, terms, settings, use).empty());
+       why_automatic_on_cpu(*session_.scene, terms, settings, requirements).empty());
   if (on_gpu) cuda::page_lock_images(settings.device);
 }
 

@@ -80,7 +80,7 @@ ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
   Built b;
   b.scene = targets_.reshaped(scene_, shape, thinner_);
   b.evaluator = std::make_unique<Evaluator>(*b.scene, parts_.objective, parts_.evaluate,
-                                            ResidualUse{.wanted = true});
+                                            Requirements{.least_squares = true});
   return b;
 }
 

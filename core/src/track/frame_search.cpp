@@ -32,11 +32,8 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       tiles_(scene, parts.cameras, parts.tile),
       photometric_(scene, of_pictures(parts.photometric, parts.objective)),
       space_(scene, parts.search),
-      evaluator_(scene, parts.objective, parts.evaluate, residual_use(parts)),
-      optimizer_(std::move(parts.optimizer)) {
-  if (const std::string why = optimizer_->needs_device(); !why.empty() && !evaluator_.on_device())
-    throw DeviceError(why);
-}
+      evaluator_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
+      optimizer_(std::move(parts.optimizer)) {}
 
 void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
   const std::vector<bool>& moves = moving.empty() ? models : moving;

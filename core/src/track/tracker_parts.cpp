@@ -4,12 +4,13 @@
 
 namespace hypotrack {
 
-ResidualUse residual_use(const TrackerParts& parts) {
-  const bool search = parts.optimizer->needs_residuals();
-  const bool hindsight = parts.hindsight.enabled;
-  return {search || hindsight || parts.status.uncertainty.enabled,
-          std::max(search ? parts.optimizer->linearization() : Linearization::unused,
-                   hindsight ? Linearization::welcome : Linearization::unused)};
+Requirements requirements_of(const TrackerParts& parts) {
+  Requirements all = parts.optimizer->requirements();
+  if (parts.status.uncertainty.enabled) all.merge({.least_squares = true});
+  if (parts.hindsight.enabled) {
+    all.merge({.least_squares = true, .jacobian = Linearization::welcome});
+  }
+  return all;
 }
 
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms) {

@@ -41,7 +41,7 @@ Hindsight::Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms,
                      bool highlights)
     : settings_(checked(settings, terms)),
       evaluator_(scene, with_prior(std::move(terms), settings.prior), evaluate,
-                 {true, Linearization::welcome}),
+                 {.least_squares = true, .jacobian = Linearization::welcome}),
       motion_(scene, settings),
       highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
       fit_(scene, evaluator_, motion_, highlights_ ? &*highlights_ : nullptr) {
