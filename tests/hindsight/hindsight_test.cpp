@@ -34,7 +34,7 @@ class Readings final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return draws_; }
   void prepare(const Observation& seen) override {
     now_ = frames_[static_cast<std::size_t>(seen.frame)];
-    in_hindsight_ = seen.in_hindsight;
+    in_hindsight_ = seen.context.no_motion_prior;
   }
   bool in_hindsight() const { return in_hindsight_; }
   double cost(const RenderedHypothesis& h) const override {

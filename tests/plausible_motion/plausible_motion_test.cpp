@@ -34,7 +34,7 @@ class PlausibleMotionTest : public testing::Test {
     Observation observation;
     observation.scene = &scene_;
     observation.start = start_;
-    observation.in_hindsight = in_hindsight_;
+    observation.context.no_motion_prior = no_motion_prior_;
     objective.prepare(observation);
     return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
   }
@@ -50,7 +50,7 @@ class PlausibleMotionTest : public testing::Test {
                       {"box", make_model("type: rigid_box\n")},
                       {"left", make_model("type: mirrored_hand\n")}}};
   Eigen::VectorXd start_ = scene_.rest_state();
-  bool in_hindsight_ = false;
+  bool no_motion_prior_ = false;
 };
 
 TEST_F(PlausibleMotionTest, OfNoMotionCoupledFingersAndARelaxedThumbIsNothing) {
@@ -81,7 +81,7 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
 }
 
 TEST_F(PlausibleMotionTest, InHindsightHoldsNothingToWhereTheSearchStarted) {
-  in_hindsight_ = true;
+  no_motion_prior_ = true;
   const Eigen::VectorXd relaxed = start_;
   const double before = cost({}, relaxed);
   for (const char* joint : {"index_flexion_1", "index_flexion_2", "thumb_abduction"})

@@ -96,11 +96,12 @@ TEST(PhotometricMatch, SaysHowFarColoursStayApart) {
     PhotometricMatch match(fixture.scene, fixture.settings);
     TilePlan plan = fixture.plan;
     match.apply(plan);
-    EXPECT_EQ(plan.header.color_difference, 0);
+    EXPECT_EQ(plan.header.context.color_difference, 0);
     fixture.learn(match, frame);
     match.apply(plan);
-    EXPECT_EQ(fixture.tiles->cut(frame, plan).color_difference, plan.header.color_difference);
-    return plan.header.color_difference;
+    EXPECT_EQ(fixture.tiles->cut(frame, plan).context.color_difference,
+              plan.header.context.color_difference);
+    return plan.header.context.color_difference;
   };
   const double without = difference(1, 0, 0);
   EXPECT_LT(without, 2.0 / 255);
@@ -303,7 +304,7 @@ TEST(PhotometricMatch, OffLeavesColoursAlone) {
   TilePlan plan = fixture.plan;
   match.apply(plan);
   EXPECT_TRUE(keeps_colors(plan.cuts[1].colors));
-  EXPECT_EQ(plan.header.color_difference, 0);
+  EXPECT_EQ(plan.header.context.color_difference, 0);
 }
 
 TEST(PhotometricMatch, HasNothingToDoWithOneView) {

@@ -24,7 +24,7 @@ class MovingTarget final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return false; }
   void prepare(const Observation& observation) override {
     x_ = 0.005 * observation.frame;
-    observed.push_back({observation.start_is_guess, observation.start});
+    observed.push_back({observation.context.start_is_guess, observation.start});
   }
   double cost(const RenderedHypothesis& h) const override {
     if (infeasible) return std::numeric_limits<double>::infinity();

@@ -61,7 +61,7 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   // Put hidden models where a shown one is, so that the tile's depths are those of shown models.
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
-  plan_.header.start_is_guess = is_guess;
+  plan_.header.context.start_is_guess = is_guess;
   evaluator_.prepare(tiles_, frame, plan_);
 }
 

@@ -41,7 +41,7 @@ class HYPOTRACK_API FrameSearch {
   /// draws them.
   Eigen::VectorXd drawn(Eigen::VectorXd state) const;
 
-  /// Prepares a frame for searches from `start`. `is_guess` sets Observation::start_is_guess.
+  /// Prepares a frame for searches from `start`. `is_guess` sets FrameContext::start_is_guess.
   void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
 
   /// Prepares a frame with the caller's tile plan, with colours matched.

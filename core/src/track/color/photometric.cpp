@@ -135,7 +135,7 @@ void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& s
 
 void PhotometricMatch::apply(TilePlan& plan) const {
   for (std::size_t i = 0; i < views_.size(); ++i) plan.cuts[i + 1].colors = views_[i].map;
-  if (!views_.empty()) plan.header.color_difference = views_[0].difference;
+  if (!views_.empty()) plan.header.context.color_difference = views_[0].difference;
 }
 
 }  // namespace hypotrack

@@ -100,7 +100,7 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
   for (const Scene::Item& item : scene_.items())
     plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
   plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
-  plan.header.in_hindsight = true;  // no motion leads here
+  plan.header.context.no_motion_prior = true;  // no motion leads here
   search.take_in(tiles_, frame, std::move(plan));
 }
 

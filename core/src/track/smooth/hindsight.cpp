@@ -54,7 +54,7 @@ Hindsight::Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms,
 }
 
 void Hindsight::add(Sight sight, const Moment& found) {
-  if (sight) sight->in_hindsight = true;
+  if (sight) sight->context.no_motion_prior = true;
   sights_.push_back(std::move(sight));
   moments_.push_back(found);
   evaluations_.push_back(0);
