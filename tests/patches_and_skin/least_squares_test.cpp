@@ -22,11 +22,11 @@ struct Found {
 Eigen::VectorXd costs_of(const OpenedScene& session, const Frame& frame,
                          const Eigen::MatrixXd& states) {
   const TileMaker tiles(*session.scene, session.parts.cameras, session.parts.tile);
-  Evaluator evaluator(*session.scene, session.parts.objective, session.parts.evaluate);
+  const auto cost = make_cost(*session.scene, session.parts.objective, session.parts.evaluate);
   const Observation observation = tiles.make(frame, states.col(0));
-  evaluator.prepare(observation);
+  cost->prepare(observation);
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost->evaluate(states, costs);
   return costs;
 }
 

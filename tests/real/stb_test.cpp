@@ -99,11 +99,12 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
 /// Costs of states on the tiles around the first of them.
 Eigen::VectorXd costs(const Stb& stb, const Frame& frame, const Eigen::MatrixXd& states) {
   const TileMaker tiles(*stb.session.scene, stb.session.parts.cameras, stb.session.parts.tile);
-  Evaluator evaluator(*stb.session.scene, stb.session.parts.objective, stb.session.parts.evaluate);
+  const auto cost =
+      make_cost(*stb.session.scene, stb.session.parts.objective, stb.session.parts.evaluate);
   const Observation observation = tiles.make(frame, states.col(0));
-  evaluator.prepare(observation);
+  cost->prepare(observation);
   Eigen::VectorXd out(states.cols());
-  evaluator.evaluate(states, out);
+  cost->evaluate(states, out);
   return out;
 }
 

@@ -6,8 +6,8 @@
 
 #include "config/read_value.hpp"
 #include "config/yaml_document.hpp"
+#include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
@@ -162,15 +162,9 @@ void Opening::objective() {
 /// Page-locks image memory if a GPU will read it. Call before the source makes images.
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
-  const auto& terms = session_.parts.objective;
-  const Requirements requirements = requirements_of(session_.parts);
-  const bool on_gpu =
-      (settings.backend == Backend::cuda &&
-       cuda::why_not_evaluated(*session_.scene, terms, settings, requirements.least_squares)
-           .empty()) ||
-      (settings.backend == Backend::automatic &&
-       why_automatic_on_cpu(*session_.scene, terms, settings, requirements).empty());
-  if (on_gpu) cuda::page_lock_images(settings.device);
+  if (evaluates_with_cuda(*session_.scene, session_.parts.objective, settings,
+                          requirements_of(session_.parts)))
+    cuda::page_lock_images(settings.device);
 }
 
 void Opening::optimizer() {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "tile/tiles.hpp"

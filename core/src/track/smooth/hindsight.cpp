@@ -40,11 +40,11 @@ Hindsight::Hindsight(const Scene& scene, std::vector<ObjectiveTerm> terms,
                      const EvaluateSettings& evaluate, const HindsightSettings& settings,
                      bool highlights)
     : settings_(checked(settings, terms)),
-      evaluator_(scene, with_prior(std::move(terms), settings.prior), evaluate,
-                 {.least_squares = true, .jacobian = Linearization::welcome}),
+      cost_(make_cost(scene, with_prior(std::move(terms), settings.prior), evaluate,
+                      {.least_squares = true, .jacobian = Linearization::welcome})),
       motion_(scene, settings),
       highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
-      fit_(scene, evaluator_, motion_, highlights_ ? &*highlights_ : nullptr) {
+      fit_(scene, *cost_, motion_, highlights_ ? &*highlights_ : nullptr) {
   const std::int64_t least = 2 * kTurns * fit_.evaluations_per_look();
   if (settings_.evaluations < least)
     throw ConfigError(fmt::format(

@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/hindsight_settings.hpp"
@@ -43,7 +44,7 @@ class HYPOTRACK_API Hindsight {
   void settle(std::size_t count);
 
   HindsightSettings settings_;
-  Evaluator evaluator_;
+  std::unique_ptr<Cost> cost_;
   MotionPrior motion_;
   std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;

@@ -65,7 +65,7 @@ struct Beside {
 }  // namespace
 
 std::int64_t TrajectoryFit::evaluations_per_look() const {
-  return evaluator_->can_linearize() ? 2 : motion_->weight().size() + 1;
+  return residuals_->can_linearize() ? 2 : motion_->weight().size() + 1;
 }
 
 TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorXd& state,
@@ -73,20 +73,20 @@ TrajectoryFit::Look TrajectoryFit::look(const Sight& sight, const Eigen::VectorX
   const Eigen::Index d = motion_->weight().size();
   Look look{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
   if (!sight) return look;
-  evaluator_->prepare(*sight);
-  if (evaluator_->can_linearize()) {
+  cost_->prepare(*sight);
+  if (residuals_->can_linearize()) {
     const Beside beside(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
-    evaluator_->evaluate(state, cost);
+    cost_->evaluate(state, cost);
     look.cost = cost[0];
     if (std::isfinite(look.cost))
-      look.equations = evaluator_->linearize(beside.states, beside.steps, blur);
+      look.equations = residuals_->linearize(beside.states, beside.steps, blur);
     return look;
   }
   const Beside beside(*scene_, state, 1);
-  Eigen::MatrixXf residuals(evaluator_->residual_count(), d + 1);
+  Eigen::MatrixXf residuals(residuals_->count(), d + 1);
   Eigen::VectorXd costs(d + 1);
-  evaluator_->evaluate(beside.states, residuals, costs);
+  residuals_->evaluate(beside.states, residuals, costs);
   look.cost = costs[0];
   if (!costs.allFinite()) return look;
   const Eigen::VectorXf r = residuals.col(0);

@@ -1,15 +1,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <optional>
+#include <utility>
 
+#include "cost/backends.hpp"
 #include "cost/cuda/device_residuals.hpp"
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
 #include "cost/cuda/tile_cutter.hpp"
 #include "cost/cuda/transfer.hpp"
-#include "cost/evaluation.hpp"
 #include "cost/term_residuals.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/error.hpp"
@@ -17,70 +19,43 @@
 namespace hypotrack::cuda {
 namespace {
 
-/// The evaluation on the GPU: uploads hypotheses unless they are there already, downloads costs.
-class CudaEvaluation final : public Evaluation, public DeviceCost {
+/// Poses, draws and scores on the GPU: uploads hypotheses unless they are there already, downloads
+/// costs.
+class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
  public:
-  CudaEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                 const EvaluateSettings& settings)
-      : frame_(scene, terms, settings),
-        sum_of_squares_(TermResiduals::why_none(terms).empty()),
-        residuals_(frame_, batch_),
+  CudaCost(const Scene& scene, std::vector<ObjectiveTerm> all, const EvaluateSettings& settings)
+      : Cost(scene, std::move(all)),
+        frame_(scene, terms(), settings),
+        sum_of_squares_(TermResiduals::why_none(terms()).empty()),
         prior_(static_cast<std::size_t>(scene.dimension())),
         prior_staging_(prior_.size()) {}
-  ~CudaEvaluation() override { cudaStreamSynchronize(native(stream())); }
+  ~CudaCost() override { cudaStreamSynchronize(native(stream())); }
 
-  void prepare(const Observation& observation) override {
-    frame_.finish();
-    frame_.prepare(observation);
+  StateResiduals* least_squares() override {
+    return sum_of_squares_ && frame_.has_residuals() ? this : nullptr;
   }
-  void prepare(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
-    frame_.finish();
-    const bool host_only =
-        std::ranges::any_of(plan.cuts, [](const CutPlan& cut) { return !cut.brightness.empty(); });
-    if (host_only) return Evaluation::prepare(tiles, frame, plan);
-    if (!cutter_) {
-      cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
-    }
-    const auto work = [&] {
-      return work_of(tiles.posed(plan.header.start), plan.header.views[0].camera);
-    };
-    if (!work_) work_ = work();
-    frame_.prepare(cutter_->cut(frame, plan, stream(), *work_));
-    work_ = work();  // for the next frame, which is similar; runs while the GPU works
-  }
-
-  void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
-    if (states.cols() == 0) return;
+  DeviceCost* device(const Eigen::VectorXd* rotations_from) override {
+    check_prepared();
     frame_.device().use();
-    use_prior(nullptr);
-    reserve(states.cols());
-    batch_.upload(states, stream());
-    frame_.enqueue(batch_.layout());
-    batch_.download(0, states.cols(), stream());
-    check(cudaStreamSynchronize(native(stream())), "evaluating hypotheses");
-    batch_.read(costs, frame_.terms());
-  }
-
-  bool has_residuals() const override { return sum_of_squares_ && frame_.has_residuals(); }
-  Eigen::Index residual_count() const override { return frame_.residual_count(); }
-  std::vector<ResidualRows> pose_only_residuals() const override {
-    return frame_.pose_only_residuals();
-  }
-  void evaluate_residuals(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
-                          Eigen::Ref<Eigen::VectorXd> costs) override {
-    residuals_.download(states, residuals, costs);
-  }
-  ResidualDifferences* differences() override { return has_residuals() ? &residuals_ : nullptr; }
-
-  std::string description() const override {
-    return fmt::format("cuda ({})", frame_.device().name());
-  }
-
-  bool on_device() const override { return true; }
-  DeviceCost* device_cost(const Eigen::VectorXd& prior, bool rotation_vectors) override {
-    frame_.device().use();
-    use_prior(rotation_vectors ? &prior : nullptr);
+    use_prior(rotations_from);
     return this;
+  }
+  std::string backend() const override { return fmt::format("cuda ({})", frame_.device().name()); }
+
+  // StateResiduals
+  Eigen::Index count() const override {
+    check_prepared();
+    return frame_.residual_count();
+  }
+  std::vector<ResidualRows> pose_only() const override { return frame_.pose_only_residuals(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
+    const Eigen::MatrixXd& batch = normalized(states, costs.size());
+    check_room(residuals, count(), batch.cols());
+    DeviceResiduals(*this, frame_, batch_, residual_memory_).download(batch, residuals, costs);
+  }
+  std::unique_ptr<ResidualDifferences> differences() override {
+    return std::make_unique<DeviceResiduals>(*this, frame_, batch_, residual_memory_);
   }
 
   // DeviceCost
@@ -96,6 +71,39 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   }
   std::uint64_t revision() const override { return revision_ + frame_.revision(); }
 
+ protected:
+  void prepare_observation(const Observation& observation) override {
+    frame_.finish();
+    frame_.prepare(observation);
+  }
+  void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    frame_.finish();
+    const bool host_only =
+        std::ranges::any_of(plan.cuts, [](const CutPlan& cut) { return !cut.brightness.empty(); });
+    if (host_only) return Cost::prepare_images(tiles, frame, plan);
+    if (!cutter_) {
+      cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
+    }
+    const auto work = [&] {
+      return work_of(tiles.posed(plan.header.start), plan.header.views[0].camera);
+    };
+    if (!work_) work_ = work();
+    frame_.prepare(cutter_->cut(frame, plan, stream(), *work_));
+    work_ = work();  // for the next frame, which is similar; runs while the GPU works
+  }
+  void evaluate_normalized(const Eigen::MatrixXd& states,
+                           Eigen::Ref<Eigen::VectorXd> costs) override {
+    if (states.cols() == 0) return;
+    frame_.device().use();
+    use_prior(nullptr);
+    reserve(states.cols());
+    batch_.upload(states, stream());
+    frame_.enqueue(batch_.layout());
+    batch_.download(0, states.cols(), stream());
+    check(cudaStreamSynchronize(native(stream())), "evaluating hypotheses");
+    batch_.read(costs, frame_.terms());
+  }
+
  private:
   void use_prior(const Eigen::VectorXd* prior) {
     if (rotation_vectors_ != (prior != nullptr)) ++revision_;
@@ -110,7 +118,7 @@ class CudaEvaluation final : public Evaluation, public DeviceCost {
   std::optional<WorkEnds> work_;
   HostBatch batch_;
   bool sum_of_squares_;
-  DeviceResiduals residuals_;
+  ResidualMemory residual_memory_;
   DeviceBuffer<double> prior_;
   PinnedBuffer<double> prior_staging_;
   bool rotation_vectors_ = false;
@@ -134,15 +142,14 @@ std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTer
   return why_not_this_device(settings.device);
 }
 
-std::unique_ptr<Evaluation> make_evaluation(const Scene& scene,
-                                            const std::vector<ObjectiveTerm>& terms,
-                                            const EvaluateSettings& settings, bool residuals) {
+std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                const EvaluateSettings& settings, bool residuals) {
   const std::string why = why_not_evaluated(scene, terms, settings, residuals);
   if (!why.empty()) {
     throw DeviceError("evaluate.backend: cuda: " + why +
                       ". Write `backend: cpu`, or `auto` to take what there is");
   }
-  return std::make_unique<CudaEvaluation>(scene, terms, settings);
+  return std::make_unique<CudaCost>(scene, std::move(terms), settings);
 }
 
 }  // namespace hypotrack::cuda
