@@ -188,7 +188,7 @@ TEST(StbPair, ThePhotometricMatchFindsTheBrightness) {
     match.learn(tiles, stb.frame, plan, state);
     ASSERT_TRUE(match.knows()) << away;
     match.apply(plan);
-    const ColorMap& map = plan.cuts[1].colors;
+    const ColorMap& map = plan.views[1].colors;
     for (std::size_t i = 0; i < 3; ++i) {
       const float gain = map.gain[i] + map.offset[i] / levels[i];
       fmt::print("{:.0f} mm away, channel {}: {:.3f} v {:+.1f}, so {:.3f} at {:.0f}\n", 1e3 * away,

@@ -62,7 +62,7 @@ void Cost::prepare_only_drawing(const Observation& observation) {
 }
 
 void Cost::prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) {
-  observation_ = tiles.cut(frame, plan);
+  observation_ = tiles.resample(frame, plan);
   prepare_observation(observation_);
 }
 

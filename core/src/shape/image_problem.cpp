@@ -56,7 +56,7 @@ ImageProblem::ImageProblem(const Scene& scene, const ShapeTargets& targets, Imag
     photometric.learn(tiles, f.frame, plan, f.state);
     photometric.apply(plan);
     photometric.apply_highlights(plan, f.state);
-    observations_.push_back(tiles.cut(f.frame, plan));
+    observations_.push_back(tiles.resample(f.frame, plan));
   }
   thinner_ = parts_.edge * pixel_width();
   measure_explained();

@@ -149,8 +149,8 @@ void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
 
 Observation FrameSearch::seen(const Frame& frame) const {
   TilePlan plan = plan_;
-  for (CutPlan& cut : plan.cuts) cut.brightness = cv::Mat();
-  return tiles_.cut(frame, plan);
+  for (ResamplePlan& view : plan.views) view.brightness = cv::Mat();
+  return tiles_.resample(frame, plan);
 }
 
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
-#include "cost/cuda/tile_cutter.hpp"
+#include "cost/cuda/tile_resampler.hpp"
 #include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
@@ -78,18 +78,18 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   }
   void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
     frame_.finish();
-    const bool host_only =
-        std::ranges::any_of(plan.cuts, [](const CutPlan& cut) { return !cut.brightness.empty(); });
+    const bool host_only = std::ranges::any_of(
+        plan.views, [](const ResamplePlan& view) { return !view.brightness.empty(); });
     if (host_only) return Cost::prepare_images(tiles, frame, plan);
-    if (!cutter_) {
-      cutter_ = std::make_unique<TileCutter>(tiles.resamplers(), frame_.device().limits());
+    if (!resampler_) {
+      resampler_ = std::make_unique<TileResampler>(tiles.resamplers(), frame_.device().limits());
     }
-    const auto work = [&] {
-      return work_of(tiles.posed(plan.header.start), plan.header.views[0].camera);
+    const auto bands = [&] {
+      return bands_of_equal_work(tiles.posed(plan.header.start), plan.header.views[0].camera);
     };
-    if (!work_) work_ = work();
-    frame_.prepare(cutter_->cut(frame, plan, stream(), *work_));
-    work_ = work();  // for the next frame, which is similar; runs while the GPU works
+    if (!bands_) bands_ = bands();
+    frame_.prepare(resampler_->resample(frame, plan, stream(), *bands_));
+    bands_ = bands();  // for the next frame, which is similar; runs while the GPU works
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -114,8 +114,8 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   }
 
   FrameOnDevice frame_;
-  std::unique_ptr<TileCutter> cutter_;  // for the first frame's cameras; they never change
-  std::optional<WorkEnds> work_;
+  std::unique_ptr<TileResampler> resampler_;  // for the first frame's cameras; they never change
+  std::optional<BandEnds> bands_;
   HostBatch batch_;
   bool sum_of_squares_;
   ResidualMemory residual_memory_;
