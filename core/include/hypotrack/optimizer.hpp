@@ -148,8 +148,7 @@ struct HYPOTRACK_API Requirements {
   Linearization jacobian = Linearization::unused;
   /// True if the optimizer minimises only costs with a device().
   bool device = false;
-  /// Name of the optimizer that needs the device, after its place in the scene (`a.yaml:7:3:
-  /// pso_cuda`).
+  /// The optimizer that needs the device, after its place in the scene: `a.yaml:7:3: pso_cuda`.
   std::string device_by = {};
   /// Text for the end of the message on a missing device: what to write for a scene on the CPU.
   std::string instead_of_device = {};
@@ -159,17 +158,18 @@ struct HYPOTRACK_API Requirements {
   void merge(const Requirements& other);
 };
 
-/// The optional parts of a cost.
+/// Says which optional parts a cost has.
 struct CostOffer {
   std::string no_least_squares = {};  ///< why there are no residuals() and what to do; or empty
   std::string no_jacobian = {};       ///< why linearize() is not available; or empty
   bool device = false;                ///< whether there is a device()
 };
 
-/// Throws unless a cost offers what is required: ConfigError for residuals and analytic Jacobians,
+/// Throws unless a cost has what is required: ConfigError for residuals and analytic Jacobians,
 /// DeviceError for a device. The message says what to write instead.
 HYPOTRACK_API void check_requirements(const Requirements& requirements, const CostOffer& offer);
-/// Throws likewise unless a cost returned the required residuals() and device(), which may be null.
+/// Throws unless a cost has what is required. Pass its residuals() and device(), null if it has
+/// none.
 HYPOTRACK_API void check_requirements(const Requirements& requirements,
                                       const ResidualCost* residuals,
                                       const cuda::DeviceCost* device);
