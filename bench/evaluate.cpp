@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "cost/hypothesis_drawer.hpp"
 #include "hypotrack/plugin.hpp"
 #include "test_models.hpp"
@@ -132,15 +132,15 @@ void whole_evaluation(benchmark::State& state, const char* objective) {
   EvaluateSettings settings;
   settings.backend = Backend::cpu;
   settings.threads = static_cast<int>(state.range(1));
-  Evaluator evaluator(setup.scene, {{1, setup.objective, objective}}, settings);
-  evaluator.prepare(setup.observation);
+  const auto cost = make_cost(setup.scene, {{1, setup.objective, objective}}, settings);
+  cost->prepare(setup.observation);
   Eigen::VectorXd costs(kBatch);
   for (auto _ : state) {
-    evaluator.evaluate(setup.states, costs);
+    cost->evaluate(setup.states, costs);
     benchmark::DoNotOptimize(costs.data());
   }
   state.SetItemsProcessed(state.iterations() * kBatch);
-  state.SetLabel(setup.label + ", " + evaluator.backend());
+  state.SetLabel(setup.label + ", " + cost->backend());
 }
 
 // Microseconds per evaluation of every stage. Argument: tile size.

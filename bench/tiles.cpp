@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/tile_cutter.hpp"
+#include "cost/cuda/tile_resampler.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "test_models.hpp"
 #include "track/color/photometric.hpp"
@@ -96,7 +96,7 @@ void cut_on_the_cpu(benchmark::State& run) {
   const TilePlan tile_plan = setup.tiles->plan(setup.frames[0], setup.state);
   std::size_t next = 0;
   for (auto _ : run) {
-    benchmark::DoNotOptimize(setup.tiles->cut(setup.frames[next++ % kFrames], tile_plan));
+    benchmark::DoNotOptimize(setup.tiles->resample(setup.frames[next++ % kFrames], tile_plan));
   }
 }
 BENCHMARK(cut_on_the_cpu)->Unit(benchmark::kMicrosecond)->UseRealTime();
@@ -130,12 +130,12 @@ void cut_on_the_gpu(benchmark::State& run) {
   if (run.range(0) != 0) memory.reserve(std::size_t{2 * kFrames} * kWidth * kHeight * 3);
   setup.make_frames(memory.data());
   const TilePlan tile_plan = setup.tiles->plan(setup.frames[0], setup.state);
-  cuda::TileCutter cutter(setup.tiles->resamplers(), device.limits());
+  cuda::TileResampler resampler(setup.tiles->resamplers(), device.limits());
   std::size_t next = 0;
   double enqueued = 0;
   for (auto _ : run) {
     const auto begin = std::chrono::steady_clock::now();
-    cutter.cut(setup.frames[next++ % kFrames], tile_plan, device.stream());
+    resampler.resample(setup.frames[next++ % kFrames], tile_plan, device.stream());
     enqueued += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     cuda::check(cudaStreamSynchronize(cuda::native(device.stream())), "cutting tiles");
   }

@@ -128,7 +128,8 @@ int run_bench(BenchOptions options, const CommonOptions& common) {
     options.out = std::filesystem::absolute(options.out);
   }
   PluginLoader plugins(common.plugin_path);
-  if (options.request.table.empty()) options.request.table = data_file("configs/studies/bench.yaml");
+  if (options.request.table.empty())
+    options.request.table = data_file("configs/studies/bench.yaml");
   const bench::Plan plan = bench::make_plan(options.request);
   options.limits.frames = options.frames.value_or(plan.frames.value_or(options.limits.frames));
   bool complete = false;

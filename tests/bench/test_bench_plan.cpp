@@ -123,7 +123,8 @@ TEST_F(BenchPlanTest, MistakesAreFoundBeforeAnythingIsMeasured) {
 }
 
 TEST_F(BenchPlanTest, TheTableThatComesWithHypotrackFitsItsScenes) {
-  const bench::Plan plan = make_plan(Request{source_dir() / "configs/studies/bench.yaml", {}, {}, {}, {}});
+  const bench::Plan plan =
+      make_plan(Request{source_dir() / "configs/studies/bench.yaml", {}, {}, {}, {}});
   EXPECT_THAT(labels(plan), testing::IsSupersetOf({"1 hand 32x32", "1 hand 64x64", "2 hands 32x32",
                                                    "1 hand 32x32, tile 256", "1 hand 1024x32",
                                                    "1 hand 4096x32"}));

@@ -43,27 +43,26 @@ Observation colored(Observation observation) {
 
 Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation& observation,
                          const MakeObjective& make, const Eigen::MatrixXd& states) {
-  Evaluator evaluator(scene, {{1, make()}}, {.backend = backend});
-  evaluator.prepare(observation);
+  const auto cost = make_cost(scene, {{1, make()}}, {.backend = backend});
+  cost->prepare(observation);
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost->evaluate(states, costs);
   return costs;
 }
 
-Residuals residuals_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+Residuals residuals_of(Cost& cost, const Eigen::MatrixXd& states) {
   Residuals all;
   // What is not written stays NaN.
-  all.values.setConstant(evaluator.residual_count(), states.cols(), NAN);
+  all.values.setConstant(cost.least_squares()->count(), states.cols(), NAN);
   all.costs.resize(states.cols());
-  evaluator.evaluate(states, all.values, all.costs);
+  cost.least_squares()->evaluate(states, all.values, all.costs);
   return all;
 }
 
 namespace {
 
-NormalEquations on_device(Evaluator& evaluator, const Eigen::MatrixXd& states,
-                          const Eigen::VectorXd& scale) {
-  ResidualDifferences* differences = evaluator.differences();
+NormalEquations on_device(Cost& cost, const Eigen::MatrixXd& states, const Eigen::VectorXd& scale) {
+  const auto differences = cost.least_squares()->differences();
   const Eigen::Index count = scale.size();
   Eigen::VectorXd costs(count);
   differences->evaluate(states.leftCols(2), costs.head(2));
@@ -72,18 +71,18 @@ NormalEquations on_device(Evaluator& evaluator, const Eigen::MatrixXd& states,
 }
 
 /// Those of residuals that came down.
-void expect_normal_equations(Evaluator& evaluator, const Eigen::MatrixXd& states,
+void expect_normal_equations(Cost& cost, const Eigen::MatrixXd& states,
                              const Eigen::MatrixXf& residuals) {
   const Eigen::Index count = states.cols() - 2;
   Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(count, -2, 3);
   scale[count / 2] = 0;
   const NormalEquations expected =
       normal_equations(residuals.col(1), residuals.middleCols(2, count), scale);
-  const NormalEquations found = on_device(evaluator, states, scale);
+  const NormalEquations found = on_device(cost, states, scale);
   EXPECT_LT((found.a - expected.a).norm(), 1e-5 * expected.a.norm());
   EXPECT_LT((found.g - expected.g).norm(), 1e-5 * expected.g.norm());
   EXPECT_EQ(found.a.col(count / 2), Eigen::VectorXd::Zero(count));
-  const NormalEquations again = on_device(evaluator, states, scale);
+  const NormalEquations again = on_device(cost, states, scale);
   EXPECT_EQ(again.a, found.a);
   EXPECT_EQ(again.g, found.g);
 }
@@ -94,12 +93,12 @@ void expect_residuals_like_the_cpu(const Scene& scene, const Observation& observ
                                    const std::vector<ObjectiveTerm>& cpu_terms,
                                    const std::vector<ObjectiveTerm>& gpu_terms,
                                    const Eigen::MatrixXd& states, double worst, double mean) {
-  Evaluator cpu(scene, cpu_terms, {.backend = Backend::cpu}, {.wanted = true});
-  Evaluator gpu(scene, gpu_terms, {.backend = Backend::cuda}, {.wanted = true});
-  cpu.prepare(observation);
-  gpu.prepare(observation);
-  ASSERT_EQ(gpu.residual_count(), cpu.residual_count());
-  const Residuals expected = residuals_of(cpu, states), found = residuals_of(gpu, states);
+  const auto cpu = make_cost(scene, cpu_terms, {.backend = Backend::cpu}, {.least_squares = true});
+  const auto gpu = make_cost(scene, gpu_terms, {.backend = Backend::cuda}, {.least_squares = true});
+  cpu->prepare(observation);
+  gpu->prepare(observation);
+  ASSERT_EQ(gpu->least_squares()->count(), cpu->least_squares()->count());
+  const Residuals expected = residuals_of(*cpu, states), found = residuals_of(*gpu, states);
   const float largest = expected.values.cwiseAbs().maxCoeff();
   ASSERT_GT(largest, 0);
   ASSERT_TRUE(found.values.allFinite());
@@ -109,12 +108,12 @@ void expect_residuals_like_the_cpu(const Scene& scene, const Observation& observ
   EXPECT_LT(apart.mean(), mean);
   // Compiled with the residuals, the cost may be contracted otherwise.
   Eigen::VectorXd costs(states.cols());
-  gpu.evaluate(states, costs);
+  gpu->evaluate(states, costs);
   EXPECT_LT((found.costs - costs).cwiseAbs().maxCoeff(), 1e-6 * costs.cwiseAbs().maxCoeff());
-  const Residuals again = residuals_of(gpu, states);
+  const Residuals again = residuals_of(*gpu, states);
   EXPECT_EQ(again.values, found.values);
   EXPECT_EQ(again.costs, found.costs);
-  expect_normal_equations(gpu, states, found.values);
+  expect_normal_equations(*gpu, states, found.values);
 }
 
 void expect_like_the_cpu(const Scene& scene, Observation observation, const MakeObjective& make,

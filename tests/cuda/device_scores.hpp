@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 
 namespace hypotrack::test {
 
@@ -25,7 +25,7 @@ struct Residuals {
   Eigen::MatrixXf values;
   Eigen::VectorXd costs;
 };
-Residuals residuals_of(Evaluator& evaluator, const Eigen::MatrixXd& states);
+Residuals residuals_of(Cost& cost, const Eigen::MatrixXd& states);
 
 /// Holds the device's residuals of some states to the CPU's, their normal equations to those of the
 /// residuals, and all of it to itself, bit by bit. `worst` and `mean`: of the differences of one

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "device.hpp"
 #include "hypotrack/error.hpp"
@@ -41,26 +41,26 @@ Eigen::MatrixXd random_states(const Scene& scene, int count, unsigned seed = 3) 
   return states;
 }
 
-std::unique_ptr<Evaluator> make_evaluator(const Scene& scene, Backend backend) {
+std::unique_ptr<Cost> cost_on(const Scene& scene, Backend backend) {
   EvaluateSettings settings;
   settings.backend = backend;
   std::vector<ObjectiveTerm> terms{{kCoveredWeight, covered_probe(), "covered"},
                                    {0, seen_probe(false), "unasked"},
                                    {kSeenWeight, seen_probe(true), "seen"}};
-  return std::make_unique<Evaluator>(scene, std::move(terms), settings);
+  return make_cost(scene, std::move(terms), settings);
 }
 
-Eigen::VectorXd costs_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+Eigen::VectorXd costs_of(Cost& cost, const Eigen::MatrixXd& states) {
   Eigen::VectorXd costs = Eigen::VectorXd::Constant(states.cols(), NAN);
-  evaluator.evaluate(states, costs);
+  cost.evaluate(states, costs);
   return costs;
 }
 
-void expect_cpu_costs(Evaluator& evaluator, const Scene& scene, const Observation& observation,
+void expect_cpu_costs(Cost& cost, const Scene& scene, const Observation& observation,
                       const Eigen::MatrixXd& states) {
-  const auto cpu = make_evaluator(scene, Backend::cpu);
+  const auto cpu = cost_on(scene, Backend::cpu);
   cpu->prepare(observation);
-  const Eigen::VectorXd expected = costs_of(*cpu, states), costs = costs_of(evaluator, states);
+  const Eigen::VectorXd expected = costs_of(*cpu, states), costs = costs_of(cost, states);
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
     EXPECT_NEAR(costs[i], expected[i], kEdgeSum + kSteepShare * std::abs(expected[i]))
         << "hypothesis " << i;
@@ -77,7 +77,7 @@ class EglInterop : public testing::Test {
   void SetUp() override {
     SKIP_WITHOUT_DEVICE();
     try {
-      const std::string backend = make_evaluator(hand_scene_, Backend::egl)->backend();
+      const std::string backend = cost_on(hand_scene_, Backend::egl)->backend();
       if (backend.find("does not draw on a GPU that CUDA sees") != std::string::npos) {
         GTEST_SKIP() << backend;
       }
@@ -94,7 +94,7 @@ TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_rectified_views) {
   for (const Scene& scene : {hand_scene(), hand_and_box_scene(), two_hands_scene()}) {
     SCOPED_TRACE(scene.dimension());
     const Observation observation = rectified_pair(scene);
-    const auto egl = make_evaluator(scene, Backend::egl);
+    const auto egl = cost_on(scene, Backend::egl);
     egl->prepare(observation);
     expect_cpu_costs(*egl, scene, observation, random_states(scene, 16));
   }
@@ -104,7 +104,7 @@ TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_any_two_views) {
   for (const Scene& scene : {hand_scene(), hand_and_box_scene(), two_hands_scene()}) {
     SCOPED_TRACE(scene.dimension());
     const Observation observation = general_pair(scene);
-    const auto egl = make_evaluator(scene, Backend::egl);
+    const auto egl = cost_on(scene, Backend::egl);
     egl->prepare(observation);
     expect_cpu_costs(*egl, scene, observation, random_states(scene, 16));
   }
@@ -112,7 +112,7 @@ TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_any_two_views) {
 
 TEST_F(EglInterop, takes_more_hypotheses_than_a_texture_has_layers) {
   const Observation observation = rectified_pair(hand_scene_, 64);
-  const auto egl = make_evaluator(hand_scene_, Backend::egl);
+  const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
   // OpenGL promises 256 layers, NVIDIA's has 2048.
   expect_cpu_costs(*egl, hand_scene_, observation, random_states(hand_scene_, 2500));
@@ -120,7 +120,7 @@ TEST_F(EglInterop, takes_more_hypotheses_than_a_texture_has_layers) {
 
 TEST_F(EglInterop, takes_batches_of_changing_size) {
   const Observation observation = rectified_pair(hand_scene_);
-  const auto egl = make_evaluator(hand_scene_, Backend::egl);
+  const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
   const Eigen::MatrixXd states = random_states(hand_scene_, 40);
   const Eigen::VectorXd all = costs_of(*egl, states);
@@ -131,7 +131,7 @@ TEST_F(EglInterop, takes_batches_of_changing_size) {
 }
 
 TEST_F(EglInterop, follows_the_frame_to_other_tiles) {
-  const auto egl = make_evaluator(hand_scene_, Backend::egl);
+  const auto egl = cost_on(hand_scene_, Backend::egl);
   const Eigen::MatrixXd states = random_states(hand_scene_, 6);
   for (const int size : {128, 96, 200, 128}) {
     SCOPED_TRACE(size);
@@ -144,11 +144,11 @@ TEST_F(EglInterop, follows_the_frame_to_other_tiles) {
   expect_cpu_costs(*egl, hand_scene_, general, states);
 }
 
-TEST_F(EglInterop, lets_several_evaluators_live_at_once) {
+TEST_F(EglInterop, lets_several_costs_live_at_once) {
   const Scene other = hand_and_box_scene();
   const Observation first_frame = rectified_pair(hand_scene_), second_frame = general_pair(other);
-  auto first = make_evaluator(hand_scene_, Backend::egl);
-  const auto second = make_evaluator(other, Backend::egl);
+  auto first = cost_on(hand_scene_, Backend::egl);
+  const auto second = cost_on(other, Backend::egl);
   first->prepare(first_frame);
   second->prepare(second_frame);
   const Eigen::MatrixXd states = random_states(other, 5);
@@ -161,7 +161,7 @@ TEST_F(EglInterop, lets_several_evaluators_live_at_once) {
 
 TEST_F(EglInterop, works_from_any_thread) {
   const Observation observation = rectified_pair(hand_scene_);
-  const auto egl = make_evaluator(hand_scene_, Backend::egl);
+  const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
   const Eigen::MatrixXd states = random_states(hand_scene_, 4);
   const Eigen::VectorXd here = costs_of(*egl, states);
@@ -171,7 +171,7 @@ TEST_F(EglInterop, works_from_any_thread) {
 }
 
 TEST_F(EglInterop, refuses_more_views_than_the_device_takes_and_goes_on) {
-  const auto egl = make_evaluator(hand_scene_, Backend::egl);
+  const auto egl = cost_on(hand_scene_, Backend::egl);
   Observation many = rectified_pair(hand_scene_);
   many.rectified = false;
   many.views.resize(5, many.views[0]);

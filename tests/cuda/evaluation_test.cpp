@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "device.hpp"
 #include "every_target.hpp"
 #include "expect_error.hpp"
@@ -61,10 +61,10 @@ Eigen::MatrixXd random_states(const Scene& scene, int count) {
 Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation& observation,
                          const std::shared_ptr<Objective>& objective,
                          const Eigen::MatrixXd& states) {
-  Evaluator evaluator(scene, {{1, objective}}, {.backend = backend});
-  evaluator.prepare(observation);
+  const auto cost = make_cost(scene, {{1, objective}}, {.backend = backend});
+  cost->prepare(observation);
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost->evaluate(states, costs);
   return costs;
 }
 
@@ -84,19 +84,19 @@ void expect_like_the_cpu(const Scene& scene, const Observation& observation,
   EXPECT_EQ(gpu, again);
 }
 
-class CudaEvaluationTest : public testing::TestWithParam<int> {  // hypotheses in a batch
+class CudaCostTest : public testing::TestWithParam<int> {  // hypotheses in a batch
  protected:
   void SetUp() override { SKIP_WITHOUT_DEVICE(); }
 };
 
-TEST_P(CudaEvaluationTest, CoversTheCpusPixelsInEveryView) {
+TEST_P(CudaCostTest, CoversTheCpusPixelsInEveryView) {
   for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
     expect_like_the_cpu(scene, test::rectified_pair(scene), covered_probe(), GetParam());
     expect_like_the_cpu(scene, test::general_pair(scene), covered_probe(), GetParam());
   }
 }
 
-TEST_P(CudaEvaluationTest, DrawsTheCpusPixelsToTheLastBit) {
+TEST_P(CudaCostTest, DrawsTheCpusPixelsToTheLastBit) {
   if (!test::fuses_products_and_sums()) GTEST_SKIP() << "this CPU has no fused multiply-add";
   for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
     const Eigen::MatrixXd states = random_states(scene, GetParam());
@@ -107,7 +107,7 @@ TEST_P(CudaEvaluationTest, DrawsTheCpusPixelsToTheLastBit) {
   }
 }
 
-TEST_P(CudaEvaluationTest, SeesWhatTheCpuSeesInARectifiedPair) {
+TEST_P(CudaCostTest, SeesWhatTheCpuSeesInARectifiedPair) {
   for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
     for (const int size : {61, 128, 300}) {
       const Observation observation = test::rectified_pair(scene, size);
@@ -117,7 +117,7 @@ TEST_P(CudaEvaluationTest, SeesWhatTheCpuSeesInARectifiedPair) {
   }
 }
 
-TEST_P(CudaEvaluationTest, SeesWhatTheCpuSeesInAGeneralPair) {
+TEST_P(CudaCostTest, SeesWhatTheCpuSeesInAGeneralPair) {
   for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
     const Observation observation = test::general_pair(scene);
     expect_like_the_cpu(scene, observation, seen_probe(false), GetParam());
@@ -125,9 +125,9 @@ TEST_P(CudaEvaluationTest, SeesWhatTheCpuSeesInAGeneralPair) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(BatchSizes, CudaEvaluationTest, testing::Values(1, 5, 33, 150, 1000));
+INSTANTIATE_TEST_SUITE_P(BatchSizes, CudaCostTest, testing::Values(1, 5, 33, 150, 1000));
 
-TEST(CudaEvaluation, DrawsMeshesThatDoNotFitIntoSharedMemory) {
+TEST(CudaCost, DrawsMeshesThatDoNotFitIntoSharedMemory) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = fine_mesh();
   expect_like_the_cpu(scene, test::rectified_pair(scene), seen_probe(false), 7);
@@ -135,14 +135,14 @@ TEST(CudaEvaluation, DrawsMeshesThatDoNotFitIntoSharedMemory) {
   expect_like_the_cpu(scene, test::general_pair(scene), covered_probe(), 7);
 }
 
-TEST(CudaEvaluation, DrawsLargeTilesInPieces) {
+TEST(CudaCost, DrawsLargeTilesInPieces) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = test::hand_and_box_scene();
   expect_like_the_cpu(scene, test::rectified_pair(scene, 1024), seen_probe(false), 3);
   expect_like_the_cpu(scene, test::rectified_pair(scene, 1024), seen_probe(false), 200);
 }
 
-TEST(CudaEvaluation, LeavesOutWhatCannotBeDrawn) {
+TEST(CudaCost, LeavesOutWhatCannotBeDrawn) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = test::hand_and_box_scene();
   const Observation observation = test::rectified_pair(scene);
@@ -158,30 +158,30 @@ TEST(CudaEvaluation, LeavesOutWhatCannotBeDrawn) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(gpu[i], cpu[i], 1e-3 * cpu[i] + 1e-9) << i;
 }
 
-TEST(CudaEvaluation, TakesFramesThatNobodySearchesAndEmptyBatches) {
+TEST(CudaCost, TakesFramesThatNobodySearchesAndEmptyBatches) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = test::hand_scene();
   const Observation small = test::rectified_pair(scene, 64), large = test::rectified_pair(scene);
   const Eigen::MatrixXd states = random_states(scene, 3);
-  Evaluator evaluator(scene, {{1, covered_probe()}}, {.backend = Backend::cuda});
-  evaluator.prepare(small);
-  evaluator.prepare(large);
+  const auto cost = make_cost(scene, {{1, covered_probe()}}, {.backend = Backend::cuda});
+  cost->prepare(small);
+  cost->prepare(large);
   Eigen::VectorXd costs(3), none(0);
-  evaluator.evaluate(Eigen::MatrixXd(scene.dimension(), 0), none);
-  evaluator.evaluate(states, costs);
+  cost->evaluate(Eigen::MatrixXd(scene.dimension(), 0), none);
+  cost->evaluate(states, costs);
   EXPECT_EQ(costs, costs_on(Backend::cuda, scene, large, covered_probe(), states));
 }
 
-TEST(CudaEvaluation, AddsTermsUpWithTheirWeights) {
+TEST(CudaCost, AddsTermsUpWithTheirWeights) {
   SKIP_WITHOUT_DEVICE();
   const Scene scene = test::hand_scene();
   const Observation observation = test::rectified_pair(scene);
   const Eigen::MatrixXd states = random_states(scene, 40);
   const auto costs = [&](std::vector<ObjectiveTerm> terms) {
-    Evaluator evaluator(scene, std::move(terms), {.backend = Backend::cuda});
-    evaluator.prepare(observation);
+    const auto cost = make_cost(scene, std::move(terms), {.backend = Backend::cuda});
+    cost->prepare(observation);
     Eigen::VectorXd out(states.cols());
-    evaluator.evaluate(states, out);
+    cost->evaluate(states, out);
     return out;
   };
   const Eigen::VectorXd both =
@@ -190,7 +190,7 @@ TEST(CudaEvaluation, AddsTermsUpWithTheirWeights) {
   EXPECT_TRUE(both.isApprox(2 * a + 0.5 * b, 1e-12));
 }
 
-TEST(CudaEvaluation, SaysWhichTermIsNotForTheGpu) {
+TEST(CudaCost, SaysWhichTermIsNotForTheGpu) {
   SKIP_WITHOUT_DEVICE();
   class OnlyCpu final : public Objective {
     void prepare(const Observation&) override {}
@@ -198,17 +198,17 @@ TEST(CudaEvaluation, SaysWhichTermIsNotForTheGpu) {
   };
   const Scene scene = test::hand_scene();
   const std::string message = test::message_of<DeviceError>([&] {
-    Evaluator(scene, {{1, std::make_shared<OnlyCpu>(), "prior"}}, {.backend = Backend::cuda});
+    make_cost(scene, {{1, std::make_shared<OnlyCpu>(), "prior"}}, {.backend = Backend::cuda});
   });
   EXPECT_THAT(message, testing::HasSubstr("objective prior has no device capability"));
   EXPECT_THAT(message, testing::HasSubstr("backend: cpu"));
 }
 
-TEST(CudaEvaluation, WithoutADeviceTheErrorSaysWhyAndWhatToWrite) {
+TEST(CudaCost, WithoutADeviceTheErrorSaysWhyAndWhatToWrite) {
   if (cuda::why_no_device().empty()) GTEST_SKIP() << "there is a GPU";
   const Scene scene = test::hand_scene();
   const std::string message = test::message_of<DeviceError>([&] {
-    Evaluator(scene, {{1, covered_probe()}}, {.backend = Backend::cuda});
+    make_cost(scene, {{1, covered_probe()}}, {.backend = Backend::cuda});
   });
   EXPECT_THAT(message, testing::StartsWith("evaluate.backend: cuda: "));
   EXPECT_THAT(message, testing::HasSubstr(cuda::why_no_device()));

@@ -46,17 +46,17 @@ OpenedScene open(const RecordedCase& c, PluginLoader& plugins) {
   return open_scene(scene, overrides, plugins);
 }
 
-/// Hands search points on to an evaluator and keeps their states and costs.
+/// Hands search points on to an cost and keeps their states and costs.
 class Recorder final : public CostFunction {
  public:
-  Recorder(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
-      : space_(space), prior_(prior), evaluator_(evaluator) {}
+  Recorder(const SearchSpace& space, const Eigen::VectorXd& prior, Cost& cost)
+      : space_(space), prior_(prior), cost_(cost) {}
 
   int dimension() const override { return space_.dimension(); }
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::VectorXd> costs) override {
     const Eigen::MatrixXd batch = space_.states(points, prior_);
-    evaluator_.evaluate(batch, costs);
+    cost_.evaluate(batch, costs);
     recorded_states.conservativeResize(batch.rows(), recorded_states.cols() + batch.cols());
     recorded_states.rightCols(batch.cols()) = batch;
     recorded_costs.conservativeResize(recorded_costs.size() + costs.size());
@@ -69,7 +69,7 @@ class Recorder final : public CostFunction {
  private:
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
-  Evaluator& evaluator_;
+  Cost& cost_;
 };
 
 }  // namespace
@@ -86,16 +86,16 @@ RecordedSearch::RecordedSearch(const RecordedCase& c)
   record();
 }
 
-Evaluator RecordedSearch::make_evaluator(Backend backend) const {
-  return Evaluator(*session_.scene, session_.parts.objective, {.backend = backend});
+std::unique_ptr<Cost> RecordedSearch::cost_on(Backend backend) const {
+  return make_cost(*session_.scene, session_.parts.objective, {.backend = backend});
 }
 
 void RecordedSearch::record() {
   const Eigen::VectorXd& truth = frame_.truth.value().state;
   const SearchSpace space(*session_.scene, session_.parts.search);
-  Evaluator evaluator = make_evaluator(Backend::cpu);
-  evaluator.prepare(tiles_, frame_, tiles_.plan(frame_, truth));
-  Recorder recorder(space, truth, evaluator);
+  const auto cost = cost_on(Backend::cpu);
+  cost->prepare(tiles_, frame_, tiles_.plan(frame_, truth));
+  Recorder recorder(space, truth, *cost);
   Optimizer& pso = *session_.parts.optimizer;
   pso.minimize(recorder, space.region(truth), {.evaluations = pso.default_evaluations()},
                session_.seed);
@@ -104,10 +104,10 @@ void RecordedSearch::record() {
 }
 
 Eigen::VectorXd RecordedSearch::costs_on(Backend backend) const {
-  Evaluator evaluator = make_evaluator(backend);
-  evaluator.prepare(tiles_, frame_, tiles_.plan(frame_, frame_.truth.value().state));
+  const auto cost = cost_on(backend);
+  cost->prepare(tiles_, frame_, tiles_.plan(frame_, frame_.truth.value().state));
   Eigen::VectorXd costs(states_.cols());
-  evaluator.evaluate(states_, costs);
+  cost->evaluate(states_, costs);
   return costs;
 }
 

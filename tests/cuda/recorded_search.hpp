@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <iosfwd>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "session/opened_scene.hpp"
@@ -45,7 +45,7 @@ class RecordedSearch {
   Eigen::VectorXd costs_on(Backend backend) const;
 
  private:
-  Evaluator make_evaluator(Backend backend) const;
+  std::unique_ptr<Cost> cost_on(Backend backend) const;
   void record();
 
   PluginLoader plugins_;

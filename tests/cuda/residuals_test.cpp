@@ -77,12 +77,12 @@ TEST_F(DeviceResiduals, WithAChargeAreThoseOfTheCpu) {
 
 TEST_F(DeviceResiduals, SquaredAddUpToTheCostAndAConstantOfTheFrame) {
   const Scene scene = test::hand_scene();
-  Evaluator gpu(scene, {{4, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
-                {.wanted = true});
-  gpu.prepare(frame_of(scene, 128));
+  const auto gpu = make_cost(scene, {{4, colors(stereo_color::Direction::both)}},
+                             {.backend = Backend::cuda}, {.least_squares = true});
+  gpu->prepare(frame_of(scene, 128));
   Eigen::MatrixXd states = test::scored_states(scene).leftCols(20);
   states(0, 0) = 30;  // beside the tiles
-  const test::Residuals found = test::residuals_of(gpu, states);
+  const test::Residuals found = test::residuals_of(*gpu, states);
   EXPECT_EQ(found.costs[0], 0);
   const Eigen::VectorXd squares = found.values.cast<double>().colwise().squaredNorm();
   const Eigen::VectorXd constant = squares - found.costs;
@@ -94,26 +94,28 @@ TEST_F(DeviceResiduals, AreTheSameWhateverTheBatch) {
   const Scene scene = test::hand_scene();
   // 2 MiB a hypothesis: they come down in two goes.
   const Observation frame = frame_of(scene, 512);
-  Evaluator gpu(scene, many_terms(scene), {.backend = Backend::cuda}, {.wanted = true});
-  gpu.prepare(frame);
+  const auto gpu =
+      make_cost(scene, many_terms(scene), {.backend = Backend::cuda}, {.least_squares = true});
+  gpu->prepare(frame);
   const Eigen::MatrixXd states = test::scored_states(scene).leftCols(40);
-  const test::Residuals all = test::residuals_of(gpu, states);
+  const test::Residuals all = test::residuals_of(*gpu, states);
   for (const Eigen::Index i : {0, 17, 31, 32, 39}) {
-    const test::Residuals one = test::residuals_of(gpu, states.col(i));
+    const test::Residuals one = test::residuals_of(*gpu, states.col(i));
     EXPECT_TRUE(one.values.isApprox(all.values.col(i), 1e-6f)) << i;
     EXPECT_NEAR(one.costs[0], all.costs[i], 1e-5 * std::abs(all.costs[i])) << i;
   }
-  ASSERT_GT(gpu.residual_count() * 40 * 4, Eigen::Index{1} << 26);
+  ASSERT_GT(gpu->least_squares()->count() * 40 * 4, Eigen::Index{1} << 26);
 }
 
 TEST_F(DeviceResiduals, SayWhichOfThemLookAtThePoseOnly) {
   const Scene scene = test::hand_scene();
   const Observation frame = frame_of(scene, 128);
   const auto rows = [&](Backend backend) {
-    Evaluator evaluator(scene, many_terms(scene), {.backend = backend}, {.wanted = true});
-    evaluator.prepare(frame);
+    const auto cost =
+        make_cost(scene, many_terms(scene), {.backend = backend}, {.least_squares = true});
+    cost->prepare(frame);
     std::vector<Eigen::Index> out;
-    for (const ResidualRows& r : evaluator.pose_only_residuals()) {
+    for (const ResidualRows& r : cost->least_squares()->pose_only()) {
       out.insert(out.end(), {r.first, r.count});
     }
     return out;
@@ -125,8 +127,8 @@ TEST_F(DeviceResiduals, SayWhichOfThemLookAtThePoseOnly) {
 TEST_F(DeviceResiduals, AreThereWithoutBeingAnnounced) {
   const Scene scene = test::hand_scene();
   const auto has = [&](std::vector<ObjectiveTerm> terms) {
-    const Evaluator gpu(scene, std::move(terms), {.backend = Backend::cuda});
-    return gpu.has_residuals();
+    const auto gpu = make_cost(scene, std::move(terms), {.backend = Backend::cuda});
+    return gpu->least_squares() != nullptr;
   };
   EXPECT_TRUE(has(many_terms(scene)));
   EXPECT_FALSE(has({{1, colors(stereo_color::Direction::both)}, {1, test::covered_probe()}}));
@@ -152,18 +154,21 @@ TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
   const Scene scene = test::hand_scene();
   const std::vector<ObjectiveTerm> terms = {{1, colors(stereo_color::Direction::both)},
                                             {1, std::make_shared<CpuResiduals>(), "prior"}};
-  EXPECT_EQ(test::message_of<DeviceError>(
-                [&] { Evaluator(scene, terms, {.backend = Backend::cuda}, {.wanted = true}); }),
+  EXPECT_EQ(test::message_of<DeviceError>([&] {
+              make_cost(scene, terms, {.backend = Backend::cuda}, {.least_squares = true});
+            }),
             "evaluate.backend: cuda: the optimizer needs residuals, and objective prior has them "
             "on the CPU only. Write `backend: cpu`, or `auto` to take what there is");
-  const Evaluator automatic(scene, terms, {}, {.wanted = true});
-  EXPECT_THAT(automatic.backend(), testing::HasSubstr("objective prior has them on the CPU only"));
+  const auto automatic = make_cost(scene, terms, {}, {.least_squares = true});
+  EXPECT_THAT(automatic->backend(), testing::HasSubstr("objective prior has them on the CPU only"));
 }
 
 TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
   const Scene scene = test::hand_scene();
   const auto backend = [&](std::vector<ObjectiveTerm> terms, Linearization linearization) {
-    return Evaluator(scene, std::move(terms), {}, {true, linearization}).backend();
+    return make_cost(scene, std::move(terms), {},
+                     {.least_squares = true, .jacobian = linearization})
+        ->backend();
   };
   const std::vector<ObjectiveTerm> sloped = {{1, colors(stereo_color::Direction::both)}};
   const std::vector<ObjectiveTerm> plain = {
@@ -176,20 +181,22 @@ TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
 
 TEST_F(DeviceResiduals, ThatDoNotFitIntoMemoryAreRefusedAndFewerStillWork) {
   const Scene scene = test::hand_scene();
-  Evaluator gpu(scene, {{1, colors(stereo_color::Direction::both)}}, {.backend = Backend::cuda},
-                {.wanted = true});
-  gpu.prepare(frame_of(scene, 1024));  // 8 MiB a hypothesis
+  const auto gpu = make_cost(scene, {{1, colors(stereo_color::Direction::both)}},
+                             {.backend = Backend::cuda}, {.least_squares = true});
+  gpu->prepare(frame_of(scene, 1024));  // 8 MiB a hypothesis
   const std::size_t free = cuda::free_memory().value();
   const auto many = static_cast<Eigen::Index>(free / (std::size_t{8} << 20)) + 1000;
   const Eigen::MatrixXd states = test::scored_states(scene);
   Eigen::VectorXd costs(many);
-  EXPECT_THAT(test::message_of<DeviceError>(
-                  [&] { gpu.differences()->evaluate(states.col(0).replicate(1, many), costs); }),
+  EXPECT_THAT(test::message_of<DeviceError>([&] {
+                gpu->least_squares()->differences()->evaluate(states.col(0).replicate(1, many),
+                                                              costs);
+              }),
               testing::AllOf(testing::HasSubstr("out of memory"),
                              testing::HasSubstr("hypotheses at a time")));
-  gpu.differences()->evaluate(states.leftCols(3), costs.head(3));
+  gpu->least_squares()->differences()->evaluate(states.leftCols(3), costs.head(3));
   Eigen::VectorXd expected(3);
-  gpu.evaluate(states.leftCols(3), expected);
+  gpu->evaluate(states.leftCols(3), expected);
   EXPECT_TRUE(costs.head(3).isApprox(expected, 1e-6));
 }
 

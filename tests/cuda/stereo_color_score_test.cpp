@@ -73,7 +73,7 @@ TEST_F(StereoColorOnDevice, ScoresAsTheCpuWithABetaThatFollowsThePictures) {
   params.beta_by_difference = 0.8;
   params.beta_min = 1;
   for (const double difference : {0.0, 0.2, 0.4}) {
-    frame.color_difference = difference;
+    frame.context.color_difference = difference;
     test::expect_like_the_cpu(hand, frame, stereo_color(params));
   }
 }

@@ -127,7 +127,7 @@ TEST_F(StereoPatchOnDevice, ScoresAsTheCpu) {
 TEST_F(StereoPatchOnDevice, ScoresAsTheCpuWherePixelsCountForAPartOnly) {
   const Scene hand = test::hand_scene();
   Observation frame = test::colored(test::rectified_pair(hand, 256));
-  frame.color_difference = 0.01;
+  frame.context.color_difference = 0.01;
   Params params;
   params.sharpness = 1;
   params.full_at_difference = 0.02;

@@ -57,7 +57,7 @@ struct Searched {
   int as_one = 0;  ///< searches in one kernel
 };
 
-/// Searches of one evaluator.
+/// Searches of one cost.
 class Searches {
  public:
   Searches(Scene scene, Observation observation, std::vector<ObjectiveTerm> terms,
@@ -65,15 +65,15 @@ class Searches {
       : scene_(std::move(scene)),
         observation_(std::move(observation)),
         space_(scene_, settings(rotation_as)),
-        evaluator_(scene_, std::move(terms), {.backend = Backend::cuda}) {
+        cost_(make_cost(scene_, std::move(terms), {.backend = Backend::cuda})) {
     observation_.scene = &scene_;
     observation_.start = test::scored_states(scene_).col(0);
-    evaluator_.prepare(observation_);
+    cost_->prepare(observation_);
   }
 
   Searched search(PsoCuda& pso, std::int64_t evaluations, bool as_one, std::uint64_t seed = 1) {
     cuda::DeviceCost* device =
-        evaluator_.device_cost(observation_.start, space_.rotation_vectors());
+        cost_->device(space_.rotation_vectors() ? &observation_.start : nullptr);
     CountedCost counted(*device, as_one);
     FrameCost cost(space_, counted);
     Searched searched;
@@ -112,7 +112,7 @@ class Searches {
   Scene scene_;
   Observation observation_;
   SearchSpace space_;
-  Evaluator evaluator_;
+  std::unique_ptr<Cost> cost_;
 };
 
 std::shared_ptr<Objective> colors(bool both, bool bilinear = false) {

@@ -1,6 +1,6 @@
-// The motions of configs/scenes/datasets: as long as the paper's, no faster than its search can follow
-// (one a little faster), in view, and without bodies that pass through each other. So are those of
-// other scenes that trackers are chosen on.
+// The motions of configs/scenes/datasets: as long as the paper's, no faster than its search can
+// follow (one a little faster), in view, and without bodies that pass through each other. So are
+// those of other scenes that trackers are chosen on.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

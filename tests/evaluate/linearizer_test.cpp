@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"
@@ -118,13 +118,13 @@ Eigen::VectorXd hand_state(const Scene& scene) {
 }
 
 /// Derivatives of half a cost by central differences.
-Eigen::VectorXd half_gradient(Evaluator& evaluator, const Scene& scene,
-                              const Eigen::VectorXd& state, const Eigen::VectorXd& steps) {
+Eigen::VectorXd half_gradient(Cost& cost, const Scene& scene, const Eigen::VectorXd& state,
+                              const Eigen::VectorXd& steps) {
   const Eigen::MatrixXd forth = moved_states(scene, state, steps);
   const Eigen::MatrixXd back = moved_states(scene, state, -steps);
   Eigen::VectorXd plus(forth.cols()), minus(back.cols());
-  evaluator.evaluate(forth, plus);
-  evaluator.evaluate(back, minus);
+  cost.evaluate(forth, plus);
+  cost.evaluate(back, minus);
   return (plus - minus).tail(steps.size()).cwiseQuotient(4 * steps);
 }
 
@@ -134,10 +134,10 @@ Eigen::VectorXd metres_and_radians(Eigen::Index size, double metres, double radi
   return steps;
 }
 
-NormalEquations linearize(Evaluator& evaluator, const Scene& scene, const Eigen::VectorXd& state,
+NormalEquations linearize(Cost& cost, const Scene& scene, const Eigen::VectorXd& state,
                           double blur = 1) {
   const Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
-  return evaluator.linearize(moved_states(scene, state, steps), steps, blur);
+  return cost.least_squares()->linearize(moved_states(scene, state, steps), steps, blur);
 }
 
 class Linearize : public testing::TestWithParam<bool> {
@@ -153,20 +153,20 @@ TEST_P(Linearize, IsTheNumericalJacobianWhereNoSilhouetteIsInSight) {
   state[2] = 0.6;
   state.segment<4>(3) << 0.98, 0.1, -0.15, 0.05;
   wall.normalize(state);
-  Evaluator evaluator(wall, {{1, std::make_shared<DepthPattern>(0.5f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+  const auto cost = make_cost(wall, {{1, std::make_shared<DepthPattern>(0.5f, 0.5f)}},
+                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = observation(wall);
-  evaluator.prepare(frame);
-  ASSERT_TRUE(evaluator.can_linearize());
-  const NormalEquations found = linearize(evaluator, wall, state);
+  cost->prepare(frame);
+  ASSERT_TRUE(cost->least_squares()->can_linearize());
+  const NormalEquations found = linearize(*cost, wall, state);
 
   const Eigen::VectorXd steps = metres_and_radians(6, 1e-3, 2e-3);
   const Eigen::MatrixXd forth = moved_states(wall, state, steps);
   const Eigen::MatrixXd back = moved_states(wall, state, -steps);
-  Eigen::MatrixXf plus(evaluator.residual_count(), 7), minus = plus;
+  Eigen::MatrixXf plus(cost->least_squares()->count(), 7), minus = plus;
   Eigen::VectorXd costs(7);
-  evaluator.evaluate(forth, plus, costs);
-  evaluator.evaluate(back, minus, costs);
+  cost->least_squares()->evaluate(forth, plus, costs);
+  cost->least_squares()->evaluate(back, minus, costs);
   const Eigen::MatrixXd j =
       (plus - minus).rightCols(6).cast<double>() * (0.5 * steps.cwiseInverse()).asDiagonal();
   const Eigen::VectorXd r = plus.col(0).cast<double>();
@@ -178,10 +178,10 @@ TEST_P(Linearize, KnowsWhatMovingSilhouettesChange) {
   const Scene scene = test::hand_scene();
   // Without slopes there is nothing else.
   for (const float slope : {0.0f, 0.2f}) {
-    Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(slope, 0.5f)}},
-                        {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+    const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(slope, 0.5f)}},
+                                {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
     const Observation frame = observation(scene);
-    evaluator.prepare(frame);
+    cost->prepare(frame);
     // Means over how the silhouette lies on the grid of pixels, and over lengths of differences.
     const Eigen::VectorXd middle = hand_state(scene);
     const Eigen::Index size = middle.size() - 1;
@@ -190,9 +190,9 @@ TEST_P(Linearize, KnowsWhatMovingSilhouettesChange) {
       Eigen::VectorXd state = middle;
       state[0] += 0.7e-3 * i;
       state[1] += 1.1e-3 * (i % 3);
-      found += linearize(evaluator, scene, state).g;
+      found += linearize(*cost, scene, state).g;
       const double length = 0.8 + 0.2 * i;
-      expected += half_gradient(evaluator, scene, state,
+      expected += half_gradient(*cost, scene, state,
                                 metres_and_radians(size, length * 1e-3, length * 0.015));
     }
     // Numbers in units that make them alike.
@@ -210,12 +210,12 @@ INSTANTIATE_TEST_SUITE_P(Pairs, Linearize, testing::Bool(),
 
 TEST(Linearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
   const Scene scene = test::hand_scene();
-  Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.0f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+  const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.0f, 0.5f)}},
+                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
-  evaluator.prepare(frame);
-  const NormalEquations sharp = linearize(evaluator, scene, hand_state(scene), 1);
-  const NormalEquations soft = linearize(evaluator, scene, hand_state(scene), 2);
+  cost->prepare(frame);
+  const NormalEquations sharp = linearize(*cost, scene, hand_state(scene), 1);
+  const NormalEquations soft = linearize(*cost, scene, hand_state(scene), 2);
   EXPECT_TRUE(soft.g.isApprox(sharp.g, 1e-5));
   EXPECT_TRUE((2 * soft.a).isApprox(sharp.a, 1e-5));
 }
@@ -224,9 +224,10 @@ TEST(Linearizer, AddsTermsUpWithTheirWeights) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const auto of = [&](const std::vector<ObjectiveTerm>& terms) {
-    Evaluator evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
-    evaluator.prepare(frame);
-    return linearize(evaluator, scene, hand_state(scene));
+    const auto cost =
+        make_cost(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
+    cost->prepare(frame);
+    return linearize(*cost, scene, hand_state(scene));
   };
   const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);
   const auto other = std::make_shared<DepthPattern>(0.5f, 0.7f);
@@ -245,10 +246,11 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
   const Observation frame = test::rectified_pair(scene);
   NormalEquations expected;
   for (const int threads : {1, 2, 5}) {
-    Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                        {.backend = Backend::cpu, .threads = threads}, {.wanted = true});
-    evaluator.prepare(frame);
-    const NormalEquations found = linearize(evaluator, scene, hand_state(scene));
+    const auto cost =
+        make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                  {.backend = Backend::cpu, .threads = threads}, {.least_squares = true});
+    cost->prepare(frame);
+    const NormalEquations found = linearize(*cost, scene, hand_state(scene));
     if (threads == 1) expected = found;
     EXPECT_EQ(found.a, expected.a);
     EXPECT_EQ(found.g, expected.g);
@@ -257,15 +259,16 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   const Scene scene = test::hand_scene();
-  Evaluator evaluator(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
+  const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
-  evaluator.prepare(frame);
+  cost->prepare(frame);
   const Eigen::VectorXd state = hand_state(scene);
   Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
-  const NormalEquations all = linearize(evaluator, scene, state);
+  const NormalEquations all = linearize(*cost, scene, state);
   steps[1] = 0;
-  const NormalEquations some = evaluator.linearize(moved_states(scene, state, steps), steps, 1);
+  const NormalEquations some =
+      cost->least_squares()->linearize(moved_states(scene, state, steps), steps, 1);
   EXPECT_EQ(some.a.col(1).norm() + some.a.row(1).norm() + some.g[1], 0);
   EXPECT_EQ(some.g[2], all.g[2]);
 }
@@ -280,8 +283,9 @@ class WithoutSlopes : public DepthPattern {
 TEST(Linearizer, NeedsSlopesOfEveryTermThatIsDrawn) {
   const Scene scene = test::hand_scene();
   const auto can = [&](const std::vector<ObjectiveTerm>& terms) {
-    return Evaluator(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.wanted = true})
-        .can_linearize();
+    return make_cost(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.least_squares = true})
+        ->least_squares()
+        ->can_linearize();
   };
   const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);
   const auto without = std::make_shared<WithoutSlopes>(0.2f, 0.5f);

@@ -34,7 +34,7 @@ class Readings final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return draws_; }
   void prepare(const Observation& seen) override {
     now_ = frames_[static_cast<std::size_t>(seen.frame)];
-    no_motion_prior_ = seen.no_motion_prior;
+    no_motion_prior_ = seen.context.no_motion_prior;
   }
   bool no_motion_prior() const { return no_motion_prior_; }
   double cost(const RenderedHypothesis& h) const override {

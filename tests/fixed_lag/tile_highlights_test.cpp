@@ -17,7 +17,7 @@ struct BallFrames {
   explicit BallFrames(double strength) {
     for (int i = 0; i < 5; ++i) {
       const Frame frame = ball.frame(strength);
-      seen.emplace_back(ball.tiles->cut(frame, ball.tiles->plan(frame, ball.state())));
+      seen.emplace_back(ball.tiles->resample(frame, ball.tiles->plan(frame, ball.state())));
       states.push_back({i / 30.0, ball.state()});
     }
   }

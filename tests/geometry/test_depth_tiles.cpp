@@ -47,10 +47,11 @@ cv::Mat random_depth(const Camera& camera, std::uint64_t seed) {
   return depth;
 }
 
-TileView cut(const Camera& camera, const TileCamera& tile, const View& view) {
+TileView resampled(const Camera& camera, const TileCamera& tile, const View& view) {
   const Resampler resampler(camera, Eigen::Matrix3d::Identity());
   const double scale = scale_at_centre(resampler.lens(), tile);
-  return resampler.cut(view, tile, plan_cut(resampler.lens(), tile, resampler.image_size(), scale));
+  return resampler.resample(view, tile,
+                            plan_resampling(resampler.lens(), tile, resampler.image_size(), scale));
 }
 
 TEST(DepthTiles, AreThatOfTheNearestPixelAtAnyScale) {
@@ -58,7 +59,7 @@ TEST(DepthTiles, AreThatOfTheNearestPixelAtAnyScale) {
   const cv::Mat depth = random_depth(camera, 3);
   for (const double scale : {0.21, 0.5, 0.97, 1.0, 1.31, 2.0, 3.4}) {
     const TileCamera tile = tile_of(camera, scale);
-    const TileView view = cut(camera, tile, {.depth = depth});
+    const TileView view = resampled(camera, tile, {.depth = depth});
     ASSERT_EQ(view.depth.type(), CV_32FC1);
     int compared = 0;
     for (int v = 0; v < tile.height; ++v) {
@@ -87,17 +88,17 @@ TEST(DepthTiles, AreZeroOutsideTheImageAndWhereNothingWasMeasured) {
   TileCamera tile = tile_of(camera, 1);
   tile.cx = camera.cx - 300;  // tile pixel 0 is image column 300
   tile.cy = camera.cy - 230;
-  const TileView middle = cut(camera, tile, {.depth = depth});
+  const TileView middle = resampled(camera, tile, {.depth = depth});
   EXPECT_EQ(cv::countNonZero(middle.depth), 64 * 64 - 4);
   for (int u = 20; u < 24; ++u) EXPECT_EQ(middle.depth.at<float>(10, u), 0) << u;
 
   tile.cx = camera.cx - 600;
-  const TileView edge = cut(camera, tile, {.depth = depth});
+  const TileView edge = resampled(camera, tile, {.depth = depth});
   for (int u = 0; u < 64; ++u) EXPECT_EQ(edge.depth.at<float>(10, u), u < 40 ? 0.5f : 0) << u;
   EXPECT_EQ(cv::countNonZero((edge.depth > 0) != (edge.valid > 0)), 0);
 
   tile.cx = camera.cx - 6000;
-  const TileView nothing = cut(camera, tile, {.depth = depth});
+  const TileView nothing = resampled(camera, tile, {.depth = depth});
   ASSERT_EQ(nothing.depth.size(), cv::Size(64, 64));
   EXPECT_EQ(cv::countNonZero(nothing.depth), 0);
 }
@@ -106,13 +107,13 @@ TEST(DepthTiles, OfAViewWithoutColourHaveNoColour) {
   const Camera camera = pinhole();
   const TileCamera tile = tile_of(camera, 1.7);
   View view{.depth = random_depth(camera, 4)};
-  EXPECT_TRUE(cut(camera, tile, view).color.empty());
-  EXPECT_TRUE(cut(camera, tile, view).mask.empty());
-  EXPECT_EQ(cv::countNonZero(cut(camera, tile, view).valid), 64 * 64);
+  EXPECT_TRUE(resampled(camera, tile, view).color.empty());
+  EXPECT_TRUE(resampled(camera, tile, view).mask.empty());
+  EXPECT_EQ(cv::countNonZero(resampled(camera, tile, view).valid), 64 * 64);
   view.mask = cv::Mat(camera.height, camera.width, CV_8U, cv::Scalar(1));
-  EXPECT_TRUE(cut(camera, tile, view).color.empty());
-  EXPECT_EQ(cv::countNonZero(cut(camera, tile, view).mask), 64 * 64);
-  EXPECT_TRUE(cut(camera, tile, {.color = cv::Mat(480, 640, CV_8UC3)}).depth.empty());
+  EXPECT_TRUE(resampled(camera, tile, view).color.empty());
+  EXPECT_EQ(cv::countNonZero(resampled(camera, tile, view).mask), 64 * 64);
+  EXPECT_TRUE(resampled(camera, tile, {.color = cv::Mat(480, 640, CV_8UC3)}).depth.empty());
 }
 
 /// The plane through `point` with `normal`, as a camera with a lens measures it.

@@ -119,7 +119,7 @@ TEST(PosedScene, TilesAndSharesDependOnNoStateBefore) {
         EXPECT_EQ(a.fx, b.fx);
         EXPECT_EQ(a.cx, b.cx);
         EXPECT_EQ(a.cy, b.cy);
-        EXPECT_EQ(expected.cuts[view].touched, found.cuts[view].touched);
+        EXPECT_EQ(expected.views[view].touched, found.views[view].touched);
       }
     }
   }

@@ -49,7 +49,7 @@ TEST(Tiles, DoNotShowWhatTheLensFoldsBackIntoTheImage) {
   EXPECT_EQ(cv::countNonZero(view.valid), 0);
 }
 
-TEST(Tiles, CutTheMaskWithTheColour) {
+TEST(Tiles, ResampleTheMaskWithTheColour) {
   for (const double scale : {0.5, 1.0, 1.6, 2.0, 3.3}) {
     const test::PlainSetup setup(scale, 80);
     const cv::Mat image(720, 1280, CV_8UC3, cv::Scalar(10, 20, 30));
@@ -70,10 +70,10 @@ TEST(Tiles, ShowMappedColoursWithinTheirRange) {
   const View view = test::noise_view(test::lens_camera(0), true, true, false);
   const TileCamera tile = test::tile_towards(straight, {0.1, 0.05, 1}, 1);
   const Resampler camera(test::lens_camera(0), straight);
-  CutPlan plan = plan_cut(camera.lens(), tile, camera.image_size(), 1);
-  const TileView before = camera.cut(view, tile, plan);
+  ResamplePlan plan = plan_resampling(camera.lens(), tile, camera.image_size(), 1);
+  const TileView before = camera.resample(view, tile, plan);
   plan.colors = {{0.86f, 1.3f, 1.0f}, {0.0f, 40.0f, -70.0f}};
-  const TileView after = camera.cut(view, tile, plan);
+  const TileView after = camera.resample(view, tile, plan);
   for (int i = 0; i < before.color.rows * before.color.cols; ++i) {
     const cv::Vec3b from = before.color.at<cv::Vec3b>(i / before.color.cols, i % before.color.cols);
     const cv::Vec3b to = after.color.at<cv::Vec3b>(i / before.color.cols, i % before.color.cols);

@@ -203,7 +203,8 @@ double highest_cost_of_truth(const std::string& name) {
   PluginLoader plugins;
   const std::vector<std::string> small = {"source.cameras.width=32", "source.cameras.height=18",
                                           "source.cameras.focal_px=18"};
-  const OpenedScene session = open_source(test::source_dir() / "configs/scenes" / name, small, plugins);
+  const OpenedScene session =
+      open_source(test::source_dir() / "configs/scenes" / name, small, plugins);
   const Interpenetration objective({}, *session.scene);
   double highest = 0;
   while (const auto frame = session.source->next()) {

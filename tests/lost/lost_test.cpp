@@ -29,7 +29,8 @@ std::vector<Tracked> track_scene(const std::string& scene_file, int frames,
                                  std::vector<std::string> overrides) {
   PluginLoader plugins;
   overrides.push_back("evaluate.backend=cpu");
-  OpenedScene session = open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   std::optional<SceneTracker> tracker;
@@ -230,7 +231,8 @@ std::vector<ModelsTracked> track_models(const std::string& scene_file, int frame
                     "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
                     "objective=@" + real_time, "optimizer=@" + real_time, "budget.evaluations=60",
                     "tile.size=128"});
-  OpenedScene session = open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
   const LandmarkLayout layout = landmark_layout(scene.landmark_names());
   std::optional<SceneTracker> tracker;

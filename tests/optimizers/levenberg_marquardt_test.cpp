@@ -110,7 +110,8 @@ TEST(LevenbergMarquardt, RefusesAnAnalyticJacobianThatIsNotThere) {
   params.jacobian = Jacobian::analytic;
   EXPECT_THAT([&] { minimize(cost, region, 10, params); },
               ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
-                  "optimizer levenberg_marquardt: jacobian: analytic: a term of this cost")));
+                  "the optimizer takes analytic Jacobians, which are computed on the CPU: a term "
+                  "of this cost has no slopes")));
 }
 
 TEST(LevenbergMarquardt, FollowsACurvedValley) {
@@ -178,14 +179,15 @@ TEST(LevenbergMarquardt, NeedsResidualsWithinOtherOptimizersToo) {
   const auto least_squares = [] {
     return std::make_unique<LevenbergMarquardt>(LevenbergMarquardtParams{});
   };
-  EXPECT_TRUE(MultiStart({}, least_squares()).needs_residuals());
-  EXPECT_TRUE(LimbSearch({}, least_squares()).needs_residuals());
-  EXPECT_FALSE(
-      MultiStart({}, std::make_unique<RandomSearch>(RandomSearchParams{})).needs_residuals());
+  EXPECT_TRUE(MultiStart({}, least_squares()).requirements().least_squares);
+  EXPECT_TRUE(LimbSearch({}, least_squares()).requirements().least_squares);
+  EXPECT_FALSE(MultiStart({}, std::make_unique<RandomSearch>(RandomSearchParams{}))
+                   .requirements()
+                   .least_squares);
   std::vector<PipelineStage> stages;
   stages.push_back({"random_search", std::make_unique<RandomSearch>(RandomSearchParams{})});
   stages.push_back({"levenberg_marquardt", least_squares()});
-  EXPECT_TRUE(Pipeline(std::move(stages), 100).needs_residuals());
+  EXPECT_TRUE(Pipeline(std::move(stages), 100).requirements().least_squares);
 }
 
 TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizersToo) {
@@ -194,15 +196,17 @@ TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizers
     params.jacobian = jacobian;
     return std::make_unique<LevenbergMarquardt>(params);
   };
-  EXPECT_EQ(with(Jacobian::numerical)->linearization(), Linearization::unused);
-  EXPECT_EQ(with(Jacobian::automatic)->linearization(), Linearization::welcome);
-  EXPECT_EQ(MultiStart({}, with(Jacobian::analytic)).linearization(), Linearization::needed);
-  EXPECT_EQ(LimbSearch({}, with(Jacobian::analytic)).linearization(), Linearization::needed);
+  EXPECT_EQ(with(Jacobian::numerical)->requirements().jacobian, Linearization::unused);
+  EXPECT_EQ(with(Jacobian::automatic)->requirements().jacobian, Linearization::welcome);
+  EXPECT_EQ(MultiStart({}, with(Jacobian::analytic)).requirements().jacobian,
+            Linearization::needed);
+  EXPECT_EQ(LimbSearch({}, with(Jacobian::analytic)).requirements().jacobian,
+            Linearization::needed);
   const auto of_stages = [&](Jacobian first, Jacobian second) {
     std::vector<PipelineStage> stages;
     stages.push_back({"levenberg_marquardt", with(first)});
     stages.push_back({"levenberg_marquardt", with(second)});
-    return Pipeline(std::move(stages), 100).linearization();
+    return Pipeline(std::move(stages), 100).requirements().jacobian;
   };
   EXPECT_EQ(of_stages(Jacobian::analytic, Jacobian::numerical), Linearization::needed);
   EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::automatic), Linearization::welcome);
@@ -254,7 +258,7 @@ TEST(LevenbergMarquardt, RefusesACostWithoutResiduals) {
   cost.has_residuals = false;
   EXPECT_THAT([&] { minimize(cost, region, 10); },
               ::testing::ThrowsMessage<ConfigError>(
-                  "optimizer levenberg_marquardt: this cost has no residuals; take an optimizer "
+                  "objective: the optimizer needs residuals: this cost has none; take an optimizer "
                   "that needs costs only, such as `optimizer: {type: pso}`"));
 }
 

@@ -259,7 +259,11 @@ TEST_F(PipelineTest, AnErrorSaysOnlyOnceWhereTheStageIs) {
 /// Searches on a GPU only.
 class OnDevice final : public Optimizer {
  public:
-  std::string needs_device() const override { return "scene.yaml:9:3: it needs a GPU"; }
+  Requirements requirements() const override {
+    return {.device = true,
+            .device_by = "scene.yaml:9:3: on_device",
+            .instead_of_device = "`type: pso`"};
+  }
   std::int64_t default_evaluations() const override { return 1; }
   OptimizerResult minimize(CostFunction&, const SearchRegion& region, const Budget&,
                            std::uint64_t) override {
@@ -269,15 +273,19 @@ class OnDevice final : public Optimizer {
 
 TEST_F(PipelineTest, WhatNeedsADeviceSaysSoWithinOtherOptimizersToo) {
   add("pso", 0, 1);
-  EXPECT_EQ(Pipeline(std::move(stages_), 100, "scene.yaml:9:3").needs_device(), "");
+  EXPECT_FALSE(Pipeline(std::move(stages_), 100, "scene.yaml:9:3").requirements().device);
   std::vector<PipelineStage> stages;
   stages.push_back({"pso", std::make_unique<RandomSearch>(RandomSearchParams{})});
   stages.push_back({"multi_start", std::make_unique<MultiStart>(
                                        MultiStartParams{},
                                        std::make_unique<LimbSearch>(
                                            LimbSearchParams{}, std::make_unique<OnDevice>()))});
-  EXPECT_EQ(Pipeline(std::move(stages), 100, "scene.yaml:9:3").needs_device(),
-            "scene.yaml:9:3: stage 2 of 2, multi_start: it needs a GPU");
+  const Requirements all = Pipeline(std::move(stages), 100, "scene.yaml:9:3").requirements();
+  EXPECT_THAT([&] { check_requirements(all, CostOffer{}); },
+              ThrowsMessage<DeviceError>(
+                  "scene.yaml:9:3: stage 2 of 2, multi_start: on_device searches on the GPU, and "
+                  "this scene is not evaluated there. Write `evaluate: {backend: cuda}`, or `type: "
+                  "pso`"));
 }
 
 TEST_F(PipelineTest, WithoutStagesItIsAConfigError) {

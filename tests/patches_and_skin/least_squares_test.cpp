@@ -22,11 +22,11 @@ struct Found {
 Eigen::VectorXd costs_of(const OpenedScene& session, const Frame& frame,
                          const Eigen::MatrixXd& states) {
   const TileMaker tiles(*session.scene, session.parts.cameras, session.parts.tile);
-  Evaluator evaluator(*session.scene, session.parts.objective, session.parts.evaluate);
+  const auto cost = make_cost(*session.scene, session.parts.objective, session.parts.evaluate);
   const Observation observation = tiles.make(frame, states.col(0));
-  evaluator.prepare(observation);
+  cost->prepare(observation);
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost->evaluate(states, costs);
   return costs;
 }
 
@@ -36,8 +36,8 @@ double error_of(const Scene& scene, const Frame& frame, const Eigen::VectorXd& s
       .mean;
 }
 
-/// One search of the first frame of configs/scenes/demo.yaml, whose right camera is 16 % brighter, from
-/// 6 mm and 3 degrees away.
+/// One search of the first frame of configs/scenes/demo.yaml, whose right camera is 16 % brighter,
+/// from 6 mm and 3 degrees away.
 Found search(PluginLoader& plugins, const std::string& objective, const std::string& optimizer,
              int seed, int evaluations = 512) {
   const auto open = [&] {

@@ -34,7 +34,7 @@ class PlausibleMotionTest : public testing::Test {
     Observation observation;
     observation.scene = &scene_;
     observation.start = start_;
-    observation.no_motion_prior = no_motion_prior_;
+    observation.context.no_motion_prior = no_motion_prior_;
     objective.prepare(observation);
     return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
   }

@@ -1,6 +1,6 @@
-// Real depth frames of a hand without colour: configs/scenes/sr305.yaml. Nobody labelled them, so the
-// drawn solutions are held against the depth itself; docs/results/real_pictures.md says what the
-// pictures look like.
+// Real depth frames of a hand without colour: configs/scenes/sr305.yaml. Nobody labelled them, so
+// the drawn solutions are held against the depth itself; docs/results/real_pictures.md says what
+// the pictures look like.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A real stereo pair with labelled joints: configs/scenes/stb_pair.yaml. What the paper's objective makes
-// of it is recorded, not asserted; docs/results/real_pictures.md says what was found and why.
+// A real stereo pair with labelled joints: configs/scenes/stb_pair.yaml. What the paper's objective
+// makes of it is recorded, not asserted; docs/results/real_pictures.md says what was found and why.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -40,7 +40,8 @@ Stb open_stb(PluginLoader& plugins, std::vector<std::string> overrides = {}) {
   overrides.push_back("source.left=" + (stb / "BB_left_%d.png").string());
   overrides.push_back("source.right=" + (stb / "BB_right_%d.png").string());
   overrides.push_back("source.truth_landmarks=" + (stb / "B1Counting_BB_rows000-499.csv").string());
-  Stb out{open_scene(test::source_dir() / "configs/scenes/stb_pair.yaml", overrides, plugins), {}, {}};
+  Stb out{
+      open_scene(test::source_dir() / "configs/scenes/stb_pair.yaml", overrides, plugins), {}, {}};
   out.frame = out.session.source->next().value();
   out.fitted = initial_state(out.session, out.frame);
   return out;
@@ -99,11 +100,12 @@ Solution search(const Stb& stb, const Frame& frame, const Eigen::VectorXd& start
 /// Costs of states on the tiles around the first of them.
 Eigen::VectorXd costs(const Stb& stb, const Frame& frame, const Eigen::MatrixXd& states) {
   const TileMaker tiles(*stb.session.scene, stb.session.parts.cameras, stb.session.parts.tile);
-  Evaluator evaluator(*stb.session.scene, stb.session.parts.objective, stb.session.parts.evaluate);
+  const auto cost =
+      make_cost(*stb.session.scene, stb.session.parts.objective, stb.session.parts.evaluate);
   const Observation observation = tiles.make(frame, states.col(0));
-  evaluator.prepare(observation);
+  cost->prepare(observation);
   Eigen::VectorXd out(states.cols());
-  evaluator.evaluate(states, out);
+  cost->evaluate(states, out);
   return out;
 }
 
@@ -187,7 +189,7 @@ TEST(StbPair, ThePhotometricMatchFindsTheBrightness) {
     match.learn(tiles, stb.frame, plan, state);
     ASSERT_TRUE(match.knows()) << away;
     match.apply(plan);
-    const ColorMap& map = plan.cuts[1].colors;
+    const ColorMap& map = plan.views[1].colors;
     for (std::size_t i = 0; i < 3; ++i) {
       const float gain = map.gain[i] + map.offset[i] / levels[i];
       fmt::print("{:.0f} mm away, channel {}: {:.3f} v {:+.1f}, so {:.3f} at {:.0f}\n", 1e3 * away,

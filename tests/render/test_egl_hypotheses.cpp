@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "cost/cost.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
@@ -229,14 +230,6 @@ TEST(EglHypotheses, leave_nothing_of_the_batch_before) {
   EXPECT_EQ(render(*used, states.rightCols(3)), render(*fresh, states.rightCols(3)));
 }
 
-TEST(EglHypotheses, are_what_the_settings_ask_for) {
-  const Scene scene = scene_of_hand_and_box();
-  EvaluateSettings settings;
-  settings.backend = Backend::egl;
-  EXPECT_THAT(make_hypothesis_renderer(scene, settings, true)->description(),
-              testing::AllOf(testing::HasSubstr("egl ("), testing::HasSubstr("OpenGL")));
-}
-
 /// Share of the first view that is covered; without a counterpart on the GPU.
 class Coverage final : public Objective {
  public:
@@ -253,13 +246,13 @@ TEST(EglHypotheses, are_scored_on_the_cpu_if_need_be_and_the_backend_says_why) {
   const Scene scene = scene_of_hand_and_box();
   EvaluateSettings settings;
   settings.backend = Backend::egl;
-  Evaluator evaluator(scene, {{1, std::make_shared<Coverage>(), "coverage"}}, settings);
-  EXPECT_THAT(evaluator.backend(),
+  const auto cost = make_cost(scene, {{1, std::make_shared<Coverage>(), "coverage"}}, settings);
+  EXPECT_THAT(cost->backend(),
               testing::MatchesRegex(R"(egl \(.*OpenGL.*\); scored on the CPU: .+)"));
   const Observation observation = observation_of(scene);
-  evaluator.prepare(observation);
+  cost->prepare(observation);
   Eigen::VectorXd costs(1);
-  evaluator.evaluate(random_states(scene, 1), costs);
+  cost->evaluate(random_states(scene, 1), costs);
   EXPECT_GT(costs[0], 0.01);
   EXPECT_LT(costs[0], 0.9);
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/renderer.hpp"
 #include "rgbd_depth.hpp"
 #include "test_models.hpp"
@@ -44,11 +44,11 @@ struct RenderedDepth {
   }
 
   Eigen::VectorXd costs(const Params& params, const Eigen::MatrixXd& states) const {
-    Evaluator evaluator(scene, {{1.0, std::make_shared<RgbdDepth>(params)}},
-                        {.backend = Backend::cpu, .threads = 1});
-    evaluator.prepare(observation);
+    const auto cost = make_cost(scene, {{1.0, std::make_shared<RgbdDepth>(params)}},
+                                {.backend = Backend::cpu, .threads = 1});
+    cost->prepare(observation);
     Eigen::VectorXd out(states.cols());
-    evaluator.evaluate(states, out);
+    cost->evaluate(states, out);
     return out;
   }
 

@@ -130,13 +130,14 @@ class ShapeFromImages : public ::testing::Test {
 
  private:
   void learn(Silhouette& silhouette) {
-    Evaluator evaluator(truth_, {{.objective = {&silhouette, [](Objective*) {}}}}, parts_.evaluate);
+    const auto silhouettes =
+        make_cost(truth_, {{.objective = {&silhouette, [](Objective*) {}}}}, parts_.evaluate);
     const TileMaker tiles(scene_, parts_.cameras, parts_.tile);
     silhouette.learning = true;
     for (const TrackedFrame& f : frames_) {
-      evaluator.prepare(tiles, f.frame, tiles.plan(f.frame, f.state));
+      silhouettes->prepare(tiles, f.frame, tiles.plan(f.frame, f.state));
       Eigen::VectorXd cost(1);
-      evaluator.evaluate(f.state, cost);
+      silhouettes->evaluate(f.state, cost);
     }
     silhouette.learning = false;
   }

@@ -91,7 +91,7 @@ TEST(SkinColors, OfAFrameAreLearnedOnce) {
 
 TEST(SkinColors, OfAGuessCountForLess) {
   Observation guess = colored_box();
-  guess.start_is_guess = true;
+  guess.context.start_is_guess = true;
   ForegroundEstimator sure({}), half({.guess_trust = 0.5}), none({.guess_trust = 0});
   const Means known = means(sure.estimate(colored_box(), 0));
   const Means half_known = means(half.estimate(guess, 0)), unknown = means(none.estimate(guess, 0));
@@ -104,7 +104,7 @@ TEST(SkinColors, OfAGuessCountForLess) {
 TEST(SkinColors, OfAGuessAreForgottenWhereTheStartIsASolution) {
   Observation guess = colored_box();
   guess.start[0] += 0.03;  // half the box
-  guess.start_is_guess = true;
+  guess.context.start_is_guess = true;
   const Observation solution = colored_box();  // of the same frame
   Observation later = colored_box();
   later.frame = 1;

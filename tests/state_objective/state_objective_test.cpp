@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "device.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/runtime.cuh"
@@ -36,11 +36,11 @@ class StateObjective : public ::testing::Test {
  protected:
   void SetUp() override { SKIP_WITHOUT_DEVICE(); }
 
-  Evaluator make_evaluator(Backend backend) const {
+  std::unique_ptr<Cost> cost_on(Backend backend) const {
     std::vector<ObjectiveTerm> terms;
     terms.push_back({.weight = 2, .objective = std::make_shared<WeightedSumObjective>(1.0)});
     terms.push_back({.weight = -0.5, .objective = std::make_shared<WeightedSumObjective>(0.1)});
-    return Evaluator(scene_, terms, {.backend = backend});
+    return make_cost(scene_, terms, {.backend = backend});
   }
   Observation observation() const {
     Observation result;
@@ -59,9 +59,9 @@ class StateObjective : public ::testing::Test {
                       {"box", std::make_shared<Model>(test::make_test_box())}}};
 };
 
-Eigen::VectorXd costs_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+Eigen::VectorXd costs_of(Cost& cost, const Eigen::MatrixXd& states) {
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost.evaluate(states, costs);
   return costs;
 }
 
@@ -83,19 +83,19 @@ Eigen::VectorXd costs_of(cuda::DeviceCost& device, const Eigen::MatrixXd& points
 }
 
 TEST_F(StateObjective, WeightedTermsAddUpToTheCostsOfTheCpu) {
-  Evaluator cpu = make_evaluator(Backend::cpu), device = make_evaluator(Backend::cuda);
+  const auto cpu = cost_on(Backend::cpu), device = cost_on(Backend::cuda);
   const Observation frame = observation();
-  cpu.prepare(frame);
-  device.prepare(frame);
+  cpu->prepare(frame);
+  device->prepare(frame);
   const Eigen::MatrixXd states = this->states();
-  EXPECT_TRUE(costs_of(device, states).isApprox(costs_of(cpu, states), kTolerance));
+  EXPECT_TRUE(costs_of(*device, states).isApprox(costs_of(*cpu, states), kTolerance));
 }
 
 TEST_F(StateObjective, SearchPointsAreDecodedAsOnTheCpu) {
-  Evaluator cpu = make_evaluator(Backend::cpu), device = make_evaluator(Backend::cuda);
+  const auto cpu = cost_on(Backend::cpu), device = cost_on(Backend::cuda);
   const Observation frame = observation();
-  cpu.prepare(frame);
-  device.prepare(frame);
+  cpu->prepare(frame);
+  device->prepare(frame);
   const Eigen::VectorXd prior = states().col(0);
   for (const auto rotation_as : {RotationSearch::quaternion, RotationSearch::tangent}) {
     SearchSettings settings;
@@ -103,10 +103,10 @@ TEST_F(StateObjective, SearchPointsAreDecodedAsOnTheCpu) {
     const SearchSpace space(scene_, settings);
     std::srand(3);
     const Eigen::MatrixXd points = Eigen::MatrixXd::Random(space.dimension(), kStates);
-    cuda::DeviceCost* device_cost = device.device_cost(prior, space.rotation_vectors());
+    cuda::DeviceCost* device_cost = device->device(space.rotation_vectors() ? &prior : nullptr);
     ASSERT_NE(device_cost, nullptr);
     EXPECT_TRUE(costs_of(*device_cost, points)
-                    .isApprox(costs_of(cpu, space.states(points, prior)), kTolerance))
+                    .isApprox(costs_of(*cpu, space.states(points, prior)), kTolerance))
         << enum_names(rotation_as)[static_cast<std::size_t>(rotation_as)];
   }
 }

@@ -123,7 +123,7 @@ TEST(StereoColor, ParametersAreReadInTheUnitsOfTheirKeys) {
 TEST(StereoColor, BetaFollowsTheDifferenceOfTheViewsWithinItsBounds) {
   RandomPair pair({.size = 64});
   const auto cost = [&](double difference, const Params& params) {
-    pair.observation.color_difference = difference;
+    pair.observation.context.color_difference = difference;
     StereoColor objective(params);
     objective.prepare(pair.observation);
     return objective.cost(pair.hypothesis());

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/renderer.hpp"
 #include "test_models.hpp"
 
@@ -90,10 +90,10 @@ RenderedPair::RenderedPair(const Pose& pose) {
 
 Eigen::VectorXd RenderedPair::costs(const std::shared_ptr<Objective>& objective,
                                     const Eigen::MatrixXd& states) const {
-  Evaluator evaluator(*scene_, {{1.0, objective}}, {.backend = Backend::cpu, .threads = 1});
-  evaluator.prepare(observation_);
+  const auto cost = make_cost(*scene_, {{1.0, objective}}, {.backend = Backend::cpu, .threads = 1});
+  cost->prepare(observation_);
   Eigen::VectorXd out(states.cols());
-  evaluator.evaluate(states, out);
+  cost->evaluate(states, out);
   return out;
 }
 

@@ -37,10 +37,10 @@ TEST(Uncertainty, OfAHiddenFingerIsLargerThanOfAVisibleOne) {
   params.lookup = Lookup::bilinear;
   params.direction = Direction::both;
   const RenderedPair pair(index_hidden);
-  Evaluator evaluator(pair.scene(), {{1.0, std::make_shared<StereoColor>(params)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
-  evaluator.prepare(pair.observation());
-  const Eigen::VectorXd sigma = PoseUncertainty(pair.scene(), {}).of(evaluator, pair.truth());
+  const auto cost = make_cost(pair.scene(), {{1.0, std::make_shared<StereoColor>(params)}},
+                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
+  cost->prepare(pair.observation());
+  const Eigen::VectorXd sigma = PoseUncertainty(pair.scene(), {}).of(*cost, pair.truth());
   for (const std::string joint : {"_2", "_3", "_tip"}) {
     const double hidden = sigma_of(pair.scene(), sigma, "index" + joint);
     for (const std::string visible : {"middle", "ring", "little"}) {

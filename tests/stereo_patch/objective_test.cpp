@@ -48,7 +48,7 @@ TEST(StereoPatch, CountsTheLessTheBetterTheViewsAgreeOnColours) {
   PatchPair pair({.size = 64}, true);
   Params params;
   const auto cost = [&](double difference) {
-    pair.observation.color_difference = difference;
+    pair.observation.context.color_difference = difference;
     StereoPatch objective(params);
     objective.prepare(pair.observation);
     return objective.cost(pair.hypothesis());

@@ -59,7 +59,7 @@ TEST(PatchResiduals, SquaredAreTheCostPlusTheNumberOfPixelsThatCount) {
 
 TEST(PatchResiduals, SquaredAreTheCostWherePixelsCountForAPartOnly) {
   PatchPair pair({.mask = true, .size = 64}, true);
-  pair.observation.color_difference = 0.01;
+  pair.observation.context.color_difference = 0.01;
   Params params;
   params.full_at_difference = 0.02;
   ASSERT_LT(share_of(params, pair.observation), 0.3);
@@ -97,7 +97,7 @@ TEST(PatchResiduals, OfPixelsThatNothingCoversAreOneWithinImageAndMask) {
 TEST(PatchResiduals, HaveSlopesThatAreTheirDifferencesOverDepth) {
   for (const bool rectified : {true, false}) {
     PatchPair pair({.rectified = rectified, .size = 64}, true);
-    pair.observation.color_difference = 0.01;
+    pair.observation.context.color_difference = 0.01;
     Params params;
     params.full_at_difference = 0.011;
     params.r = 0.1;  // so generous that what is seen stays seen

@@ -14,7 +14,7 @@ namespace {
 /// The map that a match puts on the second view, at a level.
 double mapped(const PhotometricMatch& match, TilePlan plan, double level, int channel = 0) {
   match.apply(plan);
-  const ColorMap& map = plan.cuts[1].colors;
+  const ColorMap& map = plan.views[1].colors;
   return map.gain[channel] * level + map.offset[channel];
 }
 
@@ -74,8 +74,8 @@ TEST(PhotometricMatch, IsInTheTilesThatObjectivesSee) {
   fixture.learn(match, frame);
   TilePlan plan = fixture.plan;
   match.apply(plan);
-  const Observation as_they_are = fixture.tiles->cut(frame, fixture.plan);
-  const Observation matched = fixture.tiles->cut(frame, plan);
+  const Observation as_they_are = fixture.tiles->resample(frame, fixture.plan);
+  const Observation matched = fixture.tiles->resample(frame, plan);
   EXPECT_EQ(cv::norm(as_they_are.views[0].color, matched.views[0].color, cv::NORM_INF), 0);
   const cv::Rect middle(48, 48, 32, 32);
   const double left = cv::mean(matched.views[0].color(middle))[1];
@@ -96,11 +96,12 @@ TEST(PhotometricMatch, SaysHowFarColoursStayApart) {
     PhotometricMatch match(fixture.scene, fixture.settings);
     TilePlan plan = fixture.plan;
     match.apply(plan);
-    EXPECT_EQ(plan.header.color_difference, 0);
+    EXPECT_EQ(plan.header.context.color_difference, 0);
     fixture.learn(match, frame);
     match.apply(plan);
-    EXPECT_EQ(fixture.tiles->cut(frame, plan).color_difference, plan.header.color_difference);
-    return plan.header.color_difference;
+    EXPECT_EQ(fixture.tiles->resample(frame, plan).context.color_difference,
+              plan.header.context.color_difference);
+    return plan.header.context.color_difference;
   };
   const double without = difference(1, 0, 0);
   EXPECT_LT(without, 2.0 / 255);
@@ -236,7 +237,7 @@ TEST(ColorSampler, TilesShowWhatTheImagesShow) {
   ColorSampler sampler(ball.scene);
   sampler.draw(plan.header, ball.state());
   const ColorSamples images = sampler.take(frame, ball.tiles->resamplers(), 1, true);
-  const ColorSamples tiles = sampler.take(ball.tiles->cut(frame, plan), 1, true);
+  const ColorSamples tiles = sampler.take(ball.tiles->resample(frame, plan), 1, true);
   ASSERT_EQ(tiles.size(), images.size());
   ASSERT_GT(tiles.size(), 200u);
   EXPECT_EQ(tiles.normals, images.normals);
@@ -258,7 +259,7 @@ double difference_of_tiles(const PhotometricSettings& settings, double strength)
   for (int i = 0; i < 5; ++i) match.learn(*ball.tiles, frame, plan, ball.state());
   match.apply(plan);
   match.apply_highlights(plan, ball.state());
-  const Observation seen = ball.tiles->cut(frame, plan);
+  const Observation seen = ball.tiles->resample(frame, plan);
   ColorSampler sampler(ball.scene);
   sampler.draw(plan.header, ball.state());
   const ColorSamples samples = sampler.take(seen, 1);
@@ -284,13 +285,13 @@ TEST(PhotometricMatch, LeavesTheFirstViewsTileAsItIs) {
   const TilePlan plain = ball.tiles->plan(frame, ball.state());
   TilePlan plan = plain;
   match.apply_highlights(plan, ball.state());
-  EXPECT_TRUE(plan.cuts[1].brightness.empty()) << "before it has learned";
+  EXPECT_TRUE(plan.views[1].brightness.empty()) << "before it has learned";
   match.learn(*ball.tiles, frame, plan, ball.state());
   match.apply_highlights(plan, ball.state());
-  EXPECT_TRUE(plan.cuts[0].brightness.empty());
-  EXPECT_FALSE(plan.cuts[1].brightness.empty());
-  EXPECT_EQ(cv::norm(ball.tiles->cut(frame, plain).views[0].color,
-                     ball.tiles->cut(frame, plan).views[0].color, cv::NORM_INF),
+  EXPECT_TRUE(plan.views[0].brightness.empty());
+  EXPECT_FALSE(plan.views[1].brightness.empty());
+  EXPECT_EQ(cv::norm(ball.tiles->resample(frame, plain).views[0].color,
+                     ball.tiles->resample(frame, plan).views[0].color, cv::NORM_INF),
             0);
 }
 
@@ -302,8 +303,8 @@ TEST(PhotometricMatch, OffLeavesColoursAlone) {
   EXPECT_FALSE(match.knows());
   TilePlan plan = fixture.plan;
   match.apply(plan);
-  EXPECT_TRUE(keeps_colors(plan.cuts[1].colors));
-  EXPECT_EQ(plan.header.color_difference, 0);
+  EXPECT_TRUE(keeps_colors(plan.views[1].colors));
+  EXPECT_EQ(plan.header.context.color_difference, 0);
 }
 
 TEST(PhotometricMatch, HasNothingToDoWithOneView) {

@@ -24,7 +24,7 @@ class MovingTarget final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return false; }
   void prepare(const Observation& observation) override {
     x_ = 0.005 * observation.frame;
-    observed.push_back({observation.start_is_guess, observation.start});
+    observed.push_back({observation.context.start_is_guess, observation.start});
   }
   double cost(const RenderedHypothesis& h) const override {
     if (infeasible) return std::numeric_limits<double>::infinity();
@@ -53,7 +53,9 @@ class MovingTarget final : public Objective, public ResidualTerm {
 /// The best of normal samples; remembers what it was asked.
 class Sampling final : public Optimizer {
  public:
-  std::string needs_device() const override { return device_needed; }
+  Requirements requirements() const override {
+    return {.device = needs_device, .device_by = "scene.yaml:9:3: sampling"};
+  }
   std::int64_t default_evaluations() const override { return 300; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override {
@@ -74,7 +76,7 @@ class Sampling final : public Optimizer {
   }
   std::vector<Eigen::VectorXd> starts;
   std::vector<std::int64_t> budgets;
-  std::string device_needed;
+  bool needs_device = false;
   bool nan_in_answer = false, nan_as_cost = false;
 };
 
@@ -85,7 +87,7 @@ struct Fixture {
   SearchSettings search;
   OneEuroSettings one_euro;
   StatusSettings status;
-  std::string needs_device;
+  bool needs_device = false;
 
   Eigen::VectorXd start() const {
     Eigen::VectorXd state = scene.rest_state();
@@ -100,7 +102,7 @@ struct Fixture {
     parts.cameras[1].camera_from_world.translation().x() = -0.06;
     auto sampling = std::make_unique<Sampling>();
     optimizer = sampling.get();
-    optimizer->device_needed = needs_device;
+    optimizer->needs_device = needs_device;
     parts.optimizer = std::move(sampling);
     parts.objective = {{1.0, target}};
     parts.evaluate.threads = 1;
@@ -134,8 +136,10 @@ TEST(Tracker, FollowsATargetFromFrameToFrame) {
 
 TEST(Tracker, RefusesAnOptimizerThatNeedsADeviceOnTheCpu) {
   Fixture fixture;
-  fixture.needs_device = "scene.yaml:9:3: it needs a GPU";
-  EXPECT_EQ(test::message_of<DeviceError>([&] { fixture.make(1); }), fixture.needs_device);
+  fixture.needs_device = true;
+  EXPECT_EQ(test::message_of<DeviceError>([&] { fixture.make(1); }),
+            "scene.yaml:9:3: sampling searches on the GPU, and this scene is not evaluated there. "
+            "Write `evaluate: {backend: cuda}`");
 }
 
 TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {

@@ -63,12 +63,12 @@ struct Fixture {
     return sigma({{1.0, std::make_shared<Readings>(axes, pixels, noise)}}, away);
   }
   double sigma(std::vector<ObjectiveTerm> terms, double away = 0) const {
-    Evaluator evaluator(scene, std::move(terms), {.backend = Backend::cpu, .threads = 1},
-                        {.wanted = true});
-    evaluator.prepare(Observation{});
+    const auto cost = make_cost(scene, std::move(terms), {.backend = Backend::cpu, .threads = 1},
+                                {.least_squares = true});
+    cost->prepare(Observation{});
     Eigen::VectorXd state = scene.rest_state();
     state[0] = away;
-    return PoseUncertainty(scene, settings).of(evaluator, state)[0];
+    return PoseUncertainty(scene, settings).of(*cost, state)[0];
   }
 };
 
@@ -135,13 +135,14 @@ TEST(PoseUncertainty, OfWhatAnExactReadingLeavesOpenIsWhatTheSettingsSay) {
 
 TEST(PoseUncertainty, HasAValueForEveryLandmarkAtTheBoundsToo) {
   const Scene scene({{"hand", std::make_shared<Model>(test::make_test_hand())}});
-  Evaluator evaluator(scene, {{1.0, std::make_shared<Readings>(std::vector{0, 1, 2}, 50, 0.01)}},
-                      {.backend = Backend::cpu, .threads = 1}, {.wanted = true});
-  evaluator.prepare(Observation{});
+  const auto cost =
+      make_cost(scene, {{1.0, std::make_shared<Readings>(std::vector{0, 1, 2}, 50, 0.01)}},
+                {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
+  cost->prepare(Observation{});
   Eigen::VectorXd state = scene.rest_state();
   for (Eigen::Index i = 7; i < state.size(); ++i)
     state[i] = scene.parameters()[static_cast<std::size_t>(i)].upper;
-  const Eigen::VectorXd sigma = PoseUncertainty(scene, {}).of(evaluator, state);
+  const Eigen::VectorXd sigma = PoseUncertainty(scene, {}).of(*cost, state);
   ASSERT_EQ(sigma.size(), 21);
   EXPECT_TRUE(sigma.allFinite());
   EXPECT_GT(sigma.minCoeff(), 0);

@@ -204,7 +204,7 @@ int collect(const std::string& file, const std::string& csv, int frames, int see
     TilePlan plan = tiles.plan(*frame, past.back());
     if (!photometric.knows()) photometric.begin(tiles, *frame, plan, past.back());
     photometric.apply(plan);
-    const ColorMap colors = plan.cuts.size() > 1 ? plan.cuts[1].colors : ColorMap{};
+    const ColorMap colors = plan.views.size() > 1 ? plan.views[1].colors : ColorMap{};
     const Solution s = tracker->track(*frame);
     const auto add = [&](const char* kind, const Eigen::VectorXd& state,
                          const std::vector<bool>& shown) {

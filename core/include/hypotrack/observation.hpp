@@ -31,6 +31,21 @@ struct TileView {
                   ///< interpolated; empty if the view has none
 };
 
+/// What a tracker tells objectives of a frame besides its images and cameras.
+struct FrameContext {
+  /// True until a solution exists: the start is then the scene's given start, perhaps some
+  /// centimetres off. A term should trust less what it learns from such a frame. It should learn
+  /// anew from the first one without this flag, which may show the same frame (search.second_look).
+  bool start_is_guess = false;
+  /// True if the search must not assume a motion from the start, as in fixed-lag smoothing, where
+  /// one prior covers all frames together. Temporal terms then contribute nothing.
+  bool no_motion_prior = false;
+  /// Median colour difference of the same surface between the first two views, at recent solutions
+  /// and after photometric correction. It is mostly noise. Euclidean norm of RGB in 0..1; 0 =
+  /// unknown.
+  double color_difference = 0;
+};
+
 /// The tiles of one frame, with views in the order of the source's cameras.
 struct Observation {
   int frame = 0;
@@ -38,22 +53,11 @@ struct Observation {
   const Scene* scene = nullptr;  ///< outlives the observation
   Eigen::VectorXd start;         ///< state that the tiles were cropped around; the search starts
                                  ///< at or near it
-  /// True until a solution exists: `start` is then the scene's given start, perhaps some
-  /// centimetres off. A term should trust less what it learns from such an observation. It should
-  /// learn anew from the first one without this flag, which may show the same frame
-  /// (search.second_look).
-  bool start_is_guess = false;
+  FrameContext context;
   std::vector<TileView> views;
   /// True for two views whose cameras share rotation, fx, fy and cy. A point then has the same y in
   /// both views, and x_left - x_right is a constant plus fx * baseline / z.
   bool rectified = false;
-  /// Median colour difference of the same surface between the first two views, at recent solutions
-  /// and after photometric correction. It is mostly noise. Euclidean norm of RGB in 0..1; 0 =
-  /// unknown.
-  double color_difference = 0;
-  /// True if terms must not assume a motion from `start`: in fixed-lag smoothing, where one prior
-  /// covers all frames together, and in recovery. Temporal terms then contribute nothing.
-  bool no_motion_prior = false;
 };
 
 }  // namespace hypotrack

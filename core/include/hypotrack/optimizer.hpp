@@ -138,6 +138,42 @@ enum class Linearization {
   needed,
 };
 
+/// The optional parts of a cost that an optimizer uses. A scene whose cost lacks a needed part is
+/// refused at set-up.
+struct HYPOTRACK_API Requirements {
+  /// True if the optimizer minimises only costs with residuals().
+  bool least_squares = false;
+  /// Use of linearize() by an optimizer that needs residuals. `evaluate.backend: auto` chooses the
+  /// backend by it.
+  Linearization jacobian = Linearization::unused;
+  /// True if the optimizer minimises only costs with a device().
+  bool device = false;
+  /// The optimizer that needs the device, after its place in the scene: `a.yaml:7:3: pso_cuda`.
+  std::string device_by = {};
+  /// Text for the end of the message on a missing device: what to write for a scene on the CPU.
+  std::string instead_of_device = {};
+
+  /// Adds the requirements of another user of the same cost. The texts are those of the first one
+  /// that needs a device.
+  void merge(const Requirements& other);
+};
+
+/// Says which optional parts a cost has.
+struct CostOffer {
+  std::string no_least_squares = {};  ///< why there are no residuals() and what to do; or empty
+  std::string no_jacobian = {};       ///< why linearize() is not available; or empty
+  bool device = false;                ///< whether there is a device()
+};
+
+/// Throws unless a cost has what is required: ConfigError for residuals and analytic Jacobians,
+/// DeviceError for a device. The message says what to write instead.
+HYPOTRACK_API void check_requirements(const Requirements& requirements, const CostOffer& offer);
+/// Throws unless a cost has what is required. Pass its residuals() and device(), null if it has
+/// none.
+HYPOTRACK_API void check_requirements(const Requirements& requirements,
+                                      const ResidualCost* residuals,
+                                      const cuda::DeviceCost* device);
+
 /// Searches for the point of lowest cost. Equal input, seed and machine give the equal answer,
 /// unless the budget is in seconds.
 class HYPOTRACK_API Optimizer {
@@ -147,17 +183,9 @@ class HYPOTRACK_API Optimizer {
   Optimizer(const Optimizer&) = delete;
   Optimizer& operator=(const Optimizer&) = delete;
 
-  /// Returns true if the optimizer minimises only costs with residuals(). A scene with a term
-  /// without residuals is then refused at set-up.
-  virtual bool needs_residuals() const { return false; }
-  /// Returns how an optimizer that needs residuals uses linearize(). `evaluate.backend: auto`
-  /// chooses the backend by it.
-  virtual Linearization linearization() const { return Linearization::unused; }
-
-  /// Returns the error message for a scene that is not evaluated on a GPU; empty if the optimizer
-  /// does not need a device() cost. The message says what to use instead; the scene is refused at
-  /// set-up. An optimizer that wraps others forwards their messages.
-  virtual std::string needs_device() const { return {}; }
+  /// Returns what the optimizer uses besides plain costs; constant. An optimizer that wraps others
+  /// merges theirs.
+  virtual Requirements requirements() const { return {}; }
 
   /// Returns the evaluation budget that the optimizer's parameters imply, for scenes that give
   /// none.

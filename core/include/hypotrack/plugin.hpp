@@ -117,7 +117,7 @@ class HYPOTRACK_API PluginContext {
   std::string resolved_;
 };
 
-inline constexpr std::uint32_t kAbiVersion = 13;
+inline constexpr std::uint32_t kAbiVersion = 14;
 
 /// The C interface of a plugin library. The loader compares magic, size, version and tag before it
 /// reads anything else. So the struct must stay plain C and may only grow at the end.
@@ -133,7 +133,7 @@ struct HypotrackPlugin {
   const char* licence;
   /// Space-separated, may be empty. Objectives: `device` (has on_device()), `residuals` (has
   /// residual_term()), `device_residuals` (on_device() has_residuals()). Optimizers: `needs_device`
-  /// (needs a cost with device()), `needs_residuals` (needs a cost with residuals()).
+  /// and `needs_least_squares`, for what their requirements() always are.
   const char* capabilities;
   void* (*create)(PluginContext&);
   std::string (*describe)();  ///< help text of the parameters

@@ -5,15 +5,14 @@
 #include <memory>
 #include <string>
 
-#include "cost/evaluator.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
 
-/// Interface of the backends that draw hypotheses. An implementation is one source file with a
-/// make_* function (below), which make_hypothesis_renderer() calls.
+/// Draws hypotheses for the cost that scores on the CPU. An implementation is one source file with
+/// a make_* function (below).
 class HYPOTRACK_API HypothesisRenderer {
  public:
   /// Receives hypothesis `index`; its spans are valid until it returns. May be called from several
@@ -34,7 +33,7 @@ class HYPOTRACK_API HypothesisRenderer {
   /// the batch and rethrows one of the exceptions. One batch at a time.
   virtual void render(const Eigen::MatrixXd& states, const Visit& visit) = 0;
 
-  /// Returns the text of Evaluator::backend(): `cpu (AVX3, 2 threads)`.
+  /// Returns the text of Cost::backend(): `cpu (AVX3, 2 threads)`.
   virtual std::string description() const = 0;
 };
 
@@ -47,10 +46,5 @@ HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene&
 /// one per core). Throws DeviceError if there is no OpenGL.
 HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene,
                                                                     int threads);
-
-/// Makes the renderer that the settings select; never a silent substitute. Throws DeviceError if it
-/// is unavailable. If `draws` is false, it draws nothing and opens no device.
-HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_hypothesis_renderer(
-    const Scene& scene, const EvaluateSettings& settings, bool draws);
 
 }  // namespace hypotrack

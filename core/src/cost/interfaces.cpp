@@ -1,6 +1,5 @@
 // Out-of-line destructors anchor vtables in libhypotrack.so, so that dynamic casts work across
 // plugin libraries.
-#include "cost/host_differences.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/error.hpp"
@@ -40,9 +39,6 @@ cuda::DeviceCost::~DeviceCost() = default;
 bool cuda::DeviceCost::enqueue_search(const SwarmSearch&) { return false; }
 ResidualDifferences::~ResidualDifferences() = default;
 ResidualCost::~ResidualCost() = default;
-std::unique_ptr<ResidualDifferences> ResidualCost::differences() {
-  return std::make_unique<HostDifferences>(*this);
-}
 NormalEquations ResidualCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>&,
                                         const Eigen::Ref<const Eigen::VectorXd>&, double) {
   throw Error("this cost cannot be linearised");

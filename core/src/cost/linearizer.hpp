@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/scene.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/objective.hpp"
 
 namespace hypotrack {
@@ -16,7 +16,7 @@ struct TermRows {
   bool draws;  ///< whether it reads images
 };
 /// Returns the residuals of terms that read no images, if other terms do
-/// (Evaluator::pose_only_residuals()).
+/// (StateResiduals::pose_only()).
 std::vector<ResidualRows> pose_only_rows(const std::vector<TermRows>& terms);
 
 /// The concatenated residuals of several terms, each times the square root of its weight. The sum
@@ -32,7 +32,7 @@ class TermResiduals {
   /// Reads the terms' residual counts for the frame that they are prepared for.
   void prepare();
   Eigen::Index count() const { return count_; }
-  /// See Evaluator::pose_only_residuals().
+  /// See StateResiduals::pose_only().
   std::vector<ResidualRows> pose_only() const;
   /// Writes one term's residuals to the front of `rest`, advances `rest`, and returns the term's
   /// cost without its weight. May be called from several threads at once.

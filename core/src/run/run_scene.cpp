@@ -78,8 +78,8 @@ EstimatedScene open_for_run(const std::filesystem::path& scene,
 class Results {
  public:
   /// Takes the outputs of the scene.
-  Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother, const std::string& backend,
-          const std::filesystem::path& folder, RunWatcher& watcher)
+  Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
+          const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
       : watcher_(watcher),
         folder_(folder),
         output_(*scene.scene, scene.source->cameras(),

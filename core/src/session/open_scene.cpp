@@ -6,8 +6,8 @@
 
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
+#include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"
 #include "session/checked_source.hpp"
 #include "session/opened_scene.hpp"
@@ -152,14 +152,9 @@ void Opening::objective() {
 /// Page-locks image memory if a GPU will read it. Call before the source makes images.
 void Opening::images() {
   const EvaluateSettings& settings = file_.evaluate;
-  const auto& terms = session_.parts.objective;
-  const ResidualUse use = residual_use(session_.parts);
-  const bool on_gpu =
-      (settings.backend == Backend::cuda &&
-       cuda::why_not_evaluated(*session_.scene, terms, settings, use.wanted).empty()) ||
-      (settings.backend == Backend::automatic &&
-       why_automatic_on_cpu(*session_.scene, terms, settings, use).empty());
-  if (on_gpu) cuda::page_lock_images(settings.device);
+  if (evaluates_with_cuda(*session_.scene, session_.parts.objective, settings,
+                          requirements_of(session_.parts)))
+    cuda::page_lock_images(settings.device);
 }
 
 void Opening::optimizer() {

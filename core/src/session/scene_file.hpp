@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"

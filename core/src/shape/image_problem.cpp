@@ -56,7 +56,7 @@ ImageProblem::ImageProblem(const Scene& scene, const ShapeTargets& targets, Imag
     photometric.learn(tiles, f.frame, plan, f.state);
     photometric.apply(plan);
     photometric.apply_highlights(plan, f.state);
-    observations_.push_back(tiles.cut(f.frame, plan));
+    observations_.push_back(tiles.resample(f.frame, plan));
   }
   thinner_ = parts_.edge * pixel_width();
   measure_explained();
@@ -79,14 +79,13 @@ JointTrial ImageProblem::start() const {
 ImageProblem::Built ImageProblem::built(const VectorXd& shape) const {
   Built b;
   b.scene = targets_.reshaped(scene_, shape, thinner_);
-  b.evaluator = std::make_unique<Evaluator>(*b.scene, parts_.objective, parts_.evaluate,
-                                            ResidualUse{.wanted = true});
+  b.cost = make_cost(*b.scene, parts_.objective, parts_.evaluate, {.least_squares = true});
   return b;
 }
 
-void ImageProblem::prepare(Evaluator& evaluator, std::size_t frame) {
+void ImageProblem::prepare(Cost& cost, std::size_t frame) {
   coverage_->set_charge(parts_.coverage * std::max(explained_[frame], 0.0));
-  evaluator.prepare(observations_[frame]);
+  cost.prepare(observations_[frame]);
 }
 
 double ImageProblem::pixel_width() const {
@@ -112,10 +111,10 @@ void ImageProblem::measure_explained() {
     MatrixXd states(scene_.dimension(), 2);
     states << trial.poses[k], out_of_sight(scene_, trial.poses[k]);
     VectorXd free(2), charged(2);
-    prepare(*b.evaluator, k);
-    b.evaluator->evaluate(states, free);
+    prepare(*b.cost, k);
+    b.cost->evaluate(states, free);
     coverage_->set_charge(1);
-    b.evaluator->evaluate(states, charged);
+    b.cost->evaluate(states, charged);
     const double pixels = charged[0] - free[0];
     const double value = pixels > 0 ? (free[1] - free[0]) / pixels : 0;
     explained.push_back(std::isfinite(value) ? value : 0);
@@ -134,17 +133,17 @@ VectorXd ImageProblem::costs(const JointTrial& trial) {
   const Built b = built(trial.shape);
   VectorXd costs(static_cast<Index>(frames_.size()));
   for (std::size_t k = 0; k < frames_.size(); ++k) {
-    prepare(*b.evaluator, k);
-    b.evaluator->evaluate(trial.poses[k], costs.segment<1>(static_cast<Index>(k)));
+    prepare(*b.cost, k);
+    b.cost->evaluate(trial.poses[k], costs.segment<1>(static_cast<Index>(k)));
   }
   return costs;
 }
 
 /// Fills the columns of the pose by central differences.
-void ImageProblem::add_poses(Evaluator& evaluator, const VectorXd& pose, FrameSystem& system,
+void ImageProblem::add_poses(Cost& cost, const VectorXd& pose, FrameSystem& system,
                              MatrixXf& jacobian) {
   const SearchRegion region = space_.region(pose);
-  const Index d = space_.dimension(), residuals = evaluator.residual_count();
+  const Index d = space_.dimension(), residuals = cost.least_squares()->count();
   const VectorXd forth = (region.start + region.spread).cwiseMin(region.upper);
   const VectorXd back = (region.start - region.spread).cwiseMax(region.lower);
   MatrixXd points = region.start.replicate(1, 2 * d + 1);
@@ -154,7 +153,7 @@ void ImageProblem::add_poses(Evaluator& evaluator, const VectorXd& pose, FrameSy
   }
   MatrixXf r(residuals, points.cols());
   VectorXd costs(points.cols());
-  evaluator.evaluate(space_.states(points, pose), r, costs);
+  cost.least_squares()->evaluate(space_.states(points, pose), r, costs);
   system.cost = costs[2 * d];
   jacobian.resize(residuals, system.gradient.size());
   for (Index i = 0; i < d; ++i) {
@@ -181,15 +180,16 @@ std::vector<FrameSystem> ImageProblem::systems(const JointTrial& trial) {
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     FrameSystem& system = systems[k];
     system.gradient.resize(d + p);
-    prepare(*base.evaluator, k);
-    add_poses(*base.evaluator, trial.poses[k], system, jacobian);
+    prepare(*base.cost, k);
+    add_poses(*base.cost, trial.poses[k], system, jacobian);
     MatrixXf r(jacobian.rows(), 2);
     VectorXd costs(2);
     for (Index i = 0; i < p; ++i) {
       for (const Index side : {0, 1}) {
-        Evaluator& evaluator = *(side == 0 ? forth : back)[static_cast<std::size_t>(i)].evaluator;
-        evaluator.prepare_drawing(observations_[k]);
-        evaluator.evaluate(trial.poses[k], r.middleCols(side, 1), costs.segment<1>(side));
+        Cost& cost = *(side == 0 ? forth : back)[static_cast<std::size_t>(i)].cost;
+        cost.prepare_drawing(observations_[k]);
+        cost.least_squares()->evaluate(trial.poses[k], r.middleCols(side, 1),
+                                       costs.segment<1>(side));
       }
       system.gradient[d + i] = (costs[0] - costs[1]) / widths[i];
       jacobian.col(d + i) = (r.col(0) - r.col(1)) / static_cast<float>(widths[i]);

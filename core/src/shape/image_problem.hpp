@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "shape/coverage.hpp"
@@ -66,17 +66,17 @@ class HYPOTRACK_API ImageProblem final : public JointProblem {
   Eigen::VectorXd moved(const Eigen::VectorXd& pose, const Eigen::VectorXd& step) const override;
 
  private:
-  /// A scene built with one shape, and its evaluator.
+  /// A scene built with one shape, and its cost.
   struct Built {
     std::unique_ptr<Scene> scene;
-    std::unique_ptr<Evaluator> evaluator;
+    std::unique_ptr<Cost> cost;
   };
   Built built(const Eigen::VectorXd& shape) const;
-  void prepare(Evaluator& evaluator, std::size_t frame);
+  void prepare(Cost& cost, std::size_t frame);
   void measure_explained();
   /// Returns the mean width in metres of a pixel of the first view at the models in question.
   double pixel_width() const;
-  void add_poses(Evaluator& evaluator, const Eigen::VectorXd& pose, FrameSystem& system,
+  void add_poses(Cost& cost, const Eigen::VectorXd& pose, FrameSystem& system,
                  Eigen::MatrixXf& jacobian);
 
   const Scene& scene_;

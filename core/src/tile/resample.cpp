@@ -46,7 +46,7 @@ cv::Mat nearest_depth(const cv::Mat& depth, const cv::Mat& valid, const ImageMap
 }
 
 /// Returns the positions of a tile's samples in the block means of the part that the plan touches.
-std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const CutPlan& plan) {
+std::pair<cv::Mat, cv::Mat> lookups(const ImageMap& map, int size, const ResamplePlan& plan) {
   // Pixel centres are at integers, so a block's centre is half a block minus half a pixel in.
   const double factor = 1.0 / plan.reduction.blocks;
   const int samples = plan.reduction.samples;
@@ -116,7 +116,8 @@ ImageMap Resampler::map(const TileCamera& tile) const {
   return map;
 }
 
-TileView Resampler::cut(const View& view, const TileCamera& tile, const CutPlan& plan) const {
+TileView Resampler::resample(const View& view, const TileCamera& tile,
+                             const ResamplePlan& plan) const {
   const int size = tile.width;
   const ImageMap map = this->map(tile);
   TileView out;

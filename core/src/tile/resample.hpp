@@ -7,7 +7,7 @@
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
-#include "tile/cut_plan.hpp"
+#include "tile/resample_plan.hpp"
 
 namespace hypotrack {
 
@@ -33,7 +33,7 @@ class HYPOTRACK_API Resampler {
   /// Resamples a tile's validity and the colour, mask and depth that the view has. `view` has the
   /// camera's size. Colour outside the image repeats its border, so that no edge appears there.
   /// Depth comes from the nearest pixel, along the tile's optical axis, and is 0 outside.
-  TileView cut(const View& view, const TileCamera& tile, const CutPlan& plan) const;
+  TileView resample(const View& view, const TileCamera& tile, const ResamplePlan& plan) const;
 
  private:
   LensMap lens_;

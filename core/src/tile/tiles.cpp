@@ -80,7 +80,7 @@ struct TileMaker::Impl {
   }
 
   void check(const Frame& frame) const;
-  std::vector<CutPlan> plan_cuts(const std::vector<TileCamera>& tiles) const;
+  std::vector<ResamplePlan> plan_views(const std::vector<TileCamera>& tiles) const;
 
   const Scene& scene;
   std::vector<Camera> cameras;
@@ -99,18 +99,19 @@ void TileMaker::Impl::check(const Frame& frame) const {
   for (std::size_t i = 0; i < cameras.size(); ++i) check_view(frame, i, cameras[i]);
 }
 
-std::vector<CutPlan> TileMaker::Impl::plan_cuts(const std::vector<TileCamera>& tiles) const {
+std::vector<ResamplePlan> TileMaker::Impl::plan_views(const std::vector<TileCamera>& tiles) const {
   std::vector<double> scales;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
     scales.push_back(scale_at_centre(resamplers[i].lens(), tiles[i]));
   }
   // A pair is compared pixel by pixel, so both views must be smoothed equally.
   if (rig.rectified) scales[0] = scales[1] = std::sqrt(scales[0] * scales[1]);
-  std::vector<CutPlan> cuts;
+  std::vector<ResamplePlan> plans;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    cuts.push_back(plan_cut(resamplers[i].lens(), tiles[i], resamplers[i].image_size(), scales[i]));
+    plans.push_back(
+        plan_resampling(resamplers[i].lens(), tiles[i], resamplers[i].image_size(), scales[i]));
   }
-  return cuts;
+  return plans;
 }
 
 TileMaker::TileMaker(const Scene& scene, std::vector<Camera> cameras, const TileSettings& settings)
@@ -154,21 +155,21 @@ TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const
   plan.header.rectified = self.rig.rectified;
   plan.header.views.resize(tiles.size());
   for (std::size_t i = 0; i < tiles.size(); ++i) plan.header.views[i].camera = tiles[i];
-  plan.cuts = self.plan_cuts(tiles);
+  plan.views = self.plan_views(tiles);
   return plan;
 }
 
-Observation TileMaker::cut(const Frame& frame, const TilePlan& plan) const {
+Observation TileMaker::resample(const Frame& frame, const TilePlan& plan) const {
   Observation observation = plan.header;
-  tbb::parallel_for(std::size_t{0}, plan.cuts.size(), [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, plan.views.size(), [&](std::size_t i) {
     const TileCamera& tile = plan.header.views[i].camera;
-    observation.views[i] = impl_->resamplers[i].cut(frame.views[i], tile, plan.cuts[i]);
+    observation.views[i] = impl_->resamplers[i].resample(frame.views[i], tile, plan.views[i]);
   });
   return observation;
 }
 
 Observation TileMaker::make(const Frame& frame, const Eigen::VectorXd& state) const {
-  return cut(frame, plan(frame, state));
+  return resample(frame, plan(frame, state));
 }
 
 }  // namespace hypotrack

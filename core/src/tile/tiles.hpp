@@ -32,8 +32,8 @@ struct TileSettings {
 
 /// Everything that resampling a frame's tiles needs besides its pixels.
 struct TilePlan {
-  Observation header;         ///< the observation without images
-  std::vector<CutPlan> cuts;  ///< one per view
+  Observation header;               ///< the observation without images
+  std::vector<ResamplePlan> views;  ///< one per view
 };
 
 /// Crops the region around a hypothesis from every view of a frame. One resampling step undistorts
@@ -74,7 +74,7 @@ class HYPOTRACK_API TileMaker {
   TilePlan plan(const Frame& frame, const Eigen::VectorXd& state) const;
 
   /// Resamples the tiles of a frame by its plan.
-  Observation cut(const Frame& frame, const TilePlan& plan) const;
+  Observation resample(const Frame& frame, const TilePlan& plan) const;
 
   /// Plans and resamples the tiles of a frame.
   Observation make(const Frame& frame, const Eigen::VectorXd& state) const;

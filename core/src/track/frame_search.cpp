@@ -9,7 +9,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
-#include "track/state_cost.hpp"
+#include "track/search_cost.hpp"
 
 namespace hypotrack {
 namespace {
@@ -32,11 +32,8 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       tiles_(scene, parts.cameras, parts.tile),
       photometric_(scene, of_pictures(parts.photometric, parts.objective)),
       space_(scene, parts.search),
-      evaluator_(scene, parts.objective, parts.evaluate, residual_use(parts)),
-      optimizer_(std::move(parts.optimizer)) {
-  if (const std::string why = optimizer_->needs_device(); !why.empty() && !evaluator_.on_device())
-    throw DeviceError(why);
-}
+      cost_(make_cost(scene, parts.objective, parts.evaluate, requirements_of(parts))),
+      optimizer_(std::move(parts.optimizer)) {}
 
 void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
   const std::vector<bool>& moves = moving.empty() ? models : moving;
@@ -64,13 +61,13 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   // Put hidden models where a shown one is, so that the tile's depths are those of shown models.
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
-  plan_.header.start_is_guess = is_guess;
-  evaluator_.prepare(tiles_, frame, plan_);
+  plan_.header.context.start_is_guess = is_guess;
+  cost_->prepare(tiles_, frame, plan_);
 }
 
 void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   photometric_.apply(plan);
-  evaluator_.prepare(tiles, frame, std::move(plan));
+  cost_->prepare(tiles, frame, std::move(plan));
 }
 
 Eigen::Vector3d FrameSearch::some_position(const Eigen::VectorXd& state) const {
@@ -81,7 +78,7 @@ Eigen::Vector3d FrameSearch::some_position(const Eigen::VectorXd& state) const {
 Eigen::VectorXd FrameSearch::costs(Eigen::MatrixXd states) {
   for (auto state : states.colwise()) state = drawn(state);
   Eigen::VectorXd out(states.cols());
-  evaluator_.evaluate(states, out);
+  cost_->evaluate(states, out);
   return out;
 }
 
@@ -95,7 +92,7 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
 Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
   const Eigen::VectorXd posed = drawn(prior);
-  StateCost cost(space_, posed, evaluator_);
+  SearchCost cost(*cost_, space_, posed);
   const OptimizerResult result =
       optimizer_->minimize(cost, space_.region(posed, reach), budget, seed);
   if (!result.point.allFinite() || std::isnan(result.cost))
@@ -152,8 +149,8 @@ void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
 
 Observation FrameSearch::seen(const Frame& frame) const {
   TilePlan plan = plan_;
-  for (CutPlan& cut : plan.cuts) cut.brightness = cv::Mat();
-  return tiles_.cut(frame, plan);
+  for (ResamplePlan& view : plan.views) view.brightness = cv::Mat();
+  return tiles_.resample(frame, plan);
 }
 
 }  // namespace hypotrack

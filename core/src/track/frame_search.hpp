@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -41,7 +41,7 @@ class HYPOTRACK_API FrameSearch {
   /// draws them.
   Eigen::VectorXd drawn(Eigen::VectorXd state) const;
 
-  /// Prepares a frame for searches from `start`. `is_guess` sets Observation::start_is_guess.
+  /// Prepares a frame for searches from `start`. `is_guess` sets FrameContext::start_is_guess.
   void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
 
   /// Prepares a frame with the caller's tile plan, with colours matched.
@@ -74,8 +74,8 @@ class HYPOTRACK_API FrameSearch {
 
   std::int64_t default_evaluations() const { return optimizer_->default_evaluations(); }
   const TileMaker& tiles() const { return tiles_; }
-  Evaluator& evaluator() { return evaluator_; }
-  const Evaluator& evaluator() const { return evaluator_; }
+  /// Returns the cost of the prepared frame's states.
+  Cost& cost() const { return *cost_; }
   const PhotometricMatch& photometric() const { return photometric_; }
   /// Returns the map from the second view's colours to the first's.
   ColorMap second_view_colors() const { return photometric_.colors(1); }
@@ -90,7 +90,7 @@ class HYPOTRACK_API FrameSearch {
   TileMaker tiles_;
   PhotometricMatch photometric_;
   SearchSpace space_;
-  Evaluator evaluator_;
+  std::unique_ptr<Cost> cost_;
   std::unique_ptr<Optimizer> optimizer_;
   TilePlan plan_;  ///< of the last frame
 };

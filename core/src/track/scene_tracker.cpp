@@ -110,7 +110,7 @@ SceneTracker::~SceneTracker() {
   if (job_.valid()) job_.wait();
 }
 
-std::string SceneTracker::backend() const { return finder_.search().evaluator().backend(); }
+std::string SceneTracker::backend() const { return finder_.search().cost().backend(); }
 
 Observation SceneTracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
 
@@ -301,7 +301,7 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
     evidence.visible = search.tiles().visible_share(best.found.state);
     evidence.foreground_overlap = search.tiles().foreground_overlap(frame, drawn);
     if (uncertainty_) {
-      solution.sigma = uncertainty_->of(search.evaluator(), drawn);
+      solution.sigma = uncertainty_->of(search.cost(), drawn);
       solution.evaluations += uncertainty_->evaluations();
     }
   }

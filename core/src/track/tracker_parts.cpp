@@ -4,12 +4,13 @@
 
 namespace hypotrack {
 
-ResidualUse residual_use(const TrackerParts& parts) {
-  const bool search = parts.optimizer->needs_residuals();
-  const bool fixed_lag = parts.fixed_lag.enabled;
-  return {search || fixed_lag || parts.status.uncertainty.enabled,
-          std::max(search ? parts.optimizer->linearization() : Linearization::unused,
-                   fixed_lag ? Linearization::welcome : Linearization::unused)};
+Requirements requirements_of(const TrackerParts& parts) {
+  Requirements all = parts.optimizer->requirements();
+  if (parts.status.uncertainty.enabled) all.merge({.least_squares = true});
+  if (parts.fixed_lag.enabled) {
+    all.merge({.least_squares = true, .jacobian = Linearization::welcome});
+  }
+  return all;
 }
 
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms) {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "tile/tiles.hpp"
@@ -30,8 +30,8 @@ struct TrackerParts {
   Budget budget;  ///< 0 evaluations: the optimizer's default
 };
 
-/// Returns which residuals the search, the uncertainty and fixed-lag smoothing need.
-ResidualUse residual_use(const TrackerParts& parts);
+/// Returns what the search, the uncertainty and fixed-lag smoothing require of the cost.
+Requirements requirements_of(const TrackerParts& parts);
 
 /// Returns whether any term with a weight looks at pictures.
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms);

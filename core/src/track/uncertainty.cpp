@@ -126,18 +126,19 @@ PoseUncertainty::PoseUncertainty(const Scene& scene, const UncertaintySettings& 
       steps_(per_kind(scene, kPositionStep, kRotationStep, kAngleStep)),
       width_(prior_width(scene, settings)) {}
 
-Eigen::VectorXd PoseUncertainty::of(Evaluator& evaluator, const Eigen::VectorXd& state) const {
+Eigen::VectorXd PoseUncertainty::of(Cost& cost, const Eigen::VectorXd& state) const {
+  StateResiduals& of_states = *cost.least_squares();
   const Neighbours around(*scene_, state, steps_);
   Eigen::MatrixXd states(state.size(), evaluations());
   states << state, around.states;
-  Eigen::MatrixXf residuals(evaluator.residual_count(), states.cols());
+  Eigen::MatrixXf residuals(of_states.count(), states.cols());
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, residuals, costs);
+  of_states.evaluate(states, residuals, costs);
   const auto landmarks = static_cast<Eigen::Index>(scene_->landmark_names().size());
   if (!costs.allFinite() || !residuals.allFinite())
     return Eigen::VectorXd::Constant(landmarks, std::numeric_limits<double>::infinity());
 
-  for (const ResidualRows& rows : evaluator.pose_only_residuals())
+  for (const ResidualRows& rows : of_states.pose_only())
     residuals.middleRows(rows.first, rows.count).setZero();
   const ResidualInformation info = residual_information(residuals, around.width);
   const Posterior posterior(info, width_, settings_.noise);

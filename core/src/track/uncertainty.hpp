@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/uncertainty_settings.hpp"
@@ -34,8 +34,8 @@ class HYPOTRACK_API PoseUncertainty {
   std::int64_t evaluations() const { return 2 * steps_.size() + 1; }
 
   /// Computes the sigma of every landmark in metres, for a normalised state of the prepared frame.
-  /// The evaluator must have residuals. Returns infinity if a residual or cost is not finite.
-  Eigen::VectorXd of(Evaluator& evaluator, const Eigen::VectorXd& state) const;
+  /// The cost must have residuals. Returns infinity if a residual or cost is not finite.
+  Eigen::VectorXd of(Cost& cost, const Eigen::VectorXd& state) const;
 
  private:
   const Scene* scene_;

@@ -99,7 +99,7 @@ FrameResiduals::FrameResiduals(const PlausibleMotionParams& params, const Scene&
 MotionTerm FrameResiduals::of(const Observation& observation) {
   for (std::size_t i = 0; i < angles_; ++i) {
     LinearResidual& r = residuals_[i];
-    r.factor[0] = observation.no_motion_prior ? 0 : motion_factor_;
+    r.factor[0] = observation.context.no_motion_prior ? 0 : motion_factor_;
     r.offset = r.factor[0] * observation.start[r.index[0]];
   }
   return {static_cast<std::int64_t>(residuals_.size()), residuals_.data()};

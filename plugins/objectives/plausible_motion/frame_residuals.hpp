@@ -20,7 +20,7 @@ class FrameResiduals {
   FrameResiduals(const PlausibleMotionParams& params, const Scene& scene);
 
   /// Returns the term of a frame, which points into this object until the next call. In fixed-lag
-  /// smoothing (Observation::no_motion_prior) the residuals of joint motion are 0.
+  /// smoothing (FrameContext::no_motion_prior) the residuals of joint motion are 0.
   MotionTerm of(const Observation& observation);
 
  private:

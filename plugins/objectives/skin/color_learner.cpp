@@ -51,7 +51,7 @@ bool shows(const cv::Mat1b& silhouette, const cv::Mat1b& valid) {
 
 void ColorLearner::learn(const Observation& observation, const TileCamera& camera,
                          const cv::Mat3b& color, const cv::Mat1b& valid) {
-  if (from_guess_ || observation.start_is_guess) *this = ColorLearner(settings_);
+  if (from_guess_ || observation.context.start_is_guess) *this = ColorLearner(settings_);
   last_seen_ = observation.frame;
   const cv::Mat1b models = silhouette(*observation.scene, observation.start, camera);
   if (!shows(models, valid)) {
@@ -64,7 +64,7 @@ void ColorLearner::learn(const Observation& observation, const TileCamera& camer
   colors_.add(color, places.prior, places.weight);
   probabilities_ = colors_.probabilities();
   ++learned_;
-  from_guess_ = observation.start_is_guess;
+  from_guess_ = observation.context.start_is_guess;
   if (!from_guess_) return;
   const auto trust = static_cast<float>(settings_.guess_trust);
   for (float& p : probabilities_) p = 0.5f + trust * (p - 0.5f);

@@ -12,8 +12,8 @@ namespace hypotrack::skin {
 /// Learns one view's foreground colours from the first settings.learn_frames frames that show the
 /// models. Compares colours inside the silhouette of the scene, posed in observation.start, with
 /// those outside, allowing for settings.pose_error (ColorModel::add()). Frames whose start is a
-/// guess (observation.start_is_guess) count less. Each guess restarts the learning, and so does the
-/// first observation after one.
+/// guess (observation.context.start_is_guess) count less. Each guess restarts the learning, and so
+/// does the first observation after one.
 class ColorLearner {
  public:
   explicit ColorLearner(const Settings& settings) : settings_(settings) {}
@@ -21,7 +21,7 @@ class ColorLearner {
   /// Returns whether this frame (observation.frame) may teach something. The same frame again does
   /// not.
   bool wants(const Observation& observation) const {
-    if (from_guess_ || observation.start_is_guess) return true;
+    if (from_guess_ || observation.context.start_is_guess) return true;
     return learned_ < settings_.learn_frames && last_seen_ != observation.frame;
   }
   /// Learns from the view's colours, 8-bit BGR, where `valid` is not 0. Does not use the

@@ -8,8 +8,9 @@
 namespace hypotrack::stereo_color {
 
 double beta_of(const Settings& settings, const Observation& observation) {
-  if (settings.beta_by_difference <= 0 || observation.color_difference <= 0) return settings.beta;
-  const double wanted = settings.beta_by_difference / observation.color_difference;
+  if (settings.beta_by_difference <= 0 || observation.context.color_difference <= 0)
+    return settings.beta;
+  const double wanted = settings.beta_by_difference / observation.context.color_difference;
   // StereoColor checks the bounds.
   return std::clamp(quantize_log(wanted), settings.beta_min, settings.beta_max);
 }

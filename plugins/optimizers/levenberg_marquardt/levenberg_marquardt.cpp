@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "hypotrack/error.hpp"
 #include "least_squares_search.hpp"
 
 namespace hypotrack {
@@ -12,32 +11,18 @@ std::span<const std::string_view> enum_names(Jacobian) {
   return kNames;
 }
 
-Linearization LevenbergMarquardt::linearization() const {
-  switch (params_.jacobian) {
-    case Jacobian::numerical:
-      return Linearization::unused;
-    case Jacobian::analytic:
-      return Linearization::needed;
-    case Jacobian::automatic:
-      break;
-  }
-  return Linearization::welcome;
+Requirements LevenbergMarquardt::requirements() const {
+  Requirements out{.least_squares = true, .jacobian = Linearization::welcome};
+  if (params_.jacobian == Jacobian::numerical) out.jacobian = Linearization::unused;
+  if (params_.jacobian == Jacobian::analytic) out.jacobian = Linearization::needed;
+  return out;
 }
 
 OptimizerResult LevenbergMarquardt::minimize(CostFunction& cost, const SearchRegion& region,
                                              const Budget& budget, std::uint64_t) {
   check_search(cost, region, budget);
   ResidualCost* residuals = cost.residuals();
-  if (!residuals) {
-    throw ConfigError(
-        "optimizer levenberg_marquardt: this cost has no residuals; take an optimizer that needs "
-        "costs only, such as `optimizer: {type: pso}`");
-  }
-  if (params_.jacobian == Jacobian::analytic && !residuals->can_linearize()) {
-    throw ConfigError(
-        "optimizer levenberg_marquardt: jacobian: analytic: a term of this cost has no slopes of "
-        "its residuals, or the backend does not draw on the CPU; write `jacobian: auto`");
-  }
+  check_requirements(requirements(), residuals, nullptr);
   return LeastSquaresSearch(cost, *residuals, region, budget, params_).run();
 }
 

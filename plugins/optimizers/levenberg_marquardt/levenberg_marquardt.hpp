@@ -29,11 +29,10 @@ class LevenbergMarquardt : public Optimizer {
  public:
   explicit LevenbergMarquardt(const LevenbergMarquardtParams& params) : params_(params) {}
 
-  bool needs_residuals() const override { return true; }
-  Linearization linearization() const override;
+  Requirements requirements() const override;
   std::int64_t default_evaluations() const override { return params_.evaluations; }
-  /// Searches the region. Throws ConfigError if the cost has no residuals. Makes no step from a
-  /// point whose residuals are not finite; they should be wherever the cost is.
+  /// Searches the region. Throws ConfigError if the cost lacks the requirements. Makes no step from
+  /// a point whose residuals are not finite; they should be wherever the cost is.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
 

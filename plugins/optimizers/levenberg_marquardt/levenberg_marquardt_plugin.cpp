@@ -14,4 +14,4 @@ class LevenbergMarquardtPlugin final : public hypotrack::LevenbergMarquardt {
 HYPOTRACK_PLUGIN(
     LevenbergMarquardtPlugin,
     "damped least squares (Levenberg 1944, Marquardt 1963) with analytic or numerical Jacobians",
-    "batches needs_residuals")
+    "batches needs_least_squares")

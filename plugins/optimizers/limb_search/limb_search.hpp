@@ -54,9 +54,7 @@ class LimbSearch : public Optimizer {
   LimbSearch(const LimbSearchParams& params, std::unique_ptr<Optimizer> optimizer)
       : params_(params), optimizer_(std::move(optimizer)) {}
 
-  bool needs_residuals() const override { return optimizer_->needs_residuals(); }
-  Linearization linearization() const override { return optimizer_->linearization(); }
-  std::string needs_device() const override { return optimizer_->needs_device(); }
+  Requirements requirements() const override { return optimizer_->requirements(); }
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;

@@ -46,9 +46,7 @@ class MultiStart : public Optimizer {
   MultiStart(const MultiStartParams& params, std::unique_ptr<Optimizer> optimizer,
              const std::string& where = "multi_start");
 
-  bool needs_residuals() const override { return optimizer_->needs_residuals(); }
-  Linearization linearization() const override { return optimizer_->linearization(); }
-  std::string needs_device() const override { return optimizer_->needs_device(); }
+  Requirements requirements() const override { return optimizer_->requirements(); }
   std::int64_t default_evaluations() const override { return params_.evaluations; }
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;

@@ -50,25 +50,14 @@ Pipeline::Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evalu
   }
 }
 
-bool Pipeline::needs_residuals() const {
-  return std::ranges::any_of(
-      stages_, [](const PipelineStage& stage) { return stage.optimizer->needs_residuals(); });
-}
-
-Linearization Pipeline::linearization() const {
-  auto most = Linearization::unused;
-  for (const PipelineStage& stage : stages_) {
-    most = std::max(most, stage.optimizer->linearization());
-  }
-  return most;
-}
-
-std::string Pipeline::needs_device() const {
+Requirements Pipeline::requirements() const {
+  Requirements all;
   for (std::size_t k = 0; k < stages_.size(); ++k) {
-    const std::string why = stages_[k].optimizer->needs_device();
-    if (!why.empty()) return of_stage(k, why);
+    Requirements stage = stages_[k].optimizer->requirements();
+    stage.device_by = of_stage(k, stage.device_by);
+    all.merge(stage);
   }
-  return {};
+  return all;
 }
 
 std::string Pipeline::of_stage(std::size_t stage, std::string_view what) const {

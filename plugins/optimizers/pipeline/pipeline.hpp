@@ -52,9 +52,8 @@ class Pipeline : public Optimizer {
   Pipeline(std::vector<PipelineStage> stages, std::int64_t default_evaluations,
            const std::string& where = "pipeline");
 
-  bool needs_residuals() const override;         ///< whether any stage does
-  Linearization linearization() const override;  ///< the most that any stage wants
-  std::string needs_device() const override;     ///< of the first stage that does
+  /// Returns what any stage requires; names the first stage that needs a device.
+  Requirements requirements() const override;
   std::int64_t default_evaluations() const override { return default_evaluations_; }
   /// Runs the stages. A ConfigError or DeviceError of a stage names the stage.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

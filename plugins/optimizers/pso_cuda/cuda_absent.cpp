@@ -18,7 +18,7 @@ std::int64_t PsoCuda::default_evaluations() const {
   return std::int64_t{params_.particles} * params_.generations;
 }
 
-std::string PsoCuda::needs_device() const { return {}; }
+Requirements PsoCuda::requirements() const { return {}; }
 
 OptimizerResult PsoCuda::minimize(CostFunction&, const SearchRegion&, const Budget&,
                                   std::uint64_t) {

@@ -6,7 +6,6 @@
 
 #include "constriction.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
-#include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "search_graph.hpp"
 #include "swarm_memory.hpp"
@@ -155,10 +154,10 @@ std::int64_t PsoCuda::default_evaluations() const {
   return std::int64_t{params_.particles} * params_.generations;
 }
 
-std::string PsoCuda::needs_device() const {
-  return where_ +
-         ": pso_cuda searches on the GPU, and this scene is not evaluated there. Write "
-         "`evaluate: {backend: cuda}`, or `type: pso`, the same search on the CPU";
+Requirements PsoCuda::requirements() const {
+  return {.device = true,
+          .device_by = where_ + ": pso_cuda",
+          .instead_of_device = "`type: pso`, the same search on the CPU"};
 }
 
 OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region,
@@ -166,7 +165,7 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
   check_search(cost, region, budget);
   const Deadline deadline(budget.seconds);
   DeviceCost* device = cost.device();
-  if (!device) throw DeviceError(needs_device());
+  check_requirements(requirements(), nullptr, device);
   const Schedule schedule{std::min<std::int64_t>(params_.particles, budget.evaluations),
                           budget.evaluations};
   device->reserve(schedule.particles);

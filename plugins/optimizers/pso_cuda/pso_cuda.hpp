@@ -28,7 +28,7 @@ class PsoCuda : public Optimizer {
   explicit PsoCuda(const PsoParams& params, const std::string& where = "pso_cuda");
   ~PsoCuda() override;
 
-  std::string needs_device() const override;
+  Requirements requirements() const override;
   std::int64_t default_evaluations() const override;
   /// Searches the region. Throws DeviceError if the cost has no device().
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
-#include "cost/evaluator.hpp"
 #include "drawn_tiles.hpp"
 #include "test_models.hpp"
 
@@ -22,15 +22,15 @@ void require_device(const Subject& subject) {
   }
 }
 
-Evaluator make_evaluator(const Subject& subject, Backend backend) {
+std::unique_ptr<Cost> cost_on(const Subject& subject, Backend backend) {
   std::vector<ObjectiveTerm> terms(1);
   terms[0].objective = subject.make<Objective>();
-  return Evaluator(*subject.scene, std::move(terms), {.backend = backend});
+  return make_cost(*subject.scene, std::move(terms), {.backend = backend});
 }
 
-bool takes(Evaluator& evaluator, const Observation& observation) {
+bool takes(Cost& cost, const Observation& observation) {
   try {
-    evaluator.prepare(observation);
+    cost.prepare(observation);
     return true;
   } catch (const DataError&) {
     return false;
@@ -48,17 +48,17 @@ Eigen::MatrixXd make_states(const Scene& scene) {
   return states;
 }
 
-Eigen::VectorXd costs_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+Eigen::VectorXd costs_of(Cost& cost, const Eigen::MatrixXd& states) {
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost.evaluate(states, costs);
   return costs;
 }
 
 /// Returns the costs of states evaluated in batches of one.
-Eigen::VectorXd costs_one_by_one(Evaluator& evaluator, const Eigen::MatrixXd& states) {
+Eigen::VectorXd costs_one_by_one(Cost& cost, const Eigen::MatrixXd& states) {
   Eigen::VectorXd costs(states.cols());
   for (Eigen::Index i = 0; i < states.cols(); ++i) {
-    evaluator.evaluate(states.col(i), costs.segment(i, 1));
+    cost.evaluate(states.col(i), costs.segment(i, 1));
   }
   return costs;
 }
@@ -79,41 +79,41 @@ void require_near(const Eigen::VectorXd& found, const Eigen::VectorXd& expected,
 
 void check_refusals(const Subject& subject) {
   require_device(subject);
-  Evaluator cpu = make_evaluator(subject, Backend::cpu);
-  Evaluator device = make_evaluator(subject, Backend::cuda);
+  const auto cpu = cost_on(subject, Backend::cpu);
+  const auto device = cost_on(subject, Backend::cuda);
   for (const NamedObservation& named : make_observations(*subject.scene)) {
-    const bool expected = takes(cpu, named.observation);
-    require(takes(device, named.observation) == expected, named.name + ": " +
-                                                              (expected ? "refused" : "accepted") +
-                                                              " on the device, but not on the CPU");
+    const bool expected = takes(*cpu, named.observation);
+    require(takes(*device, named.observation) == expected,
+            named.name + ": " + (expected ? "refused" : "accepted") +
+                " on the device, but not on the CPU");
   }
 }
 
 void check_agreement(const Subject& subject) {
   require_device(subject);
-  Evaluator cpu = make_evaluator(subject, Backend::cpu);
-  Evaluator device = make_evaluator(subject, Backend::cuda);
+  const auto cpu = cost_on(subject, Backend::cpu);
+  const auto device = cost_on(subject, Backend::cuda);
   const Eigen::MatrixXd states = make_states(*subject.scene);
   for (const NamedObservation& named : make_observations(*subject.scene)) {
-    if (!takes(cpu, named.observation)) continue;
-    device.prepare(named.observation);
-    const Eigen::VectorXd expected = costs_of(cpu, states);
-    require_near(costs_of(device, states), expected, named.name);
-    require_near(costs_one_by_one(device, states), expected, named.name + ", one by one");
+    if (!takes(*cpu, named.observation)) continue;
+    device->prepare(named.observation);
+    const Eigen::VectorXd expected = costs_of(*cpu, states);
+    require_near(costs_of(*device, states), expected, named.name);
+    require_near(costs_one_by_one(*device, states), expected, named.name + ", one by one");
   }
 }
 
 void check_repetition(const Subject& subject) {
   require_device(subject);
-  Evaluator first = make_evaluator(subject, Backend::cuda);
-  Evaluator second = make_evaluator(subject, Backend::cuda);
+  const auto first = cost_on(subject, Backend::cuda);
+  const auto second = cost_on(subject, Backend::cuda);
   const Eigen::MatrixXd states = make_states(*subject.scene);
   for (const NamedObservation& named : make_observations(*subject.scene)) {
-    if (!takes(first, named.observation)) continue;
-    second.prepare(named.observation);
-    const Eigen::VectorXd costs = costs_of(first, states);
-    require(costs_of(first, states) == costs, named.name + ": scoring twice gives two costs");
-    require(costs_of(second, states) == costs, named.name + ": two objects give two costs");
+    if (!takes(*first, named.observation)) continue;
+    second->prepare(named.observation);
+    const Eigen::VectorXd costs = costs_of(*first, states);
+    require(costs_of(*first, states) == costs, named.name + ": scoring twice gives two costs");
+    require(costs_of(*second, states) == costs, named.name + ": two objects give two costs");
   }
 }
 
@@ -129,26 +129,26 @@ struct Residuals {
   Eigen::VectorXd costs;
 };
 
-Residuals residuals_of(Evaluator& evaluator, const Eigen::MatrixXd& states) {
-  Residuals all{Eigen::MatrixXf::Constant(evaluator.residual_count(), states.cols(), NAN),
+Residuals residuals_of(Cost& cost, const Eigen::MatrixXd& states) {
+  Residuals all{Eigen::MatrixXf::Constant(cost.least_squares()->count(), states.cols(), NAN),
                 Eigen::VectorXd(states.cols())};
-  evaluator.evaluate(states, all.values, all.costs);
+  cost.least_squares()->evaluate(states, all.values, all.costs);
   return all;
 }
 
 void check_residual_agreement(const Subject& subject) {
   require_residuals(subject);
-  Evaluator cpu = make_evaluator(subject, Backend::cpu);
-  Evaluator device = make_evaluator(subject, Backend::cuda);
+  const auto cpu = cost_on(subject, Backend::cpu);
+  const auto device = cost_on(subject, Backend::cuda);
   const Eigen::MatrixXd states = make_states(*subject.scene);
   for (const NamedObservation& named : make_observations(*subject.scene)) {
-    if (!takes(cpu, named.observation)) continue;
-    device.prepare(named.observation);
-    require(device.residual_count() == cpu.residual_count(),
-            named.name + ": " + std::to_string(device.residual_count()) +
-                " residuals on the device, " + std::to_string(cpu.residual_count()) +
+    if (!takes(*cpu, named.observation)) continue;
+    device->prepare(named.observation);
+    require(device->least_squares()->count() == cpu->least_squares()->count(),
+            named.name + ": " + std::to_string(device->least_squares()->count()) +
+                " residuals on the device, " + std::to_string(cpu->least_squares()->count()) +
                 " on the CPU");
-    const Residuals expected = residuals_of(cpu, states), found = residuals_of(device, states);
+    const Residuals expected = residuals_of(*cpu, states), found = residuals_of(*device, states);
     require_near(found.costs, expected.costs, named.name + ", with residuals");
     if (expected.values.size() == 0) continue;
     require(found.values.allFinite(), named.name + ": not all residuals are written on the device");
@@ -159,7 +159,7 @@ void check_residual_agreement(const Subject& subject) {
             named.name + ": state " + std::to_string(worst) + "'s residuals are " +
                 std::to_string(apart[worst]) + " apart in the mean, the largest is " +
                 std::to_string(largest));
-    const Residuals again = residuals_of(device, states);
+    const Residuals again = residuals_of(*device, states);
     require(again.values == found.values && again.costs == found.costs,
             named.name + ": evaluating twice gives two sets of residuals");
   }

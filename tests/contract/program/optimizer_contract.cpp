@@ -231,7 +231,7 @@ bool check_device(Report& report, const Subject& subject) {
     throw Violation("it was accepted, expected a DeviceError");
   });
   report.row("it says that it needs a device", [&] {
-    require(!subject.make<Optimizer>()->needs_device().empty(), "needs_device() is empty");
+    require(subject.make<Optimizer>()->requirements().device, "requirements().device is false");
   });
   const std::string why = cuda::why_no_device();
   if (!why.empty()) report.row("it searches on a device", [&] { throw Skipped(why); });
@@ -240,7 +240,7 @@ bool check_device(Report& report, const Subject& subject) {
 
 void check_residuals(const Subject& subject) {
   const auto optimizer = subject.make<Optimizer>();
-  if (!optimizer->needs_residuals()) throw Skipped("it does without");
+  if (!optimizer->requirements().least_squares) throw Skipped("it does without");
   const SearchRegion region = test::tracking_region(7);
   RecordingCost cost(7, test::sphere(region, region.start));
   cost.has_residuals = false;

@@ -1,8 +1,7 @@
 // Replaces the GPU backend in a build without a CUDA toolkit.
+#include "cost/backends.hpp"
 #include "cost/cuda/device.hpp"
-#include "cost/cuda/egl_cuda_evaluation.hpp"
 #include "cost/cuda/page_locked_images.hpp"
-#include "cost/evaluation.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::cuda {
@@ -25,14 +24,14 @@ std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
   return why_no_device();
 }
 
-std::unique_ptr<Evaluation> make_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
-                                            const EvaluateSettings& settings, bool) {
+std::unique_ptr<Cost> make_cost(const Scene&, std::vector<ObjectiveTerm>,
+                                const EvaluateSettings& settings, bool) {
   const Device device(settings.device);
   return nullptr;
 }
 
-std::unique_ptr<Evaluation> make_egl_evaluation(const Scene&, const std::vector<ObjectiveTerm>&,
-                                                const EvaluateSettings&, std::string& why_not) {
+std::unique_ptr<Cost> make_egl_cost(const Scene&, const std::vector<ObjectiveTerm>&,
+                                    const EvaluateSettings&, std::string& why_not) {
   why_not = why_no_device();
   return nullptr;
 }

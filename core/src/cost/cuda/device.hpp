@@ -22,7 +22,7 @@ std::string why_not_this_device(int index);
 /// answer. Makes it the GPU of this thread.
 HYPOTRACK_API std::optional<std::size_t> free_memory(int index = 0);
 
-/// A GPU and the stream for all work of one evaluator.
+/// A GPU and the stream for all work of one cost.
 class HYPOTRACK_API Device {
  public:
   /// Makes `index` the GPU of this thread. Throws DeviceError with the reason of why_no_device() or

@@ -10,7 +10,7 @@ namespace hypotrack::cuda {
 
 void DeviceResiduals::reserve(Eigen::Index states) {
   frame_.reserve(states, [&](std::int64_t count) {
-    residuals_.reserve(static_cast<std::size_t>(count * frame_.residual_count()));
+    memory_.residuals.reserve(static_cast<std::size_t>(count * frame_.residual_count()));
   });
 }
 
@@ -18,7 +18,7 @@ void DeviceResiduals::enqueue(const Eigen::MatrixXd& states) {
   frame_.device().use();
   reserve(states.cols());
   batch_.upload(states, frame_.stream());
-  frame_.enqueue(batch_.layout(), residuals_.data());
+  frame_.enqueue(batch_.layout(), memory_.residuals.data());
   batch_.download(0, states.cols(), frame_.stream());
 }
 
@@ -29,16 +29,18 @@ void DeviceResiduals::finish(Eigen::Ref<Eigen::VectorXd> costs) {
 
 void DeviceResiduals::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
                                Eigen::Ref<Eigen::VectorXd> costs) {
-  if (states.cols() == 0) return;
-  enqueue(states);
+  const Eigen::MatrixXd& batch = cost_.normalized(states, costs.size());
+  if (batch.cols() == 0) return;
+  enqueue(batch);
   finish(costs);
 }
 
 void DeviceResiduals::move_to(Eigen::Index i) {
   const auto rows = static_cast<std::size_t>(frame_.residual_count());
   if (rows == 0) return;
-  here_.reserve(rows);
-  check(cudaMemcpyAsync(here_.data(), residuals_.data() + static_cast<std::size_t>(i) * rows,
+  memory_.here.reserve(rows);
+  check(cudaMemcpyAsync(memory_.here.data(),
+                        memory_.residuals.data() + static_cast<std::size_t>(i) * rows,
                         rows * sizeof(float), cudaMemcpyDeviceToDevice, native(frame_.stream())),
         "copying residuals");
 }
@@ -46,19 +48,21 @@ void DeviceResiduals::move_to(Eigen::Index i) {
 NormalEquations DeviceResiduals::normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& states,
                                                   const Eigen::Ref<const Eigen::VectorXd>& scale,
                                                   Eigen::Ref<Eigen::VectorXd> costs) {
-  const auto dimension = static_cast<int>(states.cols());
+  const Eigen::MatrixXd& batch = cost_.normalized(states, costs.size());
+  const auto dimension = static_cast<int>(batch.cols());
   const std::int64_t rows = frame_.residual_count();
   const auto numbers = static_cast<std::size_t>(gram_numbers(dimension));
   frame_.device().use();
-  parts_.reserve(numbers * static_cast<std::size_t>(gram_blocks(rows)));
-  sums_.reserve(numbers);
-  sums_staging_.reserve(numbers);
-  enqueue(states);
-  enqueue_gram({here_.data(), residuals_.data(), rows, dimension, parts_.data(), sums_.data()},
+  memory_.parts.reserve(numbers * static_cast<std::size_t>(gram_blocks(rows)));
+  memory_.sums.reserve(numbers);
+  memory_.sums_staging.reserve(numbers);
+  enqueue(batch);
+  enqueue_gram({memory_.here.data(), memory_.residuals.data(), rows, dimension,
+                memory_.parts.data(), memory_.sums.data()},
                frame_.stream());
-  to_host(sums_staging_, sums_, 0, numbers, frame_.stream());
+  to_host(memory_.sums_staging, memory_.sums, 0, numbers, frame_.stream());
   finish(costs);
-  return unpack_gram(sums_staging_.data(), scale_of_finite(scale, costs));
+  return unpack_gram(memory_.sums_staging.data(), scale_of_finite(scale, costs));
 }
 
 void DeviceResiduals::download(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
@@ -70,11 +74,11 @@ void DeviceResiduals::download(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::
     const Eigen::Index count = std::min(most, states.cols() - first);
     enqueue(states.middleCols(first, count));
     const auto size = static_cast<std::size_t>(rows * count);
-    residuals_staging_.reserve(size);
-    if (size > 0) to_host(residuals_staging_, residuals_, 0, size, frame_.stream());
+    memory_.residuals_staging.reserve(size);
+    if (size > 0) to_host(memory_.residuals_staging, memory_.residuals, 0, size, frame_.stream());
     finish(costs.segment(first, count));
     residuals.middleCols(first, count) =
-        Eigen::Map<const Eigen::MatrixXf>(residuals_staging_.data(), rows, count);
+        Eigen::Map<const Eigen::MatrixXf>(memory_.residuals_staging.data(), rows, count);
   }
 }
 

@@ -9,11 +9,22 @@
 
 namespace hypotrack::cuda {
 
-/// Residuals of hypotheses in GPU memory. It uploads states (normalised, DxN) and downloads costs,
-/// normal equations or, if required, residuals. Frame and batch must outlive it.
+/// Memory of DeviceResiduals, kept from search to search.
+struct ResidualMemory {
+  DeviceBuffer<float> residuals;  ///< of the last batch, hypothesis by hypothesis
+  DeviceBuffer<float> here;       ///< of the point of linearisation
+  DeviceBuffer<float> parts;
+  DeviceBuffer<double> sums;
+  PinnedBuffer<double> sums_staging;
+  PinnedBuffer<float> residuals_staging;
+};
+
+/// Residuals of states in GPU memory. It uploads states (DxN) and downloads costs, normal equations
+/// or, if required, residuals. All arguments must outlive it; `cost` normalises states.
 class DeviceResiduals final : public ResidualDifferences {
  public:
-  DeviceResiduals(FrameOnDevice& frame, HostBatch& batch) : frame_(frame), batch_(batch) {}
+  DeviceResiduals(Cost& cost, FrameOnDevice& frame, HostBatch& batch, ResidualMemory& memory)
+      : cost_(cost), frame_(frame), batch_(batch), memory_(memory) {}
 
   // ResidualDifferences; takes states instead of points.
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
@@ -23,8 +34,8 @@ class DeviceResiduals final : public ResidualDifferences {
                                    const Eigen::Ref<const Eigen::VectorXd>& scale,
                                    Eigen::Ref<Eigen::VectorXd> costs) override;
 
-  /// Computes costs and residuals (residual_count() x N) and downloads both. Splits batches that
-  /// would take more than kMostBytes.
+  /// Computes costs and residuals (M x N) of normalised states and downloads both. Splits batches
+  /// that would take more than kMostBytes.
   void download(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::MatrixXf> residuals,
                 Eigen::Ref<Eigen::VectorXd> costs);
 
@@ -36,14 +47,10 @@ class DeviceResiduals final : public ResidualDifferences {
   void enqueue(const Eigen::MatrixXd& states);
   void finish(Eigen::Ref<Eigen::VectorXd> costs);
 
+  Cost& cost_;
   FrameOnDevice& frame_;
   HostBatch& batch_;
-  DeviceBuffer<float> residuals_;  // of the last batch, hypothesis by hypothesis
-  DeviceBuffer<float> here_;
-  DeviceBuffer<float> parts_;
-  DeviceBuffer<double> sums_;
-  PinnedBuffer<double> sums_staging_;
-  PinnedBuffer<float> residuals_staging_;
+  ResidualMemory& memory_;
 };
 
 /// Extracts the normal equations from the matrix of enqueue_gram(), for columns times `scale`.

@@ -10,7 +10,7 @@
 
 namespace hypotrack::cuda {
 
-FrameLayout frame_layout(const Observation& observation, const WorkEnds& work) {
+FrameLayout frame_layout(const Observation& observation, const BandEnds& bands) {
   const std::size_t views = observation.views.size();
   if (views > kMaxViews) {
     throw DeviceError(fmt::format(
@@ -40,7 +40,7 @@ FrameLayout frame_layout(const Observation& observation, const WorkEnds& work) {
     frame.maps[0] = stereo_map(observation, 0, 1);
     frame.maps[1] = stereo_map(observation, 1, 0);
   }
-  std::ranges::copy(work, frame.work_ends);
+  std::ranges::copy(bands, frame.work_ends);
   return frame;
 }
 

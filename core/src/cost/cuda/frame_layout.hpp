@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cost/cuda/work_of_rows.hpp"
+#include "cost/cuda/load_balance.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/observation.hpp"
 
@@ -8,6 +8,6 @@ namespace hypotrack::cuda {
 
 /// Returns the cameras of an observation in the kernels' form. Throws DeviceError on more than
 /// kMaxViews views.
-FrameLayout frame_layout(const Observation& observation, const WorkEnds& work = even_work());
+FrameLayout frame_layout(const Observation& observation, const BandEnds& bands = even_bands());
 
 }  // namespace hypotrack::cuda

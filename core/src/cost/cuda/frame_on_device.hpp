@@ -5,10 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/tile_upload.hpp"
-#include "cost/evaluator.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
@@ -59,7 +59,7 @@ class FrameOnDevice {
   bool has_residuals() const;
   /// Returns the number of residuals per hypothesis of the prepared frame.
   std::int64_t residual_count() const;
-  /// See Evaluator::pose_only_residuals().
+  /// See StateResiduals::pose_only().
   std::vector<ResidualRows> pose_only_residuals() const;
 
   /// Returns a number that grows whenever a term's revision() does.

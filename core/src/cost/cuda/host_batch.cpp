@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cost/backends.hpp"
 #include "cost/cuda/transfer.hpp"
-#include "cost/evaluation.hpp"
 
 namespace hypotrack::cuda {
 

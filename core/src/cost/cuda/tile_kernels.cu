@@ -10,19 +10,20 @@ namespace {
 constexpr int kSide = 16;         // side of the square of pixels per thread block
 constexpr int kWide = kSide + 2;  // including a margin of one pixel
 
-__global__ void __launch_bounds__(kSide* kSide) reduce(const __grid_constant__ FrameCut frame) {
+__global__ void __launch_bounds__(kSide* kSide)
+    reduce(const __grid_constant__ FrameResampling frame) {
   let_next_start();
-  const ViewCut& cut = frame.views[blockIdx.z];
+  const ViewResampling& view = frame.views[blockIdx.z];
   const int column = static_cast<int>(blockIdx.x) * kSide + static_cast<int>(threadIdx.x);
   const int row = static_cast<int>(blockIdx.y) * kSide + static_cast<int>(threadIdx.y);
-  const int columns = cut.touched.width / cut.blocks;
-  const int rows = cut.touched.height / cut.blocks;
-  if (!cut.means || column >= columns || row >= rows) return;
-  cut.means[row * columns + column] = block_mean(cut, column, row);
+  const int columns = view.touched.width / view.blocks;
+  const int rows = view.touched.height / view.blocks;
+  if (!view.means || column >= columns || row >= rows) return;
+  view.means[row * columns + column] = block_mean(view, column, row);
 }
 
 /// Writes the frame's layout with a whole thread block.
-__device__ void write_layout(const FrameCut& frame, int thread) {
+__device__ void write_layout(const FrameResampling& frame, int thread) {
   static_assert(sizeof(FrameLayout) % sizeof(uint4) == 0);
   constexpr int kPieces = sizeof(FrameLayout) / sizeof(uint4);
   const auto* from = reinterpret_cast<const uint4*>(&frame.layout);
@@ -30,9 +31,10 @@ __device__ void write_layout(const FrameCut& frame, int thread) {
   for (int i = thread; i < kPieces; i += kSide * kSide) to[i] = from[i];
 }
 
-__global__ void __launch_bounds__(kSide* kSide) resample(const __grid_constant__ FrameCut frame) {
+__global__ void __launch_bounds__(kSide* kSide)
+    resample(const __grid_constant__ FrameResampling frame) {
   __shared__ ImagePoint points[kWide][kWide];
-  const ViewCut& cut = frame.views[blockIdx.z];
+  const ViewResampling& view = frame.views[blockIdx.z];
   const int u0 = static_cast<int>(blockIdx.x) * kSide;
   const int v0 = static_cast<int>(blockIdx.y) * kSide;
   const int thread = static_cast<int>(threadIdx.y * kSide + threadIdx.x);
@@ -40,7 +42,7 @@ __global__ void __launch_bounds__(kSide* kSide) resample(const __grid_constant__
     const int column = u0 + i % kWide - 1;
     const int row = v0 + i / kWide - 1;
     points[i / kWide][i % kWide] =
-        image_point(cut.lens, cut.camera, static_cast<float>(column), static_cast<float>(row));
+        image_point(view.lens, view.camera, static_cast<float>(column), static_cast<float>(row));
   }
   if (blockIdx.x == 0 && blockIdx.y == 0 && blockIdx.z == 0) write_layout(frame, thread);
   __syncthreads();
@@ -48,26 +50,26 @@ __global__ void __launch_bounds__(kSide* kSide) resample(const __grid_constant__
   let_next_start();
   const int u = u0 + static_cast<int>(threadIdx.x);
   const int v = v0 + static_cast<int>(threadIdx.y);
-  if (u >= cut.width || v >= cut.height) return;
+  if (u >= view.width || v >= view.height) return;
   const auto map = [&](int column, int row) { return points[row - v0 + 1][column - u0 + 1]; };
-  cut.tile_pixels[v * cut.width + u] = tile_pixel(cut, map, u, v);
-  if (cut.tile_depth) cut.tile_depth[v * cut.width + u] = tile_depth(cut, map(u, v), u, v);
+  view.tile_pixels[v * view.width + u] = tile_pixel(view, map, u, v);
+  if (view.tile_depth) view.tile_depth[v * view.width + u] = tile_depth(view, map(u, v), u, v);
 }
 
 unsigned groups(int count) { return static_cast<unsigned>((count + kSide - 1) / kSide); }
 
 }  // namespace
 
-void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream stream) {
+void enqueue_resampling(const FrameResampling& frame, const DeviceLimits& limits, Stream stream) {
   int columns = 0, rows = 0, width = 0, height = 0;
   for (int i = 0; i < frame.view_count; ++i) {
-    const ViewCut& cut = frame.views[i];
-    if (cut.means) {
-      columns = std::max(columns, cut.touched.width / cut.blocks);
-      rows = std::max(rows, cut.touched.height / cut.blocks);
+    const ViewResampling& view = frame.views[i];
+    if (view.means) {
+      columns = std::max(columns, view.touched.width / view.blocks);
+      rows = std::max(rows, view.touched.height / view.blocks);
     }
-    width = std::max(width, cut.width);
-    height = std::max(height, cut.height);
+    width = std::max(width, view.width);
+    height = std::max(height, view.height);
   }
   const auto views = static_cast<unsigned>(frame.view_count);
   const dim3 square(kSide, kSide);

@@ -6,8 +6,8 @@
 namespace hypotrack::cuda {
 
 /// Everything that the tile kernels of a frame read and write; pointers are to device memory.
-struct FrameCut {
-  ViewCut views[kMaxViews];
+struct FrameResampling {
+  ViewResampling views[kMaxViews];
   std::int32_t view_count;
   FrameLayout layout;
   FrameLayout* layout_to;  ///< address from which search kernels read the layout
@@ -15,6 +15,6 @@ struct FrameCut {
 
 /// Enqueues the resampling of all tiles and the copy of the layout. All uploads that the views
 /// point to must be enqueued before.
-void enqueue_cut(const FrameCut& frame, const DeviceLimits& limits, Stream stream);
+void enqueue_resampling(const FrameResampling& frame, const DeviceLimits& limits, Stream stream);
 
 }  // namespace hypotrack::cuda

@@ -8,8 +8,8 @@
 #include "tile/color_map.hpp"
 
 /// Computes a tile's pixels one by one, in kernels and in host tests. The functions repeat the
-/// OpenCV calls of Resampler::cut (INTER_AREA means, remap with INTER_LINEAR) with their rounding:
-/// lookups to 1/32 pixel, results to integers after each step.
+/// OpenCV calls of Resampler::resample (INTER_AREA means, remap with INTER_LINEAR) with their
+/// rounding: lookups to 1/32 pixel, results to integers after each step.
 namespace hypotrack::cuda {
 
 /// A rectangle of an image.
@@ -19,7 +19,7 @@ struct ImagePart {
 
 /// The parameters, input and output of a tile's resampling. Images are parts of the view's, row by
 /// row without gaps.
-struct ViewCut {
+struct ViewResampling {
   LensMap lens;
   TileIntrinsics camera;
   std::int32_t width, height;  ///< of the tile
@@ -62,18 +62,18 @@ HYPOTRACK_PIXEL std::uint32_t rounded_mean(std::uint32_t sum, int blocks) {
 }
 
 /// Returns the channel means over a block of the touched part.
-HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewCut& cut, int column, int row) {
-  const int blocks = cut.blocks;
+HYPOTRACK_PIXEL std::uint32_t block_mean(const ViewResampling& view, int column, int row) {
+  const int blocks = view.blocks;
   std::uint32_t b = 0, g = 0, r = 0, mask = 0;
   for (int y = row * blocks; y < (row + 1) * blocks; ++y) {
     for (int x = column * blocks; x < (column + 1) * blocks; ++x) {
-      const int at = y * cut.touched.width + x;
-      if (cut.color) {
-        b += cut.color[3 * at];
-        g += cut.color[3 * at + 1];
-        r += cut.color[3 * at + 2];
+      const int at = y * view.touched.width + x;
+      if (view.color) {
+        b += view.color[3 * at];
+        g += view.color[3 * at + 1];
+        r += view.color[3 * at + 2];
       }
-      if (cut.mask) mask += cut.mask[at] ? 255u : 0u;
+      if (view.mask) mask += view.mask[at] ? 255u : 0u;
     }
   }
   return rounded_mean(b, blocks) | rounded_mean(g, blocks) << 8 | rounded_mean(r, blocks) << 16 |
@@ -89,16 +89,16 @@ HYPOTRACK_PIXEL int in_fixed_point(float coordinate) {
 HYPOTRACK_PIXEL int clamped(int i, int size) { return i < 0 ? 0 : i < size ? i : size - 1; }
 
 /// Samples the means bilinearly; their border is repeated outside.
-HYPOTRACK_PIXEL std::uint32_t look_up(const ViewCut& cut, ImagePoint p) {
-  const int columns = cut.touched.width / cut.blocks;
-  const int rows = cut.touched.height / cut.blocks;
+HYPOTRACK_PIXEL std::uint32_t look_up(const ViewResampling& view, ImagePoint p) {
+  const int columns = view.touched.width / view.blocks;
+  const int rows = view.touched.height / view.blocks;
   const int x = in_fixed_point(p.x);
   const int y = in_fixed_point(p.y);
   const int x0 = clamped(x >> 5, columns), x1 = clamped((x >> 5) + 1, columns);
   const int y0 = clamped(y >> 5, rows), y1 = clamped((y >> 5) + 1, rows);
   const std::uint32_t a = x & 31, b = y & 31;
-  const std::uint32_t* top = cut.means + y0 * columns;
-  const std::uint32_t* bottom = cut.means + y1 * columns;
+  const std::uint32_t* top = view.means + y0 * columns;
+  const std::uint32_t* bottom = view.means + y1 * columns;
   Channels c;
   c.add(top[x0], (32 - a) * (32 - b));
   c.add(top[x1], a * (32 - b));
@@ -108,8 +108,9 @@ HYPOTRACK_PIXEL std::uint32_t look_up(const ViewCut& cut, ImagePoint p) {
 }
 
 /// Converts image coordinates to those of the means.
-HYPOTRACK_PIXEL ImagePoint in_means(const ViewCut& cut, ImagePoint p) {
-  return {std::fma(p.x, cut.means_scale, cut.means_x), std::fma(p.y, cut.means_scale, cut.means_y)};
+HYPOTRACK_PIXEL ImagePoint in_means(const ViewResampling& view, ImagePoint p) {
+  return {std::fma(p.x, view.means_scale, view.means_x),
+          std::fma(p.y, view.means_scale, view.means_y)};
 }
 
 /// Returns the point a quarter of the way from `b` to `a`.
@@ -120,16 +121,16 @@ HYPOTRACK_PIXEL ImagePoint quarter(ImagePoint a, ImagePoint b) {
 /// Samples the colour and mask of a tile's pixel. `map(column, row)` returns the image_point() of
 /// the pixel and its neighbours.
 template <class Map>
-HYPOTRACK_PIXEL std::uint32_t sampled(const ViewCut& cut, const Map& map, int u, int v) {
-  const ImagePoint centre = in_means(cut, map(u, v));
-  if (cut.samples == 1) return look_up(cut, centre);
+HYPOTRACK_PIXEL std::uint32_t sampled(const ViewResampling& view, const Map& map, int u, int v) {
+  const ImagePoint centre = in_means(view, map(u, v));
+  if (view.samples == 1) return look_up(view, centre);
   Channels c;
   for (int j = -1; j <= 1; j += 2) {
-    const ImagePoint beyond = in_means(cut, map(u, v + j));
+    const ImagePoint beyond = in_means(view, map(u, v + j));
     for (int i = -1; i <= 1; i += 2) {
-      const ImagePoint row = quarter(in_means(cut, map(u + i, v)), centre);
-      const ImagePoint next = quarter(in_means(cut, map(u + i, v + j)), beyond);
-      c.add(look_up(cut, quarter(next, row)), 1);
+      const ImagePoint row = quarter(in_means(view, map(u + i, v)), centre);
+      const ImagePoint next = quarter(in_means(view, map(u + i, v + j)), beyond);
+      c.add(look_up(view, quarter(next, row)), 1);
     }
   }
   return c.rounded(2, 2);
@@ -144,24 +145,24 @@ HYPOTRACK_PIXEL std::uint32_t mapped_colors(const ColorMap& map, std::uint32_t w
 
 /// Returns a tile's pixel in the format of TileLayout.
 template <class Map>
-HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewCut& cut, const Map& map, int u, int v) {
-  const bool valid = inside_image(map(u, v), cut.image_width, cut.image_height);
+HYPOTRACK_PIXEL std::uint32_t tile_pixel(const ViewResampling& view, const Map& map, int u, int v) {
+  const bool valid = inside_image(map(u, v), view.image_width, view.image_height);
   std::uint32_t word = valid ? kValidFlag : 0;
-  if (!cut.means) return word;
-  const std::uint32_t color_and_mask = sampled(cut, map, u, v);
+  if (!view.means) return word;
+  const std::uint32_t color_and_mask = sampled(view, map, u, v);
   if (valid && (color_and_mask >> 31) != 0) word |= kForegroundFlag;
-  return cut.color ? word | mapped_colors(cut.colors, color_and_mask) : word;
+  return view.color ? word | mapped_colors(view.colors, color_and_mask) : word;
 }
 
 /// Returns the depth of a tile's pixel at image point `p`, from the nearest pixel; 0 if there is
 /// none.
-HYPOTRACK_PIXEL float tile_depth(const ViewCut& cut, ImagePoint p, int u, int v) {
-  if (!inside_image(p, cut.image_width, cut.image_height)) return 0.0f;
-  const ImagePart& part = cut.measured;
-  const int column = clamped(nearest_pixel(p.x, cut.image_width) - part.x, part.width);
-  const int row = clamped(nearest_pixel(p.y, cut.image_height) - part.y, part.height);
-  const float depth = cut.depth[row * part.width + column];
-  const float along = depth_along_tile(cut.lens, cut.camera, u, v, depth);
+HYPOTRACK_PIXEL float tile_depth(const ViewResampling& view, ImagePoint p, int u, int v) {
+  if (!inside_image(p, view.image_width, view.image_height)) return 0.0f;
+  const ImagePart& part = view.measured;
+  const int column = clamped(nearest_pixel(p.x, view.image_width) - part.x, part.width);
+  const int row = clamped(nearest_pixel(p.y, view.image_height) - part.y, part.height);
+  const float depth = view.depth[row * part.width + column];
+  const float along = depth_along_tile(view.lens, view.camera, u, v, depth);
   constexpr float kLargest = 3.4e38f;
   return along > 0.0f && along < kLargest ? along : 0.0f;
 }

@@ -56,8 +56,8 @@ PhotometricMatch::PhotometricMatch(const Scene& scene, const PhotometricSettings
 
 void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
                              const Eigen::VectorXd& state) {
-  if (!settings_.match || plan.cuts.size() < 2) return;
-  views_.resize(plan.cuts.size() - 1);
+  if (!settings_.match || plan.views.size() < 2) return;
+  views_.resize(plan.views.size() - 1);
   sampler_.draw(plan.header, state);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     learn(views_[i], sampler_.take(frame, tiles.resamplers(), i + 1, settings_.highlights), i + 1);
@@ -66,8 +66,8 @@ void PhotometricMatch::learn(const TileMaker& tiles, const Frame& frame, const T
 
 void PhotometricMatch::begin(const TileMaker& tiles, const Frame& frame, const TilePlan& plan,
                              const Eigen::VectorXd& start) {
-  if (!settings_.match || plan.cuts.size() < 2) return;
-  views_.resize(plan.cuts.size() - 1);
+  if (!settings_.match || plan.views.size() < 2) return;
+  views_.resize(plan.views.size() - 1);
   sampler_.draw(plan.header, start);
   for (std::size_t i = 0; i < views_.size(); ++i) {
     const ColorSamples samples =
@@ -129,13 +129,13 @@ void PhotometricMatch::apply_highlights(TilePlan& plan, const Eigen::VectorXd& s
     const Eigen::VectorXf missing =
         views_[i].highlights.expected(grid.normals, sampler_.directions(i + 1));
     const TileCamera& camera = plan.header.views[i + 1].camera;
-    plan.cuts[i + 1].brightness = extrapolate(grid.inside, missing, {camera.width, camera.height});
+    plan.views[i + 1].brightness = extrapolate(grid.inside, missing, {camera.width, camera.height});
   }
 }
 
 void PhotometricMatch::apply(TilePlan& plan) const {
-  for (std::size_t i = 0; i < views_.size(); ++i) plan.cuts[i + 1].colors = views_[i].map;
-  if (!views_.empty()) plan.header.color_difference = views_[0].difference;
+  for (std::size_t i = 0; i < views_.size(); ++i) plan.views[i + 1].colors = views_[i].map;
+  if (!views_.empty()) plan.header.context.color_difference = views_[0].difference;
 }
 
 }  // namespace hypotrack

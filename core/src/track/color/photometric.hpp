@@ -71,7 +71,7 @@ class HYPOTRACK_API PhotometricMatch {
   /// One view's map and the number of frames it was learned from.
   struct Learned {
     ColorMap map;
-    double difference = 0;  ///< Observation::color_difference
+    double difference = 0;  ///< FrameContext::color_difference
     int frames = 0;
     Highlights highlights;
   };

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "hypotrack/damping.hpp"
-#include "track/state_cost.hpp"
+#include "track/search_cost.hpp"
 
 namespace hypotrack {
 namespace {
@@ -26,8 +26,8 @@ constexpr double kDifference = 0.05;
 
 }  // namespace
 
-LeastSquares::LeastSquares(const Scene& scene, Evaluator& evaluator, const std::vector<bool>& free)
-    : evaluator_(evaluator), space_(scene, settings()) {
+LeastSquares::LeastSquares(const Scene& scene, Cost& cost, const std::vector<bool>& free)
+    : cost_(cost), space_(scene, settings()) {
   const SearchRegion region = space_.region(scene.rest_state());
   step_ = kDifference * region.spread;
   Eigen::Index first = 0;
@@ -41,7 +41,7 @@ LeastSquares::LeastSquares(const Scene& scene, Evaluator& evaluator, const std::
 NormalEquations LeastSquares::linearize(const SearchRegion& region, const Eigen::VectorXd& prior,
                                         Refined& state) {
   const Eigen::Index d = region.start.size();
-  StateCost cost(space_, prior, evaluator_);
+  SearchCost cost(cost_, space_, prior);
   // Differences go downwards at upper bounds.
   Eigen::VectorXd steps = step_;
   for (Eigen::Index i = 0; i < d; ++i)
@@ -86,7 +86,7 @@ Refined LeastSquares::refine(Refined from, int iterations) {
     }
     const Eigen::MatrixXd states = space_.states(trials, prior);
     Eigen::VectorXd costs(states.cols());
-    evaluator_.evaluate(states, costs);
+    cost_.evaluate(states, costs);
     from.evaluations += states.cols();
     Eigen::Index best = 0;
     const double cost = costs.minCoeff(&best);

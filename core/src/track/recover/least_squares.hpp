@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/search_space.hpp"
 
@@ -20,9 +20,9 @@ struct Refined {
 /// Refines states by a few Levenberg-Marquardt steps on the residuals of a prepared frame.
 class LeastSquares {
  public:
-  /// Moves only the models flagged in `free`. The evaluator must have residuals. The scene and the
-  /// evaluator must outlive the object.
-  LeastSquares(const Scene& scene, Evaluator& evaluator, const std::vector<bool>& free);
+  /// Moves only the models flagged in `free`. The cost must have residuals. The scene and the
+  /// cost must outlive the object.
+  LeastSquares(const Scene& scene, Cost& cost, const std::vector<bool>& free);
 
   /// Refines a state of known cost by at most `iterations` steps.
   Refined refine(Refined from, int iterations);
@@ -31,7 +31,7 @@ class LeastSquares {
   NormalEquations linearize(const SearchRegion& region, const Eigen::VectorXd& prior,
                             Refined& state);
 
-  Evaluator& evaluator_;
+  Cost& cost_;
   SearchSpace space_;
   Eigen::VectorXd step_;  ///< of the finite differences, 0 where a dimension does not move
 };

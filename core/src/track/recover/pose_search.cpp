@@ -100,7 +100,7 @@ void PoseSearch::take_in(FrameSearch& search, const Frame& frame, const Eigen::V
   for (const Scene::Item& item : scene_.items())
     plan.header.start.segment<3>(item.offset) = hypothesis.head<3>();
   plan.header.start.segment(item_.offset, hypothesis.size()) = hypothesis;
-  plan.header.no_motion_prior = true;
+  plan.header.context.no_motion_prior = true;
   search.take_in(tiles_, frame, std::move(plan));
 }
 
@@ -112,7 +112,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   const Eigen::MatrixXd own = hypotheses(guess, counts.hypotheses, random);
   if (tiles_.visible_share(own.col(0)) == 0) return {};
   take_in(search, frame, base, own.col(0));
-  Evaluator& evaluator = search.evaluator();
+  Cost& cost = search.cost();
   const Eigen::VectorXd others = without(base, hidden);
   Eigen::MatrixXd states(base.size(), own.cols());
   for (Eigen::Index i = 0; i < own.cols(); ++i) {
@@ -123,7 +123,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
     states.col(i) = state;
   }
   Eigen::VectorXd costs(states.cols());
-  evaluator.evaluate(states, costs);
+  cost.evaluate(states, costs);
   std::vector<Eigen::Index> order(static_cast<std::size_t>(own.cols()));
   std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::stable_sort(order, [&](auto a, auto b) { return costs[a] < costs[b]; });
@@ -136,13 +136,13 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   for (const Eigen::Index i : order)
     if (std::isfinite(costs[i])) all.push_back({states.col(i), costs[i], 0});
   const auto by_cost = [](const Refined& a, const Refined& b) { return a.cost < b.cost; };
-  if (evaluator.has_residuals()) {
-    LeastSquares least_squares(scene_, evaluator, free);
+  if (cost.least_squares()) {
+    LeastSquares least_squares(scene_, cost, free);
     for (Refined& one : all) one = least_squares.refine(std::move(one), kIterations);
     std::ranges::stable_sort(all, by_cost);
     for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(counts.improved));
          ++i)
-      improve_limbs(least_squares, evaluator, all[i]);
+      improve_limbs(least_squares, cost, all[i]);
   }
   std::ranges::stable_sort(all, by_cost);
   std::int64_t evaluations = states.cols();
@@ -151,8 +151,7 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   return all;
 }
 
-void PoseSearch::improve_limbs(LeastSquares& least_squares, Evaluator& evaluator,
-                               Refined& pose) const {
+void PoseSearch::improve_limbs(LeastSquares& least_squares, Cost& cost, Refined& pose) const {
   constexpr int kLimbIterations = 3;
   for (const Postures::Limb& limb : postures_.limbs()) {
     Eigen::MatrixXd states = pose.state.replicate(1, std::ssize(limb.variants));
@@ -161,7 +160,7 @@ void PoseSearch::improve_limbs(LeastSquares& least_squares, Evaluator& evaluator
         states(item_.offset + limb.parameters[k], static_cast<Eigen::Index>(i)) =
             limb.variants[i][static_cast<Eigen::Index>(k)];
     Eigen::VectorXd costs(states.cols());
-    evaluator.evaluate(states, costs);
+    cost.evaluate(states, costs);
     Eigen::Index best = 0;
     Refined other{{}, costs.minCoeff(&best), 0};
     other.state = states.col(best);

@@ -67,7 +67,7 @@ class PoseSearch {
 
  private:
   /// Tries each limb straight, half bent and bent. Keeps a change if its refined cost is lower.
-  void improve_limbs(LeastSquares& least_squares, Evaluator& evaluator, Refined& pose) const;
+  void improve_limbs(LeastSquares& least_squares, Cost& cost, Refined& pose) const;
   Eigen::MatrixXd hypotheses(const PoseGuess& guess, int count, std::mt19937_64& random) const;
   void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
                const Eigen::VectorXd& hypothesis);

@@ -41,11 +41,11 @@ FixedLagSmoother::FixedLagSmoother(const Scene& scene, std::vector<ObjectiveTerm
                                    const EvaluateSettings& evaluate,
                                    const FixedLagSettings& settings, bool highlights)
     : settings_(checked(settings, terms)),
-      evaluator_(scene, with_prior(std::move(terms), settings.prior), evaluate,
-                 {true, Linearization::welcome}),
+      cost_(make_cost(scene, with_prior(std::move(terms), settings.prior), evaluate,
+                      {.least_squares = true, .jacobian = Linearization::welcome})),
       motion_(scene, settings),
       highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
-      fit_(scene, evaluator_, motion_, highlights_ ? &*highlights_ : nullptr) {
+      fit_(scene, *cost_, motion_, highlights_ ? &*highlights_ : nullptr) {
   const std::int64_t least = 2 * kTurns * fit_.evaluations_per_linearization();
   if (settings_.evaluations < least)
     throw ConfigError(fmt::format(
@@ -57,7 +57,7 @@ FixedLagSmoother::FixedLagSmoother(const Scene& scene, std::vector<ObjectiveTerm
 }
 
 void FixedLagSmoother::add(FrameTiles tiles, const TimedState& found) {
-  if (tiles) tiles->no_motion_prior = true;
+  if (tiles) tiles->context.no_motion_prior = true;
   tiles_.push_back(std::move(tiles));
   states_.push_back(found);
   evaluations_.push_back(0);

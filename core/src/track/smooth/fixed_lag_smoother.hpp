@@ -2,10 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
@@ -44,7 +45,7 @@ class HYPOTRACK_API FixedLagSmoother {
   void settle(std::size_t count);
 
   FixedLagSettings settings_;
-  Evaluator evaluator_;
+  std::unique_ptr<Cost> cost_;
   MotionPrior motion_;
   std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;

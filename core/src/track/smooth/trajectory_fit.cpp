@@ -67,7 +67,7 @@ struct PerturbedStates {
 }  // namespace
 
 std::int64_t TrajectoryFit::evaluations_per_linearization() const {
-  return evaluator_->can_linearize() ? 2 : motion_->weight().size() + 1;
+  return residuals_->can_linearize() ? 2 : motion_->weight().size() + 1;
 }
 
 TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
@@ -75,20 +75,20 @@ TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
   const Eigen::Index d = motion_->weight().size();
   LinearizedFrame frame{0, {Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)}};
   if (!tiles) return frame;
-  evaluator_->prepare(*tiles);
-  if (evaluator_->can_linearize()) {
+  cost_->prepare(*tiles);
+  if (residuals_->can_linearize()) {
     const PerturbedStates perturbed(*scene_, state, kSlopeShare);
     Eigen::VectorXd cost(1);
-    evaluator_->evaluate(state, cost);
+    cost_->evaluate(state, cost);
     frame.cost = cost[0];
     if (std::isfinite(frame.cost))
-      frame.equations = evaluator_->linearize(perturbed.states, perturbed.steps, blur);
+      frame.equations = residuals_->linearize(perturbed.states, perturbed.steps, blur);
     return frame;
   }
   const PerturbedStates perturbed(*scene_, state, 1);
-  Eigen::MatrixXf residuals(evaluator_->residual_count(), d + 1);
+  Eigen::MatrixXf residuals(residuals_->count(), d + 1);
   Eigen::VectorXd costs(d + 1);
-  evaluator_->evaluate(perturbed.states, residuals, costs);
+  residuals_->evaluate(perturbed.states, residuals, costs);
   frame.cost = costs[0];
   if (!costs.allFinite()) return frame;
   const Eigen::VectorXf r = residuals.col(0);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/damping.hpp"
 #include "hypotrack/export.hpp"
 #include "track/smooth/motion_prior.hpp"
@@ -20,11 +20,15 @@ namespace hypotrack {
 /// keep their values; the others follow from the neighbouring frames.
 class HYPOTRACK_API TrajectoryFit {
  public:
-  /// The evaluator must have residuals. `highlights` (may be null) removes highlights from the
+  /// The cost must have residuals. `highlights` (may be null) removes highlights from the
   /// tiles, learned from the states so far. All arguments must outlive the fit.
-  TrajectoryFit(const Scene& scene, Evaluator& evaluator, const MotionPrior& motion,
+  TrajectoryFit(const Scene& scene, Cost& cost, const MotionPrior& motion,
                 TileHighlights* highlights = nullptr)
-      : scene_(&scene), evaluator_(&evaluator), motion_(&motion), highlights_(highlights) {}
+      : scene_(&scene),
+        cost_(&cost),
+        residuals_(cost.least_squares()),
+        motion_(&motion),
+        highlights_(highlights) {}
 
   /// Returns the evaluations that linearising one frame takes.
   std::int64_t evaluations_per_linearization() const;
@@ -66,7 +70,8 @@ class HYPOTRACK_API TrajectoryFit {
                                  double looseness) const;
 
   const Scene* scene_;
-  Evaluator* evaluator_;
+  Cost* cost_;
+  StateResiduals* residuals_;  ///< of the cost
   const MotionPrior* motion_;
   TileHighlights* highlights_;
 };

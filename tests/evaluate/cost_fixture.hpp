@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/error.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"
@@ -79,7 +79,7 @@ inline double total_inverse_depth(const RenderedHypothesis& hypothesis) {
 
 inline EvaluateSettings threads(int count) { return {Backend::cpu, count}; }
 
-class EvaluatorTest : public testing::Test {
+class CostTest : public testing::Test {
  protected:
   Eigen::MatrixXd random_states(int count) const {
     std::mt19937_64 random(11);
@@ -90,10 +90,10 @@ class EvaluatorTest : public testing::Test {
 
   Eigen::VectorXd evaluate(std::vector<ObjectiveTerm> terms, const Eigen::MatrixXd& states,
                            const EvaluateSettings& settings = threads(2)) const {
-    Evaluator evaluator(scene_, std::move(terms), settings);
-    evaluator.prepare(observation_);
+    const auto cost = make_cost(scene_, std::move(terms), settings);
+    cost->prepare(observation_);
     Eigen::VectorXd costs = Eigen::VectorXd::Constant(states.cols(), NAN);
-    evaluator.evaluate(states, costs);
+    cost->evaluate(states, costs);
     return costs;
   }
 

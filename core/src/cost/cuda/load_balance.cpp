@@ -1,4 +1,4 @@
-#include "cost/cuda/work_of_rows.hpp"
+#include "cost/cuda/load_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,19 +52,19 @@ Work work_of_surface(const PosedScene& scene, const TileCamera& tile) {
 
 }  // namespace
 
-WorkEnds even_work() {
-  WorkEnds ends{};
+BandEnds even_bands() {
+  BandEnds ends{};
   for (int k = 0; k <= kMostBands; ++k) ends[k] = static_cast<float>(k) / kMostBands;
   return ends;
 }
 
-WorkEnds work_of(const PosedScene& scene, const TileCamera& tile) {
-  if (!scene.in_front()) return even_work();
+BandEnds bands_of_equal_work(const PosedScene& scene, const TileCamera& tile) {
+  if (!scene.in_front()) return even_bands();
   Work work = work_of_surface(scene, tile);
-  if (!(work.pixels > 0)) return even_work();
+  if (!(work.pixels > 0)) return even_bands();
   for (float& row : work.rows) row += kPerRow * work.pixels / kRows;
   work.all += kPerRow * work.pixels;
-  WorkEnds ends{};
+  BandEnds ends{};
   int row = 0;
   float before = 0;  // work of the rows above
   for (int k = 1; k < kMostBands; ++k) {

@@ -1,4 +1,4 @@
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 
 #include <gmock/gmock.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -6,12 +6,12 @@
 #include <atomic>
 #include <opencv2/core.hpp>
 
-#include "evaluator_fixture.hpp"
+#include "cost_fixture.hpp"
 
 namespace hypotrack::test {
 namespace {
 
-TEST_F(EvaluatorTest, AddsTermsUpWithTheirWeights) {
+TEST_F(CostTest, AddsTermsUpWithTheirWeights) {
   const auto first = undrawn([](const RenderedHypothesis& h) { return h.state[0]; });
   const auto second = undrawn([](const RenderedHypothesis& h) { return h.state[2]; });
   const Eigen::MatrixXd states = random_states(20);
@@ -19,7 +19,7 @@ TEST_F(EvaluatorTest, AddsTermsUpWithTheirWeights) {
   EXPECT_TRUE(costs.isApprox((2 * states.row(0) - 3 * states.row(2)).transpose(), 1e-15));
 }
 
-TEST_F(EvaluatorTest, DoesNotDependOnTheNumberOfThreads) {
+TEST_F(CostTest, DoesNotDependOnTheNumberOfThreads) {
   const Eigen::MatrixXd states = random_states(60);
   const std::vector<ObjectiveTerm> terms = {{1, drawn(total_inverse_depth)}};
   const Eigen::VectorXd one = evaluate(terms, states, threads(1));
@@ -27,7 +27,7 @@ TEST_F(EvaluatorTest, DoesNotDependOnTheNumberOfThreads) {
   for (const int count : {0, 2, 5}) EXPECT_EQ(evaluate(terms, states, threads(count)), one);
 }
 
-TEST_F(EvaluatorTest, DoesNotDependOnTheOrderInTheBatch) {
+TEST_F(CostTest, DoesNotDependOnTheOrderInTheBatch) {
   const Eigen::MatrixXd states = random_states(30);
   const std::vector<ObjectiveTerm> terms = {{1, drawn(total_inverse_depth)}};
   const Eigen::VectorXd costs = evaluate(terms, states);
@@ -35,7 +35,7 @@ TEST_F(EvaluatorTest, DoesNotDependOnTheOrderInTheBatch) {
   EXPECT_EQ(reversed.reverse(), costs);
 }
 
-TEST_F(EvaluatorTest, ShowsNormalizedStates) {
+TEST_F(CostTest, ShowsNormalizedStates) {
   Eigen::MatrixXd states = random_states(2);
   const Eigen::VectorXd expected = states.col(0);
   states.block<4, 1>(3, 0) *= 4.0;
@@ -53,7 +53,7 @@ TEST_F(EvaluatorTest, ShowsNormalizedStates) {
   EXPECT_EQ(seen[1].segment<4>(3), Eigen::Vector4d(1, 0, 0, 0));
 }
 
-TEST_F(EvaluatorTest, GivesPicturesOnlyToTermsThatNeedThem) {
+TEST_F(CostTest, GivesPicturesOnlyToTermsThatNeedThem) {
   const auto with = drawn([](const RenderedHypothesis& h) { return double(h.views.size()); });
   const auto without = undrawn([](const RenderedHypothesis& h) { return double(h.views.size()); });
   const Eigen::MatrixXd states = random_states(3);
@@ -61,12 +61,12 @@ TEST_F(EvaluatorTest, GivesPicturesOnlyToTermsThatNeedThem) {
   EXPECT_EQ(evaluate({{10, without}}, states), Eigen::VectorXd::Zero(3));
 }
 
-TEST_F(EvaluatorTest, DoesNotDrawForTermsOfWeightZero) {
+TEST_F(CostTest, DoesNotDrawForTermsOfWeightZero) {
   const auto never = drawn([](const RenderedHypothesis&) -> double { throw 1; });
   EXPECT_EQ(evaluate({{0, never}}, random_states(3)), Eigen::VectorXd::Zero(3));
 }
 
-TEST_F(EvaluatorTest, PreparesEveryTerm) {
+TEST_F(CostTest, PreparesEveryTerm) {
   const auto term = undrawn([](const RenderedHypothesis&) { return 0.0; });
   const auto off = undrawn([](const RenderedHypothesis&) { return 0.0; });
   observation_.frame = 12;
@@ -96,7 +96,7 @@ class Onlooker final : public Objective {
   ImageUse use_;
 };
 
-TEST_F(EvaluatorTest, CutsTheImagesThatAnyOfItsTermsLooksAt) {
+TEST_F(CostTest, CutsTheImagesThatAnyOfItsTermsLooksAt) {
   Camera camera;
   camera.width = camera.height = 200;
   camera.fx = camera.fy = 200;
@@ -112,7 +112,7 @@ TEST_F(EvaluatorTest, CutsTheImagesThatAnyOfItsTermsLooksAt) {
   const auto mask = std::make_shared<Onlooker>(ImageUse{.mask = true, .depth = false});
   const auto depth = std::make_shared<Onlooker>(ImageUse{.mask = false, .depth = true});
   const auto seen_with = [&](const std::vector<ObjectiveTerm>& terms) {
-    Evaluator(scene_, terms, threads(1)).prepare(tiles, frame, tiles.plan(frame, state));
+    make_cost(scene_, terms, threads(1))->prepare(tiles, frame, tiles.plan(frame, state));
     return none->seen;
   };
   EXPECT_EQ(seen_with({{1, none}}), "c--");
@@ -123,25 +123,26 @@ TEST_F(EvaluatorTest, CutsTheImagesThatAnyOfItsTermsLooksAt) {
   EXPECT_FALSE(frame.views[0].mask.empty() || frame.views[0].depth.empty());
 }
 
-TEST_F(EvaluatorTest, DrawsFramesThatItsTermsHaveTakenInForAnother) {
+TEST_F(CostTest, DrawsFramesThatItsTermsHaveTakenInForAnother) {
   const auto term = drawn(total_inverse_depth);
-  Evaluator first(scene_, {{1, term}}, threads(1)), second(scene_, {{1, term}}, threads(1));
+  const auto first = make_cost(scene_, {{1, term}}, threads(1)),
+             second = make_cost(scene_, {{1, term}}, threads(1));
   const Eigen::MatrixXd states = random_states(6);
   Eigen::VectorXd costs(6);
-  first.prepare(observation_);
+  first->prepare(observation_);
   term->frame = -1;
-  second.prepare_drawing(observation_);
-  second.evaluate(states, costs);
+  second->prepare_drawing(observation_);
+  second->evaluate(states, costs);
   EXPECT_EQ(term->frame, -1);
   EXPECT_EQ(costs, evaluate({{1, term}}, states));
 }
 
-TEST_F(EvaluatorTest, KeepsInfinity) {
+TEST_F(CostTest, KeepsInfinity) {
   const auto infeasible = undrawn([](const RenderedHypothesis&) { return kInfinity; });
   EXPECT_EQ(evaluate({{1, infeasible}}, random_states(1))[0], kInfinity);
 }
 
-TEST_F(EvaluatorTest, KeepsTilesOfParallelTermsApart) {
+TEST_F(CostTest, KeepsTilesOfParallelTermsApart) {
   // A term that is parallel itself must find its own tile unchanged when it comes back.
   const auto term = drawn([](const RenderedHypothesis& h) {
     const double before = total_inverse_depth(h);
@@ -152,27 +153,27 @@ TEST_F(EvaluatorTest, KeepsTilesOfParallelTermsApart) {
   EXPECT_EQ(evaluate({{1, term}}, random_states(60), threads(4)), Eigen::VectorXd::Zero(60));
 }
 
-TEST_F(EvaluatorTest, FollowsTheTilesFromFrameToFrame) {
+TEST_F(CostTest, FollowsTheTilesFromFrameToFrame) {
   const auto term = drawn(total_inverse_depth);
-  Evaluator evaluator(scene_, {{1, term}}, threads(2));
+  const auto cost = make_cost(scene_, {{1, term}}, threads(2));
   const Eigen::MatrixXd states = random_states(6);
   for (const int size : {128, 64, 200}) {
     const Observation observation = rectified_pair(scene_, size);
-    evaluator.prepare(observation);
+    cost->prepare(observation);
     Eigen::VectorXd costs(6), fresh(6);
-    evaluator.evaluate(states, costs);
-    Evaluator other(scene_, {{1, term}}, threads(1));
-    other.prepare(observation);
-    other.evaluate(states, fresh);
+    cost->evaluate(states, costs);
+    const auto other = make_cost(scene_, {{1, term}}, threads(1));
+    other->prepare(observation);
+    other->evaluate(states, fresh);
     EXPECT_EQ(costs, fresh) << size;
   }
 }
 
-TEST_F(EvaluatorTest, EvaluatesAnEmptyBatch) {
+TEST_F(CostTest, EvaluatesAnEmptyBatch) {
   EXPECT_EQ(evaluate({{1, drawn(total_inverse_depth)}}, Eigen::MatrixXd(27, 0)).size(), 0);
 }
 
-TEST_F(EvaluatorTest, DrawsModelsThatPoseThemselvesLikeOthers) {
+TEST_F(CostTest, DrawsModelsThatPoseThemselvesLikeOthers) {
   const Scene own({{"box", std::make_shared<const Model>(make_test_box())},
                    {"hand", std::make_shared<const SelfPosed>()}});
   const Scene plain({{"box", std::make_shared<const Model>(make_test_box())},
@@ -182,22 +183,22 @@ TEST_F(EvaluatorTest, DrawsModelsThatPoseThemselvesLikeOthers) {
   for (int i = 0; i < 8; ++i) states.col(i) = random_state(plain, random);
   Eigen::VectorXd costs[2] = {Eigen::VectorXd(8), Eigen::VectorXd(8)};
   for (int k = 0; k < 2; ++k) {
-    Evaluator evaluator(k ? own : plain, {{1, drawn(total_inverse_depth)}}, threads(2));
-    evaluator.prepare(observation_);
-    evaluator.evaluate(states, costs[k]);
+    const auto cost = make_cost(k ? own : plain, {{1, drawn(total_inverse_depth)}}, threads(2));
+    cost->prepare(observation_);
+    cost->evaluate(states, costs[k]);
   }
   EXPECT_TRUE(costs[0].isApprox(costs[1], 1e-3));
 }
 
-TEST_F(EvaluatorTest, SaysWhatDraws) {
+TEST_F(CostTest, SaysWhatDraws) {
   const auto term = drawn(total_inverse_depth);
-  const Evaluator one(scene_, {{1, term}}, threads(1));
-  EXPECT_THAT(one.backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 1 thread\\)"));
-  const Evaluator two(scene_, {{1, term}}, {.backend = Backend::cpu, .threads = 2});
-  EXPECT_THAT(two.backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 2 threads\\)"));
+  const auto one = make_cost(scene_, {{1, term}}, threads(1));
+  EXPECT_THAT(one->backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 1 thread\\)"));
+  const auto two = make_cost(scene_, {{1, term}}, {.backend = Backend::cpu, .threads = 2});
+  EXPECT_THAT(two->backend(), testing::MatchesRegex("cpu \\([A-Z0-9_]+, 2 threads\\)"));
   // A term without the device capability: auto says why it is on the CPU.
-  const Evaluator automatic(scene_, {{1, term}}, {.threads = 1});
-  EXPECT_THAT(automatic.backend(),
+  const auto automatic = make_cost(scene_, {{1, term}}, {.threads = 1});
+  EXPECT_THAT(automatic->backend(),
               testing::MatchesRegex("cpu \\([A-Z0-9_]+, 1 thread\\); not on a GPU: .+"));
 }
 

@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 
 #include "test_cameras.hpp"
-#include "tile/cut_plan.hpp"
 #include "tile/resample.hpp"
+#include "tile/resample_plan.hpp"
 
 namespace hypotrack {
 namespace {
@@ -42,10 +42,10 @@ cv::Rect2d needed(const Resampler& resampler, const TileCamera& tile, double rea
   return {x0, y0, x1 - x0, y1 - y0};
 }
 
-class CutPlans : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Lenses, CutPlans, testing::Values(0, 4, 5, 8, -4));
+class ResamplePlans : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Lenses, ResamplePlans, testing::Values(0, 4, 5, 8, -4));
 
-TEST_P(CutPlans, TouchWhatTheLookupsReadAndLittleMore) {
+TEST_P(ResamplePlans, TouchWhatTheLookupsReadAndLittleMore) {
   const Resampler resampler(test::lens_camera(GetParam()),
                             test::pose({0.05, 0.1, -0.3}, {0, 0, 0}).linear());
   int compared = 0;
@@ -54,7 +54,8 @@ TEST_P(CutPlans, TouchWhatTheLookupsReadAndLittleMore) {
       for (const double y : {-0.45, 0.0, 0.3}) {
         const TileCamera tile = tile_at(x, y, scale, 128);
         const double found = scale_at_centre(resampler.lens(), tile);
-        const CutPlan plan = plan_cut(resampler.lens(), tile, resampler.image_size(), found);
+        const ResamplePlan plan =
+            plan_resampling(resampler.lens(), tile, resampler.image_size(), found);
         const int blocks = plan.reduction.blocks;
         bool all_valid = false;
         const cv::Rect2d need = needed(resampler, tile, 1.5 * blocks + 0.5 * found, all_valid);
@@ -78,7 +79,7 @@ TEST_P(CutPlans, TouchWhatTheLookupsReadAndLittleMore) {
   EXPECT_GT(compared, 15);
 }
 
-TEST(CutPlan, StaysWithinAnImageOfAnySize) {
+TEST(ResamplePlan, StaysWithinAnImageOfAnySize) {
   Camera camera = test::lens_camera(5);
   for (const cv::Size size : {cv::Size(1, 1), cv::Size(3, 50), cv::Size(17, 2), cv::Size(64, 64)}) {
     camera.width = size.width;
@@ -86,7 +87,7 @@ TEST(CutPlan, StaysWithinAnImageOfAnySize) {
     const LensMap lens = make_lens_map(camera, Eigen::Matrix3d::Identity());
     for (const double scale : {0.5, 2.5, 7.0}) {
       for (const double x : {-0.95, 0.0, 0.9}) {
-        const CutPlan plan = plan_cut(lens, tile_at(x, 0, scale, 64), size, scale);
+        const ResamplePlan plan = plan_resampling(lens, tile_at(x, 0, scale, 64), size, scale);
         EXPECT_GT(plan.touched.area(), 0);
         EXPECT_EQ(plan.touched & cv::Rect({}, size), plan.touched);
       }
@@ -94,11 +95,11 @@ TEST(CutPlan, StaysWithinAnImageOfAnySize) {
   }
 }
 
-TEST(CutPlan, TouchesEverythingWhereTheLensFoldsWithinTheTile) {
+TEST(ResamplePlan, TouchesEverythingWhereTheLensFoldsWithinTheTile) {
   Camera camera = test::lens_camera(5);
   camera.distortion = {0.0, 0.0, 0.0, 0.0, -1.0};  // r - r^7 falls from r = 0.72 on
   const LensMap lens = make_lens_map(camera, Eigen::Matrix3d::Identity());
-  const CutPlan plan = plan_cut(lens, tile_at(0.72, 0, 1, 64), {1280, 720}, 1);
+  const ResamplePlan plan = plan_resampling(lens, tile_at(0.72, 0, 1, 64), {1280, 720}, 1);
   EXPECT_EQ(plan.touched, cv::Rect(0, 0, 1280, 720));
 }
 

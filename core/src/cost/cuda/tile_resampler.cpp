@@ -1,4 +1,4 @@
-#include "cost/cuda/tile_cutter.hpp"
+#include "cost/cuda/tile_resampler.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "cost/cuda/frame_layout.hpp"
 #include "cost/cuda/image_upload.hpp"
 #include "cost/cuda/tile_kernels.hpp"
-#include "cost/cuda/view_cut.hpp"
+#include "cost/cuda/view_resampling.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"
 
@@ -27,7 +27,7 @@ std::size_t image_bytes(const View& view, cv::Size size) {
 
 }  // namespace
 
-struct TileCutter::Impl {
+struct TileResampler::Impl {
   /// The memory of one view on the device.
   struct Buffers {
     ImageUpload images;
@@ -35,8 +35,8 @@ struct TileCutter::Impl {
     DeviceBuffer<float> tile_depth;
   };
 
-  ViewCut upload(std::size_t index, const View& view, const TileCamera& tile, const CutPlan& plan,
-                 Stream stream);
+  ViewResampling upload(std::size_t index, const View& view, const TileCamera& tile,
+                        const ResamplePlan& plan, Stream stream);
   void make_room(Buffers& buffers, const View& view, const TileCamera& tile, cv::Size image);
 
   std::vector<Resampler> cameras;
@@ -45,8 +45,8 @@ struct TileCutter::Impl {
   DeviceBuffer<FrameLayout> layout;
 };
 
-void TileCutter::Impl::make_room(Buffers& buffers, const View& view, const TileCamera& tile,
-                                 cv::Size image) {
+void TileResampler::Impl::make_room(Buffers& buffers, const View& view, const TileCamera& tile,
+                                    cv::Size image) {
   buffers.images.begin(image_bytes(view, image));
   const std::size_t pixels = area({tile.width, tile.height});
   buffers.tile_pixels.reserve(pixels);
@@ -54,27 +54,28 @@ void TileCutter::Impl::make_room(Buffers& buffers, const View& view, const TileC
   if (!view.depth.empty()) buffers.tile_depth.reserve(pixels);
 }
 
-ViewCut TileCutter::Impl::upload(std::size_t index, const View& view, const TileCamera& tile,
-                                 const CutPlan& plan, Stream stream) {
+ViewResampling TileResampler::Impl::upload(std::size_t index, const View& view,
+                                           const TileCamera& tile, const ResamplePlan& plan,
+                                           Stream stream) {
   const cv::Size image = cameras[index].image_size();
   Buffers& buffers = views[index];
   make_room(buffers, view, tile, image);
-  ViewCut cut = view_cut(cameras[index], tile, plan);
-  if (!view.color.empty()) cut.color = buffers.images.add(view.color, plan.touched, stream);
-  if (!view.mask.empty()) cut.mask = buffers.images.add(view.mask, plan.touched, stream);
+  ViewResampling out = view_resampling(cameras[index], tile, plan);
+  if (!view.color.empty()) out.color = buffers.images.add(view.color, plan.touched, stream);
+  if (!view.mask.empty()) out.mask = buffers.images.add(view.mask, plan.touched, stream);
   if (!view.depth.empty()) {
-    const ImagePart& part = cut.measured;
-    cut.depth = reinterpret_cast<const float*>(
+    const ImagePart& part = out.measured;
+    out.depth = reinterpret_cast<const float*>(
         buffers.images.add(view.depth, {part.x, part.y, part.width, part.height}, stream));
-    cut.tile_depth = buffers.tile_depth.data();
+    out.tile_depth = buffers.tile_depth.data();
   }
-  if (cut.color || cut.mask) cut.means = buffers.means.data();
-  cut.tile_pixels = buffers.tile_pixels.data();
+  if (out.color || out.mask) out.means = buffers.means.data();
+  out.tile_pixels = buffers.tile_pixels.data();
   buffers.images.finish(stream);
-  return cut;
+  return out;
 }
 
-TileCutter::TileCutter(std::span<const Resampler> cameras, const DeviceLimits& limits)
+TileResampler::TileResampler(std::span<const Resampler> cameras, const DeviceLimits& limits)
     : impl_(std::make_unique<Impl>()) {
   if (cameras.size() > kMaxViews) {
     throw DeviceError(
@@ -86,28 +87,28 @@ TileCutter::TileCutter(std::span<const Resampler> cameras, const DeviceLimits& l
   impl_->limits = limits;
 }
 
-TileCutter::~TileCutter() = default;
+TileResampler::~TileResampler() = default;
 
-DeviceObservation TileCutter::cut(const Frame& frame, const TilePlan& plan, Stream stream,
-                                  const WorkEnds& work) {
+DeviceObservation TileResampler::resample(const Frame& frame, const TilePlan& plan, Stream stream,
+                                          const BandEnds& bands) {
   DeviceObservation observation;
   observation.header = &plan.header;
-  FrameCut cuts{};
-  cuts.layout = frame_layout(plan.header, work);
+  FrameResampling all{};
+  all.layout = frame_layout(plan.header, bands);
   impl_->layout.reserve(1);
-  cuts.layout_to = impl_->layout.data();
-  observation.frame = cuts.layout_to;
-  observation.pair = cuts.layout.pair != 0;
-  cuts.view_count = static_cast<std::int32_t>(plan.cuts.size());
-  for (std::size_t i = 0; i < plan.cuts.size(); ++i) {
+  all.layout_to = impl_->layout.data();
+  observation.frame = all.layout_to;
+  observation.pair = all.layout.pair != 0;
+  all.view_count = static_cast<std::int32_t>(plan.views.size());
+  for (std::size_t i = 0; i < plan.views.size(); ++i) {
     const View& view = frame.views[i];
     const TileCamera& tile = plan.header.views[i].camera;
-    const ViewCut cut = cuts.views[i] = impl_->upload(i, view, tile, plan.cuts[i], stream);
-    observation.tiles[i] = {{cut.width, cut.height, cut.tile_pixels, cut.tile_depth},
-                            cut.color != nullptr,
-                            cut.mask != nullptr};
+    const ViewResampling out = all.views[i] = impl_->upload(i, view, tile, plan.views[i], stream);
+    observation.tiles[i] = {{out.width, out.height, out.tile_pixels, out.tile_depth},
+                            out.color != nullptr,
+                            out.mask != nullptr};
   }
-  enqueue_cut(cuts, impl_->limits, stream);
+  enqueue_resampling(all, impl_->limits, stream);
   return observation;
 }
 

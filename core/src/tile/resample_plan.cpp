@@ -1,4 +1,4 @@
-#include "tile/cut_plan.hpp"
+#include "tile/resample_plan.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -138,8 +138,9 @@ ReductionPlan plan_reduction(double scale) {
   return plan;
 }
 
-CutPlan plan_cut(const LensMap& map, const TileCamera& tile, cv::Size image, double scale) {
-  CutPlan plan;
+ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile, cv::Size image,
+                             double scale) {
+  ResamplePlan plan;
   plan.reduction = plan_reduction(scale);
   plan.reduction.blocks = std::min({plan.reduction.blocks, image.width, image.height});
   plan.touched = touched(map, tile, image, scale, plan.reduction.blocks);

@@ -3,7 +3,7 @@
 #include <memory>
 #include <span>
 
-#include "cost/cuda/work_of_rows.hpp"
+#include "cost/cuda/load_balance.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
@@ -11,24 +11,24 @@
 
 namespace hypotrack::cuda {
 
-/// Resamples tiles on the GPU; the pixels equal those of TileMaker::cut up to rounding.
-class HYPOTRACK_API TileCutter {
+/// Resamples tiles on the GPU; the pixels equal those of TileMaker::resample up to rounding.
+class HYPOTRACK_API TileResampler {
  public:
   /// Takes TileMaker::resamplers(). Throws DeviceError on more than kMaxViews cameras, or if there
   /// is not enough memory. It needs 4 bytes per pixel of every camera's image. The frames' images
   /// need their size on the device and in page-locked memory.
-  TileCutter(std::span<const Resampler> cameras, const DeviceLimits& limits);
-  ~TileCutter();
-  TileCutter(const TileCutter&) = delete;
-  TileCutter& operator=(const TileCutter&) = delete;
+  TileResampler(std::span<const Resampler> cameras, const DeviceLimits& limits);
+  ~TileResampler();
+  TileResampler(const TileResampler&) = delete;
+  TileResampler& operator=(const TileResampler&) = delete;
 
   /// Enqueues the upload of the image parts that the plan needs, and the resampling kernels. Does
   /// not wait, and allocates nothing after the first frame. All work of the previous call must have
   /// been waited for.
   /// Page-locked images are copied directly and must live until the work is done. Tiles keep their
   /// addresses as long as the tile size stays the same. The observation's header is the plan's.
-  DeviceObservation cut(const Frame& frame, const TilePlan& plan, Stream stream,
-                        const WorkEnds& work = even_work());
+  DeviceObservation resample(const Frame& frame, const TilePlan& plan, Stream stream,
+                             const BandEnds& bands = even_bands());
 
  private:
   struct Impl;

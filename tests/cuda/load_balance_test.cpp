@@ -1,4 +1,4 @@
-#include "cost/cuda/work_of_rows.hpp"
+#include "cost/cuda/load_balance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ TileCamera tile_of(double focal_px) {
 }
 
 /// Boxes, `narrow` above `wide`, of 0.1 m height each, 1 m in front of the camera.
-WorkEnds work_of_two_boxes(double narrow, double wide, double focal_px = 500) {
+BandEnds work_of_two_boxes(double narrow, double wide, double focal_px = 500) {
   const Scene scene(
       {{"above", std::make_shared<Model>(test::make_test_box(Box(narrow, 0.1, 0.01)))},
        {"below", std::make_shared<Model>(test::make_test_box(Box(wide, 0.1, 0.01)))}});
@@ -38,23 +38,23 @@ WorkEnds work_of_two_boxes(double narrow, double wide, double focal_px = 500) {
   const IdealRig rig = one_camera();
   PosedScene posed(scene, rig);
   posed.pose(state);
-  return work_of(posed, tile_of(focal_px));
+  return bands_of_equal_work(posed, tile_of(focal_px));
 }
 
-void expect_rises_from_0_to_1(const WorkEnds& ends) {
+void expect_rises_from_0_to_1(const BandEnds& ends) {
   EXPECT_EQ(ends.front(), 0);
   EXPECT_EQ(ends.back(), 1);
   EXPECT_TRUE(std::ranges::is_sorted(ends));
 }
 
 TEST(WorkOfRows, IsSpreadEvenlyOverTheRowsOfTwoEqualHalves) {
-  const WorkEnds ends = work_of_two_boxes(0.1, 0.1);
+  const BandEnds ends = work_of_two_boxes(0.1, 0.1);
   expect_rises_from_0_to_1(ends);
   EXPECT_NEAR(ends[kMostBands / 2], 0.5, 0.05);
 }
 
 TEST(WorkOfRows, IsWhereTheSurfaceIs) {
-  const WorkEnds ends = work_of_two_boxes(0.02, 0.1);
+  const BandEnds ends = work_of_two_boxes(0.02, 0.1);
   expect_rises_from_0_to_1(ends);
   // A sixth of the surface and half of all rows lie above the middle: 1/6 + 1/4 of 3/2.
   EXPECT_GT(ends[kMostBands / 2], 0.6);
@@ -62,7 +62,7 @@ TEST(WorkOfRows, IsWhereTheSurfaceIs) {
 }
 
 TEST(WorkOfRows, IsWhereTheTrianglesAreIfTheyHaveNextToNoPixels) {
-  const WorkEnds ends = work_of_two_boxes(0.02, 0.1, 1);
+  const BandEnds ends = work_of_two_boxes(0.02, 0.1, 1);
   expect_rises_from_0_to_1(ends);
   EXPECT_NEAR(ends[kMostBands / 2], 0.5, 0.05);
 }
@@ -74,8 +74,8 @@ TEST(WorkOfRows, IsSpreadEvenlyWhereNothingIsInFrontOfTheCamera) {
   const IdealRig rig = one_camera();
   PosedScene posed(scene, rig);
   posed.pose(state);
-  EXPECT_EQ(work_of(posed, tile_of(500)), even_work());
-  expect_rises_from_0_to_1(even_work());
+  EXPECT_EQ(bands_of_equal_work(posed, tile_of(500)), even_bands());
+  expect_rises_from_0_to_1(even_bands());
 }
 
 }  // namespace

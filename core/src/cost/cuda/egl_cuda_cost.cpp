@@ -1,10 +1,9 @@
-#include "cost/cuda/egl_cuda_evaluation.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "cost/backends.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/gl_interop.hpp"
 #include "cost/cuda/host_batch.hpp"
@@ -17,21 +16,27 @@ namespace {
 
 constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;  // of drawn hypotheses
 
-class EglCudaEvaluation final : public Evaluation {
+/// Draws with OpenGL, scores with CUDA.
+class EglCudaCost final : public Cost {
  public:
-  EglCudaEvaluation(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
-                    const EvaluateSettings& settings, std::unique_ptr<EglDrawer> drawer)
-      : frame_(scene, terms, settings), drawer_(std::move(drawer)) {}
-  ~EglCudaEvaluation() override { cudaStreamSynchronize(native(frame_.stream())); }
+  EglCudaCost(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+              const EvaluateSettings& settings, std::unique_ptr<EglDrawer> drawer)
+      : Cost(scene, terms), frame_(scene, terms, settings), drawer_(std::move(drawer)) {}
+  ~EglCudaCost() override { cudaStreamSynchronize(native(frame_.stream())); }
 
-  using Evaluation::prepare;
-  void prepare(const Observation& observation) override {
+  std::string backend() const override {
+    return fmt::format("egl ({}, CUDA interop)", drawer_->context().device());
+  }
+
+ protected:
+  void prepare_observation(const Observation& observation) override {
     frame_.finish();
     drawer_->prepare(observation);
     frame_.prepare(observation);
   }
 
-  void evaluate(const Eigen::MatrixXd& states, Eigen::Ref<Eigen::VectorXd> costs) override {
+  void evaluate_normalized(const Eigen::MatrixXd& states,
+                           Eigen::Ref<Eigen::VectorXd> costs) override {
     if (states.cols() == 0) return;
     frame_.device().use();
     const Eigen::Index layers = std::min(states.cols(), largest_batch());
@@ -42,10 +47,6 @@ class EglCudaEvaluation final : public Evaluation {
       check(cudaStreamSynchronize(native(frame_.stream())), "scoring hypotheses");
     }
     batch_.read(costs, frame_.terms());
-  }
-
-  std::string description() const override {
-    return fmt::format("egl ({}, CUDA interop)", drawer_->context().device());
   }
 
  private:
@@ -85,10 +86,8 @@ bool looks_at_pictures(const ObjectiveTerm& term) {
 
 }  // namespace
 
-std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
-                                                const std::vector<ObjectiveTerm>& terms,
-                                                const EvaluateSettings& settings,
-                                                std::string& why_not) {
+std::unique_ptr<Cost> make_egl_cost(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                                    const EvaluateSettings& settings, std::string& why_not) {
   why_not = why_not_evaluated(scene, terms, settings, false);
   if (std::none_of(terms.begin(), terms.end(), looks_at_pictures)) {
     why_not = "no objective looks at pictures";
@@ -97,7 +96,7 @@ std::unique_ptr<Evaluation> make_egl_evaluation(const Scene& scene,
   auto drawer = std::make_unique<EglDrawer>(scene);
   why_not = why_not_shared(drawer->context(), settings.device);
   if (!why_not.empty()) return nullptr;
-  return std::make_unique<EglCudaEvaluation>(scene, terms, settings, std::move(drawer));
+  return std::make_unique<EglCudaCost>(scene, terms, settings, std::move(drawer));
 }
 
 }  // namespace hypotrack::cuda

@@ -10,14 +10,14 @@
 namespace hypotrack::cuda {
 
 /// The type of FrameLayout::work_ends.
-using WorkEnds = std::array<float, kMostBands + 1>;
+using BandEnds = std::array<float, kMostBands + 1>;
 
 /// Returns equal work for every row.
-HYPOTRACK_API WorkEnds even_work();
+HYPOTRACK_API BandEnds even_bands();
 
 /// Estimates the work per row of hypotheses like a posed scene in the first camera's tile, from a
 /// sample of its triangles. A row's work is its surface pixels, a constant per triangle, and half
 /// of the average row's pixels.
-WorkEnds work_of(const PosedScene& scene, const TileCamera& tile);
+BandEnds bands_of_equal_work(const PosedScene& scene, const TileCamera& tile);
 
 }  // namespace hypotrack::cuda

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "evaluator_fixture.hpp"
+#include "cost_fixture.hpp"
 
 namespace hypotrack::test {
 namespace {
 
-using EvaluatorErrors = EvaluatorTest;
+using CostErrors = CostTest;
 
-TEST_F(EvaluatorErrors, NamesATermThatReturnsNan) {
+TEST_F(CostErrors, NamesATermThatReturnsNan) {
   const auto good = undrawn([](const RenderedHypothesis&) { return 1.0; });
   const auto bad = undrawn([](const RenderedHypothesis&) { return std::nan(""); });
   const std::string rest =
@@ -27,7 +27,7 @@ TEST_F(EvaluatorErrors, NamesATermThatReturnsNan) {
               testing::StartsWith("evaluate: objective other adds an infinity to its opposite"));
 }
 
-TEST_F(EvaluatorErrors, PassesExceptionsOnUnchanged) {
+TEST_F(CostErrors, PassesExceptionsOnUnchanged) {
   struct Own : std::logic_error {
     using std::logic_error::logic_error;
     int detail = 42;
@@ -47,29 +47,29 @@ TEST_F(EvaluatorErrors, PassesExceptionsOnUnchanged) {
   }
 }
 
-TEST_F(EvaluatorErrors, CanBeUsedAfterAnException) {
+TEST_F(CostErrors, CanBeUsedAfterAnException) {
   bool fail = true;
   const auto term = drawn([&](const RenderedHypothesis& h) -> double {
     if (fail) throw std::runtime_error("no");
     return total_inverse_depth(h);
   });
-  Evaluator evaluator(scene_, {{1, term}}, threads(2));
-  evaluator.prepare(observation_);
+  const auto cost = make_cost(scene_, {{1, term}}, threads(2));
+  cost->prepare(observation_);
   const Eigen::MatrixXd states = random_states(10);
   Eigen::VectorXd costs(10);
-  EXPECT_THROW(evaluator.evaluate(states, costs), std::runtime_error);
+  EXPECT_THROW(cost->evaluate(states, costs), std::runtime_error);
   fail = false;
-  evaluator.evaluate(states, costs);
+  cost->evaluate(states, costs);
   EXPECT_EQ(costs, evaluate({{1, drawn(total_inverse_depth)}}, states));
 }
 
-TEST_F(EvaluatorErrors, RefusesPosesOfTheWrongSize) {
+TEST_F(CostErrors, RefusesPosesOfTheWrongSize) {
   const Scene scene({{"hand", std::make_shared<const SelfPosed>(1)}});
-  Evaluator evaluator(scene, {{1, drawn(total_inverse_depth)}}, threads(1));
-  evaluator.prepare(observation_);
+  const auto cost = make_cost(scene, {{1, drawn(total_inverse_depth)}}, threads(1));
+  cost->prepare(observation_);
   Eigen::VectorXd costs(1);
   try {
-    evaluator.evaluate(scene.rest_state(), costs);
+    cost->evaluate(scene.rest_state(), costs);
     FAIL();
   } catch (const PluginError& error) {
     EXPECT_STREQ(error.what(),
@@ -77,19 +77,19 @@ TEST_F(EvaluatorErrors, RefusesPosesOfTheWrongSize) {
   }
 }
 
-TEST_F(EvaluatorErrors, RefusesWhatDoesNotFit) {
-  Evaluator evaluator(scene_, {{1, drawn(total_inverse_depth)}}, threads(1));
+TEST_F(CostErrors, RefusesWhatDoesNotFit) {
+  const auto cost = make_cost(scene_, {{1, drawn(total_inverse_depth)}}, threads(1));
   Eigen::VectorXd costs(1);
   const auto what = [&](const Eigen::MatrixXd& states) -> std::string {
     try {
-      evaluator.evaluate(states, costs);
+      cost->evaluate(states, costs);
     } catch (const Error& error) {
       return error.what();
     }
     return "no error";
   };
   EXPECT_EQ(what(random_states(1)), "evaluate: no frame has been prepared");
-  evaluator.prepare(observation_);
+  cost->prepare(observation_);
   EXPECT_EQ(what(Eigen::MatrixXd::Zero(26, 1)),
             "evaluate: found states 26 x 1 and room for 1 costs, expected states 27 x N and room "
             "for N");
@@ -99,7 +99,7 @@ TEST_F(EvaluatorErrors, RefusesWhatDoesNotFit) {
   EXPECT_EQ(what(random_states(1)), "no error");
 }
 
-TEST_F(EvaluatorErrors, RefusesTermsThatAreNone) {
+TEST_F(CostErrors, RefusesTermsThatAreNone) {
   const auto term = undrawn([](const RenderedHypothesis&) { return 0.0; });
   EXPECT_EQ(message({{1, nullptr, "stereo"}}),
             "evaluate: there is no objective behind term stereo");

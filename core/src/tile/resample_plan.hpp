@@ -19,15 +19,15 @@ struct ReductionPlan {
 };
 
 /// The parameters of a tile's resampling besides the tile's camera.
-struct CutPlan {
+struct ResamplePlan {
   ReductionPlan reduction;
   /// The part of the image that the lookups read, in whole blocks from the image's corner. Lookups
   /// outside read its nearest pixel. Trailing pixels of the image that fill no block are excluded.
   cv::Rect touched;
-  /// Map of the tile's colours; the identity from plan_cut().
+  /// Map of the tile's colours; the identity from plan_resampling().
   ColorMap colors;
   /// Brightness to add to every channel after `colors`, 0 .. 255 (32-bit float, tile size). Empty
-  /// from plan_cut(): adds nothing. Only Resampler::cut() applies it.
+  /// from plan_resampling(): adds nothing. Only Resampler::resample() applies it.
   cv::Mat brightness;
 };
 
@@ -45,7 +45,7 @@ HYPOTRACK_API ReductionPlan plan_reduction(double scale);
 
 /// Plans a tile with `scale` image pixels per tile pixel. It samples only a few pixels of the tile,
 /// because lenses are smooth.
-HYPOTRACK_API CutPlan plan_cut(const LensMap& map, const TileCamera& tile, cv::Size image,
-                               double scale);
+HYPOTRACK_API ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile,
+                                           cv::Size image, double scale);
 
 }  // namespace hypotrack

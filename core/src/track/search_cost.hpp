@@ -3,39 +3,39 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "cost/evaluator.hpp"
+#include "cost/cost.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
 
-/// Costs of search points: converts points to states and evaluates them.
-class StateCost final : public CostFunction, public ResidualCost {
+/// The cost that optimizers minimise: converts search points to states, whose costs it returns.
+class SearchCost final : public CostFunction, public ResidualCost {
  public:
-  /// All arguments must outlive the cost.
-  StateCost(const SearchSpace& space, const Eigen::VectorXd& prior, Evaluator& evaluator)
-      : space_(space), prior_(prior), evaluator_(evaluator) {}
+  /// Points are those around `prior`. All arguments must outlive the search cost.
+  SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior)
+      : cost_(cost), space_(space), prior_(prior) {}
 
   // CostFunction
   int dimension() const override { return space_.dimension(); }
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::VectorXd> costs) override;
   cuda::DeviceCost* device() override;
-  ResidualCost* residuals() override { return evaluator_.has_residuals() ? this : nullptr; }
+  ResidualCost* residuals() override { return cost_.least_squares() ? this : nullptr; }
 
   // ResidualCost
-  Eigen::Index count() const override { return evaluator_.residual_count(); }
+  Eigen::Index count() const override { return cost_.least_squares()->count(); }
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override;
   std::unique_ptr<ResidualDifferences> differences() override;
-  bool can_linearize() const override { return evaluator_.can_linearize(); }
+  bool can_linearize() const override { return cost_.least_squares()->can_linearize(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override;
 
  private:
+  Cost& cost_;
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
-  Evaluator& evaluator_;
 };
 
 }  // namespace hypotrack

@@ -1,0 +1,155 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cost/backends.hpp"
+#include "cost/cuda/device_residuals.hpp"
+#include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/frame_on_device.hpp"
+#include "cost/cuda/host_batch.hpp"
+#include "cost/cuda/tile_resampler.hpp"
+#include "cost/cuda/transfer.hpp"
+#include "cost/term_residuals.hpp"
+#include "hypotrack/cuda/device_cost.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::cuda {
+namespace {
+
+/// Poses, draws and scores on the GPU: uploads hypotheses unless they are there already, downloads
+/// costs.
+class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
+ public:
+  CudaCost(const Scene& scene, std::vector<ObjectiveTerm> all, const EvaluateSettings& settings)
+      : Cost(scene, std::move(all)),
+        frame_(scene, terms(), settings),
+        sum_of_squares_(TermResiduals::why_none(terms()).empty()),
+        prior_(static_cast<std::size_t>(scene.dimension())),
+        prior_staging_(prior_.size()) {}
+  ~CudaCost() override { cudaStreamSynchronize(native(stream())); }
+
+  StateResiduals* least_squares() override {
+    return sum_of_squares_ && frame_.has_residuals() ? this : nullptr;
+  }
+  DeviceCost* device(const Eigen::VectorXd* rotations_from) override {
+    check_prepared();
+    frame_.device().use();
+    use_prior(rotations_from);
+    return this;
+  }
+  std::string backend() const override { return fmt::format("cuda ({})", frame_.device().name()); }
+
+  // StateResiduals
+  Eigen::Index count() const override {
+    check_prepared();
+    return frame_.residual_count();
+  }
+  std::vector<ResidualRows> pose_only() const override { return frame_.pose_only_residuals(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
+    const Eigen::MatrixXd& batch = normalized(states, costs.size());
+    check_room(residuals, count(), batch.cols());
+    DeviceResiduals(*this, frame_, batch_, residual_memory_).download(batch, residuals, costs);
+  }
+  std::unique_ptr<ResidualDifferences> differences() override {
+    return std::make_unique<DeviceResiduals>(*this, frame_, batch_, residual_memory_);
+  }
+
+  // DeviceCost
+  Stream stream() const override { return frame_.stream(); }
+  void reserve(std::int64_t count) override { frame_.reserve(count); }
+  void enqueue(const double* points, std::int64_t count, double* costs) override {
+    frame_.enqueue({points, count, costs, 0, rotation_vectors_ ? prior_.data() : nullptr, false});
+  }
+  bool enqueue_search(const SwarmSearch& search) override {
+    return frame_.enqueue_search(
+        {nullptr, search.particles, nullptr, 0, rotation_vectors_ ? prior_.data() : nullptr, false},
+        search);
+  }
+  std::uint64_t revision() const override { return revision_ + frame_.revision(); }
+
+ protected:
+  void prepare_observation(const Observation& observation) override {
+    frame_.finish();
+    frame_.prepare(observation);
+  }
+  void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    frame_.finish();
+    const bool host_only = std::ranges::any_of(
+        plan.views, [](const ResamplePlan& view) { return !view.brightness.empty(); });
+    if (host_only) return Cost::prepare_images(tiles, frame, plan);
+    if (!resampler_) {
+      resampler_ = std::make_unique<TileResampler>(tiles.resamplers(), frame_.device().limits());
+    }
+    const auto bands = [&] {
+      return bands_of_equal_work(tiles.posed(plan.header.start), plan.header.views[0].camera);
+    };
+    if (!bands_) bands_ = bands();
+    frame_.prepare(resampler_->resample(frame, plan, stream(), *bands_));
+    bands_ = bands();  // for the next frame, which is similar; runs while the GPU works
+  }
+  void evaluate_normalized(const Eigen::MatrixXd& states,
+                           Eigen::Ref<Eigen::VectorXd> costs) override {
+    if (states.cols() == 0) return;
+    frame_.device().use();
+    use_prior(nullptr);
+    reserve(states.cols());
+    batch_.upload(states, stream());
+    frame_.enqueue(batch_.layout());
+    batch_.download(0, states.cols(), stream());
+    check(cudaStreamSynchronize(native(stream())), "evaluating hypotheses");
+    batch_.read(costs, frame_.terms());
+  }
+
+ private:
+  void use_prior(const Eigen::VectorXd* prior) {
+    if (rotation_vectors_ != (prior != nullptr)) ++revision_;
+    rotation_vectors_ = prior != nullptr;
+    if (!prior) return;
+    std::copy_n(prior->data(), prior_.size(), prior_staging_.data());
+    to_device(prior_, prior_staging_, prior_.size(), stream());
+  }
+
+  FrameOnDevice frame_;
+  std::unique_ptr<TileResampler> resampler_;  // for the first frame's cameras; they never change
+  std::optional<BandEnds> bands_;
+  HostBatch batch_;
+  bool sum_of_squares_;
+  ResidualMemory residual_memory_;
+  DeviceBuffer<double> prior_;
+  PinnedBuffer<double> prior_staging_;
+  bool rotation_vectors_ = false;
+  std::uint64_t revision_ = 0;  // only grows, as those of the terms do
+};
+
+}  // namespace
+
+std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                              const EvaluateSettings& settings, bool residuals) {
+  if (std::string why = why_no_device(settings.device); !why.empty()) return why;
+  if (std::string why = why_not_on_device(scene); !why.empty()) return why;
+  for (const ObjectiveTerm& term : terms) {
+    const auto on_device = term.objective->on_device();
+    if (!on_device) return fmt::format("objective {} has no device capability", term.name);
+    if (residuals && term.weight != 0 && !on_device->has_residuals()) {
+      return fmt::format("the optimizer needs residuals, and objective {} has them on the CPU only",
+                         term.name);
+    }
+  }
+  return why_not_this_device(settings.device);
+}
+
+std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                const EvaluateSettings& settings, bool residuals) {
+  const std::string why = why_not_evaluated(scene, terms, settings, residuals);
+  if (!why.empty()) {
+    throw DeviceError("evaluate.backend: cuda: " + why +
+                      ". Write `backend: cpu`, or `auto` to take what there is");
+  }
+  return std::make_unique<CudaCost>(scene, std::move(terms), settings);
+}
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,135 @@
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "cost/backends.hpp"
+#include "cost/hypothesis_renderer.hpp"
+#include "cost/linearizer.hpp"
+#include "cost/term_residuals.hpp"
+
+namespace hypotrack {
+namespace {
+
+bool any_draws(const std::vector<ObjectiveTerm>& terms) {
+  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& term) {
+    return term.weight != 0 && term.objective->needs_rendering();
+  });
+}
+
+std::unique_ptr<HypothesisRenderer> make_renderer(const Scene& scene,
+                                                  const EvaluateSettings& settings, bool draws) {
+  if (draws && settings.backend == Backend::egl) return make_egl_renderer(scene, settings.threads);
+  return make_cpu_renderer(scene, draws, settings.threads);
+}
+
+/// Draws with a HypothesisRenderer, scores on the CPU.
+class HostCost final : public Cost, public StateResiduals {
+ public:
+  HostCost(const Scene& scene, std::vector<ObjectiveTerm> all, const EvaluateSettings& settings,
+           std::string why_here)
+      : Cost(scene, std::move(all)),
+        why_here_(std::move(why_here)),
+        renderer_(make_renderer(scene, settings, any_draws(terms()))),
+        arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
+    if (TermResiduals::why_none(terms()).empty()) residuals_.emplace(terms());
+    if (residuals_ && Linearizer::can_linearize(terms())) {
+      linearizer_ = std::make_unique<Linearizer>(scene, terms(), settings.threads);
+    }
+  }
+
+  StateResiduals* least_squares() override { return residuals_ ? this : nullptr; }
+  std::string backend() const override {
+    return renderer_->description() + (why_here_.empty() ? "" : "; " + why_here_);
+  }
+
+  // StateResiduals
+  Eigen::Index count() const override {
+    check_prepared();
+    return residuals_->count();
+  }
+  std::vector<ResidualRows> pose_only() const override { return residuals_->pose_only(); }
+  void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override {
+    const Eigen::MatrixXd& batch = normalized(states, costs.size());
+    check_room(residuals, count(), batch.cols());
+    const auto rows = static_cast<std::size_t>(residuals.rows());
+    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      std::span<float> rest(residuals.col(index).data(), rows);
+      costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
+        return residuals_->write(t, drawn, rest);
+      });
+    });
+  }
+  bool can_linearize() const override { return linearizer_ != nullptr; }
+  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
+    return linearizer_->linearize(normalized(states, steps.size() + 1), steps, blur);
+  }
+
+ protected:
+  void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
+    arena_.execute([&] { Cost::prepare_images(tiles, frame, plan); });
+  }
+  void prepare_observation(const Observation& observation) override {
+    arena_.execute([&] {
+      for (const ObjectiveTerm& term : terms()) term.objective->prepare(observation);
+    });
+    prepare_only_drawing(observation);
+  }
+  void prepare_only_drawing(const Observation& observation) override {
+    if (residuals_) residuals_->prepare();
+    renderer_->prepare(observation);
+    if (linearizer_) linearizer_->prepare(observation);
+  }
+  void evaluate_normalized(const Eigen::MatrixXd& states,
+                           Eigen::Ref<Eigen::VectorXd> costs) override {
+    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
+        return terms()[t].objective->cost(drawn);
+      });
+    });
+  }
+
+ private:
+  /// Returns the weighted sum of `cost_of(term index, hypothesis)` over the terms. Terms that need
+  /// no rendering get no views.
+  template <class CostOf>
+  double sum_up(Eigen::Index index, const RenderedHypothesis& hypothesis,
+                const CostOf& cost_of) const {
+    double sum = 0;
+    for (std::size_t t = 0; t < terms().size(); ++t) {
+      const ObjectiveTerm& term = terms()[t];
+      if (term.weight == 0) continue;  // also avoids 0 * infinity
+      const bool draws = term.objective->needs_rendering();
+      const double cost = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
+      sum += term.weight * cost;
+      if (std::isnan(cost)) refuse_cost(term, index, "returned NaN");
+      if (std::isnan(sum)) refuse_cost(term, index, "adds an infinity to its opposite");
+    }
+    return sum;
+  }
+
+  std::string why_here_;
+  std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
+  std::unique_ptr<HypothesisRenderer> renderer_;
+  std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
+  tbb::task_arena arena_;                   // for the work of a frame before hypotheses
+};
+
+}  // namespace
+
+HypothesisRenderer::~HypothesisRenderer() = default;
+
+std::unique_ptr<Cost> make_host_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                     const EvaluateSettings& settings, std::string why_here) {
+  return std::make_unique<HostCost>(scene, std::move(terms), settings, std::move(why_here));
+}
+
+}  // namespace hypotrack

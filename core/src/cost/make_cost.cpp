@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "cost/backends.hpp"
+#include "cost/linearizer.hpp"
+#include "cost/term_residuals.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    if (terms[i].name.empty()) terms[i].name = fmt::format("number {}", i + 1);
+    if (!terms[i].objective) {
+      throw Error(fmt::format("evaluate: there is no objective behind term {}", terms[i].name));
+    }
+    if (!std::isfinite(terms[i].weight)) {
+      throw ConfigError(
+          fmt::format("evaluate: the weight of objective {} is {}, expected a finite "
+                      "number",
+                      terms[i].name, terms[i].weight));
+    }
+  }
+  return terms;
+}
+
+/// Returns why `backend: auto` evaluates these terms on the CPU; empty if it uses the GPU.
+std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                                 const EvaluateSettings& settings,
+                                 const Requirements& requirements) {
+  if (requirements.least_squares &&
+      (requirements.jacobian == Linearization::needed ||
+       (requirements.jacobian == Linearization::welcome && Linearizer::can_linearize(terms)))) {
+    return "the optimizer takes analytic Jacobians, which are computed on the CPU";
+  }
+  return cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares);
+}
+
+/// Returns what the terms and the backend offer; `on_gpu` says whether CUDA evaluates the terms.
+CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, Backend backend, bool on_gpu) {
+  constexpr const char* kInstead = ". Write `jacobian: auto` or `numerical` in the optimizer";
+  CostOffer offer{.no_least_squares = TermResiduals::why_none(terms), .device = on_gpu};
+  if (backend == Backend::cuda) {
+    offer.no_jacobian = fmt::format("evaluate.backend is cuda{}, or `backend: cpu`", kInstead);
+  } else if (!Linearizer::can_linearize(terms)) {
+    offer.no_jacobian = fmt::format("a term has no slopes of its residuals{}", kInstead);
+  }
+  return offer;
+}
+
+/// Draws with OpenGL and scores on the GPU if OpenGL and CUDA share it, else reads back.
+std::unique_ptr<Cost> make_egl_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                    const EvaluateSettings& settings,
+                                    const Requirements& requirements) {
+  std::string why_not = "the optimizer needs residuals, which the GPU has only of what CUDA draws";
+  if (!requirements.least_squares) {
+    if (auto shared = cuda::make_egl_cost(scene, terms, settings, why_not)) return shared;
+  }
+  return make_host_cost(scene, std::move(terms), settings, "scored on the CPU: " + why_not);
+}
+
+}  // namespace
+
+std::span<const std::string_view> enum_names(Backend) {
+  static constexpr std::array<std::string_view, 4> kNames{"auto", "cpu", "egl", "cuda"};
+  return kNames;
+}
+
+std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                const EvaluateSettings& settings,
+                                const Requirements& requirements) {
+  terms = checked(std::move(terms));
+  const bool automatic = settings.backend == Backend::automatic;
+  const std::string why_on_cpu =
+      automatic ? why_automatic_on_cpu(scene, terms, settings, requirements) : std::string();
+  const bool with_cuda = automatic ? why_on_cpu.empty() : settings.backend == Backend::cuda;
+  check_requirements(requirements, offer_of(terms, settings.backend, with_cuda));
+  if (with_cuda) {
+    return cuda::make_cost(scene, std::move(terms), settings, requirements.least_squares);
+  }
+  if (settings.backend == Backend::egl) {
+    return make_egl_cost(scene, std::move(terms), settings, requirements);
+  }
+  return make_host_cost(scene, std::move(terms), settings,
+                        automatic ? "not on a GPU: " + why_on_cpu : std::string());
+}
+
+bool evaluates_with_cuda(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                         const EvaluateSettings& settings, const Requirements& requirements) {
+  if (settings.backend == Backend::automatic) {
+    return why_automatic_on_cpu(scene, terms, settings, requirements).empty();
+  }
+  return settings.backend == Backend::cuda &&
+         cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares).empty();
+}
+
+void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what) {
+  throw Error(
+      fmt::format("evaluate: objective {} {} for hypothesis {} of the batch; this is a bug in "
+                  "the objective: costs are numbers or +infinity",
+                  term.name, what, index));
+}
+
+void check_room(const Eigen::Ref<const Eigen::MatrixXf>& residuals, Eigen::Index rows,
+                Eigen::Index columns) {
+  if (residuals.rows() == rows && residuals.cols() == columns) return;
+  throw Error(fmt::format("evaluate: found room for {} x {} residuals, expected {} x {}",
+                          residuals.rows(), residuals.cols(), rows, columns));
+}
+
+}  // namespace hypotrack

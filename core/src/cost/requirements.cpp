@@ -1,0 +1,51 @@
+#include <algorithm>
+#include <string>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/optimizer.hpp"
+
+namespace hypotrack {
+
+void Requirements::merge(const Requirements& other) {
+  least_squares = least_squares || other.least_squares;
+  jacobian = std::max(jacobian, other.jacobian);
+  if (device || !other.device) return;
+  device = true;
+  device_by = other.device_by;
+  instead_of_device = other.instead_of_device;
+}
+
+void check_requirements(const Requirements& requirements, const CostOffer& offer) {
+  if (requirements.least_squares && !offer.no_least_squares.empty()) {
+    throw ConfigError("objective: the optimizer needs residuals: " + offer.no_least_squares);
+  }
+  if (requirements.least_squares && requirements.jacobian == Linearization::needed &&
+      !offer.no_jacobian.empty()) {
+    throw ConfigError("the optimizer takes analytic Jacobians, which are computed on the CPU: " +
+                      offer.no_jacobian);
+  }
+  if (requirements.device && !offer.device) {
+    throw DeviceError(
+        (requirements.device_by.empty() ? "the optimizer" : requirements.device_by) +
+        " searches on the GPU, and this scene is not evaluated there. Write `evaluate: {backend: "
+        "cuda}`" +
+        (requirements.instead_of_device.empty() ? "" : ", or " + requirements.instead_of_device));
+  }
+}
+
+void check_requirements(const Requirements& requirements, const ResidualCost* residuals,
+                        const cuda::DeviceCost* device) {
+  CostOffer offer{.device = device != nullptr};
+  if (!residuals) {
+    offer.no_least_squares =
+        "this cost has none; take an optimizer that needs costs only, such as `optimizer: {type: "
+        "pso}`";
+  } else if (!residuals->can_linearize()) {
+    offer.no_jacobian =
+        "a term of this cost has no slopes of its residuals, or the backend does not draw on the "
+        "CPU. Write `jacobian: auto` or `numerical` in the optimizer";
+  }
+  check_requirements(requirements, offer);
+}
+
+}  // namespace hypotrack
