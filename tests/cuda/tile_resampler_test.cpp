@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "../geometry/tile_cases.hpp"
+#include "../core/camera/tile_cases.hpp"
 #include "device.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/cuda/runtime.cuh"

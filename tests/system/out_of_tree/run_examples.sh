@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# run_examples.sh BUILD_DIR SOURCE_DIR: installs BUILD_DIR into a temporary folder, builds examples/
+# against it and runs them on a rendered recording.
+set -euo pipefail
+build_dir=$1
+source_dir=$2
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
+
+fail() { echo "$1"; exit 1; }
+
+cmake --install "$build_dir" --prefix "$scratch/prefix" >"$scratch/install.log"
+hypotrack=$scratch/prefix/bin/hypotrack
+cd "$scratch"
+cp -r "$source_dir/examples/track_frames" "$source_dir/examples/plugin_source" .
+"$hypotrack" synth "$source_dir/configs/scenes/demo.yaml" --frames 4 --out recording
+python3 "$source_dir/tests/system/out_of_tree/make_euroc.py" recording euroc
+
+# A program that tracks, with a scene that names no source.
+cat >scene.yaml <<'END'
+models:
+  - {name: hand, type: hand}
+tracker: "@trackers/recommended"
+init:
+  pose:
+    hand: {position_mm: [60, 80, 500], rotation_deg: [180, 0, 0], angles_deg: {thumb_abduction: 25}}
+END
+cmake -S track_frames -B track_frames/build -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake --build track_frames/build
+track_frames/build/track_frames scene.yaml recording/calibration.yaml recording/left_000000.png \
+  recording/right_000000.png recording/left_000001.png recording/right_000001.png >tracked.txt
+cat tracked.txt
+[ "$(grep -c ': tracked$' tracked.txt)" = 2 ] || fail "not both frames were tracked"
+# The program prints what the run's own table of landmarks has, within its rounding of 0.1 mm.
+"$hypotrack" run scene.yaml --frames 2 --out result --set 'source={type: image_sequence,
+  left: recording/left_%06d.png, right: recording/right_%06d.png,
+  calibration: {file: recording/calibration.yaml}}'
+python3 - <<'END'
+import csv
+row = next(csv.DictReader(open("result/joints.csv")))
+printed = [line.split() for line in open("tracked.txt") if line.startswith("  ")]
+for name, *xyz, _ in printed[: len(printed) // 2]:
+    for axis, value in zip("xyz", xyz):
+        assert abs(float(value) - 1000 * float(row[f"{name}_{axis}"])) < 0.06, (name, axis, value)
+END
+track_frames/build/track_frames scene.yaml recording/calibration.yaml none.png none.png \
+  >/dev/null 2>message.txt && fail "a missing picture was tracked"
+grep -q 'view 0 has no image' message.txt || fail "unexpected message: $(cat message.txt)"
+
+# A source of one's own.
+mkdir plugin_source/build
+echo "folder: $scratch/euroc" >plugin_source/build/contract.yaml
+cmake -S plugin_source -B plugin_source/build -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake --build plugin_source/build
+ctest --test-dir plugin_source/build --output-on-failure
+cat >euroc.yaml <<'END'
+models:
+  - {name: hand, type: hand}
+source: {type: euroc, folder: euroc}
+tracker: "@trackers/recommended"
+init:
+  pose:
+    hand: {position_mm: [60, 80, 500], rotation_deg: [180, 0, 0], angles_deg: {thumb_abduction: 25}}
+END
+"$hypotrack" --plugin-path plugin_source/build run euroc.yaml --out euroc_result
+[ "$(grep -c ',tracked,' euroc_result/track.csv)" = 3 ] || fail "expected three tracked frames"
+[ "$(grep -c ',missing,' euroc_result/track.csv)" = 1 ] || fail "expected one missing frame"
