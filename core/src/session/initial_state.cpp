@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,17 +13,6 @@
 namespace hypotrack {
 
 Start::~Start() = default;
-
-ConfigNode start_node(const InitSettings& init, const ConfigNode& written) {
-  if (init.from.is_map()) return init.from;
-  std::array<std::pair<std::string, ConfigNode>, 3> entries;
-  entries[0] = {"type", init.from};
-  if (init.from.scalar() == kStartFromFile) {
-    entries[1] = {"file", written.get("file")};
-    entries[2] = {"frame", written.get("frame")};
-  }
-  return ConfigNode::map_of(entries);
-}
 
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame) {
   const Scene& scene = *session.scene;

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <string>
+#include <utility>
+
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -18,6 +22,17 @@ void refuse_old_keys(const ConfigNode& root) {
 }
 
 }  // namespace
+
+ConfigNode start_node(const InitSettings& init, const ConfigNode& written) {
+  if (init.from.is_map()) return init.from;
+  std::array<std::pair<std::string, ConfigNode>, 3> entries;
+  entries[0] = {"type", init.from};
+  if (init.from.scalar() == kStartFromFile) {
+    entries[1] = {"file", written.get("file")};
+    entries[2] = {"frame", written.get("frame")};
+  }
+  return ConfigNode::map_of(entries);
+}
 
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {
   LoadedScene scene;

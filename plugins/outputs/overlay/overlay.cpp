@@ -112,4 +112,4 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
 }  // namespace
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::Overlay, "overlay.mp4: the solution drawn on the first view", "")
+HYPOTRACK_PLUGIN(hypotrack::Overlay, "the solution drawn on the first view, overlay.mp4", "")
