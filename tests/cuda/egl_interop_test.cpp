@@ -90,7 +90,7 @@ class EglInterop : public testing::Test {
   Scene hand_scene_ = hand_scene();
 };
 
-TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_rectified_views) {
+TEST_F(EglInterop, GivesTheCostsOfTheCpuForRectifiedViews) {
   for (const Scene& scene : {hand_scene(), hand_and_box_scene(), two_hands_scene()}) {
     SCOPED_TRACE(scene.dimension());
     const Observation observation = rectified_pair(scene);
@@ -100,7 +100,7 @@ TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_rectified_views) {
   }
 }
 
-TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_any_two_views) {
+TEST_F(EglInterop, GivesTheCostsOfTheCpuForAnyTwoViews) {
   for (const Scene& scene : {hand_scene(), hand_and_box_scene(), two_hands_scene()}) {
     SCOPED_TRACE(scene.dimension());
     const Observation observation = general_pair(scene);
@@ -110,7 +110,7 @@ TEST_F(EglInterop, gives_the_costs_of_the_cpu_for_any_two_views) {
   }
 }
 
-TEST_F(EglInterop, takes_more_hypotheses_than_a_texture_has_layers) {
+TEST_F(EglInterop, TakesMoreHypothesesThanATextureHasLayers) {
   const Observation observation = rectified_pair(hand_scene_, 64);
   const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
@@ -118,7 +118,7 @@ TEST_F(EglInterop, takes_more_hypotheses_than_a_texture_has_layers) {
   expect_cpu_costs(*egl, hand_scene_, observation, random_states(hand_scene_, 2500));
 }
 
-TEST_F(EglInterop, takes_batches_of_changing_size) {
+TEST_F(EglInterop, TakesBatchesOfChangingSize) {
   const Observation observation = rectified_pair(hand_scene_);
   const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
@@ -130,7 +130,7 @@ TEST_F(EglInterop, takes_batches_of_changing_size) {
   }
 }
 
-TEST_F(EglInterop, follows_the_frame_to_other_tiles) {
+TEST_F(EglInterop, FollowsTheFrameToOtherTiles) {
   const auto egl = cost_on(hand_scene_, Backend::egl);
   const Eigen::MatrixXd states = random_states(hand_scene_, 6);
   for (const int size : {128, 96, 200, 128}) {
@@ -144,7 +144,7 @@ TEST_F(EglInterop, follows_the_frame_to_other_tiles) {
   expect_cpu_costs(*egl, hand_scene_, general, states);
 }
 
-TEST_F(EglInterop, lets_several_costs_live_at_once) {
+TEST_F(EglInterop, LetsSeveralCostsLiveAtOnce) {
   const Scene other = hand_and_box_scene();
   const Observation first_frame = rectified_pair(hand_scene_), second_frame = general_pair(other);
   auto first = cost_on(hand_scene_, Backend::egl);
@@ -159,7 +159,7 @@ TEST_F(EglInterop, lets_several_costs_live_at_once) {
   EXPECT_EQ(costs_of(*second, states), alone);
 }
 
-TEST_F(EglInterop, works_from_any_thread) {
+TEST_F(EglInterop, WorksFromAnyThread) {
   const Observation observation = rectified_pair(hand_scene_);
   const auto egl = cost_on(hand_scene_, Backend::egl);
   egl->prepare(observation);
@@ -170,7 +170,7 @@ TEST_F(EglInterop, works_from_any_thread) {
   EXPECT_EQ(here, there);
 }
 
-TEST_F(EglInterop, refuses_more_views_than_the_device_takes_and_goes_on) {
+TEST_F(EglInterop, RefusesMoreViewsThanTheDeviceTakesAndGoesOn) {
   const auto egl = cost_on(hand_scene_, Backend::egl);
   Observation many = rectified_pair(hand_scene_);
   many.rectified = false;

@@ -21,9 +21,10 @@ void check_frames(const FaultParams& fault, const ConfigNode& item) {
                   item.get("frames").where(), first, last));
 }
 
-/// Throws ConfigError if a key is given for another kind than `kind`.
-void check_use(const FaultParams& fault, const ConfigNode& item, const char* key, FaultKind kind) {
-  if (fault.kind == kind || !item.get(key).defined()) return;
+/// Throws ConfigError if a key that has a value belongs to another kind.
+void check_use(const FaultParams& fault, const ConfigNode& item, const char* key, bool has_value,
+               FaultKind kind) {
+  if (fault.kind == kind || !has_value) return;
   const auto name = [](FaultKind k) { return enum_names(k)[static_cast<std::size_t>(k)]; };
   throw ConfigError(fmt::format("{}: `{}` belongs to the kind {}; leave it out of the kind {}",
                                 item.get(key).where(), key, name(kind), name(fault.kind)));
@@ -59,8 +60,8 @@ Faults::Faults(const std::vector<FaultParams>& params, const ConfigNode& node, c
   for (std::size_t i = 0; i < params.size(); ++i) {
     const ConfigNode item = node.at(i);
     check_frames(params[i], item);
-    check_use(params[i], item, "model", FaultKind::absent);
-    check_use(params[i], item, "view", FaultKind::frozen);
+    check_use(params[i], item, "model", !params[i].model.empty(), FaultKind::absent);
+    check_use(params[i], item, "view", params[i].view.has_value(), FaultKind::frozen);
     Fault fault{static_cast<int>(params[i].frames[0]),
                 static_cast<int>(params[i].frames[1]),
                 params[i].kind,

@@ -41,7 +41,7 @@ std::vector<StateRow> some_states(const Scene& scene) {
   return rows;
 }
 
-TEST(MotionSpeeds, finds_the_peaks_and_means_of_every_model) {
+TEST(MotionSpeeds, FindsThePeaksAndMeansOfEveryModel) {
   const Scene scene = hand_and_box();
   const auto speeds = motion_speeds(scene, some_states(scene));
   ASSERT_EQ(speeds.size(), 2U);
@@ -61,7 +61,7 @@ TEST(MotionSpeeds, finds_the_peaks_and_means_of_every_model) {
   EXPECT_EQ(speeds[1].fastest_joint, "");
 }
 
-TEST(MotionSpeeds, does_not_count_over_missing_frames) {
+TEST(MotionSpeeds, DoesNotCountOverMissingFrames) {
   const Scene scene = hand_and_box();
   auto states = some_states(scene);
   states.erase(states.begin() + 2);
@@ -72,7 +72,7 @@ TEST(MotionSpeeds, does_not_count_over_missing_frames) {
   EXPECT_EQ(motion_speeds(scene, std::span(states).first(1))[0].translation.mean, 0);
 }
 
-TEST(MotionSpeeds, says_them_in_millimetres_and_degrees) {
+TEST(MotionSpeeds, SaysThemInMillimetresAndDegrees) {
   const Scene scene = hand_and_box();
   const auto speeds = motion_speeds(scene, some_states(scene));
   const auto json = nlohmann::json::parse(motion_json(speeds))["models"];

@@ -39,7 +39,7 @@ std::span<const double> span(const Eigen::VectorXd& v) {
   return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-TEST(LandmarkFit, finds_poses_from_landmarks_alone) {
+TEST(LandmarkFit, FindsPosesFromLandmarksAlone) {
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const Eigen::VectorXd truth = some_pose(random);
@@ -56,7 +56,7 @@ TEST(LandmarkFit, finds_poses_from_landmarks_alone) {
   }
 }
 
-TEST(LandmarkFit, finds_the_size_too_if_asked) {
+TEST(LandmarkFit, FindsTheSizeTooIfAsked) {
   std::mt19937_64 random(4);
   const Eigen::VectorXd truth = some_pose(random);
   const Eigen::Vector3d position = truth.head<3>();
@@ -68,7 +68,7 @@ TEST(LandmarkFit, finds_the_size_too_if_asked) {
   EXPECT_GT(fit_landmarks(hand(), landmarks, span(truth)).mean_distance, 1.5e-3);
 }
 
-TEST(LandmarkFit, passes_over_unknown_landmarks) {
+TEST(LandmarkFit, PassesOverUnknownLandmarks) {
   std::mt19937_64 random(5);
   const Eigen::VectorXd truth = some_pose(random);
   const Eigen::Matrix3Xd landmarks = posed_landmarks(hand(), span(truth));
@@ -80,7 +80,7 @@ TEST(LandmarkFit, passes_over_unknown_landmarks) {
   EXPECT_TRUE(fit.parameters.allFinite());
 }
 
-TEST(LandmarkFit, leaves_what_no_landmark_determines_at_the_prior) {
+TEST(LandmarkFit, LeavesWhatNoLandmarkDeterminesAtThePrior) {
   std::mt19937_64 random(8);
   const Eigen::VectorXd truth = some_pose(random);
   Eigen::Matrix3Xd landmarks = posed_landmarks(hand(), span(truth));
@@ -93,7 +93,7 @@ TEST(LandmarkFit, leaves_what_no_landmark_determines_at_the_prior) {
   EXPECT_LT(led.mean_distance, free.mean_distance);
 }
 
-TEST(LandmarkFit, keeps_angles_within_their_bounds) {
+TEST(LandmarkFit, KeepsAnglesWithinTheirBounds) {
   std::mt19937_64 random(6);
   for (int trial = 0; trial < 10; ++trial) {
     const Eigen::VectorXd truth = some_pose(random);
@@ -106,7 +106,7 @@ TEST(LandmarkFit, keeps_angles_within_their_bounds) {
   }
 }
 
-TEST(LandmarkFit, refuses_what_says_nothing) {
+TEST(LandmarkFit, RefusesWhatSaysNothing) {
   const Eigen::VectorXd rest = hand_scene().rest_state();
   Eigen::Matrix3Xd landmarks(3, 21);
   landmarks.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -118,7 +118,7 @@ TEST(LandmarkFit, refuses_what_says_nothing) {
               testing::HasSubstr("5 landmarks were given to a model that has 21"));
 }
 
-TEST(LandmarkFit, aligns_a_pose_as_a_rigid_body) {
+TEST(LandmarkFit, AlignsAPoseAsARigidBody) {
   std::mt19937_64 random(7);
   const Eigen::VectorXd truth = some_pose(random);
   Eigen::VectorXd elsewhere = truth;

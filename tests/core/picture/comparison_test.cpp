@@ -1,10 +1,11 @@
+#include "picture/comparison.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "picture/comparison.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {
@@ -40,7 +41,7 @@ class ComparisonTest : public testing::Test {
   Renderer renderer_{scene_};
 };
 
-TEST_F(ComparisonTest, shows_both_enlarged_over_a_legend) {
+TEST_F(ComparisonTest, ShowsBothEnlargedOverALegend) {
   const cv::Mat drawn = draw(pose(0.02), pose(0));
   EXPECT_EQ(std::max(drawn.cols, drawn.rows - kLegend), 640);
   EXPECT_GT(pixels(drawn, true), 500);
@@ -49,7 +50,7 @@ TEST_F(ComparisonTest, shows_both_enlarged_over_a_legend) {
   EXPECT_EQ(corner, cv::Vec3b(128, 128, 128)) << "there is room around them";
 }
 
-TEST_F(ComparisonTest, tints_the_solution_only) {
+TEST_F(ComparisonTest, TintsTheSolutionOnly) {
   const cv::Mat drawn = draw(pose(0.02), {});
   const int row = (drawn.rows - kLegend) / 2 + 40;
   const auto middle = drawn.at<cv::Vec3b>(row, drawn.cols / 2 + 40);
@@ -57,7 +58,7 @@ TEST_F(ComparisonTest, tints_the_solution_only) {
   EXPECT_EQ(pixels(drawn, false), 0);
 }
 
-TEST_F(ComparisonTest, draws_a_truth_of_which_only_landmarks_are_known) {
+TEST_F(ComparisonTest, DrawsATruthOfWhichOnlyLandmarksAreKnown) {
   ScenePose truth = pose(0);
   truth.state.resize(0);
   const int with_all = pixels(draw(pose(0.02), truth), false);
@@ -68,7 +69,7 @@ TEST_F(ComparisonTest, draws_a_truth_of_which_only_landmarks_are_known) {
   EXPECT_LT(with_one_unknown, with_all);
 }
 
-TEST_F(ComparisonTest, shows_the_whole_image_where_nothing_is_in_view) {
+TEST_F(ComparisonTest, ShowsTheWholeImageWhereNothingIsInView) {
   ScenePose away = pose(0);
   away.state[2] = -1;
   away.landmarks = scene_.landmarks(away.state);

@@ -129,19 +129,19 @@ void expect_agreement(const Scene& scene, const Observation& observation,
   }
 }
 
-TEST(EglHypotheses, have_the_depth_that_the_cpu_draws) {
+TEST(EglHypotheses, HaveTheDepthThatTheCpuDraws) {
   const Scene scene = scene_of_hand_and_box();
   expect_agreement(scene, observation_of(scene), random_states(scene, 12));
 }
 
-TEST(EglHypotheses, come_in_any_number) {
+TEST(EglHypotheses, ComeInAnyNumber) {
   const Scene scene = scene_of_hand_and_box();
   // More tiles than are read back at once.
   expect_agreement(scene, observation_of(scene, 256), random_states(scene, 35));
   expect_agreement(scene, observation_of(scene), random_states(scene, 0));
 }
 
-TEST(EglHypotheses, follow_the_frame) {
+TEST(EglHypotheses, FollowTheFrame) {
   const Scene scene = scene_of_hand_and_box();
   const auto egl = make_egl_renderer(scene, 1);
   const Eigen::MatrixXd states = random_states(scene, 1);
@@ -171,14 +171,14 @@ class SelfPosed final : public Model {
   }
 };
 
-TEST(EglHypotheses, draw_models_that_pose_themselves) {
+TEST(EglHypotheses, DrawModelsThatPoseThemselves) {
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
   models.emplace_back("own", std::make_shared<SelfPosed>());
   const Scene scene(std::move(models));
   expect_agreement(scene, observation_of(scene), random_states(scene, 5));
 }
 
-TEST(EglHypotheses, draw_nothing_of_a_state_that_is_out_of_reach) {
+TEST(EglHypotheses, DrawNothingOfAStateThatIsOutOfReach) {
   const Scene scene = scene_of_hand_and_box();
   const auto egl = make_egl_renderer(scene, 1);
   const Observation observation = observation_of(scene);
@@ -193,7 +193,7 @@ TEST(EglHypotheses, draw_nothing_of_a_state_that_is_out_of_reach) {
   EXPECT_THAT(tiles.at(2)[0], testing::Contains(testing::Gt(1.0F)));
 }
 
-TEST(EglHypotheses, can_be_drawn_from_any_thread_and_pass_exceptions_on) {
+TEST(EglHypotheses, CanBeDrawnFromAnyThreadAndPassExceptionsOn) {
   const Scene scene = scene_of_hand_and_box();
   const auto egl = make_egl_renderer(scene, 2);
   const Observation observation = observation_of(scene);
@@ -208,7 +208,7 @@ TEST(EglHypotheses, can_be_drawn_from_any_thread_and_pass_exceptions_on) {
   EXPECT_EQ(render(*egl, states), here) << "usable after an exception";
 }
 
-TEST(EglHypotheses, name_the_tiles_that_opengl_cannot_draw_to) {
+TEST(EglHypotheses, NameTheTilesThatOpenglCannotDrawTo) {
   const Scene scene = scene_of_hand_and_box();
   const auto egl = make_egl_renderer(scene, 1);
   const Observation small = observation_of(scene, 64), large = observation_of(scene, 1 << 17);
@@ -219,7 +219,7 @@ TEST(EglHypotheses, name_the_tiles_that_opengl_cannot_draw_to) {
   EXPECT_EQ(render(*egl, random_states(scene, 1)).size(), 1U) << "usable after an exception";
 }
 
-TEST(EglHypotheses, leave_nothing_of_the_batch_before) {
+TEST(EglHypotheses, LeaveNothingOfTheBatchBefore) {
   const Scene scene = scene_of_hand_and_box();
   const Observation observation = observation_of(scene);
   const auto used = make_egl_renderer(scene, 1), fresh = make_egl_renderer(scene, 1);
@@ -242,7 +242,7 @@ class Coverage final : public Objective {
   }
 };
 
-TEST(EglHypotheses, are_scored_on_the_cpu_if_need_be_and_the_backend_says_why) {
+TEST(EglHypotheses, AreScoredOnTheCpuIfNeedBeAndTheBackendSaysWhy) {
   const Scene scene = scene_of_hand_and_box();
   EvaluateSettings settings;
   settings.backend = Backend::egl;

@@ -1,14 +1,15 @@
+#include "hypotrack/overlay.hpp"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
-#include "hypotrack/overlay.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {
 namespace {
 
-TEST(Overlay, colours_the_models_and_leaves_the_rest_alone) {
+TEST(Overlay, ColoursTheModelsAndLeavesTheRestAlone) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({parallelogram({-0.06, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0}),
                                 parallelogram({0.06, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0})});
@@ -25,7 +26,7 @@ TEST(Overlay, colours_the_models_and_leaves_the_rest_alone) {
   EXPECT_EQ(image.at<cv::Vec3b>(120, 120), cv::Vec3b(128, 128, 128)) << "the input is not touched";
 }
 
-TEST(Overlay, marks_where_a_model_lies_before_itself) {
+TEST(Overlay, MarksWhereAModelLiesBeforeItself) {
   const Camera camera = camera_at_origin();
   Mesh steps = parallelogram({0, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0});  // and half of it nearer
   const Mesh nearer = parallelogram({0.02, 0, 0.45}, {0.02, 0, 0}, {0, -0.04, 0});
@@ -51,7 +52,7 @@ TEST(Overlay, marks_where_a_model_lies_before_itself) {
   EXPECT_LT(darkest, 0.5 * brightest);
 }
 
-TEST(Overlay, outlines_without_filling_at_opacity_zero) {
+TEST(Overlay, OutlinesWithoutFillingAtOpacityZero) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({parallelogram({0, 0, 0.5}, {0.05, 0, 0}, {0, -0.05, 0})});
   const cv::Mat image(camera.height, camera.width, CV_8UC3, cv::Scalar(128, 128, 128));

@@ -1,21 +1,21 @@
+#include "hypotrack/picture.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "hypotrack/picture.hpp"
-
 namespace hypotrack::test {
 namespace {
 
-TEST(Picture, is_the_colour_where_there_is_colour) {
+TEST(Picture, IsTheColourWhereThereIsColour) {
   View view;
   view.color = cv::Mat(3, 4, CV_8UC3, cv::Scalar(1, 2, 3));
   view.depth = cv::Mat(3, 4, CV_32F, cv::Scalar(0.5));
   EXPECT_EQ(picture_of(view).data, view.color.data);
 }
 
-TEST(Picture, of_depth_is_brighter_the_nearer_and_black_where_nothing_was_measured) {
+TEST(Picture, OfDepthIsBrighterTheNearerAndBlackWhereNothingWasMeasured) {
   View view;
   view.depth = cv::Mat(20, 50, CV_32F);
   for (int x = 0; x < 50; ++x) view.depth.col(x) = 0.4 + 0.02 * x;
@@ -37,7 +37,7 @@ TEST(Picture, of_depth_is_brighter_the_nearer_and_black_where_nothing_was_measur
   EXPECT_LT(picture.at<cv::Vec3b>(10, 48)[0], 60);
 }
 
-TEST(Picture, of_depth_is_black_where_nothing_was_measured_at_all) {
+TEST(Picture, OfDepthIsBlackWhereNothingWasMeasuredAtAll) {
   View view;
   view.depth = cv::Mat::zeros(3, 4, CV_32F);
   EXPECT_EQ(cv::norm(picture_of(view), cv::NORM_INF), 0);

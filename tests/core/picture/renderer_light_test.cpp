@@ -23,7 +23,7 @@ cv::Vec3b center_color(const Scene& scene, const RenderStyle& style) {
   return view.color.at<cv::Vec3b>(cvRound(camera.cy), cvRound(camera.cx));
 }
 
-TEST(RendererLight, ambient_one_shows_the_texture_as_it_is) {
+TEST(RendererLight, AmbientOneShowsTheTextureAsItIs) {
   // Blocks of 16x16 texels, wide enough on screen that filtering leaves their centres alone.
   Mesh mesh = wall();
   mesh.texture.create(64, 64, CV_8UC3);
@@ -49,7 +49,7 @@ TEST(RendererLight, ambient_one_shows_the_texture_as_it_is) {
   }
 }
 
-TEST(RendererLight, shades_by_the_cosine_of_the_light) {
+TEST(RendererLight, ShadesByTheCosineOfTheLight) {
   const Scene scene = scene_of({wall()});
   for (const double angle : {0.0, 0.6, 1.2}) {
     const RenderStyle style{
@@ -62,13 +62,13 @@ TEST(RendererLight, shades_by_the_cosine_of_the_light) {
   }
 }
 
-TEST(RendererLight, leaves_what_faces_away_to_the_ambient_term) {
+TEST(RendererLight, LeavesWhatFacesAwayToTheAmbientTerm) {
   const RenderStyle style{
       .ambient = 0.25, .diffuse = 0.5, .specular = 0.5, .light_direction = {0, 0, -1}};
   EXPECT_NEAR(center_color(scene_of({wall()}), style)[2], 255 * 0.8 * 0.25, 1);
 }
 
-TEST(RendererLight, highlights_where_the_light_is_mirrored) {
+TEST(RendererLight, HighlightsWhereTheLightIsMirrored) {
   const Scene scene = scene_of({wall({0.2F, 0.2F, 0.2F})});
   RenderStyle style{.ambient = 0.5, .specular = 0.4, .light_direction = {0, 0, 1}};
   EXPECT_NEAR(center_color(scene, style)[1], 255 * (0.1 + 0.4), 2);
@@ -77,7 +77,7 @@ TEST(RendererLight, highlights_where_the_light_is_mirrored) {
   EXPECT_NEAR(center_color(scene, style)[1], 255 * (0.1 + highlight), 2);
 }
 
-TEST(RendererLight, draws_the_edges_of_a_box_sharp) {
+TEST(RendererLight, DrawsTheEdgesOfABoxSharp) {
   const Scene scene = scene_of({box({0.05F, 0.05F, 0.05F})});
   Eigen::VectorXd state = scene.rest_state();
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX()) *
@@ -97,7 +97,7 @@ TEST(RendererLight, draws_the_edges_of_a_box_sharp) {
   EXPECT_GT(*shades.rbegin() - *shades.begin(), 30);
 }
 
-TEST(RendererLight, draws_a_curved_surface_smooth) {
+TEST(RendererLight, DrawsACurvedSurfaceSmooth) {
   // A roof of two faces that meet at 20 degrees: smooth, so the shade changes across each face.
   Mesh mesh;
   const auto z = static_cast<float>(0.5 + 0.1 * std::tan(10 * M_PI / 180));
@@ -124,7 +124,7 @@ TEST(RendererLight, draws_a_curved_surface_smooth) {
   EXPECT_NEAR(shade_at(-0.003), shade_at(0.003), 4) << "no step at the ridge";
 }
 
-TEST(RendererLight, blends_edges_with_the_background) {
+TEST(RendererLight, BlendsEdgesWithTheBackground) {
   const Scene scene = scene_of({wall({1, 1, 1})});
   Camera camera = camera_at_origin();
   camera.camera_from_world.linear() =

@@ -1,3 +1,5 @@
+#include "hypotrack/renderer.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,7 +9,6 @@
 #include <thread>
 
 #include "hypotrack/error.hpp"
-#include "hypotrack/renderer.hpp"
 #include "render_scenes.hpp"
 
 namespace hypotrack::test {
@@ -29,12 +30,12 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
          std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
 }
 
-TEST(Renderer, says_what_draws) {
+TEST(Renderer, SaysWhatDraws) {
   const Scene scene = scene_of({box({0.1F, 0.1F, 0.1F})});
   EXPECT_THAT(Renderer(scene).device(), HasSubstr("OpenGL"));
 }
 
-TEST(Renderer, covers_exactly_the_pixels_whose_centres_are_inside) {
+TEST(Renderer, CoversExactlyThePixelsWhoseCentresAreInside) {
   const Camera camera = camera_at_origin();
   for (const double shift : {-0.02, 0.02}) {
     const Scene scene =
@@ -46,7 +47,7 @@ TEST(Renderer, covers_exactly_the_pixels_whose_centres_are_inside) {
   }
 }
 
-TEST(Renderer, draws_a_point_where_project_says) {
+TEST(Renderer, DrawsAPointWhereProjectSays) {
   Camera camera = camera_at_origin();
   camera.camera_from_world = Eigen::Translation3d(0.02, -0.01, 0.1) *
                              Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -0.5).normalized());
@@ -64,7 +65,7 @@ TEST(Renderer, draws_a_point_where_project_says) {
   }
 }
 
-TEST(Renderer, gives_the_depth_of_a_slanted_plane) {
+TEST(Renderer, GivesTheDepthOfASlantedPlane) {
   const Camera camera = camera_at_origin();
   const Eigen::Vector3d center(0.01, -0.02, 0.6), u(0.2, 0.02, 0.25), v(0.03, -0.2, 0.1);
   const Scene scene = scene_of({parallelogram(center, u, v)});
@@ -85,7 +86,7 @@ TEST(Renderer, gives_the_depth_of_a_slanted_plane) {
   EXPECT_GT(seen, 10000);
 }
 
-TEST(Renderer, shows_the_nearer_model_and_labels_it) {
+TEST(Renderer, ShowsTheNearerModelAndLabelsIt) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({rectangle(camera, 49.5, 49.5, 149.5, 149.5, 0.6),
                                 rectangle(camera, 99.5, 99.5, 199.5, 199.5, 0.5)});
@@ -97,7 +98,7 @@ TEST(Renderer, shows_the_nearer_model_and_labels_it) {
   EXPECT_EQ(spot(view.label, 2).box, cv::Rect(100, 100, 100, 100));
 }
 
-TEST(Renderer, leaves_hidden_models_out) {
+TEST(Renderer, LeavesHiddenModelsOut) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of(
       {rectangle(camera, 100, 60, 140, 90, 0.5), rectangle(camera, 120, 60, 160, 90, 0.6)});
@@ -113,7 +114,7 @@ TEST(Renderer, leaves_hidden_models_out) {
   EXPECT_NEAR(pixels({}, 1), 40 * 30, 75);
 }
 
-TEST(Renderer, moves_a_model_with_its_state) {
+TEST(Renderer, MovesAModelWithItsState) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({box({0.02F, 0.02F, 0.02F})});
   Renderer renderer(scene);
@@ -127,7 +128,7 @@ TEST(Renderer, moves_a_model_with_its_state) {
   EXPECT_GT(cv::countNonZero(near.label), 3 * cv::countNonZero(far.label));
 }
 
-TEST(Renderer, draws_the_same_picture_whatever_part_of_it_is_in_sight) {
+TEST(Renderer, DrawsTheSamePictureWhateverPartOfItIsInSight) {
   const Camera whole = camera_at_origin();
   Camera part = whole;
   part.width = 150;
@@ -147,7 +148,7 @@ TEST(Renderer, draws_the_same_picture_whatever_part_of_it_is_in_sight) {
   EXPECT_LT(difference, 1e-5);
 }
 
-TEST(Renderer, leaves_the_background_where_nothing_is) {
+TEST(Renderer, LeavesTheBackgroundWhereNothingIs) {
   const Camera camera = camera_at_origin();
   cv::Mat background(camera.height, camera.width, CV_8UC3, cv::Scalar(10, 120, 240));
   const Scene scene = scene_of({box({0.02F, 0.02F, 0.02F})});
@@ -162,7 +163,7 @@ TEST(Renderer, leaves_the_background_where_nothing_is) {
   }
 }
 
-TEST(Renderer, cuts_a_model_that_reaches_behind_the_camera) {
+TEST(Renderer, CutsAModelThatReachesBehindTheCamera) {
   const Camera camera = camera_at_origin();
   // A floor 5 cm below the camera, from behind it to 2 m before it.
   const Scene scene = scene_of({parallelogram({0, 0.05, 0.5}, {0.3, 0, 0}, {0, 0, 1.5})});
@@ -196,7 +197,7 @@ Eigen::Vector2d projected_centroid(const Camera& camera, const Eigen::Matrix3Xf&
   return moment / area;
 }
 
-TEST_P(RendererLens, draws_a_point_where_project_says) {
+TEST_P(RendererLens, DrawsAPointWhereProjectSays) {
   Camera camera = camera_at_origin(320, 240, 240);
   camera.distortion_model = GetParam().model;
   camera.distortion = GetParam().coefficients;
@@ -234,7 +235,7 @@ INSTANTIATE_TEST_SUITE_P(
         LensCase{"fisheye", DistortionModel::fisheye, {-0.02, 0.01, -0.004, 0.001}}),
     [](const auto& param_info) { return std::string(param_info.param.name); });
 
-TEST(Renderer, keeps_colours_through_a_lens) {
+TEST(Renderer, KeepsColoursThroughALens) {
   Camera camera = camera_at_origin();
   camera.distortion_model = DistortionModel::brown;
   camera.distortion = {-0.2, 0.05, 0, 0};
@@ -247,7 +248,7 @@ TEST(Renderer, keeps_colours_through_a_lens) {
   EXPECT_EQ(view.color.at<cv::Vec3b>(5, 5), cv::Vec3b(9, 8, 7));
 }
 
-TEST(Renderer, repeats_itself_to_the_byte) {
+TEST(Renderer, RepeatsItselfToTheByte) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({box({0.1F, 0.06F, 0.05F})});
   Eigen::VectorXd state = scene.rest_state();
@@ -259,7 +260,7 @@ TEST(Renderer, repeats_itself_to_the_byte) {
   EXPECT_TRUE(same(a.depth, b.depth));
 }
 
-TEST(Renderer, can_be_handed_from_thread_to_thread) {
+TEST(Renderer, CanBeHandedFromThreadToThread) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({rectangle(camera, 99.5, 99.5, 119.5, 119.5, 0.5)});
   Renderer renderer(scene);
@@ -289,7 +290,7 @@ std::string message_of(F&& f) {
   return "no DataError";
 }
 
-TEST(Renderer, refuses_what_it_cannot_draw) {
+TEST(Renderer, RefusesWhatItCannotDraw) {
   const Camera camera = camera_at_origin();
   const Scene scene = scene_of({box({0.1F, 0.1F, 0.1F})});
   Renderer renderer(scene);

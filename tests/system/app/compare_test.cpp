@@ -1,6 +1,6 @@
-#include <nlohmann/json.hpp>
-
 #include "compare_test.hpp"
+
+#include <nlohmann/json.hpp>
 
 namespace hypotrack::test {
 namespace {

@@ -26,7 +26,7 @@ constexpr int kStep = 3;                  // frames
 class Motion : public testing::TestWithParam<std::pair<const char*, int>> {};
 class PapersMotion : public Motion {};
 
-TEST_P(PapersMotion, has_the_length_of_the_papers) {
+TEST_P(PapersMotion, HasTheLengthOfThePapers) {
   EXPECT_EQ(load_dataset(GetParam().first).states.size(), GetParam().second);
 }
 
@@ -41,7 +41,7 @@ TEST_P(PapersMotion,
   }
 }
 
-TEST_P(Motion, stays_within_the_models_bounds_and_both_views) {
+TEST_P(Motion, StaysWithinTheModelsBoundsAndBothViews) {
   const Dataset dataset = load_dataset(GetParam().first);
   constexpr double kFocal = 700, kBaseline = 0.12, kMargin = 10;
   for (const StateRow& row : dataset.states) {
@@ -57,7 +57,7 @@ TEST_P(Motion, stays_within_the_models_bounds_and_both_views) {
   }
 }
 
-TEST_P(Motion, puts_no_finger_through_another) {
+TEST_P(Motion, PutsNoFingerThroughAnother) {
   const Dataset dataset = load_dataset(GetParam().first);
   for (std::size_t m = 0; m < dataset.scene.items().size(); ++m) {
     const ModelData& model = dataset.scene.items()[m].model->data();
@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Tuning, Motion,
                                          std::pair("hand_and_box", 110)),
                          kName);
 
-TEST(FastHand, bends_its_fingers_by_eleven_degrees_per_frame) {
+TEST(FastHand, BendsItsFingersByElevenDegreesPerFrame) {
   const Dataset dataset = load_dataset("datasets/shf");
   ASSERT_EQ(dataset.states.size(), 376);
   const auto speeds = motion_speeds(dataset.scene, dataset.states);
@@ -105,7 +105,7 @@ double clearance_between(const Dataset& dataset, int frame) {
                    dataset.scene.items()[1].model->data().mesh.triangles);
 }
 
-TEST(HandAndObject, the_hand_is_never_inside_the_box_and_touches_it_while_it_holds_it) {
+TEST(HandAndObject, TheHandIsNeverInsideTheBoxAndTouchesItWhileItHoldsIt) {
   const Dataset dataset = load_dataset("datasets/ho");
   for (int f = 0; f < 545; f += kStep)
     EXPECT_LT(penetration_between(dataset, f), kPressed) << "frame " << f;
@@ -114,7 +114,7 @@ TEST(HandAndObject, the_hand_is_never_inside_the_box_and_touches_it_while_it_hol
   for (const int f : {0, 390}) EXPECT_GT(clearance_between(dataset, f), 10e-3) << "frame " << f;
 }
 
-TEST(HandAndObject, the_hand_of_the_short_scene_is_never_inside_the_box_and_holds_it) {
+TEST(HandAndObject, TheHandOfTheShortSceneIsNeverInsideTheBoxAndHoldsIt) {
   const Dataset dataset = load_dataset("hand_and_box");
   for (int f = 0; f < 110; f += kStep) {
     EXPECT_LT(penetration_between(dataset, f), kPressed) << "frame " << f;
@@ -122,7 +122,7 @@ TEST(HandAndObject, the_hand_of_the_short_scene_is_never_inside_the_box_and_hold
   }
 }
 
-TEST(HandAndObject, the_box_moves_only_with_the_hand) {
+TEST(HandAndObject, TheBoxMovesOnlyWithTheHand) {
   const Dataset dataset = load_dataset("datasets/ho");
   const int offset = dataset.scene.items()[1].offset;
   const auto box = [&](int frame) -> Eigen::Vector3d {
@@ -134,7 +134,7 @@ TEST(HandAndObject, the_box_moves_only_with_the_hand) {
   EXPECT_GT((box(544) - box(446)).norm(), 0.1);
 }
 
-TEST(TwoHands, never_pass_through_each_other) {
+TEST(TwoHands, NeverPassThroughEachOther) {
   for (const char* name : {"datasets/th", "tuning/two_hands_cross"}) {
     const Dataset dataset = load_dataset(name);
     for (int f = 0; f < static_cast<int>(dataset.states.size()); f += kStep)
@@ -142,13 +142,13 @@ TEST(TwoHands, never_pass_through_each_other) {
   }
 }
 
-TEST(TwoHands, touch_with_fingertips_palms_a_finger_and_a_fist) {
+TEST(TwoHands, TouchWithFingertipsPalmsAFingerAndAFist) {
   const Dataset dataset = load_dataset("datasets/th");
   for (const int f : {340, 415, 430, 526, 618})
     EXPECT_LT(clearance_between(dataset, f), 1.5e-3) << "frame " << f;
 }
 
-TEST(TwoHands, hide_each_other) {
+TEST(TwoHands, HideEachOther) {
   const Dataset dataset = load_dataset("datasets/th");
   // In the middle of each crossing the palms lie behind each other as the camera sees them.
   for (const int f : {102, 236}) {

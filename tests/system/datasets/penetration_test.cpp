@@ -17,14 +17,14 @@ double penetration_of(const Eigen::Vector3f& point) {
   return penetration(points, box().vertices, box().triangles);
 }
 
-TEST(Penetration, is_the_way_out_of_a_box) {
+TEST(Penetration, IsTheWayOutOfABox) {
   EXPECT_NEAR(penetration_of({0, 0, 0}), 0.02, 1e-6);
   EXPECT_NEAR(penetration_of({0.027f, 0.01f, 0.05f}), 0.003, 1e-6);
   EXPECT_EQ(penetration_of({0.031f, 0, 0}), 0);
   EXPECT_EQ(penetration_of({0, 0, 0.5f}), 0);
 }
 
-TEST(Penetration, takes_the_deepest_point) {
+TEST(Penetration, TakesTheDeepestPoint) {
   Eigen::Matrix3Xf points(3, 3);
   points << 0.029f, 0.5f, 0.025f,  //
       0, 0, 0,                     //
@@ -32,7 +32,7 @@ TEST(Penetration, takes_the_deepest_point) {
   EXPECT_NEAR(penetration(points, box().vertices, box().triangles), 0.005, 1e-6);
 }
 
-TEST(Penetration, winds_once_around_the_inside_and_by_half_behind_a_lid) {
+TEST(Penetration, WindsOnceAroundTheInsideAndByHalfBehindALid) {
   EXPECT_NEAR(winding_number({0.01f, 0, 0}, box().vertices, box().triangles), 1, 1e-5);
   EXPECT_NEAR(winding_number({0.05f, 0, 0}, box().vertices, box().triangles), 0, 1e-5);
   Eigen::Matrix3Xf lid(3, 4);
@@ -43,7 +43,7 @@ TEST(Penetration, winds_once_around_the_inside_and_by_half_behind_a_lid) {
   EXPECT_NEAR(winding_number({0, 0, 0.001f}, lid, triangles), -0.5, 0.01);
 }
 
-TEST(Clearance, is_the_distance_to_face_edge_and_corner) {
+TEST(Clearance, IsTheDistanceToFaceEdgeAndCorner) {
   const auto clearance_of = [](const Eigen::Vector3f& point) {
     const Eigen::Matrix3Xf points = point;
     return clearance(points, box().vertices, box().triangles);

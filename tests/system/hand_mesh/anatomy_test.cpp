@@ -27,7 +27,7 @@ double breadth(const std::vector<Vector3d>& vertices, const Keep& keep) {
   return high - low;
 }
 
-TEST(HandAnatomy, has_twenty_one_bones_in_a_hierarchy_from_the_wrist) {
+TEST(HandAnatomy, HasTwentyOneBonesInAHierarchyFromTheWrist) {
   const auto& bones = the_hand().skeleton;
   ASSERT_EQ(bones.size(), 21u);
   EXPECT_EQ(bones[0].name, "wrist");
@@ -40,7 +40,7 @@ TEST(HandAnatomy, has_twenty_one_bones_in_a_hierarchy_from_the_wrist) {
   EXPECT_EQ(bones[bone_index(1, 3)].parent, bone_index(1, 2));
 }
 
-TEST(HandAnatomy, has_the_bone_lengths_of_the_table) {
+TEST(HandAnatomy, HasTheBoneLengthsOfTheTable) {
   for (int d = 1; d < kDigits; ++d) {
     const DigitMeasures& m = digit_measures()[d];
     const auto joint = [&](int k) {
@@ -52,7 +52,7 @@ TEST(HandAnatomy, has_the_bone_lengths_of_the_table) {
   }
 }
 
-TEST(HandAnatomy, is_as_long_and_broad_as_the_average_hand) {
+TEST(HandAnatomy, IsAsLongAndBroadAsTheAverageHand) {
   const std::vector<Vector3d> flat = posed(flat_angles());
   double longest = 0;
   for (const Vector3d& v : flat) longest = std::max(longest, v.y());
@@ -65,7 +65,7 @@ TEST(HandAnatomy, is_as_long_and_broad_as_the_average_hand) {
   EXPECT_NEAR(breadth(flat, around_the_wrist), kWristBreadth, 0.05 * kWristBreadth);
 }
 
-TEST(HandAnatomy, has_fingers_as_broad_as_measured) {
+TEST(HandAnatomy, HasFingersAsBroadAsMeasured) {
   const HandAsset& hand = the_hand();
   for (int d = 0; d < kDigits; ++d) {
     const DigitMeasures& m = digit_measures()[d];
@@ -84,14 +84,14 @@ TEST(HandAnatomy, has_fingers_as_broad_as_measured) {
   }
 }
 
-TEST(HandAnatomy, ends_shortly_behind_the_wrist) {
+TEST(HandAnatomy, EndsShortlyBehindTheWrist) {
   double lowest = 0;
   for (const Vector3d& v : the_hand().mesh.vertices) lowest = std::min(lowest, v.y());
   EXPECT_LE(-lowest, 20);
   EXPECT_GE(-lowest, 5);
 }
 
-TEST(HandAnatomy, is_flat_and_straight_at_zero_angles) {
+TEST(HandAnatomy, IsFlatAndStraightAtZeroAngles) {
   const auto bones = pose_skeleton(flat_angles());
   for (int d = 1; d < kDigits; ++d) {
     const Vector3d finger = tip(bones, d) - bones[bone_index(d, 1)].translation();
@@ -99,7 +99,7 @@ TEST(HandAnatomy, is_flat_and_straight_at_zero_angles) {
   }
 }
 
-TEST(HandAnatomy, flexes_towards_the_palm_and_abducts_towards_the_thumb) {
+TEST(HandAnatomy, FlexesTowardsThePalmAndAbductsTowardsTheThumb) {
   for (int d = 0; d < kDigits; ++d)
     for (int k = 0; k < 4; ++k) {
       DigitAngles bent = flat_angles();
@@ -111,7 +111,7 @@ TEST(HandAnatomy, flexes_towards_the_palm_and_abducts_towards_the_thumb) {
     }
 }
 
-TEST(HandAnatomy, keeps_the_fingers_apart_at_the_bind_pose) {
+TEST(HandAnatomy, KeepsTheFingersApartAtTheBindPose) {
   const HandAsset& hand = the_hand();
   const auto digit_of = [&](size_t v) {
     const int bone = hand.weights[v].bones[0];

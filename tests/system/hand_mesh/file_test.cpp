@@ -72,13 +72,13 @@ cv::Mat embedded_texture(const Glb& glb) {
                       cv::IMREAD_COLOR);
 }
 
-TEST(HandFile, is_the_same_bytes_on_every_run) {
+TEST(HandFile, IsTheSameBytesOnEveryRun) {
   const std::string again = to_glb(make_hand(the_hand().texture.cols));
   EXPECT_TRUE(again == to_glb(the_hand()));
 }
 
 // Another processor's sines may differ in their last bit.
-TEST(HandFile, is_what_the_generator_makes) {
+TEST(HandFile, IsWhatTheGeneratorMakes) {
   const Glb made = parse(to_glb(the_hand()));
   const Glb file = parse(committed_file());
   EXPECT_LE(cv::norm(embedded_texture(file), the_hand().texture, cv::NORM_INF), 1);
@@ -92,7 +92,7 @@ TEST(HandFile, is_what_the_generator_makes) {
   }
 }
 
-TEST(HandFile, is_a_well_formed_glb) {
+TEST(HandFile, IsAWellFormedGlb) {
   const std::string bytes = committed_file();
   ASSERT_GT(bytes.size(), 100'000u);
   EXPECT_EQ(bytes.substr(0, 4), "glTF");
@@ -108,13 +108,13 @@ TEST(HandFile, is_a_well_formed_glb) {
   }
 }
 
-TEST(HandFile, embeds_the_texture_as_png) {
+TEST(HandFile, EmbedsTheTextureAsPng) {
   const cv::Mat image = embedded_texture(parse(to_glb(the_hand())));
   ASSERT_EQ(image.size(), the_hand().texture.size());
   EXPECT_EQ(cv::norm(image, the_hand().texture, cv::NORM_INF), 0);
 }
 
-TEST(HandFile, has_inverse_bind_matrices_that_fit_the_nodes) {
+TEST(HandFile, HasInverseBindMatricesThatFitTheNodes) {
   const Glb glb = parse(committed_file());
   const json& skin = glb.document["skins"][0];
   const json accessor = glb.document["accessors"][skin["inverseBindMatrices"].get<int>()];
@@ -140,7 +140,7 @@ TEST(HandFile, has_inverse_bind_matrices_that_fit_the_nodes) {
   }
 }
 
-TEST(HandFile, loads_through_assimp_with_all_bones_in_metres) {
+TEST(HandFile, LoadsThroughAssimpWithAllBonesInMetres) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(HAND_FILE, aiProcess_ValidateDataStructure);
   ASSERT_NE(scene, nullptr) << importer.GetErrorString();
@@ -164,7 +164,7 @@ TEST(HandFile, loads_through_assimp_with_all_bones_in_metres) {
     EXPECT_TRUE(names.contains(bone.name)) << bone.name;
 }
 
-TEST(HandRig, names_every_bone_and_ends_the_digits_at_their_tips) {
+TEST(HandRig, NamesEveryBoneAndEndsTheDigitsAtTheirTips) {
   const YAML::Node rig =
       YAML::LoadFile((test::source_dir() / "configs/rigs/hypotrack_hand.yaml").string());
   ASSERT_EQ(rig["bones"].size(), the_hand().skeleton.size());

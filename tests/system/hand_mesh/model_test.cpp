@@ -18,7 +18,7 @@ std::unique_ptr<Model> default_hand() {
   return plugins.make<Model>(ConfigNode::parse("type: hand\n", "scene.yaml"));
 }
 
-TEST(HandModel, is_the_generated_hand) {
+TEST(HandModel, IsTheGeneratedHand) {
   const std::unique_ptr<Model> model = default_hand();
   const ModelData& data = model->data();
   EXPECT_EQ(model->dimension(), 27);
@@ -29,7 +29,7 @@ TEST(HandModel, is_the_generated_hand) {
 }
 
 /// The rig has to find the zero pose and the axes that the generator had in mind.
-TEST(HandModel, stands_as_the_generator_would_in_any_pose) {
+TEST(HandModel, StandsAsTheGeneratorWouldInAnyPose) {
   const std::unique_ptr<Model> model = default_hand();
   const ModelData& data = model->data();
   std::mt19937 random(1);
@@ -53,7 +53,7 @@ TEST(HandModel, stands_as_the_generator_would_in_any_pose) {
   }
 }
 
-TEST(HandModel, has_its_fingertips_on_the_skin) {
+TEST(HandModel, HasItsFingertipsOnTheSkin) {
   const std::unique_ptr<Model> model = default_hand();
   const ModelData& data = model->data();
   const auto bones = bind_transforms(data);

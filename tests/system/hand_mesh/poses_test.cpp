@@ -34,7 +34,7 @@ double breadth(const std::vector<int>& vertices, const std::vector<Vector3d>& po
   return high - low;
 }
 
-TEST(HandSkinning, gives_every_vertex_weights_that_sum_to_one) {
+TEST(HandSkinning, GivesEveryVertexWeightsThatSumToOne) {
   for (const VertexWeights& w : the_hand().weights) {
     double sum = 0;
     for (int i = 0; i < 4; ++i) {
@@ -48,14 +48,14 @@ TEST(HandSkinning, gives_every_vertex_weights_that_sum_to_one) {
   }
 }
 
-TEST(HandSkinning, gives_every_bone_skin) {
+TEST(HandSkinning, GivesEveryBoneSkin) {
   std::array<double, kBones> held{};
   for (const VertexWeights& w : the_hand().weights)
     for (int i = 0; i < 4; ++i) held[w.bones[i]] += w.weights[i];
   for (int b = 0; b < kBones; ++b) EXPECT_GT(held[b], 1) << the_hand().skeleton[b].name;
 }
 
-TEST(HandSkinning, changes_smoothly_along_edges) {
+TEST(HandSkinning, ChangesSmoothlyAlongEdges) {
   const HandAsset& hand = the_hand();
   const auto weight = [&](int v, int bone) {
     double sum = 0;
@@ -72,7 +72,7 @@ TEST(HandSkinning, changes_smoothly_along_edges) {
       }
 }
 
-TEST(HandSkinning, moves_no_vertex_that_its_neighbours_leave_behind) {
+TEST(HandSkinning, MovesNoVertexThatItsNeighboursLeaveBehind) {
   const HandAsset& hand = the_hand();
   const auto moving = [&](int v) {
     double sum = 0;
@@ -109,7 +109,7 @@ int turned_over(const DigitAngles& angles) {
   return count;
 }
 
-TEST(HandSkinning, turns_no_skin_inside_out) {
+TEST(HandSkinning, TurnsNoSkinInsideOut) {
   const DigitAngles spread = in_radians(
       {{{20, -15, -8, -10}, {18, -5, 0, 0}, {2, -5, 0, 0}, {-14, -5, 0, 0}, {-28, -5, 0, 0}}});
   EXPECT_EQ(turned_over(bind_angles()), 0);
@@ -120,7 +120,7 @@ TEST(HandSkinning, turns_no_skin_inside_out) {
   EXPECT_LT(turned_over(fist_angles()), 0.03 * the_hand().mesh.triangles.size());
 }
 
-TEST(HandSkinning, leaves_the_neighbouring_fingers_where_they_are) {
+TEST(HandSkinning, LeavesTheNeighbouringFingersWhereTheyAre) {
   const HandAsset& hand = the_hand();
   for (int d = 0; d < kDigits; ++d) {
     DigitAngles angles = bind_angles();
@@ -141,7 +141,7 @@ TEST(HandSkinning, leaves_the_neighbouring_fingers_where_they_are) {
   }
 }
 
-TEST(HandSkinning, does_not_collapse_in_a_fist) {
+TEST(HandSkinning, DoesNotCollapseInAFist) {
   const HandAsset& hand = the_hand();
   const std::vector<Vector3d> fist = posed(fist_angles());
   const auto bones = pose_skeleton(fist_angles());
@@ -166,14 +166,14 @@ TEST(HandSkinning, does_not_collapse_in_a_fist) {
     }
 }
 
-TEST(HandSkinning, keeps_the_volume_in_a_fist_and_flat) {
+TEST(HandSkinning, KeepsTheVolumeInAFistAndFlat) {
   const HandAsset& hand = the_hand();
   const double bind = volume(hand.mesh, hand.mesh.vertices);
   EXPECT_NEAR(volume(hand.mesh, posed(fist_angles())) / bind, 1, 0.08);
   EXPECT_NEAR(volume(hand.mesh, posed(flat_angles())) / bind, 1, 0.04);
 }
 
-TEST(HandSkinning, brings_thumb_and_index_together_in_a_pinch) {
+TEST(HandSkinning, BringsThumbAndIndexTogetherInAPinch) {
   const auto bones = pose_skeleton(pinch_angles());
   const auto pulp = [&](int d) {
     const SkeletonBone& bone = the_hand().skeleton[bone_index(d, 3)];

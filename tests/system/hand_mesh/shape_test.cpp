@@ -46,13 +46,13 @@ bool intersect(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& 
   return false;
 }
 
-TEST(HandShape, has_the_papers_number_of_vertices) {
+TEST(HandShape, HasThePapersNumberOfVertices) {
   EXPECT_EQ(the_hand().mesh.vertices.size(), static_cast<size_t>(kVertices));
   EXPECT_GE(kVertices, 1300);
   EXPECT_LE(kVertices, 1700);
 }
 
-TEST(HandShape, has_exactly_two_triangles_at_every_edge_wound_alike) {
+TEST(HandShape, HasExactlyTwoTrianglesAtEveryEdgeWoundAlike) {
   const auto edges = directed_edges(the_hand().mesh);
   for (const auto& [edge, count] : edges) {
     ASSERT_EQ(count, 1) << edge.first << " " << edge.second;
@@ -60,7 +60,7 @@ TEST(HandShape, has_exactly_two_triangles_at_every_edge_wound_alike) {
   }
 }
 
-TEST(HandShape, is_one_piece_without_a_hole) {
+TEST(HandShape, IsOnePieceWithoutAHole) {
   const TriangleMesh& mesh = the_hand().mesh;
   const int edges = static_cast<int>(directed_edges(mesh).size()) / 2;
   const int euler =
@@ -80,7 +80,7 @@ TEST(HandShape, is_one_piece_without_a_hole) {
   EXPECT_EQ(std::count(reached.begin(), reached.end(), false), 0);
 }
 
-TEST(HandShape, is_wound_outwards) {
+TEST(HandShape, IsWoundOutwards) {
   const TriangleMesh& mesh = the_hand().mesh;
   const HandSurface surface;
   EXPECT_GT(volume(mesh, mesh.vertices), 250e3) << "cubic millimetres";
@@ -92,7 +92,7 @@ TEST(HandShape, is_wound_outwards) {
   }
 }
 
-TEST(HandShape, has_no_slivers) {
+TEST(HandShape, HasNoSlivers) {
   const TriangleMesh& mesh = the_hand().mesh;
   for (const Triangle& t : mesh.triangles) {
     const std::array<Vector3d, 3> p = corners(mesh, t);
@@ -105,7 +105,7 @@ TEST(HandShape, has_no_slivers) {
   }
 }
 
-TEST(HandShape, has_edges_of_like_length_that_are_short_at_the_tips) {
+TEST(HandShape, HasEdgesOfLikeLengthThatAreShortAtTheTips) {
   const TriangleMesh& mesh = the_hand().mesh;
   std::vector<double> lengths, at_tips;
   std::vector<Vector3d> tips;
@@ -126,12 +126,12 @@ TEST(HandShape, has_edges_of_like_length_that_are_short_at_the_tips) {
   EXPECT_LT(at_tips[at_tips.size() / 2], median);
 }
 
-TEST(HandShape, lies_on_the_implicit_surface) {
+TEST(HandShape, LiesOnTheImplicitSurface) {
   const HandSurface surface;
   for (const Vector3d& v : the_hand().mesh.vertices) ASSERT_LT(std::abs(surface(v)), 0.05);
 }
 
-TEST(HandShape, does_not_cut_itself_at_the_bind_pose) {
+TEST(HandShape, DoesNotCutItselfAtTheBindPose) {
   const TriangleMesh& mesh = the_hand().mesh;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Triangle& t : mesh.triangles) {

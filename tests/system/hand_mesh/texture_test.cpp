@@ -37,7 +37,7 @@ cv::Vec3d color_at(const Vector2d& coordinate) {
   return sum / 25;
 }
 
-TEST(HandTexture, has_coordinates_for_every_triangle_inside_of_the_image) {
+TEST(HandTexture, HasCoordinatesForEveryTriangleInsideOfTheImage) {
   const HandAsset& hand = the_hand();
   ASSERT_EQ(hand.texture_map.triangles.size(), hand.mesh.triangles.size());
   for (size_t t = 0; t < hand.mesh.triangles.size(); ++t)
@@ -50,7 +50,7 @@ TEST(HandTexture, has_coordinates_for_every_triangle_inside_of_the_image) {
   }
 }
 
-TEST(HandTexture, covers_no_texel_twice_and_leaves_gaps_between_charts) {
+TEST(HandTexture, CoversNoTexelTwiceAndLeavesGapsBetweenCharts) {
   const HandAsset& hand = the_hand();
   constexpr int kSize = 2048;
   std::vector<int> owner(kSize * kSize, -1);
@@ -75,7 +75,7 @@ TEST(HandTexture, covers_no_texel_twice_and_leaves_gaps_between_charts) {
   EXPECT_GT(static_cast<double>(used), 0.45 * kSize * kSize);
 }
 
-TEST(HandTexture, gives_all_skin_the_same_share) {
+TEST(HandTexture, GivesAllSkinTheSameShare) {
   const HandAsset& hand = the_hand();
   const double scale = hand.texture_map.millimetres * hand.texture_map.millimetres;
   for (size_t t = 0; t < hand.mesh.triangles.size(); ++t) {
@@ -86,12 +86,12 @@ TEST(HandTexture, gives_all_skin_the_same_share) {
   }
 }
 
-TEST(HandTexture, shows_charts_as_seen_from_outside) {
+TEST(HandTexture, ShowsChartsAsSeenFromOutside) {
   for (const Triangle& t : the_hand().texture_map.triangles)
     ASSERT_LT(texture_area(the_hand().texture_map, t), 0) << "v runs downwards";
 }
 
-TEST(HandTexture, matches_across_seams) {
+TEST(HandTexture, MatchesAcrossSeams) {
   const TextureMap& map = the_hand().texture_map;
   std::map<int, std::vector<int>> copies;
   for (size_t i = 0; i < map.vertex_of.size(); ++i)
@@ -111,7 +111,7 @@ TEST(HandTexture, matches_across_seams) {
   EXPECT_LT(worst, 75) << "grey levels";
 }
 
-TEST(HandTexture, has_detail_to_match_everywhere) {
+TEST(HandTexture, HasDetailToMatchEverywhere) {
   // Windows of 5 mm on the skin, seen as by a camera with pixels of 0.7 mm.
   const HandAsset& hand = the_hand();
   const double texels_per_mm = hand.texture.cols / hand.texture_map.millimetres;
@@ -137,7 +137,7 @@ TEST(HandTexture, has_detail_to_match_everywhere) {
   EXPECT_GT(contrasts[contrasts.size() / 2], 4.0) << "grey levels";
 }
 
-TEST(HandTexture, has_the_colours_of_skin) {
+TEST(HandTexture, HasTheColoursOfSkin) {
   const cv::Scalar mean = cv::mean(the_hand().texture);
   EXPECT_GT(mean[2], mean[1] + 20);
   EXPECT_GT(mean[1], mean[0] + 5);

@@ -74,7 +74,7 @@ struct JointFile {
   std::vector<LandmarkRow> rows;
 };
 
-TEST(JointFile, is_followed_within_a_millimetre) {
+TEST(JointFile, IsFollowedWithinAMillimetre) {
   JointFile joints;
   testing::internal::CaptureStderr();
   const auto source = joints.source();
@@ -92,7 +92,7 @@ TEST(JointFile, is_followed_within_a_millimetre) {
   EXPECT_FALSE(source->next());
 }
 
-TEST(JointFile, gaps_are_bridged) {
+TEST(JointFile, GapsAreBridged) {
   JointFile joints;
   joints.rows[3].landmarks.setConstant(kUnknown);
   joints.rows[7].landmarks.rightCols(5).setConstant(kUnknown);  // known well enough
@@ -108,7 +108,7 @@ TEST(JointFile, gaps_are_bridged) {
   }
 }
 
-TEST(JointFile, is_smoothed_if_asked) {
+TEST(JointFile, IsSmoothedIfAsked) {
   JointFile joints;
   for (std::size_t i = 0; i < joints.rows.size(); ++i)
     joints.rows[i].landmarks.row(1).array() += i % 2 == 0 ? 4.0 : -4.0;
@@ -128,7 +128,7 @@ TEST(JointFile, is_smoothed_if_asked) {
   EXPECT_LT(jitter(", smooth_frames: 1.5"), 1.2e-3);
 }
 
-TEST(JointFile, gives_a_part_of_itself) {
+TEST(JointFile, GivesAPartOfItself) {
   JointFile joints;
   testing::internal::CaptureStderr();
   const auto source = joints.source(", first: 7, count: 4");
@@ -137,7 +137,7 @@ TEST(JointFile, gives_a_part_of_itself) {
   EXPECT_LT(joints.error(*source->next(), 2), 1e-3);
 }
 
-TEST(JointFile, explains_what_is_wrong) {
+TEST(JointFile, ExplainsWhatIsWrong) {
   JointFile joints;
   EXPECT_THAT(message_of<DataError>([&] { joints.source(", first: 90"); }),
               AllOf(HasSubstr("joints.csv"), HasSubstr("no row of frame 90 or later")));

@@ -1,10 +1,10 @@
+#include "motion.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
-
-#include "motion.hpp"
 
 namespace hypotrack::synthetic {
 namespace {
@@ -17,7 +17,7 @@ NumberTrack number_track(const std::vector<double>& times, const std::vector<dou
 
 const std::vector<double> kTimes = {0.5, 1.0, 1.3, 2.0, 2.2, 3.0};
 
-TEST(NumberTrack, passes_through_its_keys_and_holds_the_ends) {
+TEST(NumberTrack, PassesThroughItsKeysAndHoldsTheEnds) {
   const std::vector<double> values = {1, 2, 5, 4.5, -1, 3};
   const NumberTrack track = number_track(kTimes, values);
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -26,7 +26,7 @@ TEST(NumberTrack, passes_through_its_keys_and_holds_the_ends) {
   EXPECT_EQ(track.at(99), 3);
 }
 
-TEST(NumberTrack, never_leaves_the_range_of_the_keys_around_it) {
+TEST(NumberTrack, NeverLeavesTheRangeOfTheKeysAroundIt) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 50; ++trial) {
@@ -44,7 +44,7 @@ TEST(NumberTrack, never_leaves_the_range_of_the_keys_around_it) {
   }
 }
 
-TEST(NumberTrack, changes_speed_without_steps_and_rests_at_the_ends) {
+TEST(NumberTrack, ChangesSpeedWithoutStepsAndRestsAtTheEnds) {
   const NumberTrack track = number_track(kTimes, {0, 1, 3, 4, 4.2, 9});
   constexpr double kStep = 1e-6;
   const auto speed = [&](double t) {
@@ -56,7 +56,7 @@ TEST(NumberTrack, changes_speed_without_steps_and_rests_at_the_ends) {
   EXPECT_GT(speed(1.3), 0.5) << "a track that only ascends does not stop at its keys";
 }
 
-TEST(NumberTrack, stays_at_its_only_key) {
+TEST(NumberTrack, StaysAtItsOnlyKey) {
   const NumberTrack track = number_track({1.0}, {7.0});
   for (const double t : {0.0, 1.0, 2.0}) EXPECT_EQ(track.at(t), 7.0);
 }
@@ -78,7 +78,7 @@ RotationTrack rotation_track(const std::vector<Eigen::Quaterniond>& rotations) {
   return track;
 }
 
-TEST(RotationTrack, passes_through_its_keys_and_holds_the_ends) {
+TEST(RotationTrack, PassesThroughItsKeysAndHoldsTheEnds) {
   const auto rotations = some_rotations();
   const RotationTrack track = rotation_track(rotations);
   for (std::size_t i = 0; i < rotations.size(); ++i) {
@@ -88,7 +88,7 @@ TEST(RotationTrack, passes_through_its_keys_and_holds_the_ends) {
   EXPECT_LT(track.at(9).angularDistance(rotations.back()), 1e-7);
 }
 
-TEST(RotationTrack, moves_without_jumps_in_rotation_sign_or_speed) {
+TEST(RotationTrack, MovesWithoutJumpsInRotationSignOrSpeed) {
   const RotationTrack track = rotation_track(some_rotations());
   constexpr double kStep = 1e-5;
   const auto velocity = [&](double t) -> Eigen::Vector3d {
@@ -108,7 +108,7 @@ TEST(RotationTrack, moves_without_jumps_in_rotation_sign_or_speed) {
   EXPECT_LT(velocity(kTimes.front()).norm(), 0.02);
 }
 
-TEST(RotationTrack, turns_about_the_axis_between_two_keys) {
+TEST(RotationTrack, TurnsAboutTheAxisBetweenTwoKeys) {
   RotationTrack track;
   const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 0.5).normalized();
   track.add(0, Eigen::Quaterniond::Identity());

@@ -45,7 +45,7 @@ Eigen::Vector3d origin(const Loaded& loaded, const Frame& frame, std::size_t mod
   return frame.truth->state.segment<3>(loaded.scene.items()[model].offset);
 }
 
-TEST(RandomMotion, stays_in_view_and_within_its_speed) {
+TEST(RandomMotion, StaysInViewAndWithinItsSpeed) {
   std::set<double> bends;
   for (const int seed : {1, 2, 3}) {
     Loaded loaded(random_motion(seed, "frames: 50"));
@@ -65,7 +65,7 @@ TEST(RandomMotion, stays_in_view_and_within_its_speed) {
   EXPECT_GT(*bends.rbegin() - *bends.begin(), 10 * kDegree) << "gestures change";
 }
 
-TEST(RandomMotion, is_a_function_of_its_seed) {
+TEST(RandomMotion, IsAFunctionOfItsSeed) {
   const std::string absence = "frames: 20, absence: {after: 5, frames: [1, 8]}";
   const std::vector<Frame> a = load(random_motion(7, absence)).frames();
   const std::vector<Frame> b = load(random_motion(7, absence)).frames();
@@ -75,7 +75,7 @@ TEST(RandomMotion, is_a_function_of_its_seed) {
   EXPECT_NE(a[0].truth->state, c[0].truth->state);
 }
 
-TEST(RandomMotion, models_vanish_and_are_back_elsewhere) {
+TEST(RandomMotion, ModelsVanishAndAreBackElsewhere) {
   double farthest = 0;
   std::set<int> lengths;
   for (const int seed : {1, 2, 3, 4}) {
@@ -111,7 +111,7 @@ TEST(RandomMotion, models_vanish_and_are_back_elsewhere) {
   EXPECT_LE(*lengths.rbegin(), 9);
 }
 
-TEST(RandomMotion, a_held_model_keeps_its_place_at_the_holder) {
+TEST(RandomMotion, AHeldModelKeepsItsPlaceAtTheHolder) {
   Loaded loaded(random_motion(
       2,
       "frames: 12, absence: {after: 6, frames: [2, 2]}, hold: {box: hand}, pose: {hand: "
@@ -127,7 +127,7 @@ TEST(RandomMotion, a_held_model_keeps_its_place_at_the_holder) {
     EXPECT_LT((grip(frame).translation() - expected).norm(), 1e-9) << frame.index;
 }
 
-TEST(RandomMotion, a_facing_hand_shows_palm_or_back_and_no_fingers_downwards) {
+TEST(RandomMotion, AFacingHandShowsPalmOrBackAndNoFingersDownwards) {
   int palms = 0, backs = 0, away = 0;
   for (int seed = 0; seed < 12; ++seed) {
     for (const std::string rotation : {"facing, tilt_deg: 30", "any"}) {
@@ -149,12 +149,12 @@ TEST(RandomMotion, a_facing_hand_shows_palm_or_back_and_no_fingers_downwards) {
   EXPECT_GT(away, 4);
 }
 
-TEST(RandomMotion, takes_the_place_of_keyframes_that_are_null) {
+TEST(RandomMotion, TakesThePlaceOfKeyframesThatAreNull) {
   Loaded loaded(random_motion(1, "frames: 3") + "keyframes: null\n");
   EXPECT_EQ(loaded.source->frame_count(), 3);
 }
 
-TEST(RandomMotion, explains_what_is_wrong_with_it) {
+TEST(RandomMotion, ExplainsWhatIsWrongWithIt) {
   const auto message = [](const std::string& random) {
     return message_of(kGestures + "random:\n  {" + random + "}\n");
   };

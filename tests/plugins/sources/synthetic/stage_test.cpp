@@ -35,7 +35,7 @@ cv::Point pixel_of(const Loaded& loaded, const Frame& frame, const Eigen::Vector
   return {cvRound(p.x()), cvRound(p.y())};
 }
 
-TEST(Forearm, goes_on_below_the_wrist_and_is_background) {
+TEST(Forearm, GoesOnBelowTheWristAndIsBackground) {
   Loaded without(kFlat + kUpright);
   Loaded with(kFlat + kUpright + "forearm: {kind: sleeve}\n");
   const Frame bare = without.frames().at(0), sleeved = with.frames().at(0);
@@ -52,7 +52,7 @@ TEST(Forearm, goes_on_below_the_wrist_and_is_background) {
   EXPECT_EQ(sleeved.truth->landmarks.size(), 0) << "what is tracked is what is drawn";
 }
 
-TEST(Forearm, has_the_colour_of_the_skin_or_the_one_it_is_given) {
+TEST(Forearm, HasTheColourOfTheSkinOrTheOneItIsGiven) {
   Loaded bare(kFlat + kUpright + "forearm: {kind: bare}\n");
   const Frame skin = bare.frames().at(0);
   const cv::Point pixel = pixel_of(bare, skin, {0, -0.10, 0});
@@ -65,7 +65,7 @@ TEST(Forearm, has_the_colour_of_the_skin_or_the_one_it_is_given) {
   EXPECT_NEAR(red.views[0].color.at<cv::Vec3b>(pixel)[0], 40, 8);
 }
 
-TEST(Forearm, hides_what_is_behind_it) {
+TEST(Forearm, HidesWhatIsBehindIt) {
   std::string away = kUpright;  // fingers from the camera, the arm towards it
   away.replace(away.find("[180, 0, 0]"), 11, "[90, 0, 0]");
   const Frame without = first_frame(kFlat + away);
@@ -73,7 +73,7 @@ TEST(Forearm, hides_what_is_behind_it) {
   EXPECT_LT(cv::countNonZero(with.views[0].mask), cv::countNonZero(without.views[0].mask) / 2);
 }
 
-TEST(Forearm, is_a_surface_to_a_depth_camera) {
+TEST(Forearm, IsASurfaceToADepthCamera) {
   Loaded loaded(kFlat + kUpright + "forearm: {kind: bare}\ndepth: true\n");
   const Frame frame = loaded.frames().at(0);
   const cv::Point pixel = pixel_of(loaded, frame, {0, -0.10, 0});
@@ -81,7 +81,7 @@ TEST(Forearm, is_a_surface_to_a_depth_camera) {
   EXPECT_LT(frame.views[0].depth.at<float>(pixel), 0.40F);
 }
 
-TEST(RenderModels, show_another_model_and_make_it_the_truth) {
+TEST(RenderModels, ShowAnotherModelAndMakeItTheTruth) {
   const std::string larger = "render_models: {box: {type: rigid_box, size_mm: [120, 80, 240]}}\n";
   Loaded own(kFlat + kMotion), other(kFlat + kMotion + larger);
   const Frame as_tracked = own.frames().at(5), drawn = other.frames().at(5);
@@ -98,7 +98,7 @@ TEST(RenderModels, show_another_model_and_make_it_the_truth) {
   }
 }
 
-TEST(RenderModels, move_as_the_tracked_one_does_parameter_by_parameter) {
+TEST(RenderModels, MoveAsTheTrackedOneDoesParameterByParameter) {
   const std::string longer = "render_models: {hand: {type: hand, finger_scale: [1.3]}}\n";
   Loaded loaded(kFlat + kMotion + longer);
   const Frame frame = loaded.frames().at(5);  // a fist
@@ -118,7 +118,7 @@ TEST(RenderModels, move_as_the_tracked_one_does_parameter_by_parameter) {
   }
 }
 
-TEST(RenderModels, leave_landmarks_that_they_do_not_have_unknown) {
+TEST(RenderModels, LeaveLandmarksThatTheyDoNotHaveUnknown) {
   // The anchors are on the two longest axes: y and x, where the tracked box has z and x.
   const Frame frame = first_frame(
       kFlat + kMotion + "render_models: {box: {type: rigid_box, size_mm: [200, 240, 60]}}\n");
@@ -129,7 +129,7 @@ TEST(RenderModels, leave_landmarks_that_they_do_not_have_unknown) {
   }
 }
 
-TEST(RenderModels, join_what_the_source_resolved_to) {
+TEST(RenderModels, JoinWhatTheSourceResolvedTo) {
   Loaded loaded(kFlat + kMotion);
   std::string resolved;
   loaded.plugins.make<Source>(
@@ -140,7 +140,7 @@ TEST(RenderModels, join_what_the_source_resolved_to) {
   EXPECT_THAT(resolved, AllOf(HasSubstr("size_mm: [120, 80, 240]"), HasSubstr("pattern:")));
 }
 
-TEST(RenderModels, are_refused_where_they_cannot_move_alike) {
+TEST(RenderModels, AreRefusedWhereTheyCannotMoveAlike) {
   const std::string motion = kMotion;
   EXPECT_THAT(
       message_of(motion + "render_models: {foot: {type: rigid_box}}\n"),
@@ -156,7 +156,7 @@ TEST(RenderModels, are_refused_where_they_cannot_move_alike) {
               HasSubstr("forearm.color has 2 numbers, expected three"));
 }
 
-TEST(Forearm, needs_a_hand) {
+TEST(Forearm, NeedsAHand) {
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
   models.emplace_back("box", std::make_shared<Model>(make_test_box()));
   const Scene scene(std::move(models));
@@ -172,7 +172,7 @@ TEST(Forearm, needs_a_hand) {
   }
 }
 
-TEST(Background, has_dark_flat_regions_where_wanted) {
+TEST(Background, HasDarkFlatRegionsWhereWanted) {
   const auto dark_share = [](const std::string& background) {
     const Frame frame = first_frame(std::string(kCameras) + kQuiet + kMotion + "frames: 1\n" +
                                     "background: " + background + "\n");

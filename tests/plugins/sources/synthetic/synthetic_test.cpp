@@ -18,7 +18,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-TEST(Synthetic, yields_the_frames_up_to_the_last_keyframe_with_truth_and_mask) {
+TEST(Synthetic, YieldsTheFramesUpToTheLastKeyframeWithTruthAndMask) {
   Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kMotion);
   EXPECT_EQ(loaded.source->frame_count(), 11);
   EXPECT_EQ(loaded.source->frame_rate(), 30);
@@ -42,7 +42,7 @@ TEST(Synthetic, yields_the_frames_up_to_the_last_keyframe_with_truth_and_mask) {
   }
 }
 
-TEST(Synthetic, passes_through_poses_and_gestures) {
+TEST(Synthetic, PassesThroughPosesAndGestures) {
   Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kMotion);
   const std::vector<Frame> frames = loaded.frames();
   const auto value = [&](std::size_t frame, const std::string& name) {
@@ -60,7 +60,7 @@ TEST(Synthetic, passes_through_poses_and_gestures) {
   EXPECT_EQ(value(10, "box.position_x"), 0.1);
 }
 
-TEST(Synthetic, repeats_itself_to_the_byte) {
+TEST(Synthetic, RepeatsItselfToTheByte) {
   const std::string yaml = std::string(kCameras) + kMotion + "frames: 2\n";
   const std::vector<Frame> a = load(yaml).frames(), b = load(yaml).frames();
   const std::vector<Frame> c = load(yaml + "sensor: {seed: 9}\n").frames();
@@ -72,7 +72,7 @@ TEST(Synthetic, repeats_itself_to_the_byte) {
   }
 }
 
-TEST(Synthetic, adds_noise_of_the_given_strength_that_differs_everywhere) {
+TEST(Synthetic, AddsNoiseOfTheGivenStrengthThatDiffersEverywhere) {
   const std::string yaml = std::string(kCameras) + kMotion +
                            "background: {kind: color, color: [100, 100, 100]}\n"
                            "sensor: {noise_sigma: 4}\nframes: 2\n";
@@ -90,7 +90,7 @@ TEST(Synthetic, adds_noise_of_the_given_strength_that_differs_everywhere) {
   }
 }
 
-TEST(Synthetic, shows_the_wall_where_its_distance_says_in_both_views) {
+TEST(Synthetic, ShowsTheWallWhereItsDistanceSaysInBothViews) {
   // f b / z = 175 * 0.12 / 1.4 = 15 px.
   const std::string yaml =
       std::string(kCameras) + kQuiet + kMotion +
@@ -108,7 +108,7 @@ TEST(Synthetic, shows_the_wall_where_its_distance_says_in_both_views) {
   EXPECT_GT(difference(left.colRange(1, 60), right.colRange(0, 59)), 2) << "one pixel beside it";
 }
 
-TEST(Synthetic, puts_a_picture_upright_on_the_wall) {
+TEST(Synthetic, PutsAPictureUprightOnTheWall) {
   const TemporaryDirectory folder;
   cv::Mat picture(100, 160, CV_8UC3, cv::Scalar(0, 0, 200));
   picture.rowRange(50, 100).setTo(cv::Scalar(0, 200, 0));
@@ -124,7 +124,7 @@ TEST(Synthetic, puts_a_picture_upright_on_the_wall) {
   EXPECT_EQ(left.at<cv::Vec3b>(190, 310), cv::Vec3b(0, 200, 0));
 }
 
-TEST(Synthetic, changes_the_colours_of_one_camera) {
+TEST(Synthetic, ChangesTheColoursOfOneCamera) {
   const std::string yaml = std::string(kCameras) + kPlain + kMotion +
                            "sensor: {noise_sigma: 0, gain: [1, 1.5], offset: [0, 4]}\nframes: 1\n";
   const Frame frame = load(yaml).frames()[0];
@@ -132,7 +132,7 @@ TEST(Synthetic, changes_the_colours_of_one_camera) {
   EXPECT_EQ(frame.views[1].color.at<cv::Vec3b>(1, 1), cv::Vec3b(49, 34, 19));
 }
 
-TEST(Synthetic, gives_the_depth_of_models_and_background_where_it_is_asked_for) {
+TEST(Synthetic, GivesTheDepthOfModelsAndBackgroundWhereItIsAskedFor) {
   const std::string wall = "background: {kind: procedural, distance_mm: 1400, clutter: 0}\n";
   Loaded loaded(std::string(kCameras) + kMotion + wall +
                 "frames: 1\ndepth: true\nsensor: {depth_step_mm: 0}\n");
@@ -157,7 +157,7 @@ TEST(Synthetic, gives_the_depth_of_models_and_background_where_it_is_asked_for) 
   EXPECT_TRUE(same(without_wall.depth > 0, without_wall.mask)) << "a colour has no depth";
 }
 
-TEST(Synthetic, makes_depth_noisy_with_the_square_of_the_distance_and_rounds_it) {
+TEST(Synthetic, MakesDepthNoisyWithTheSquareOfTheDistanceAndRoundsIt) {
   for (const double distance : {1.0, 2.0}) {
     const std::string yaml = std::string(kCameras) + kMotion + "frames: 2\ndepth: true\n" +
                              "background: {kind: procedural, clutter: 0, distance_mm: " +
@@ -178,7 +178,7 @@ TEST(Synthetic, makes_depth_noisy_with_the_square_of_the_distance_and_rounds_it)
   }
 }
 
-TEST(Synthetic, is_a_depth_camera_with_one_view) {
+TEST(Synthetic, IsADepthCameraWithOneView) {
   Loaded loaded("cameras: {count: 1, width: 160, height: 100, focal_px: 90}\ndepth: true\n" +
                 std::string(kMotion) + "frames: 1\n");
   const Frame frame = loaded.frames()[0];
@@ -187,7 +187,7 @@ TEST(Synthetic, is_a_depth_camera_with_one_view) {
   EXPECT_EQ(cv::countNonZero(frame.views[0].depth), 160 * 100);
 }
 
-TEST(Synthetic, takes_pictures_through_a_lens) {
+TEST(Synthetic, TakesPicturesThroughALens) {
   const std::string yaml =
       "cameras: {width: 320, height: 200, focal_px: 175, distortion: [-0.2, 0.05, 0, 0]}\n" +
       std::string(kQuiet) + kMotion + "frames: 1\n";
@@ -201,7 +201,7 @@ TEST(Synthetic, takes_pictures_through_a_lens) {
       << "the wall fills the picture";
 }
 
-TEST(Synthetic, takes_the_cameras_of_a_calibration) {
+TEST(Synthetic, TakesTheCamerasOfACalibration) {
   const TemporaryDirectory folder;
   const std::filesystem::path file = folder.path() / "rig.yaml";
   std::ofstream(file) << "%YAML:1.0\n---\nunits: mm\ncameras:\n"
@@ -220,7 +220,7 @@ TEST(Synthetic, takes_the_cameras_of_a_calibration) {
   EXPECT_EQ(frame.views[1].mask.size(), cv::Size(210, 140));
 }
 
-TEST(Synthetic, can_be_repeated_from_what_it_resolved_to) {
+TEST(Synthetic, CanBeRepeatedFromWhatItResolvedTo) {
   Loaded loaded(std::string(kCameras) + kMotion + "frames: 1\n");
   std::string resolved;
   const ConfigNode config = ConfigNode::parse(
@@ -254,7 +254,7 @@ Eigen::Isometry3d place(const Scene& scene, const Frame& frame, std::size_t mode
   return world_from_model(scene.part(scene.items()[model], frame.truth->state));
 }
 
-TEST(Synthetic, moves_a_held_model_with_its_holder_and_leaves_it_where_it_is_released) {
+TEST(Synthetic, MovesAHeldModelWithItsHolderAndLeavesItWhereItIsReleased) {
   Loaded loaded(std::string(kCameras) + kQuiet + kPlain + kHold);
   const std::vector<Frame> frames = loaded.frames();
   const auto hand = [&](std::size_t f) { return place(loaded.scene, frames[f], 0); };
@@ -275,7 +275,7 @@ TEST(Synthetic, moves_a_held_model_with_its_holder_and_leaves_it_where_it_is_rel
   }
 }
 
-TEST(Synthetic, holds_to_the_end_without_a_release) {
+TEST(Synthetic, HoldsToTheEndWithoutARelease) {
   std::string yaml = kHold;
   yaml.resize(yaml.find("  - {frame: 7"));
   Loaded loaded(std::string(kCameras) + kQuiet + kPlain + yaml + "frames: 9\n");
@@ -286,7 +286,7 @@ TEST(Synthetic, holds_to_the_end_without_a_release) {
   EXPECT_TRUE(place(loaded.scene, last, 1).isApprox(place(loaded.scene, last, 0) * grip, 1e-9));
 }
 
-TEST(Synthetic, takes_gestures_from_a_file_after_its_own) {
+TEST(Synthetic, TakesGesturesFromAFileAfterItsOwn) {
   const TemporaryDirectory folder;
   const std::filesystem::path file = folder.path() / "gestures.yaml";
   std::ofstream(file) << "fist: {index_flexion_1: 80}\nhook: {\"*_flexion_2\": 40}\n";
@@ -305,7 +305,7 @@ TEST(Synthetic, takes_gestures_from_a_file_after_its_own) {
   EXPECT_NEAR(value(1, "hand.index_flexion_1"), 50, 1e-9) << "the scene's own comes first";
 }
 
-TEST(Synthetic, explains_what_is_wrong_with_a_script) {
+TEST(Synthetic, ExplainsWhatIsWrongWithAScript) {
   const std::string start =
       "{time: 0, pose: {hand: {position_mm: [0, 0, 400]}, box: {position_mm: [0, 0, 500]}}}";
   EXPECT_THAT(message_of("keyframes: []\n"),
@@ -339,7 +339,7 @@ TEST(Synthetic, explains_what_is_wrong_with_a_script) {
               AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("500")));
 }
 
-TEST(Synthetic, explains_what_is_wrong_with_a_hold) {
+TEST(Synthetic, ExplainsWhatIsWrongWithAHold) {
   const std::string start =
       "keyframes:\n- {time: 0, pose: {hand: {position_mm: [0, 0, 400]}, "
       "box: {position_mm: [0, 0, 500]}}}\n";
@@ -357,7 +357,7 @@ TEST(Synthetic, explains_what_is_wrong_with_a_hold) {
               AllOf(HasSubstr("scene.yaml:5:"), HasSubstr("must not be held itself")));
 }
 
-TEST(Synthetic, explains_what_is_wrong_with_cameras_background_and_sensor) {
+TEST(Synthetic, ExplainsWhatIsWrongWithCamerasBackgroundAndSensor) {
   const std::string motion = kMotion;
   EXPECT_THAT(
       message_of(motion + "sensor: {gain: [1, 1, 1]}\n"),

@@ -1,12 +1,11 @@
 // The models that other tests stand on: they keep what their header promises.
-#include "test_models.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
 #include <map>
 
 #include "hypotrack/kinematics.hpp"
+#include "test_models.hpp"
 
 namespace hypotrack {
 namespace {
