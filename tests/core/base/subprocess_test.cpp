@@ -1,3 +1,5 @@
+#include "base/subprocess.hpp"
+
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,7 +16,6 @@
 #include <system_error>
 #include <thread>
 
-#include "base/subprocess.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {

@@ -1,10 +1,11 @@
+#include "hypotrack/calibration.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
 #include <random>
 #include <sstream>
 
-#include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
 #include "test_paths.hpp"
 

@@ -1,3 +1,5 @@
+#include "hypotrack/camera.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "camera/distortion.hpp"
-#include "hypotrack/camera.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
 

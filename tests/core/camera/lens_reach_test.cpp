@@ -1,9 +1,10 @@
+#include "scene/lens_reach.hpp"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "scene/lens_reach.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

@@ -1,9 +1,9 @@
+#include "camera/pair_check.hpp"
+
 #include <gmock/gmock.h>
 
 #include <array>
 #include <numbers>
-
-#include "camera/pair_check.hpp"
 
 namespace hypotrack {
 namespace {

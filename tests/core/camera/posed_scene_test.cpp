@@ -1,3 +1,5 @@
+#include "scene/posed_scene.hpp"
+
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -6,7 +8,6 @@
 
 #include "every_target.hpp"
 #include "hypotrack/error.hpp"
-#include "scene/posed_scene.hpp"
 #include "scene/simd_kernels.hpp"
 #include "test_cameras.hpp"
 #include "test_models.hpp"

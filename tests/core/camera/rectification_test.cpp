@@ -1,10 +1,11 @@
+#include "camera/rectification.hpp"
+
 #include <gtest/gtest.h>
 
 #include <array>
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "camera/rectification.hpp"
 #include "test_cameras.hpp"
 
 namespace hypotrack {

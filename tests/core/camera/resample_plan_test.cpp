@@ -1,10 +1,11 @@
+#include "tile/resample_plan.hpp"
+
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
 #include "test_cameras.hpp"
 #include "tile/resample.hpp"
-#include "tile/resample_plan.hpp"
 
 namespace hypotrack {
 namespace {

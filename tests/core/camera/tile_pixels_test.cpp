@@ -1,4 +1,5 @@
 #include "cost/cuda/tile_pixels.hpp"
+
 #include "cost/cuda/view_resampling.hpp"
 #include "tile_cases.hpp"
 

@@ -1,4 +1,6 @@
 // What a tile shows beside colours as they are, and what it refuses.
+#include "tile/tiles.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,7 +10,6 @@
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
 #include "tile/resample.hpp"
-#include "tile/tiles.hpp"
 #include "tile_cases.hpp"
 
 namespace hypotrack {

@@ -1,3 +1,5 @@
+#include "base/numbers.hpp"
+
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -5,7 +7,6 @@
 #include <limits>
 #include <random>
 
-#include "base/numbers.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::detail {

@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "hypotrack/suggest.hpp"
+
+#include <gtest/gtest.h>
 
 namespace hypotrack {
 namespace {

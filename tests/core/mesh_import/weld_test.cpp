@@ -1,8 +1,9 @@
+#include "model/import/weld.hpp"
+
 #include <gmock/gmock.h>
 
 #include "hypotrack/mesh_io.hpp"
 #include "mesh_files.hpp"
-#include "model/import/weld.hpp"
 
 namespace hypotrack::test {
 namespace {

@@ -1,9 +1,10 @@
+#include "plugin/inspect.hpp"
+
 #include <atomic>
 #include <thread>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
-#include "plugin/inspect.hpp"
 #include "plugin_fixtures.hpp"
 
 namespace hypotrack::test {

@@ -1,10 +1,11 @@
+#include "lab/bench/bench_plan.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/bench/bench_plan.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

@@ -1,3 +1,5 @@
+#include "lab/bench/bench_table.hpp"
+
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -7,7 +9,6 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/bench/bench_numbers.hpp"
-#include "lab/bench/bench_table.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {

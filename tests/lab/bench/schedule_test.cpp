@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "lab/bench/schedule.hpp"
+
+#include <gtest/gtest.h>
 
 namespace hypotrack::test {
 namespace {

@@ -7,4 +7,4 @@ for program in sbatch slurmctld slurmd munged; do
     exit 77
   fi
 done
-exec "$(dirname "${BASH_SOURCE[0]}")/../../examples/slurm/try.sh" "$@"
+exec "$(dirname "${BASH_SOURCE[0]}")/../../../examples/slurm/try.sh" "$@"

@@ -111,7 +111,7 @@ TEST_F(PlanTest, ScenesWhosePartsAreNotThereAreRefusedWithTheirPlace) {
   write("box.yaml", "models: []\noptimizer: \"@best.yaml\"\n");
   const std::string complaint = message_of<ConfigError>([&] { plan(small_study()); });
   EXPECT_THAT(complaint, HasSubstr("study.yaml:4:3: box: "));
-  EXPECT_THAT(complaint, HasSubstr("box.yaml:2:12: '@best.yaml' stands for"));
+  EXPECT_THAT(complaint, HasSubstr("box.yaml:2:12: '@best.yaml' cannot be included"));
 }
 
 TEST_F(PlanTest, IdsDoNotDependOnWhereTheStudyLies) {

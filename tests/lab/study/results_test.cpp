@@ -1,7 +1,8 @@
+#include "lab/study/results.hpp"
+
 #include <gmock/gmock.h>
 
 #include "hypotrack/error.hpp"
-#include "lab/study/results.hpp"
 #include "lab/study/study_folder.hpp"
 #include "lab/study/tables.hpp"
 #include "study_test.hpp"

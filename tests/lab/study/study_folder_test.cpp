@@ -1,3 +1,5 @@
+#include "lab/study/study_folder.hpp"
+
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -6,7 +8,6 @@
 
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
-#include "lab/study/study_folder.hpp"
 #include "study_test.hpp"
 
 namespace hypotrack::test {

@@ -1,8 +1,9 @@
+#include "cut.hpp"
+
 #include <gmock/gmock.h>
 
 #include <map>
 
-#include "cut.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::test {

@@ -1,3 +1,5 @@
+#include "hypotrack/tables.hpp"
+
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -6,7 +8,6 @@
 #include <random>
 
 #include "hypotrack/error.hpp"
-#include "hypotrack/tables.hpp"
 #include "hypotrack/truth.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"

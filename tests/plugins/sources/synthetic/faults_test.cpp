@@ -76,8 +76,8 @@ TEST(Faults, ViewsAreExchangedBlackenedAndFrozenAndTheTruthStays) {
 }
 
 TEST(Faults, MayHaveEmptyKeysOfOtherKinds) {  // as run.yaml has them
-  EXPECT_EQ(frames_with("{frames: [1, 2], kind: black, model: '', view: null}, "
-                        "{frames: [3, 3], kind: absent, model: hand, view: null}")
+  EXPECT_EQ(frames_with("{frames: [1, 2], kind: black, model: ''}, "
+                        "{frames: [3, 3], kind: absent, model: hand}")
                 .size(),
             5);
 }
