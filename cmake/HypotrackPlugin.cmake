@@ -106,8 +106,7 @@ function(hypotrack_add_contract_test target)
       HINTS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../bin
             ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../../bin)
     if(NOT HYPOTRACK_CONTRACT_TEST)
-      message(WARNING "hypotrack_contract_test is not installed (hypotrack was built without "
-        "HYPOTRACK_TESTS): ${target} gets no contract test")
+      message(WARNING "hypotrack_contract_test is not installed: ${target} gets no contract test")
       return()
     endif()
     set(program ${HYPOTRACK_CONTRACT_TEST})

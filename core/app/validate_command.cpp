@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "notes.hpp"
+#include "output/run_output.hpp"
 #include "session/opened_scene.hpp"
 #include "tell.hpp"
 #include "track/scene_tracker.hpp"
@@ -16,6 +17,7 @@ namespace {
 int validate_scene(const SceneOptions& options, const CommonOptions& common, bool print) {
   PluginLoader plugins(common.plugin_path);
   OpenedScene session = open_scene(options.scene, options.set, plugins);
+  check_outputs(session.outputs);
   const auto first = session.source->next();
   if (!first) throw DataError("the source has no frame");
   const bool usable = first->problem.empty();

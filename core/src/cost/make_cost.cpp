@@ -33,9 +33,9 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
 std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                                  const EvaluateSettings& settings,
                                  const Requirements& requirements) {
-  if (requirements.least_squares &&
-      (requirements.jacobian == Linearization::needed ||
-       (requirements.jacobian == Linearization::welcome && Linearizer::can_linearize(terms)))) {
+  if (requirements.least_squares && (requirements.jacobian == Linearization::needed ||
+                                     (requirements.jacobian == Linearization::welcome &&
+                                      !requirements.device && Linearizer::can_linearize(terms)))) {
     return "the optimizer takes analytic Jacobians, which are computed on the CPU";
   }
   return cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares);

@@ -7,8 +7,10 @@
 namespace hypotrack {
 
 void Requirements::merge(const Requirements& other) {
-  least_squares = least_squares || other.least_squares;
-  jacobian = std::max(jacobian, other.jacobian);
+  if (other.least_squares) {
+    jacobian = least_squares ? std::max(jacobian, other.jacobian) : other.jacobian;
+    least_squares = true;
+  }
   if (device || !other.device) return;
   device = true;
   device_by = other.device_by;

@@ -20,29 +20,47 @@ std::vector<NamedOutput> with_metrics(MetricsOutput* metrics, std::vector<NamedO
   return outputs;
 }
 
-/// Returns the names of all files that a run with these outputs may write. Those of the outputs
-/// that come with hypotrack are always among them: an earlier run may have written them.
-std::vector<std::string> result_names(const std::vector<NamedOutput>& outputs) {
-  std::vector<std::string> names = {kProtocol,    "track.csv",         "joints.csv",
-                                    "online.csv", "online_joints.csv", "overlay.mp4"};
-  std::map<std::string, std::string> owners = {{kProtocol, "the run"}};
-  for (const auto& [owner, output] : outputs)
-    for (const std::string& name : output->file_names()) {
+/// The names of all files that a run may write. Those of the outputs that come with hypotrack are
+/// always among them: an earlier run may have written them.
+class ResultNames {
+ public:
+  /// Throws ConfigError if another output writes a file of the same name, PluginError if a name is
+  /// none.
+  void add(const std::string& owner, const Output& output) {
+    for (const std::string& name : output.file_names()) {
       if (name.empty() || name.front() == '.' || name.find('/') != std::string::npos)
         throw PluginError(fmt::format(
             "output '{}' wants to write '{}', expected the name of a file; this is a bug in the "
             "output",
             owner, name));
-      const auto [other, is_new] = owners.emplace(name, owner);
+      const auto [other, is_new] = owners_.emplace(name, owner);
       if (!is_new)
         throw ConfigError(fmt::format("output: {} and {} both write {}; leave one of them out",
                                       other->second, owner, name));
-      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+      if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
     }
-  return names;
+  }
+  const std::vector<std::string>& all() const { return names_; }
+
+ private:
+  std::vector<std::string> names_ = {kProtocol,    "track.csv",         "joints.csv",
+                                     "online.csv", "online_joints.csv", "overlay.mp4"};
+  std::map<std::string, std::string> owners_ = {{kProtocol, "the run"}};
+};
+
+std::vector<std::string> result_names(const std::vector<NamedOutput>& outputs) {
+  ResultNames names;
+  for (const auto& [owner, output] : outputs) names.add(owner, *output);
+  return names.all();
 }
 
 }  // namespace
+
+void check_outputs(const std::vector<NamedOutput>& outputs) {
+  ResultNames names;
+  names.add("metrics", MetricsOutput(0, ""));
+  for (const auto& [owner, output] : outputs) names.add(owner, *output);
+}
 
 OutputContext::~OutputContext() = default;
 Output::~Output() = default;

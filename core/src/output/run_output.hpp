@@ -15,6 +15,10 @@
 
 namespace hypotrack {
 
+/// Throws ConfigError if two outputs of a run write a file of one name, PluginError if a file's
+/// name is none.
+HYPOTRACK_API void check_outputs(const std::vector<NamedOutput>& outputs);
+
 /// Writes the results of a run: run.yaml, what MetricsOutput writes, and the files of the scene's
 /// outputs.
 class HYPOTRACK_API RunOutput {

@@ -54,7 +54,7 @@ Requirements Pipeline::requirements() const {
   Requirements all;
   for (std::size_t k = 0; k < stages_.size(); ++k) {
     Requirements stage = stages_[k].optimizer->requirements();
-    stage.device_by = of_stage(k, stage.device_by);
+    stage.device_by = of_stage(k, stage.device_by.empty() ? "the optimizer" : stage.device_by);
     all.merge(stage);
   }
   return all;

@@ -135,6 +135,13 @@ TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
+TEST_F(RunOutputTest, TwoOutputsOfOneFileAreFoundWithoutARun) {
+  EXPECT_NO_THROW(check_outputs(one(std::make_unique<Diary>("diary.txt"))));
+  EXPECT_THAT(
+      message_of<ConfigError>([&] { check_outputs(one(std::make_unique<Diary>("summary.json"))); }),
+      HasSubstr("metrics and diary both write summary.json"));
+}
+
 TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
   EXPECT_THAT(message_of<PluginError>([&] { open("../diary.txt"); }),
               AllOf(HasSubstr("output 'diary'"), HasSubstr("'../diary.txt'")));

@@ -213,6 +213,15 @@ TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizers
   EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::numerical), Linearization::unused);
 }
 
+TEST(LeastSquares, ASearchWithoutResidualsAsksForNoJacobian) {
+  Requirements all{.jacobian = Linearization::needed};
+  all.merge({.least_squares = true});
+  EXPECT_TRUE(all.least_squares);
+  EXPECT_EQ(all.jacobian, Linearization::unused);
+  all.merge({.jacobian = Linearization::needed});
+  EXPECT_EQ(all.jacobian, Linearization::unused);
+}
+
 /// A cost that keeps its residuals to itself.
 class Reticent final : public CostFunction, public ResidualCost {
  public:

@@ -16,7 +16,7 @@ struct Dataset {
   std::vector<StateRow> states;  ///< of all frames
 };
 
-/// Reads configs/NAME.yaml.
+/// Reads configs/scenes/NAME.yaml.
 Dataset load_dataset(const std::string& name);
 
 /// World positions of a model's vertices in one state.
