@@ -21,12 +21,12 @@ double FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
 
 void FixedLagOutput::write(const std::vector<FixedLagSmoother::Settled>& settled) {
   for (const FixedLagSmoother::Settled& one : settled) {
-    Waiting& frame = waiting_.front();
+    Waiting frame = std::move(waiting_.front());
+    waiting_.pop_front();  // an output that throws does not get the frame again
     frame.solution.state = one.state;
     frame.solution.landmarks = output_->scene().landmarks(one.state);
     frame.solution.evaluations += one.evaluations;
     output_->add(frame.frame, frame.solution);
-    waiting_.pop_front();
   }
 }
 
@@ -35,8 +35,11 @@ void FixedLagOutput::finish() {
 }
 
 void FixedLagOutput::finish_unchanged() {
-  for (const Waiting& frame : waiting_) output_->add(frame.frame, frame.solution);
-  waiting_.clear();
+  while (!waiting_.empty()) {
+    const Waiting frame = std::move(waiting_.front());
+    waiting_.pop_front();
+    output_->add(frame.frame, frame.solution);
+  }
 }
 
 }  // namespace hypotrack

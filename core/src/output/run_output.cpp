@@ -33,10 +33,13 @@ class ResultNames {
             "output '{}' wants to write '{}', expected the name of a file; this is a bug in the "
             "output",
             owner, name));
-      const auto [other, is_new] = owners_.emplace(name, owner);
-      if (!is_new)
+      const auto other = std::ranges::find_if(owners_, [&](const auto& known) {
+        return name == known.first || is_result(name, known.first) || is_result(known.first, name);
+      });
+      if (other != owners_.end())
         throw ConfigError(fmt::format("output: {} and {} both write {}; leave one of them out",
                                       other->second, owner, name));
+      owners_.emplace(name, owner);
       if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
     }
   }

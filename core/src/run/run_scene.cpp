@@ -104,7 +104,7 @@ class Results {
     if (output_.empty()) return std::nullopt;
     try {
       return output_.finish(complete);
-    } catch (const OutputError&) {
+    } catch (...) {
       tell_of_parts();
       throw;
     }
@@ -124,7 +124,7 @@ class Results {
       if (output_.empty()) return;
       output_.finish(false);
       watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder_.string()));
-    } catch (const OutputError& e) {
+    } catch (const std::exception& e) {
       watcher_.say(e.what());
     }
   }

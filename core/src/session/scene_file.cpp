@@ -47,6 +47,10 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
   refuse_old_keys(scene.root);
   scene.file = ParamReader(scene.root).read<SceneFile>();
   const InitSettings& init = scene.file.init;
+  if (init.from.is_map() && (!init.file.empty() || init.frame != 0))
+    throw ConfigError(fmt::format(
+        "{}: init.file and init.frame belong to `from: file`; give them within the map init.from",
+        scene.root.get("init").where()));
   if (init.from.scalar() == kStartFromFile && init.file.empty())
     throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",
                                   scene.root.get("init").where()));

@@ -132,6 +132,8 @@ TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
       message_of<ConfigError>([&] { open("summary.json"); }),
       HasSubstr("output: metrics and diary both write summary.json; leave one of them out"));
   EXPECT_THAT(message_of<ConfigError>([&] { open("run.yaml"); }), HasSubstr("the run and diary"));
+  EXPECT_THAT(message_of<ConfigError>([&] { open("worst_1.jpg"); }),
+              HasSubstr("metrics and diary"));
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 

@@ -254,6 +254,11 @@ TEST_F(RunTest, TheOldKeyOfFixedLagSmoothingIsRefusedWithTheNewOne) {
                  {"--set", "hindsight.enabled=true"});
 }
 
+TEST_F(RunTest, KeysOfAStartFromAFileAreRefusedBesideAMap) {
+  expect_refused(box_scene(), {"init.file and init.frame belong to `from: file`"},
+                 {"--set", "init.from={type: truth}", "--set", "init.frame=2"});
+}
+
 TEST_F(RunTest, SetChangesKeysOfTheScene) {
   const Outcome outcome =
       run(box_scene(),
