@@ -2,7 +2,7 @@
 
 /// Constants of a single-precision sine and cosine that is bit-identical on CPU and GPU, where the
 /// library functions differ in the last digits. Used by hypotrack/cuda/pose.cuh and
-/// core/src/evaluate/pose_kernel.cpp:
+/// core/src/scene/pose_kernel.cpp:
 ///   r = angle - n pi/2,   n = round(angle 2/pi)           in two steps (Cody and Waite)
 ///   sin r = r + r^3 (S3 + r^2 (S5 + r^2 (S7 + r^2 S9)))   Taylor, |r| <= pi/4
 ///   cos r = 1 + r^2 (C2 + r^2 (C4 + r^2 (C6 + r^2 C8)))

@@ -3,7 +3,7 @@
 #include "hypotrack/cuda/vertices.cuh"
 
 /// Finds the triangles that may cover pixels, with a block of threads. The operations equal those
-/// of the CPU kernel (core/src/evaluate/raster_kernel.cpp), so that both cover the same pixels with
+/// of the CPU kernel (core/src/cost/raster_kernel.cpp), so that both cover the same pixels with
 /// the same depth.
 namespace hypotrack::cuda {
 

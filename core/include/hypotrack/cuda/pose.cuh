@@ -6,7 +6,7 @@
 #include "hypotrack/sine_cosine.hpp"
 
 /// Decodes search points to bone matrices. The first step equals SearchSpace::states and
-/// Scene::normalize on the CPU. The next uses the operations of core/src/evaluate/pose_kernel.cpp,
+/// Scene::normalize on the CPU. The next uses the operations of core/src/scene/pose_kernel.cpp,
 /// so that normalised states give equal matrices.
 namespace hypotrack::cuda {
 

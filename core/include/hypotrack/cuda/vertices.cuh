@@ -4,11 +4,11 @@
 #include "hypotrack/cuda/layout.hpp"
 
 /// Skins and projects vertices with a block of threads. The operations equal those of the CPU
-/// kernel (core/src/evaluate/skin_kernel.cpp), so that both cover the same pixels with the same
+/// kernel (core/src/scene/skin_kernel.cpp), so that both cover the same pixels with the same
 /// depth.
 namespace hypotrack::cuda {
 
-// Explained in core/src/evaluate/simd_kernels.hpp.
+// Explained in core/src/scene/simd_kernels.hpp.
 inline constexpr float kNearest = 0.01f;
 inline constexpr float kFarthest = 1000.0f;
 inline constexpr float kFarthestPixel = 1 << 20;
