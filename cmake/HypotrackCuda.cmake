@@ -66,7 +66,7 @@ function(hypotrack_cuda_sources target)
       "$<$<COMPILE_LANGUAGE:CUDA>:--expt-relaxed-constexpr;--fmad=false>")
     # Every library has a runtime of its own; they share the device's primary context.
     set_target_properties(${target} PROPERTIES CUDA_RUNTIME_LIBRARY Static
-      CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON CUDA_EXTENSIONS OFF CUDA_VISIBILITY_PRESET hidden)
+      CUDA_STANDARD 20 CUDA_STANDARD_REQUIRED ON CUDA_EXTENSIONS OFF)
   elseif(ARG_NO_CUDA_SOURCES)
     target_sources(${target} PRIVATE ${ARG_NO_CUDA_SOURCES})
   else()

@@ -4,6 +4,10 @@ target_compile_options(hypotrack_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
   $<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Wall,-Wextra>
   $<$<BOOL:${HYPOTRACK_WERROR}>:$<$<COMPILE_LANGUAGE:CXX>:-Werror>$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Werror --Werror=all-warnings>>)
+# Libraries call their own functions, inline where they are small, as if these were hidden.
+target_compile_options(hypotrack_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-semantic-interposition>)
+target_link_options(hypotrack_options INTERFACE -Wl,-Bsymbolic-functions)
 # As fmt::fmt has them, for targets that include fmt with the precompiled header only.
 target_compile_definitions(hypotrack_options INTERFACE
   $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
@@ -12,3 +16,11 @@ if(HYPOTRACK_SANITIZE)
     -fsanitize=${HYPOTRACK_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(hypotrack_options INTERFACE -fsanitize=${HYPOTRACK_SANITIZE})
 endif()
+
+# hypotrack_export_own_names(TARGET): the library exports what is in the namespace hypotrack, the
+# internals for programs and tests included, and nothing of the libraries that are compiled into it.
+function(hypotrack_export_own_names target)
+  set(names ${PROJECT_SOURCE_DIR}/cmake/exported_names.map)
+  target_link_options(${target} PRIVATE -Wl,--version-script=${names})
+  set_property(TARGET ${target} APPEND PROPERTY LINK_DEPENDS ${names})
+endfunction()

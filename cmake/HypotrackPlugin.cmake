@@ -74,7 +74,8 @@ function(hypotrack_add_plugin_library kind name)
     HYPOTRACK_PLUGIN_KIND=${kind} HYPOTRACK_PLUGIN_NAME=${name}
     HYPOTRACK_PLUGIN_VERSION="${ARG_VERSION}" HYPOTRACK_PLUGIN_LICENCE="${ARG_LICENCE}")
   set_target_properties(${target} PROPERTIES
-    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden CUDA_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
+    POSITION_INDEPENDENT_CODE ON
     HYPOTRACK_PLUGIN_ID "${kind};${name}")
   if(ARG_CONTRACT_CONFIG)
     get_filename_component(contract_config ${ARG_CONTRACT_CONFIG} ABSOLUTE)
@@ -82,7 +83,7 @@ function(hypotrack_add_plugin_library kind name)
   endif()
   if(TARGET hypotrack_options)  # inside the project
     target_link_libraries(${target} PRIVATE hypotrack_options)
-    target_precompile_headers(${target} REUSE_FROM hypotrack_precompiled)
+    hypotrack_hide_names(${target})
     set_target_properties(${target} PROPERTIES
       LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${HYPOTRACK_PLUGIN_DIR}
       INSTALL_RPATH "$ORIGIN/../..")

@@ -25,4 +25,13 @@ function(hypotrack_add_precompiled name)
   target_precompile_headers(${name} PRIVATE ${HYPOTRACK_COMMON_HEADERS} ${ARG_HEADERS})
 endfunction()
 
-hypotrack_add_precompiled(hypotrack_precompiled)  # for shared libraries
+hypotrack_add_precompiled(hypotrack_precompiled)  # for the layers and the lab
+hypotrack_add_precompiled(hypotrack_plugin_precompiled)
+set_target_properties(hypotrack_plugin_precompiled PROPERTIES CXX_VISIBILITY_PRESET hidden)
+
+# hypotrack_hide_names(TARGET): builds a plugin, or a static library of plugins, as those outside the
+# project are built: its names are hidden. Precompiled headers hold the same flag.
+function(hypotrack_hide_names target)
+  set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden CUDA_VISIBILITY_PRESET hidden)
+  target_precompile_headers(${target} REUSE_FROM hypotrack_plugin_precompiled)
+endfunction()

@@ -16,11 +16,11 @@ struct Numbers {
 };
 
 /// Returns the statistics of a measurement; nothing if it has no frames.
-HYPOTRACK_API std::optional<Numbers> numbers_of(const Measurement& measurement);
+std::optional<Numbers> numbers_of(const Measurement& measurement);
 
 /// Returns how many times as fast a row is as another configuration in the same round and case.
 /// Nothing if either was not measured.
-HYPOTRACK_API std::optional<double> speed_over(const Row& row, std::size_t configuration,
-                                               const std::vector<Row>& rows);
+std::optional<double> speed_over(const Row& row, std::size_t configuration,
+                                 const std::vector<Row>& rows);
 
 }  // namespace hypotrack::bench

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::bench {
 
 /// A scene to measure.
@@ -45,7 +43,7 @@ struct Request {
 
 /// Makes a plan. Throws ConfigError if the table or a scene cannot be read, a scene does not fit
 /// its overrides, or a name is not in the table.
-HYPOTRACK_API Plan make_plan(const Request& request);
+Plan make_plan(const Request& request);
 
 /// Makes the directory of a case the working directory, so that relative paths in overrides work.
 void enter_directory(const Case& c);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/bench/bench_plan.hpp"
 #include "lab/bench/measure.hpp"
 
@@ -20,16 +19,15 @@ struct Row {
 };
 
 /// Formats the median frame: `21.3 ms, 46.9 fps (50 frames)`, or why there is none.
-HYPOTRACK_API std::string in_words(const Measurement& measurement);
+std::string in_words(const Measurement& measurement);
 
 /// Formats one round as a table for people, followed by the devices and the reasons for gaps.
-HYPOTRACK_API std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round);
+std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round);
 
 /// Throws ConfigError if write_rows() does not know the format of a file name.
-HYPOTRACK_API void check_format(const std::filesystem::path& file);
+void check_format(const std::filesystem::path& file);
 
 /// Writes all rows as CSV or JSON, by the suffix of the name. Throws OutputError.
-HYPOTRACK_API void write_rows(const std::filesystem::path& file, const Plan& plan,
-                              const std::vector<Row>& rows);
+void write_rows(const std::filesystem::path& file, const Plan& plan, const std::vector<Row>& rows);
 
 }  // namespace hypotrack::bench

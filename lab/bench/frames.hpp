@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
@@ -11,7 +10,7 @@
 namespace hypotrack::bench {
 
 /// Frames in memory, kept while consecutive cases have the same source.
-class HYPOTRACK_API Frames {
+class Frames {
  public:
   /// Reads up to `usable` usable frames of each source, and the unusable ones between them.
   Frames(PluginLoader& plugins, int usable) : plugins_(&plugins), usable_(usable) {}
@@ -29,6 +28,6 @@ class HYPOTRACK_API Frames {
 
 /// Copies images that are not in memory of OpenCV's present default allocator. Opening a scene that
 /// is evaluated on a GPU changes that allocator.
-HYPOTRACK_API void renew_images(std::vector<Frame>& frames);
+void renew_images(std::vector<Frame>& frames);
 
 }  // namespace hypotrack::bench

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
@@ -20,7 +19,7 @@ enum class Outcome {
   unavailable,  ///< this machine, build or scene does not support this configuration
   failed,       ///< it failed while tracking
 };
-HYPOTRACK_API std::string_view to_string(Outcome outcome);
+std::string_view to_string(Outcome outcome);
 
 /// Time, memory and accuracy of tracking a case in one configuration.
 struct Measurement {
@@ -38,8 +37,8 @@ struct Measurement {
 /// Tracks frames in memory, one after the other. The first must have views. Moves their images to
 /// where a source would allocate them for this configuration. Calls `again` before every frame; it
 /// ends the work by returning false. Reports errors in the result and does not throw.
-HYPOTRACK_API Measurement measure(const Case& c, const Configuration& configuration,
-                                  std::vector<Frame>& frames, PluginLoader& plugins,
-                                  const Limits& limits, const std::function<bool()>& again);
+Measurement measure(const Case& c, const Configuration& configuration, std::vector<Frame>& frames,
+                    PluginLoader& plugins, const Limits& limits,
+                    const std::function<bool()>& again);
 
 }  // namespace hypotrack::bench

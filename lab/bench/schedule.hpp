@@ -1,7 +1,5 @@
 #pragma once
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::bench {
 
 /// Least number of frames. A measurement exceeds its time to reach it, but only up to kLongest
@@ -18,7 +16,7 @@ struct Limits {
 
 /// Decides which frames of a sequence are measured, and when to stop. Times are in seconds since
 /// the first frame began.
-class HYPOTRACK_API Schedule {
+class Schedule {
  public:
   /// `usable` is the number of frames that can be tracked. A short sequence has at most one warm-up
   /// frame.

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/report/metric_info.hpp"
 
 namespace hypotrack {
@@ -32,10 +31,10 @@ inline constexpr double kSignificant = 0.05;
 /// test if both have the same seeds, otherwise the rank-sum test. Holm's method corrects the p
 /// values. There is no best and no test with one sample, or for metrics of which neither end is
 /// better.
-HYPOTRACK_API std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
-                                                      MetricInfo::Better better);
+std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
+                                        MetricInfo::Better better);
 
 /// Returns the p value of the difference of two samples, without correction.
-HYPOTRACK_API double test_difference(const Sample& a, const Sample& b);
+double test_difference(const Sample& a, const Sample& b);
 
 }  // namespace hypotrack

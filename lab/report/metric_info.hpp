@@ -3,8 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Presentation of a metric of a run.
@@ -21,9 +19,9 @@ struct MetricInfo {
 };
 
 /// Returns how a metric is shown. An unknown metric is shown under its own name.
-HYPOTRACK_API MetricInfo metric_info(const std::string& key);
+MetricInfo metric_info(const std::string& key);
 
 /// Returns the metrics of the tables' columns, in their order.
-HYPOTRACK_API const std::vector<std::string>& table_metrics();
+const std::vector<std::string>& table_metrics();
 
 }  // namespace hypotrack

@@ -6,21 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 // Packs numbers as short text for the page: little-endian bytes in base64. decode.js reads them.
 
 namespace hypotrack {
 
-HYPOTRACK_API std::string base64(std::span<const std::uint8_t> bytes);
+std::string base64(std::span<const std::uint8_t> bytes);
 
 /// Packs integers, little-endian, in base64.
-HYPOTRACK_API std::string pack_bytes(std::span<const std::uint8_t> values);
-HYPOTRACK_API std::string pack_words(std::span<const std::uint16_t> values);
-HYPOTRACK_API std::string pack_longs(std::span<const std::uint32_t> values);
+std::string pack_bytes(std::span<const std::uint8_t> values);
+std::string pack_words(std::span<const std::uint16_t> values);
+std::string pack_longs(std::span<const std::uint32_t> values);
 
 /// Packs numbers as {b, lo, step}: each value is lo + step * q with q of 16 bits; q = 65535 is
 /// unknown (NaN or infinite). The error is at most half a step, (max - min) / 65534 / 2.
-HYPOTRACK_API nlohmann::ordered_json pack_numbers(std::span<const double> values);
+nlohmann::ordered_json pack_numbers(std::span<const double> values);
 
 }  // namespace hypotrack

@@ -4,18 +4,16 @@
 #include <string>
 #include <string_view>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Returns the text of a self-contained HTML file: template, styles, scripts, libraries and data.
 /// Throws DataError if a part of the installation is missing.
-HYPOTRACK_API std::string report_page(const nlohmann::ordered_json& data);
+std::string report_page(const nlohmann::ordered_json& data);
 
 /// Escapes text for use between tags or in a quoted attribute.
-HYPOTRACK_API std::string escape_html(std::string_view text);
+std::string escape_html(std::string_view text);
 /// Formats JSON for use within <script>: no tag can begin or end in it. Bytes that are no UTF-8
 /// become U+FFFD.
-HYPOTRACK_API std::string script_json(const nlohmann::ordered_json& data);
+std::string script_json(const nlohmann::ordered_json& data);
 
 }  // namespace hypotrack

@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
@@ -16,9 +15,9 @@ namespace hypotrack {
 ///
 /// Each row is the mean over the runs with the same x, y and color. Without plots in the study it
 /// uses default_plots(). Throws DataError if a plot asks for something that does not exist.
-HYPOTRACK_API nlohmann::ordered_json plot_data(const StudyData& study);
+nlohmann::ordered_json plot_data(const StudyData& study);
 
 /// Returns the plots of a study that asks for none.
-HYPOTRACK_API std::vector<PlotRequest> default_plots(const StudyData& study);
+std::vector<PlotRequest> default_plots(const StudyData& study);
 
 }  // namespace hypotrack

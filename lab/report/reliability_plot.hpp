@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "hypotrack/export.hpp"
 #include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
@@ -10,6 +9,6 @@ namespace hypotrack {
 /// Draws a reliability diagram as SVG. For each bin of sigma it shows the root mean square error of
 /// landmarks over that of sigma, on logarithmic axes in millimetres. Dots lie on the diagonal if
 /// sigma is calibrated; their areas follow the numbers of landmarks.
-HYPOTRACK_API std::string reliability_svg(const Reliability& reliability, const std::string& title);
+std::string reliability_svg(const Reliability& reliability, const std::string& title);
 
 }  // namespace hypotrack

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 
@@ -15,7 +14,7 @@ namespace hypotrack {
 
 /// Collects the 3D replays of runs for the page. Meshes and motions that several runs share (the
 /// truth of a data set, the same model) are stored once.
-class HYPOTRACK_API ReplayCollector {
+class ReplayCollector {
  public:
   explicit ReplayCollector(PluginLoader& plugins) : plugins_(&plugins) {}
 

@@ -2,16 +2,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
 
 /// Returns a model's mesh and skeleton in the format of ReplayCollector::shapes().
-HYPOTRACK_API nlohmann::ordered_json replay_shape(const Model& model);
+nlohmann::ordered_json replay_shape(const Model& model);
 
 /// Returns pairs of landmarks to join by lines, each with the nearest one towards the root.
 /// Landmarks of one bone form a chain from its origin outwards.
-HYPOTRACK_API std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data);
+std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data);
 
 }  // namespace hypotrack

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack {
@@ -37,6 +36,6 @@ struct ReportSummary {
 /// name without `.html`, it writes plots/*.svg, plots/*.png and tables/*.csv. Replaces an earlier
 /// report when all is complete. Throws DataError, ConfigError, PluginError or OutputError, and then
 /// keeps the earlier one.
-HYPOTRACK_API ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins);
+ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins);
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/report/study_data.hpp"
 
@@ -17,12 +16,11 @@ struct ReportData {
 
 /// Makes the data of a report, with the replays of at most `most_replays` runs. Throws DataError,
 /// ConfigError or PluginError.
-HYPOTRACK_API ReportData report_data(const StudyData& study, int most_replays,
-                                     PluginLoader& plugins);
+ReportData report_data(const StudyData& study, int most_replays, PluginLoader& plugins);
 
 /// Chooses the runs that get a replay. Takes the run of median error of each cell, ranks them by
 /// error, and takes `most` evenly from the worst to the best. Returns ascending indices into
 /// StudyData::runs.
-HYPOTRACK_API std::vector<std::size_t> runs_to_replay(const StudyData& study, int most);
+std::vector<std::size_t> runs_to_replay(const StudyData& study, int most);
 
 }  // namespace hypotrack

@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Returns the frame-by-frame numbers of a run folder for the page:
@@ -15,6 +13,6 @@ namespace hypotrack {
 /// Numbers are as pack_numbers() writes them: errors in mm, time in s. Status is the first letter
 /// of tracked, uncertain, lost, absent, missing. Errors are absent where no truth is known. Throws
 /// DataError on damaged tables.
-HYPOTRACK_API nlohmann::ordered_json run_series(const std::filesystem::path& directory);
+nlohmann::ordered_json run_series(const std::filesystem::path& directory);
 
 }  // namespace hypotrack

@@ -3,29 +3,27 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Computes the two-sided p value of Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) for
 /// pairs a[i], b[i]. Pairs without a difference are left out; equal differences share their mean
 /// rank. Exact up to 40 pairs, then by the normal approximation with continuity correction. Returns
 /// 1 if nothing differs. Throws std::invalid_argument on different lengths.
-HYPOTRACK_API double signed_rank_test(std::span<const double> a, std::span<const double> b);
+double signed_rank_test(std::span<const double> a, std::span<const double> b);
 
 /// Computes the two-sided p value of the rank-sum test of Mann and Whitney (Annals of Mathematical
 /// Statistics 18, 1947) for two independent samples. Ties share their mean rank. Exact up to 40
 /// values in total, then by the normal approximation with tie and continuity correction. Returns 1
 /// if a sample is empty.
-HYPOTRACK_API double rank_sum_test(std::span<const double> a, std::span<const double> b);
+double rank_sum_test(std::span<const double> a, std::span<const double> b);
 
 /// Corrects p values for their number by Holm's step-down method (Scandinavian Journal of
 /// Statistics 6, 1979). Keeps their order.
-HYPOTRACK_API std::vector<double> holm(std::span<const double> p_values);
+std::vector<double> holm(std::span<const double> p_values);
 
 /// Returns the smallest p value that signed_rank_test() can give for `pairs` pairs, or
 /// rank_sum_test() for two samples of the given sizes. Too few seeds can never separate anything.
-HYPOTRACK_API double smallest_signed_rank_p(int pairs);
-HYPOTRACK_API double smallest_rank_sum_p(int first, int second);
+double smallest_signed_rank_p(int pairs);
+double smallest_rank_sum_p(int first, int second);
 
 }  // namespace hypotrack

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// One setting that a study varies.
@@ -37,7 +35,7 @@ struct SuccessCurve {
 };
 
 /// One run: its place in the study and its result.
-struct HYPOTRACK_API StudyRun {
+struct StudyRun {
   std::string id;
   std::filesystem::path directory;
   std::string scene;
@@ -58,7 +56,7 @@ struct HYPOTRACK_API StudyRun {
 };
 
 /// The subject of a report: a study, or a single run as a study of one.
-struct HYPOTRACK_API StudyData {
+struct StudyData {
   bool is_study = false;
   std::string title;
   std::string about;
@@ -83,10 +81,10 @@ struct HYPOTRACK_API StudyData {
 /// Reads a study folder (study.yaml, runs/*) or a run folder (track.csv, run.yaml). Throws
 /// DataError if `directory` is neither or a file in it is damaged, ConfigError on an unreadable
 /// study.yaml.
-HYPOTRACK_API StudyData read_study(const std::filesystem::path& directory);
+StudyData read_study(const std::filesystem::path& directory);
 
 /// Returns numbers in one form, so that 0.10 and 0.1 are the same value; other texts unchanged.
-HYPOTRACK_API std::string canonical_value(const std::string& text);
+std::string canonical_value(const std::string& text);
 /// Parses a text as a finite number. Returns false if it is not one.
 bool parse_number(std::string_view text, double& number);
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/export.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
@@ -18,11 +17,11 @@ namespace hypotrack {
 /// There is one per scene with a row per cell. With several scenes there is one of the mean error
 /// with a column per scene. `best` marks the best of its column (of its row in the table of
 /// scenes), `same` one that the seeds do not separate from the best.
-HYPOTRACK_API nlohmann::ordered_json table_data(const StudyData& study);
+nlohmann::ordered_json table_data(const StudyData& study);
 
 /// Writes DIRECTORY/<id>.csv for every table, and runs.csv with a row per run, with all digits.
 /// Throws OutputError.
-HYPOTRACK_API void write_table_files(const StudyData& study, const nlohmann::ordered_json& tables,
-                                     const std::filesystem::path& directory);
+void write_table_files(const StudyData& study, const nlohmann::ordered_json& tables,
+                       const std::filesystem::path& directory);
 
 }  // namespace hypotrack

@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Limits on a run's pictures in the page.
@@ -16,7 +14,6 @@ struct PictureLimits {
 
 /// Returns the pictures worst_<frame>.jpg of a run folder, by frame: [{frame, src:
 /// "data:image/jpeg..."}]. Throws DataError on a file that is no picture.
-HYPOTRACK_API nlohmann::ordered_json worst_frames(const std::filesystem::path& run,
-                                                  const PictureLimits& limits);
+nlohmann::ordered_json worst_frames(const std::filesystem::path& run, const PictureLimits& limits);
 
 }  // namespace hypotrack

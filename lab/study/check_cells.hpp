@@ -4,7 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 
@@ -13,7 +12,7 @@ namespace hypotrack::study {
 /// Checks the scenes of the given cells: opens each as a run would, up to its first frame, in a
 /// separate process. Calls `again` now and then; it stops the work by returning false. Throws
 /// ConfigError with all problems and the lines of the study that they come from.
-HYPOTRACK_API void check_cells(const Plan& plan, const std::vector<std::size_t>& cells,
-                               const Launch& launch, const std::function<bool()>& again);
+void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const Launch& launch,
+                 const std::function<bool()>& again);
 
 }  // namespace hypotrack::study

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
@@ -12,7 +11,7 @@
 namespace hypotrack::study {
 
 /// Observer of the runs of a study, which can stop them.
-class HYPOTRACK_API Watcher {
+class Watcher {
  public:
   virtual ~Watcher();
   /// Returns true to end the work. Called some hundred times per second.
@@ -25,8 +24,7 @@ class HYPOTRACK_API Watcher {
 /// that other processes are making. Records failures in the folder. Returns false if the watcher,
 /// or somebody who interrupted a run, ended the work early; unfinished runs are then given up.
 /// Throws OutputError.
-HYPOTRACK_API bool execute(const StudyFolder& folder, const Plan& plan,
-                           const std::vector<std::size_t>& runs, const Launch& launch,
-                           Watcher& watcher);
+bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
+             const Launch& launch, Watcher& watcher);
 
 }  // namespace hypotrack::study

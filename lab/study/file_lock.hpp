@@ -3,14 +3,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::study {
 
 /// An exclusive lock between processes, on one machine or over a network file system. The kernel
 /// frees it when its last owner ends, however it ends. It is a file (flock) whose content tells
 /// people who holds it.
-class HYPOTRACK_API FileLock {
+class FileLock {
  public:
   /// Waits until the lock is free and takes it. Throws OutputError if the file cannot be made or
   /// locked.

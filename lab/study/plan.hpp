@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {
@@ -40,9 +39,9 @@ struct Plan {
     return study.axes[axis].choices[cell.choices[axis]];
   }
   /// Returns the changes to the scene, in the order in which they apply.
-  HYPOTRACK_API std::vector<Change> changes_of(const Cell& cell) const;
+  std::vector<Change> changes_of(const Cell& cell) const;
   /// Returns a description for messages: `sh_stereo, optimizer.particles 32`.
-  HYPOTRACK_API std::string describe(const Cell& cell) const;
+  std::string describe(const Cell& cell) const;
 };
 
 /// A part of the runs, for one of several machines.
@@ -53,10 +52,10 @@ struct Shard {
 
 /// Plans all runs. Throws ConfigError if a scene file cannot be read or the study has more than
 /// 100,000 runs.
-HYPOTRACK_API Plan make_plan(Study study);
+Plan make_plan(Study study);
 
 /// Returns the indices of the runs of a shard. Each cell's seeds are distributed over the shards,
 /// so that no shard gets all the slow cells.
-HYPOTRACK_API std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
+std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
 
 }  // namespace hypotrack::study

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
@@ -18,14 +17,14 @@ namespace hypotrack::study {
 
 /// Returns the name of the recording that a cell reads. Cells share it if their scene files and
 /// their changes of models and source are the same.
-HYPOTRACK_API std::string recording_id(const Plan& plan, const Cell& cell);
+std::string recording_id(const Plan& plan, const Cell& cell);
 
 /// Makes the recordings of the given cells, each in a separate process. Also waits for those that
 /// other processes make. Calls `again` now and then; it ends the work by returning false. Throws
 /// DataError with the error of a failed recording.
-HYPOTRACK_API void make_recordings(const StudyFolder& folder, const Plan& plan,
-                                   const std::vector<std::size_t>& cells, const Launch& launch,
-                                   const std::function<bool()>& again);
+void make_recordings(const StudyFolder& folder, const Plan& plan,
+                     const std::vector<std::size_t>& cells, const Launch& launch,
+                     const std::function<bool()>& again);
 
 /// Returns the first arguments of `hypotrack run` for a cell: `run`, the scene and the changes. The
 /// scene of a recording already contains the changes of models and source.

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/plan.hpp"
 
 namespace hypotrack::study {

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "base/subprocess.hpp"
-#include "hypotrack/export.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
 
@@ -26,7 +25,7 @@ struct RunCost {
 
 /// The working folder of a run, or a recording, that this process makes, and its lock. Moves to its
 /// final place when complete; removed otherwise.
-class HYPOTRACK_API RunFolder {
+class RunFolder {
  public:
   /// `final` is the folder's final path.
   RunFolder(FileLock lock, std::filesystem::path working, std::filesystem::path final);
@@ -63,7 +62,6 @@ std::string repair_advice(const std::filesystem::path& file);
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
 /// Returns the line of a log that says why a run failed, without the names of its folders.
-HYPOTRACK_API std::string failure_message(const std::filesystem::path& log,
-                                          const Subprocess::End& end);
+std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end);
 
 }  // namespace hypotrack::study

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::study {
@@ -48,14 +47,14 @@ struct Axis {
 };
 
 enum class PlotKind { curve, success, heatmap, bars };
-HYPOTRACK_API std::span<const std::string_view> enum_names(PlotKind);
+std::span<const std::string_view> enum_names(PlotKind);
 
 /// One item of `plots:`, drawn by `hypotrack report`. `x`, `color` and `facet` are axes, `scene` or
 /// `seed`; `y` and `value` are metrics.
 struct Plot {
   PlotKind kind = PlotKind::curve;
   std::string x, y, value, color, facet, title, x_label, y_label;
-  HYPOTRACK_API void visit(ParamVisitor& v);
+  void visit(ParamVisitor& v);
 };
 
 /// A study: every scene at every point of the grid with every seed.
@@ -74,10 +73,10 @@ struct Study {
 
 /// Reads a study file and applies one of its variants. Throws ConfigError with file, line and
 /// column.
-HYPOTRACK_API Study load_study(const std::filesystem::path& file,
-                               const std::optional<std::string>& variant = std::nullopt);
+Study load_study(const std::filesystem::path& file,
+                 const std::optional<std::string>& variant = std::nullopt);
 
 /// Returns the study as a study file without variants. load_study() reads the same study back.
-HYPOTRACK_API std::string to_yaml(const Study& study);
+std::string to_yaml(const Study& study);
 
 }  // namespace hypotrack::study

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/run_folder.hpp"
 
@@ -23,7 +22,7 @@ enum class RunState { missing, ok, failed };
 ///   .working/<id>/  a run or recording being made, and its lock beside it
 ///
 /// Any number of processes may work on one folder.
-class HYPOTRACK_API StudyFolder {
+class StudyFolder {
  public:
   /// Opens a folder without changing it. Throws OutputError if it belongs to no study, or to
   /// another study (one with a run that is not in the plan).

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "hypotrack/export.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
 
@@ -16,6 +15,6 @@ struct Tally {
 /// Writes results.csv (a row per run), cells.csv (a row per cell: mean and standard deviation over
 /// the seeds) and timing.csv from the finished runs. Replaces each file atomically. The first two
 /// have the same bytes for the same runs. Throws OutputError or DataError.
-HYPOTRACK_API Tally write_tables(const StudyFolder& folder, const Plan& plan);
+Tally write_tables(const StudyFolder& folder, const Plan& plan);
 
 }  // namespace hypotrack::study

@@ -1,4 +1,5 @@
 #pragma once
 
-/// Exports a symbol from libhypotrack.so to plugins and programs; all others stay hidden.
+/// Marks a public name: visible outside its library, also where code is compiled with hidden
+/// visibility.
 #define HYPOTRACK_API __attribute__((visibility("default")))

@@ -5,16 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Returns the text of a CSV cell, quoted if it has a comma or a quote (RFC 4180). Replaces line
 /// breaks by spaces.
-HYPOTRACK_API std::string csv_cell(std::string_view text);
+std::string csv_cell(std::string_view text);
 
 /// The cells of a CSV table with a header, as text.
-class HYPOTRACK_API CsvTable {
+class CsvTable {
  public:
   struct Row {
     int line = 0;  ///< of the file, from 1

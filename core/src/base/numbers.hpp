@@ -5,25 +5,23 @@
 #include <string>
 #include <string_view>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::detail {
 
 /// Parses a number of YAML 1.2's core schema: decimal, `.inf`, `.nan`. Returns nothing for other
 /// texts and numbers beyond a double.
-HYPOTRACK_API std::optional<double> parse_number(std::string_view text);
+std::optional<double> parse_number(std::string_view text);
 
 /// Parses an integer, also one written as `1e3`.
-HYPOTRACK_API std::optional<std::int64_t> parse_integer(std::string_view text);
+std::optional<std::int64_t> parse_integer(std::string_view text);
 
 /// Returns the number that `text` represents times `to_si`. Uses extended precision for texts of
 /// more than 17 digits: not every double is a double times `to_si`, and a dump must reach all.
-HYPOTRACK_API double scale_number(std::string_view text, double number, double to_si);
+double scale_number(std::string_view text, double number, double to_si);
 
 /// Returns the shortest text that scale_number() converts to exactly `value`.
-HYPOTRACK_API std::string format_number(double value, double to_si);
+std::string format_number(double value, double to_si);
 
 /// Describes a range as "from 2 to 64 mm" or "at least 0"; empty without bounds.
-HYPOTRACK_API std::string describe_range(double min, double max, std::string_view unit);
+std::string describe_range(double min, double max, std::string_view unit);
 
 }  // namespace hypotrack::detail

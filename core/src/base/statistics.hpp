@@ -4,39 +4,37 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 // Statistics of a set of errors, which are non-negative and finite, in any order and any one unit.
 // Remove NaN first with without_nan(). Results for an empty set are NaN.
 
 namespace hypotrack {
 
-HYPOTRACK_API std::vector<double> without_nan(std::span<const double> values);
+std::vector<double> without_nan(std::span<const double> values);
 
-HYPOTRACK_API double mean(std::span<const double> values);
+double mean(std::span<const double> values);
 
 /// Computes the population standard deviation, divided by n.
-HYPOTRACK_API double standard_deviation(std::span<const double> values);
+double standard_deviation(std::span<const double> values);
 
 /// Computes the standard deviation of a sample, divided by n - 1; NaN for fewer than two values.
-HYPOTRACK_API double sample_deviation(std::span<const double> values);
+double sample_deviation(std::span<const double> values);
 
 /// Returns the value below which a share 0 <= p <= 1 of the values lies; p = 0.5 is the median. It
 /// interpolates linearly between the two nearest values (Hyndman and Fan's type 7, as NumPy does).
-HYPOTRACK_API double percentile(std::span<const double> values, double p);
+double percentile(std::span<const double> values, double p);
 
 /// Returns the share of values strictly below a threshold: one point of the success curve.
-HYPOTRACK_API double share_below(std::span<const double> values, double threshold);
+double share_below(std::span<const double> values, double threshold);
 
 /// Computes the area under the success curve t -> share_below(values, t) from `low` to `high`,
 /// divided by the width of the interval. It is 1 if no value exceeds `low`, 0 if none lies below
 /// `high`. It is exact, without a grid: a value e adds (high - e) / (high - low), clamped to 0 and
 /// 1.
-HYPOTRACK_API double area_under_success(std::span<const double> values, double low, double high);
+double area_under_success(std::span<const double> values, double low, double high);
 
 inline constexpr int kSuccessCurvePoints = 101;
 
 /// Returns share_below() at thresholds 0, 1, 2, ..., 100.
-HYPOTRACK_API std::array<double, kSuccessCurvePoints> success_curve(std::span<const double> values);
+std::array<double, kSuccessCurvePoints> success_curve(std::span<const double> values);
 
 }  // namespace hypotrack

@@ -3,17 +3,16 @@
 #include <filesystem>
 #include <string_view>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 
 /// Checks early that write_whole() can work for a file, for results of long work. Throws
 /// OutputError if it cannot.
-HYPOTRACK_API void expect_writable(const std::filesystem::path& file);
+void expect_writable(const std::filesystem::path& file);
 
 /// Writes a file beside its place and moves it there, so that it is never seen incomplete. Throws
 /// OutputError.
-HYPOTRACK_API void write_whole(const std::filesystem::path& file, std::string_view text);
+void write_whole(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace hypotrack

@@ -3,7 +3,6 @@
 #include <array>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 
 namespace hypotrack {
 
@@ -15,6 +14,6 @@ DistortionCoefficients distortion_coefficients(const Camera& camera);
 /// Returns the largest distance from the optical axis, r = tan(angle), up to which distortion is
 /// monotonic. Beyond it the fitted polynomial folds back, so that rays which the camera never saw
 /// map into the image. Infinite if it never folds.
-HYPOTRACK_API double monotonic_radius(const Camera& camera);
+double monotonic_radius(const Camera& camera);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 
 namespace hypotrack {
 
@@ -30,6 +29,6 @@ struct IdealRig {
 /// x_second/z is baseline/z, never negative.
 /// Source: Fusiello, Trucco and Verri, 2000: x points from the first camera to the second; z is as
 /// close to the mean optical axis as that allows.
-HYPOTRACK_API IdealRig make_ideal_rig(std::span<const Camera> cameras);
+IdealRig make_ideal_rig(std::span<const Camera> cameras);
 
 }  // namespace hypotrack

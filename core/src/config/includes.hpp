@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "config/yaml.hpp"
-#include "hypotrack/export.hpp"
 
 namespace hypotrack::detail {
 
@@ -17,7 +16,7 @@ namespace hypotrack::detail {
 /// `@FILE.yaml` becomes the value at the same path in the scene FILE, `@FILE.yaml#key.path` the
 /// value at that path. FILE is relative to the folder of the text. A copied value keeps its origin,
 /// so that its relative paths still refer to FILE's folder.
-class HYPOTRACK_API Includes {
+class Includes {
  public:
   /// `file` is the file of the scene whose includes are replaced; others may not include it.
   explicit Includes(const std::filesystem::path& file = {});
@@ -54,8 +53,7 @@ void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string>
 /// hypotrack; `@FILE.yaml` is a path, and one of a scene is left to Includes::resolve(). Keys of
 /// the document stay, and maps without a `type` are joined. An override replaces all keys of a
 /// tracker. Throws ConfigError.
-HYPOTRACK_API std::vector<std::string> take_tracker(YamlNode& document,
-                                                    std::span<const std::string> overrides,
-                                                    Includes& includes);
+std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
+                                      Includes& includes);
 
 }  // namespace hypotrack::detail

@@ -4,19 +4,18 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::detail {
 
 /// Throws ConfigError with the text `scene.yaml:3:5: optimizer.particles: problem`.
-[[noreturn]] HYPOTRACK_API void fail_at(const ConfigNode& node, std::string_view problem);
+[[noreturn]] void fail_at(const ConfigNode& node, std::string_view problem);
 
 /// Describes the content of a node, for "found ..." in messages.
 std::string describe_value(const ConfigNode& node);
 
 /// Throws ConfigError with `expected` and what was found instead.
-[[noreturn]] HYPOTRACK_API void fail_type(const ConfigNode& node, std::string_view expected);
+[[noreturn]] void fail_type(const ConfigNode& node, std::string_view expected);
 
 /// Throws ConfigError for an unknown key, with the nearest name and all allowed ones.
 [[noreturn]] void fail_unknown(const ConfigNode& map, const std::string& key,

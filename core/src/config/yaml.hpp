@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 // YAML documents: as trees that know where their values are written, and as maps to be written.
 
 namespace hypotrack::detail {
@@ -64,7 +62,7 @@ inline constexpr std::size_t kMaxYamlDepth = 64;
 std::string describe_position(const YamlOrigin& origin, int line, int column);
 
 /// Makes a scalar. Unless `plain`, text that looks like a number, bool or null stays text.
-HYPOTRACK_API std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain);
+std::unique_ptr<YamlNode> make_scalar(std::string text, bool plain);
 
 /// Copies a node with all its children; the copy has no parent.
 std::unique_ptr<YamlNode> clone(const YamlNode& node);
@@ -84,11 +82,11 @@ std::unique_ptr<YamlNode> read_document(std::string_view text, std::string name,
 std::unique_ptr<YamlNode> read_yaml_file(const std::filesystem::path& file);
 
 /// Writes a node as YAML text that read_yaml() reads back to an equal node, except positions.
-HYPOTRACK_API std::string write_yaml(const YamlNode& node);
+std::string write_yaml(const YamlNode& node);
 
 /// A YAML map that a program builds and writes, such as a run's protocol or a recording's scene.
 /// Strings stay strings and numbers keep every digit.
-class HYPOTRACK_API YamlDocument {
+class YamlDocument {
  public:
   /// Parses the text of a map; an empty text is an empty map. Throws ConfigError.
   explicit YamlDocument(std::string_view text = {});

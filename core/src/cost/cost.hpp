@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
@@ -16,7 +15,7 @@
 namespace hypotrack {
 
 enum class Backend { automatic, cpu, egl, cuda };
-HYPOTRACK_API std::span<const std::string_view> enum_names(Backend);
+std::span<const std::string_view> enum_names(Backend);
 
 /// Parameters of a scene's `evaluate:` section.
 struct EvaluateSettings {
@@ -49,7 +48,7 @@ struct ResidualRows {
 
 /// Residuals of states: ResidualCost with states (DxN) in place of search points. They need not be
 /// normalised.
-class HYPOTRACK_API StateResiduals : public ResidualCost {
+class StateResiduals : public ResidualCost {
  public:
   /// Returns the residuals of terms that read no images, if other terms do.
   virtual std::vector<ResidualRows> pose_only() const = 0;
@@ -58,7 +57,7 @@ class HYPOTRACK_API StateResiduals : public ResidualCost {
 /// Turns batches of states into costs: normalises, poses, skins, draws depth tiles of every view,
 /// and scores. Each backend is one implementation (make_cost()). It uses several threads; the
 /// result does not depend on their number.
-class HYPOTRACK_API Cost {
+class Cost {
  public:
   virtual ~Cost();
   Cost(const Cost&) = delete;
@@ -129,9 +128,9 @@ class HYPOTRACK_API Cost {
 /// Makes the cost of a scene on the backend that the settings select; never a silent substitute.
 /// The scene must outlive it. Throws DeviceError if the backend is unavailable, and by
 /// check_requirements() if the terms or the backend lack what is required.
-HYPOTRACK_API std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
-                                              const EvaluateSettings& settings,
-                                              const Requirements& requirements = {});
+std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
+                                const EvaluateSettings& settings,
+                                const Requirements& requirements = {});
 
 /// Returns true if make_cost() evaluates these terms with CUDA.
 bool evaluates_with_cuda(const Scene& scene, const std::vector<ObjectiveTerm>& terms,

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cost/raster_kernels.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/observation.hpp"
 #include "scene/scene_plan.hpp"
@@ -14,7 +13,7 @@
 namespace hypotrack {
 
 /// The cameras of a frame's tiles, in the kernels' form.
-struct HYPOTRACK_API FrameProjection {
+struct FrameProjection {
   FrameProjection() = default;
   explicit FrameProjection(const Observation& observation);
 
@@ -25,7 +24,7 @@ struct HYPOTRACK_API FrameProjection {
 
 /// Poses and draws one hypothesis at a time into its own tiles; one per thread. draw() runs the
 /// stages in their order. They are public so that each can be measured.
-class HYPOTRACK_API HypothesisDrawer {
+class HypothesisDrawer {
  public:
   /// The plan must outlive the drawer.
   explicit HypothesisDrawer(const ScenePlan& plan);

@@ -13,7 +13,7 @@ namespace hypotrack {
 
 /// Draws hypotheses for the cost that scores on the CPU. An implementation is one source file with
 /// a make_* function (below).
-class HYPOTRACK_API HypothesisRenderer {
+class HypothesisRenderer {
  public:
   /// Receives hypothesis `index`; its spans are valid until it returns. May be called from several
   /// threads at once. render() passes its exceptions on unchanged.
@@ -39,12 +39,10 @@ class HYPOTRACK_API HypothesisRenderer {
 
 /// Makes the SIMD rasteriser with `threads` threads (0: one per core). If `draws` is false, it only
 /// passes on the states, on the same threads, with empty views, for terms that need no rendering.
-HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool draws,
-                                                                    int threads);
+std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool draws, int threads);
 
 /// Makes the OpenGL renderer on a surfaceless EGL context; `threads` threads visit hypotheses (0:
 /// one per core). Throws DeviceError if there is no OpenGL.
-HYPOTRACK_API std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene,
-                                                                    int threads);
+std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene, int threads);
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack {
@@ -10,9 +9,9 @@ namespace hypotrack {
 /// Computes the normal equations from residuals r at a point (M) and at D neighbours (MxD). Column
 /// d of J is (beside.col(d) - r) * scale[d]; columns with scale 0 are ignored. Most residuals do
 /// not depend on most parameters; equal entries cost only a comparison.
-HYPOTRACK_API NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
-                                               const Eigen::Ref<const Eigen::MatrixXf>& beside,
-                                               const Eigen::VectorXd& scale);
+NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
+                                 const Eigen::Ref<const Eigen::MatrixXf>& beside,
+                                 const Eigen::VectorXd& scale);
 
 /// Returns `scale` with 0 for columns of infinite cost, whose residuals are undefined.
 Eigen::VectorXd scale_of_finite(const Eigen::Ref<const Eigen::VectorXd>& scale,

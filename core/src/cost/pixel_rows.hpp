@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cost/raster_kernels.hpp"
-#include "hypotrack/export.hpp"
 #include "scene/scene_plan.hpp"
 
 namespace hypotrack {
@@ -45,7 +44,7 @@ struct PixelSlopes {
 /// that changes from r_q to r_p over `blur` pixels has the row (r_p - r_q) / sqrt(blur) and the
 /// residual (r_p + r_q) / 2 sqrt(blur). They give the exact gradient and a curvature that decreases
 /// with the blur.
-class HYPOTRACK_API PixelRows {
+class PixelRows {
  public:
   /// Begins a view. The data that `drawn` refers to must live until the last add(). `width` and
   /// `height` of the tile come from the view.

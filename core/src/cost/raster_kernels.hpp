@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "hypotrack/export.hpp"
 #include "scene/simd_kernels.hpp"
 
 // The vectorised inner loops of the CPU renderer, behind plain data. They are compiled once per
@@ -34,13 +33,13 @@ struct PixelRange {
 };
 
 /// Projects `count` (a multiple of kBlock) points into one view.
-HYPOTRACK_API void project_view(const float* x, const float* y, const float* z, std::size_t count,
-                                const ViewProjection& view, float* records, PixelRange& range);
+void project_view(const float* x, const float* y, const float* z, std::size_t count,
+                  const ViewProjection& view, float* records, PixelRange& range);
 
 /// Projects points into both views of a rectified pair, which share y and 1/z. `ranges` has two
 /// elements.
-HYPOTRACK_API void project_pair(const float* x, const float* y, const float* z, std::size_t count,
-                                const ViewProjection* views, float* records, PixelRange* ranges);
+void project_pair(const float* x, const float* y, const float* z, std::size_t count,
+                  const ViewProjection* views, float* records, PixelRange* ranges);
 
 /// Largest extents of the size classes of visible triangles. Class i holds triangles that fit into
 /// a square of kBoxSizes[i] pixels and that no right or bottom edge of the tile cuts. The last
@@ -56,18 +55,17 @@ struct VisibleTriangles {
 
 /// Appends the visible triangles of a range for one view or, with `pair`, for both views of a
 /// rectified pair.
-HYPOTRACK_API void cull_triangles(const std::uint32_t* corners, const TriangleRange& range,
-                                  const float* records, const ViewProjection* views, bool pair,
-                                  VisibleTriangles* visible);
+void cull_triangles(const std::uint32_t* corners, const TriangleRange& range, const float* records,
+                    const ViewProjection* views, bool pair, VisibleTriangles* visible);
 
 /// Draws visible triangles into an inverse-depth tile (`stride` x height floats, aligned); the
 /// larger 1/z wins. `second` selects a rectified pair's second view. `degenerate` is the index of a
 /// triangle without area that pads the lists, which are changed.
-HYPOTRACK_API void draw_triangles(const std::uint32_t* corners, std::uint32_t degenerate,
-                                  const float* records, bool second, const ViewProjection& view,
-                                  VisibleTriangles& visible, float* tile);
+void draw_triangles(const std::uint32_t* corners, std::uint32_t degenerate, const float* records,
+                    bool second, const ViewProjection& view, VisibleTriangles& visible,
+                    float* tile);
 
 /// Sets the pixels x0 <= x < x1, y0 <= y < y1 of a tile to zero; all others must already be zero.
-HYPOTRACK_API void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1);
+void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1);
 
 }  // namespace hypotrack

@@ -41,6 +41,13 @@ Shader compile(GLenum stage, const char* source, const char* what) {
 
 }  // namespace
 
+void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
+void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+void delete_program(GLuint name) { glDeleteProgram(name); }
+
 Buffer make_buffer() {
   GLuint name = 0;
   glGenBuffers(1, &name);

@@ -32,12 +32,12 @@ class Owned {
   GLuint name_ = 0;
 };
 
-inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
-inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
-inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
-inline void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
-inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
-inline void delete_program(GLuint name) { glDeleteProgram(name); }
+void delete_buffer(GLuint name);
+void delete_vertex_array(GLuint name);
+void delete_texture(GLuint name);
+void delete_renderbuffer(GLuint name);
+void delete_framebuffer(GLuint name);
+void delete_program(GLuint name);
 
 using Buffer = Owned<delete_buffer>;
 using VertexArray = Owned<delete_vertex_array>;

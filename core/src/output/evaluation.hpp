@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "output/metrics/metrics.hpp"
 
 namespace hypotrack {
@@ -32,6 +31,6 @@ struct Evaluation {
 /// only the truth has are missing; landmarks that only the truth has are unknown. Throws DataError
 /// on missing and damaged files, landmarks that only the run has, no frame or landmark in common,
 /// and tables in different units.
-HYPOTRACK_API Evaluation evaluate(const EvaluationInput& input);
+Evaluation evaluate(const EvaluationInput& input);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "output/run_output.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
@@ -14,7 +13,7 @@ namespace hypotrack {
 
 /// Passes a run's frames to its output: at once or, with fixed-lag smoothing, when their states are
 /// settled.
-class HYPOTRACK_API FixedLagOutput {
+class FixedLagOutput {
  public:
   /// The output must outlive the object. Without a smoother (null) frames are written as they
   /// come.

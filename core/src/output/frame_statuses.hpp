@@ -1,6 +1,5 @@
 #pragma once
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "output/metrics/status_metrics.hpp"
 #include "track/scene_tracker.hpp"
@@ -8,6 +7,6 @@
 namespace hypotrack {
 
 /// Returns a solution's statuses of the frame and of each model that has landmarks.
-HYPOTRACK_API FrameStatuses statuses_of(const Scene& scene, const Solution& solution);
+FrameStatuses statuses_of(const Scene& scene, const Solution& solution);
 
 }  // namespace hypotrack

@@ -4,13 +4,11 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Writes PNG files on all cores while the caller goes on. The files do not depend on the threads'
 /// timing.
-class HYPOTRACK_API ImageWriter {
+class ImageWriter {
  public:
   ImageWriter();
   /// Finishes the files that are begun and drops those that wait.

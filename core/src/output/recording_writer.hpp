@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
@@ -23,7 +22,7 @@ namespace hypotrack {
 /// Also calibration.yaml; scene.yaml, which tracks the recording; source.yaml, the recorded scene.
 /// If the truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the speeds.
 /// The folder gets its name when it is complete.
-class HYPOTRACK_API RecordingWriter {
+class RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
   /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there
@@ -67,6 +66,6 @@ class HYPOTRACK_API RecordingWriter {
 /// Returns a calibration in the project's own form (calibration.hpp, form 3). load_calibration()
 /// reads the same cameras back, exactly except for the last digit of rotations (it orthonormalises
 /// them).
-HYPOTRACK_API std::string calibration_yaml(const std::vector<Camera>& cameras);
+std::string calibration_yaml(const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack

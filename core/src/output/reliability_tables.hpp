@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
@@ -19,6 +18,6 @@ struct UncertaintyCalibration {
 /// Adds a run, frame by frame. Compares joints.csv with truth_landmarks.csv, and reads
 /// uncertainty.csv and the status in track.csv. Leaves out frames without a known error. Throws
 /// DataError on missing and damaged files, naming what is missing.
-HYPOTRACK_API void add_run(const std::filesystem::path& run, UncertaintyCalibration& calibration);
+void add_run(const std::filesystem::path& run, UncertaintyCalibration& calibration);
 
 }  // namespace hypotrack

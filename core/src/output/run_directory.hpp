@@ -5,16 +5,14 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Returns whether a file's name is that of a result. A # in the latter stands for any number.
-HYPOTRACK_API bool is_result(std::string_view name, std::string_view result);
+bool is_result(std::string_view name, std::string_view result);
 
 /// The folder of a run's results. Files are written under temporary names (`.part.track.csv`) and
 /// renamed together when the run ends, so that a file with its final name is complete.
-class HYPOTRACK_API RunDirectory {
+class RunDirectory {
  public:
   /// Makes the folder if needed and removes unfinished files of an earlier, killed run. `results`
   /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Every

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
@@ -17,11 +16,11 @@ namespace hypotrack {
 
 /// Throws ConfigError if two outputs of a run write a file of one name, PluginError if a file's
 /// name is none.
-HYPOTRACK_API void check_outputs(const std::vector<NamedOutput>& outputs);
+void check_outputs(const std::vector<NamedOutput>& outputs);
 
 /// Writes the results of a run: run.yaml, what MetricsOutput writes, and the files of the scene's
 /// outputs.
-class HYPOTRACK_API RunOutput {
+class RunOutput {
  public:
   struct Options {
     std::filesystem::path directory;

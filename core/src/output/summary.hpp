@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "hypotrack/export.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/metrics/reliability.hpp"
 
@@ -25,6 +24,6 @@ struct Summary {
 
 /// Returns the text of summary.json. Leaves out error statistics where no frame has an error, and
 /// those of sigma where there is none.
-HYPOTRACK_API std::string to_json(const Summary& summary);
+std::string to_json(const Summary& summary);
 
 }  // namespace hypotrack

@@ -6,7 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
@@ -15,19 +14,16 @@ namespace hypotrack {
 
 /// Returns the world positions of the true landmarks (3xL, metres; NaN columns are unknown or
 /// absent). Returns nothing if the frame has no truth.
-HYPOTRACK_API std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene,
-                                                             const Frame& frame);
+std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene, const Frame& frame);
 
 /// Returns for each landmark of the scene whether its model is absent. `absent_models` has a flag
 /// per model; if it is empty, so is the result.
-HYPOTRACK_API std::vector<bool> absent_landmarks(const Scene& scene,
-                                                 const std::vector<bool>& absent_models);
+std::vector<bool> absent_landmarks(const Scene& scene, const std::vector<bool>& absent_models);
 /// Returns for each landmark of the scene the index of its model.
-HYPOTRACK_API std::vector<std::size_t> landmark_owners(const Scene& scene);
+std::vector<std::size_t> landmark_owners(const Scene& scene);
 /// Returns for each of `models` models whether it is absent: some of its landmarks are and none is
 /// known. `owners` are the landmarks' models. Empty if no model is absent.
-HYPOTRACK_API std::vector<bool> absent_models(const LandmarkRow& row,
-                                              std::span<const std::size_t> owners,
-                                              std::size_t models);
+std::vector<bool> absent_models(const LandmarkRow& row, std::span<const std::size_t> owners,
+                                std::size_t models);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/output.hpp"
 #include "picture/comparison.hpp"
 
@@ -23,7 +22,7 @@ struct WorstFrame {
 /// Keeps the frames of largest error of a run, at least kApart from each other, so that one bad
 /// moment does not take all places. It keeps the worst of frames 0 to 9, of 10 to 19, and so on.
 /// Among these it picks the worst, then the worst that is not near it, and so on.
-class HYPOTRACK_API WorstFrames {
+class WorstFrames {
  public:
   static constexpr int kApart = 10;
 

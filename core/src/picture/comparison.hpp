@@ -5,7 +5,6 @@
 #include <string>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/renderer.hpp"
 
 namespace hypotrack {
@@ -20,8 +19,8 @@ struct ScenePose {
 /// size). The solution is orange (tinted and outlined), the truth blue (outlined). Lines lead from
 /// landmarks to their true positions; a legend is below. `renderer` must render the scene of both.
 /// Throws DataError as Renderer::render does.
-HYPOTRACK_API cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image,
-                                      const Camera& camera, const ScenePose& solution,
-                                      const ScenePose& truth, const std::string& caption);
+cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image, const Camera& camera,
+                        const ScenePose& solution, const ScenePose& truth,
+                        const std::string& caption);
 
 }  // namespace hypotrack

@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::detail {
 
 /// Returns the path of the program that opens plugins in a separate process.
@@ -14,7 +12,7 @@ std::filesystem::path probe_program();
 /// between them), and the build's own folder. Relative elements of `extra` are relative to the
 /// current working directory, because the user typed them. Relative elements in the environment
 /// would depend on where the program runs, so they throw PluginError. Empty elements are ignored.
-HYPOTRACK_API std::vector<std::filesystem::path> plugin_search_path(
+std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra);
 
 }  // namespace hypotrack::detail

@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// A plugin library's description. If `problem` is not empty, only the path and what the file name
@@ -33,32 +31,31 @@ inline constexpr std::chrono::milliseconds kInspectTime{10'000};
 /// Opens a library in a child process and describes it. A crash, hang or exit there becomes a
 /// `problem`: "crashed: SIGSEGV while loading". The child is a new program, so this is safe with
 /// any number of threads. Throws PluginError if that program is not installed.
-HYPOTRACK_API PluginRow check_plugin(const std::filesystem::path& file,
-                                     std::chrono::milliseconds limit = kInspectTime);
+PluginRow check_plugin(const std::filesystem::path& file,
+                       std::chrono::milliseconds limit = kInspectTime);
 
 /// Lists every plugin library on a search path, sorted by kind and name. A library that an earlier
 /// folder hides has that as its problem.
-HYPOTRACK_API std::vector<PluginRow> list_plugins(
-    std::span<const std::filesystem::path> search_path,
-    std::chrono::milliseconds limit = kInspectTime);
+std::vector<PluginRow> list_plugins(std::span<const std::filesystem::path> search_path,
+                                    std::chrono::milliseconds limit = kInspectTime);
 
 /// Finds plugins by kind (`optimizer`), name (`pso`) or both (`optimizer/pso`). Throws PluginError,
 /// with the nearest name, if there are none.
-HYPOTRACK_API std::vector<PluginRow> find_plugins(
-    std::span<const std::filesystem::path> search_path, std::string_view what,
-    std::chrono::milliseconds limit = kInspectTime);
+std::vector<PluginRow> find_plugins(std::span<const std::filesystem::path> search_path,
+                                    std::string_view what,
+                                    std::chrono::milliseconds limit = kInspectTime);
 
 /// Formats one line per plugin: kind, name, version, licence, and summary or problem.
-HYPOTRACK_API std::string format_table(std::span<const PluginRow> rows);
+std::string format_table(std::span<const PluginRow> rows);
 
 /// Formats everything about one plugin, its parameters last.
-HYPOTRACK_API std::string format_info(const PluginRow& row);
+std::string format_info(const PluginRow& row);
 
 /// Returns a page of the documentation: summary and a table of the parameters. Leaves out what
 /// depends on the build, such as capabilities.
-HYPOTRACK_API std::string format_markdown(const PluginRow& row);
+std::string format_markdown(const PluginRow& row);
 
 /// Formats "FILE: optimizer 'pso' 0.1.0 can be used", or why it cannot.
-HYPOTRACK_API std::string format_check(const PluginRow& row);
+std::string format_check(const PluginRow& row);
 
 }  // namespace hypotrack

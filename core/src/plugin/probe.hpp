@@ -2,8 +2,6 @@
 
 #include <filesystem>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::detail {
 
 /// File descriptor of the probe program's report, separate from anything that a plugin prints.
@@ -15,6 +13,6 @@ inline constexpr const char* kProbeEntry = "while returning its descriptor";
 inline constexpr const char* kProbeDescribing = "while describing its parameters";
 
 /// Opens a library, writes the report and exits: the probe program's main function.
-[[noreturn]] HYPOTRACK_API void run_probe(const std::filesystem::path& file);
+[[noreturn]] void run_probe(const std::filesystem::path& file);
 
 }  // namespace hypotrack::detail

@@ -20,8 +20,7 @@ struct RunResult {
 /// Opens a scene, tracks the frames of its source and writes the results. Estimates the shape from
 /// the first seconds before that, if the scene asks for it. After an error the results of the
 /// frames so far are kept, and the error is thrown.
-HYPOTRACK_API RunResult run_scene(const std::filesystem::path& scene,
-                                  std::span<const std::string> overrides, PluginLoader& plugins,
-                                  const RunOptions& options, RunWatcher& watcher);
+RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
+                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher);
 
 }  // namespace hypotrack

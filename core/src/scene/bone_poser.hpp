@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 #include "hypotrack/skeleton.hpp"
 
@@ -12,7 +11,7 @@ namespace hypotrack {
 
 /// Forward kinematics of one model without allocation per hypothesis. It computes
 /// world_from_bones() in single precision, by the same operations as the GPU.
-class HYPOTRACK_API BonePoser {
+class BonePoser {
  public:
   /// Scratch memory of a pose; one per thread.
   using Workspace = std::vector<float>;

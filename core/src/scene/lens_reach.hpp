@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack {
@@ -11,7 +10,7 @@ namespace hypotrack {
 /// Returns true only if the camera's image surely shows everything within an ideal camera's bounds,
 /// except the image's outermost pixel. False proves nothing. The ideal camera is at the same place;
 /// `camera_from_ideal` is a rotation.
-HYPOTRACK_API bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal,
-                                const Bounds& bounds);
+bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal,
+                  const Bounds& bounds);
 
 }  // namespace hypotrack

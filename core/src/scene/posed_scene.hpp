@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "camera/rectification.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/scene_poser.hpp"
 
@@ -27,7 +26,7 @@ struct Bounds {
 /// A scene posed for a rig's ideal cameras, with its image bounds. It caches the last state,
 /// because the tiles of a frame are cropped around the previous frame's solution. It reuses its
 /// memory; use one per thread.
-class HYPOTRACK_API PosedScene {
+class PosedScene {
  public:
   /// The scene must outlive this object.
   PosedScene(const Scene& scene, const IdealRig& rig);

@@ -4,7 +4,6 @@
 #include <cstdint>
 
 #include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
@@ -18,6 +17,6 @@ struct QuantizedWeights {
 };
 
 /// Quantises the bone influences of one vertex.
-HYPOTRACK_API QuantizedWeights quantize_weights(const Mesh& mesh, int vertex);
+QuantizedWeights quantize_weights(const Mesh& mesh, int vertex);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/bone_poser.hpp"
 #include "scene/simd_kernels.hpp"
@@ -17,7 +16,7 @@ using AlignedFloats = hwy::AlignedFreeUniquePtr<float[]>;
 /// A scene in the vertex order and memory layout of the CPU renderer. All models' vertices are
 /// consecutive. Skinned models come first, sorted by bones, then models that pose themselves, in
 /// their own order. Each model fills whole blocks.
-struct HYPOTRACK_API ScenePlan {
+struct ScenePlan {
   /// A model that core skins.
   struct Skinned {
     BonePoser poser;

@@ -4,14 +4,13 @@
 #include <cstddef>
 #include <span>
 
-#include "hypotrack/export.hpp"
 #include "scene/scene_plan.hpp"
 
 namespace hypotrack {
 
 /// Poses all vertices of a scene in single precision, in the order of its plan, without allocation.
 /// Use one per thread.
-class HYPOTRACK_API ScenePoser {
+class ScenePoser {
  public:
   /// The plan must outlive the poser.
   explicit ScenePoser(const ScenePlan& plan);

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 // The vectorised inner loops that pose and bound a scene, behind plain data, compiled once per
 // instruction set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
 // Posed vertices are the same to the last bit on the GPU (hypotrack/cuda/vertices.cuh) wherever
@@ -29,8 +27,7 @@ struct SkinBlocks {
 
 /// Skins all blocks. Writes x, y, z (kBlock floats per block, aligned) in the frame that `bones`,
 /// 3x4 row-major matrices from the bind pose, map to.
-HYPOTRACK_API void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y,
-                               float* z);
+void skin_blocks(const SkinBlocks& blocks, const float* bones, float* x, float* y, float* z);
 
 /// Bounds of points on the plane z = 1 of a camera, and the smallest z. `nearest` is NaN if any
 /// coordinate is not finite.
@@ -41,8 +38,8 @@ struct PlaneBounds {
 
 /// Computes the bounds of `count` (a multiple of kBlock) aligned points in a camera (3x4
 /// row-major).
-HYPOTRACK_API void bound_points(const float* x, const float* y, const float* z, std::size_t count,
-                                const float* camera_from_first, PlaneBounds& bounds);
+void bound_points(const float* x, const float* y, const float* z, std::size_t count,
+                  const float* camera_from_first, PlaneBounds& bounds);
 
 /// Floats of a projected vertex' record: x, y (pixels), 1/z (1/m, 0 = do not draw), and x in the
 /// second view of a rectified pair.
@@ -56,9 +53,9 @@ struct TriangleRange {
 };
 
 /// Returns the name of the instruction set in use: `AVX3`.
-HYPOTRACK_API const char* simd_target();
+const char* simd_target();
 
 /// Returns the instruction sets of the compiled kernels, as Highway's bits.
-HYPOTRACK_API std::int64_t compiled_simd_targets();
+std::int64_t compiled_simd_targets();
 
 }  // namespace hypotrack

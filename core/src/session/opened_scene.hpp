@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/plugin.hpp"
@@ -44,39 +43,35 @@ struct OpenedScene {
 
 /// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws
 /// the error of the part that fails.
-HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
-                                     std::span<const std::string> overrides, PluginLoader& plugins);
+OpenedScene open_scene(const std::filesystem::path& scene_file,
+                       std::span<const std::string> overrides, PluginLoader& plugins);
 
 /// Opens a scene whose frames come from elsewhere: everything but the source, which the file may
 /// leave out. The caller sets `parts.cameras`.
-HYPOTRACK_API OpenedScene open_without_source(const std::filesystem::path& scene_file,
-                                              std::span<const std::string> overrides,
-                                              PluginLoader& plugins);
+OpenedScene open_without_source(const std::filesystem::path& scene_file,
+                                std::span<const std::string> overrides, PluginLoader& plugins);
 
 /// Opens only the models and the source of a scene, for programs that look at a source (`hypotrack
 /// synth`).
-HYPOTRACK_API OpenedScene open_source(const std::filesystem::path& scene_file,
-                                      std::span<const std::string> overrides,
-                                      PluginLoader& plugins);
+OpenedScene open_source(const std::filesystem::path& scene_file,
+                        std::span<const std::string> overrides, PluginLoader& plugins);
 
 /// Opens a scene with a source that another session of the same scene has opened. `source` and
 /// `source_resolved` are that session's. It must outlive this one if it made the source.
-HYPOTRACK_API OpenedScene open_scene(const std::filesystem::path& scene_file,
-                                     std::span<const std::string> overrides, PluginLoader& plugins,
-                                     std::unique_ptr<Source> source,
-                                     const std::string& source_resolved);
+OpenedScene open_scene(const std::filesystem::path& scene_file,
+                       std::span<const std::string> overrides, PluginLoader& plugins,
+                       std::unique_ptr<Source> source, const std::string& source_resolved);
 
 /// Makes the fixed-lag smoother of a session that still has its parts. Returns null if the scene
 /// does not ask for it. Throws ConfigError.
-HYPOTRACK_API std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
+std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
 
 /// Returns the state from which the search of a frame starts: that of the scene's start, changed as
 /// `init` says. Returns nothing if there is no frame (null) and the start needs one. Throws
 /// ConfigError or DataError, for example if the scene asks for a ground truth that does not exist.
-HYPOTRACK_API std::optional<Eigen::VectorXd> start_state(const OpenedScene& session,
-                                                         const Frame* frame);
+std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame);
 
 /// Returns start_state() of the first usable frame of the source.
-HYPOTRACK_API Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
+Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
 
 }  // namespace hypotrack

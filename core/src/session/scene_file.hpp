@@ -9,7 +9,6 @@
 
 #include "cost/cost.hpp"
 #include "hypotrack/config.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "session/shape_settings.hpp"
 #include "tile/tiles.hpp"
@@ -157,7 +156,6 @@ struct LoadedScene {
 };
 
 /// Reads a scene file and applies the overrides. Throws ConfigError, also on unknown keys.
-HYPOTRACK_API LoadedScene load_scene(const std::filesystem::path& path,
-                                     std::span<const std::string> overrides);
+LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides);
 
 }  // namespace hypotrack

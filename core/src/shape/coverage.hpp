@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <span>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/objective.hpp"
 
 namespace hypotrack {
@@ -11,7 +10,7 @@ namespace hypotrack {
 /// Charges a constant cost for every covered pixel of the first view. A sum over pixels rewards
 /// covering more of them, so a free size grows without limit. With a charge, covering a pixel pays
 /// only if it explains more than that.
-class HYPOTRACK_API Coverage final : public Objective, public ResidualTerm {
+class Coverage final : public Objective, public ResidualTerm {
  public:
   /// Sets the charge of every covered pixel, >= 0.
   void set_charge(double charge) { charge_ = charge; }
@@ -30,6 +29,6 @@ class HYPOTRACK_API Coverage final : public Objective, public ResidualTerm {
 };
 
 /// Returns the number of covered pixels of a view.
-HYPOTRACK_API std::int64_t covered_pixels(const DepthTile& tile);
+std::int64_t covered_pixels(const DepthTile& tile);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 
-#include "hypotrack/export.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
 
@@ -21,9 +20,8 @@ struct EstimatedScene {
 
 /// Estimates the shape from the first `settings.seconds` of a scene's source and reopens the scene
 /// with it. Holds those frames in memory. Throws what estimate_shape() throws.
-HYPOTRACK_API EstimatedScene open_estimated(const std::filesystem::path& scene_file,
-                                            std::span<const std::string> overrides,
-                                            PluginLoader& plugins,
-                                            const ShapeProgress& progress = {});
+EstimatedScene open_estimated(const std::filesystem::path& scene_file,
+                              std::span<const std::string> overrides, PluginLoader& plugins,
+                              const ShapeProgress& progress = {});
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "shape/image_problem.hpp"
 #include "track/scene_tracker.hpp"
 
@@ -10,7 +9,7 @@ namespace hypotrack {
 
 /// Samples the tracked frames of a run evenly, without knowing their number. Whenever it holds
 /// twice as many frames as wanted, it drops every second one.
-class HYPOTRACK_API FrameSample {
+class FrameSample {
  public:
   explicit FrameSample(int wanted) : wanted_(static_cast<std::size_t>(wanted)) {}
   void add(const Frame& frame, const Solution& solution);

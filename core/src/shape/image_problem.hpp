@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "shape/coverage.hpp"
 #include "shape/joint_fit.hpp"
@@ -44,7 +43,7 @@ struct ImageProblemParts {
 /// if the background's part is small, so the best silhouette lies a little inside the true one.
 /// `edge` is this distance in pixels. Surfaces are drawn that much farther in, by a pixel's mean
 /// width at the models.
-class HYPOTRACK_API ImageProblem final : public JointProblem {
+class ImageProblem final : public JointProblem {
  public:
   /// The scene must outlive the problem. Throws ConfigError if the objective has no residuals,
   /// DataError if a frame does not fit the cameras or a start lies at or behind a camera.

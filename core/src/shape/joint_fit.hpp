@@ -4,8 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// A shape that all frames share, and a pose for each frame.
@@ -24,7 +22,7 @@ struct FrameSystem {
 
 /// The cost that fit_jointly() minimises, as a sum over frames. A prior of the shape is added to
 /// it.
-class HYPOTRACK_API JointProblem {
+class JointProblem {
  public:
   JointProblem() = default;
   virtual ~JointProblem();
@@ -63,7 +61,7 @@ struct JointFit {
 ///
 /// Stops after `iterations` steps, when a step gains less than 1e-4 of the cost, or when `stop`
 /// returns true. Throws DataError if no frame has a finite cost.
-HYPOTRACK_API JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
-                                   int iterations, const std::function<bool()>& stop = {});
+JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
+                     int iterations, const std::function<bool()>& stop = {});
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"
 #include "track/search_space.hpp"
@@ -12,7 +11,7 @@ namespace hypotrack {
 /// The sum of squared distances of labelled landmarks over several frames, in units of
 /// `kLabelDeviation`. With a prior of weight 1 its minimum is the most probable shape for labels
 /// with that standard deviation.
-class HYPOTRACK_API LandmarkProblem final : public JointProblem {
+class LandmarkProblem final : public JointProblem {
  public:
   static constexpr double kLabelDeviation = 3e-3;  ///< metres, each axis
 

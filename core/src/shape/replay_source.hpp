@@ -3,13 +3,12 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/source.hpp"
 
 namespace hypotrack {
 
 /// Replays frames that were read already, then continues with the rest of a source.
-class HYPOTRACK_API ReplaySource final : public Source {
+class ReplaySource final : public Source {
  public:
   /// Replays `frames` only, with the cameras and frame rate of `from`.
   ReplaySource(const Source& from, std::vector<Frame> frames);
@@ -31,6 +30,6 @@ class HYPOTRACK_API ReplaySource final : public Source {
 };
 
 /// Returns the frames of a source before `seconds`, missing ones included.
-HYPOTRACK_API std::vector<Frame> first_seconds(Source& source, double seconds);
+std::vector<Frame> first_seconds(Source& source, double seconds);
 
 }  // namespace hypotrack

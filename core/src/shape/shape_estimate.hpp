@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "session/opened_scene.hpp"
 #include "session/shape_settings.hpp"
@@ -46,17 +45,16 @@ using OpenShaped = std::function<OpenedScene(const std::vector<std::string>& ove
 /// errors, which takes as long again as the last round's fit. Throws ConfigError if the objective
 /// has no residuals or a model no shape. Throws DataError if fewer than 2 frames were tracked or
 /// most of them explain nothing.
-HYPOTRACK_API ShapeEstimate estimate_shape(const OpenShaped& open,
-                                           const ShapeEstimateSettings& settings, int limit,
-                                           bool deviations, const ShapeProgress& progress = {});
+ShapeEstimate estimate_shape(const OpenShaped& open, const ShapeEstimateSettings& settings,
+                             int limit, bool deviations, const ShapeProgress& progress = {});
 
 /// Fits the shape to the true landmarks of `settings.frames` frames (LandmarkProblem). It fits the
 /// models whose landmarks the source's truth knows. The session's source must be at its beginning.
 /// Throws DataError if fewer than 2 frames have a truth, ConfigError if a model has no shape.
-HYPOTRACK_API ShapeEstimate shape_of_labels(OpenedScene session,
-                                            const ShapeEstimateSettings& settings, int limit);
+ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& settings,
+                              int limit);
 
 /// Returns the text of a `shape_file` with the shape, and its origin in comments.
-HYPOTRACK_API std::string shape_file_text(const ShapeEstimate& estimate);
+std::string shape_file_text(const ShapeEstimate& estimate);
 
 }  // namespace hypotrack

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "shape/joint_fit.hpp"
 
@@ -13,7 +12,7 @@ namespace hypotrack {
 
 /// The models whose shape is estimated, and the shape parameters that they share: the hands of a
 /// scene belong to one person.
-class HYPOTRACK_API ShapeTargets {
+class ShapeTargets {
  public:
   /// Selects the named models, or all that have shape parameters. `parameters` are those to find
   /// (empty: all); the others keep their values. Throws ConfigError if a model is missing or has no

@@ -4,7 +4,6 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "tile/resample_plan.hpp"
@@ -17,10 +16,10 @@ struct ImageMap {
 };
 
 /// Adds a brightness per pixel (32-bit float) to an image (8-bit BGR). An empty `by` adds nothing.
-HYPOTRACK_API cv::Mat brightened(const cv::Mat& color, const cv::Mat& by);
+cv::Mat brightened(const cv::Mat& color, const cv::Mat& by);
 
 /// Resamples tiles from one camera's images: lens, rotation, crop and scale in one lookup.
-class HYPOTRACK_API Resampler {
+class Resampler {
  public:
   Resampler(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
 

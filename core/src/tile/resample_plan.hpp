@@ -5,7 +5,6 @@
 
 #include "camera/lens_map.hpp"
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/observation.hpp"
 #include "tile/color_map.hpp"
 
@@ -32,20 +31,20 @@ struct ResamplePlan {
 };
 
 /// Makes the lens map of a camera; `camera_from_ideal` is a rotation.
-HYPOTRACK_API LensMap make_lens_map(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
-HYPOTRACK_API TileIntrinsics intrinsics(const TileCamera& tile);
+LensMap make_lens_map(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal);
+TileIntrinsics intrinsics(const TileCamera& tile);
 
 /// Returns the image pixels per tile pixel at the tile's centre (square root of the area ratio).
-HYPOTRACK_API double scale_at_centre(const LensMap& map, const TileCamera& tile);
+double scale_at_centre(const LensMap& map, const TileCamera& tile);
 
 /// Plans the antialiasing of a reduction. Up to 1.15 image pixels per tile pixel it is a plain
 /// bilinear lookup. Above, the lookups lie at most 1.15 image pixels (or blocks) apart, so that
 /// every image pixel counts.
-HYPOTRACK_API ReductionPlan plan_reduction(double scale);
+ReductionPlan plan_reduction(double scale);
 
 /// Plans a tile with `scale` image pixels per tile pixel. It samples only a few pixels of the tile,
 /// because lenses are smooth.
-HYPOTRACK_API ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile,
-                                           cv::Size image, double scale);
+ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile, cv::Size image,
+                             double scale);
 
 }  // namespace hypotrack

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/params.hpp"
@@ -38,7 +37,7 @@ struct TilePlan {
 
 /// Crops the region around a hypothesis from every view of a frame. One resampling step undistorts
 /// it, scales it to a square tile and rectifies nearly parallel pairs.
-class HYPOTRACK_API TileMaker {
+class TileMaker {
  public:
   /// The scene must outlive the tile maker.
   TileMaker(const Scene& scene, std::vector<Camera> cameras, const TileSettings& settings);

@@ -8,7 +8,6 @@
 #include <optional>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
@@ -58,7 +57,7 @@ struct RecoveryRequest {
 
 /// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the
 /// candidates by what the pictures show.
-class HYPOTRACK_API CandidateFinder {
+class CandidateFinder {
  public:
   /// Moves the optimizer out of `parts`. The scene must outlive the finder.
   CandidateFinder(const Scene& scene, TrackerParts& parts, const StatusSettings& settings);

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
@@ -17,7 +16,7 @@ struct Displacement {
 
 /// Returns the state displaced randomly within the parameters' bounds. Directions and axes are
 /// uniform. The result depends on the arguments only.
-HYPOTRACK_API Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state,
-                                        const Displacement& by, std::uint64_t seed);
+Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displacement& by,
+                          std::uint64_t seed);
 
 }  // namespace hypotrack

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "tile/tiles.hpp"
@@ -26,7 +25,7 @@ struct Found {
 
 /// Searches one frame with the scene's optimizer and objective: cuts tiles around a start, matches
 /// colours, minimises.
-class HYPOTRACK_API FrameSearch {
+class FrameSearch {
  public:
   /// Moves the optimizer out of `parts` and copies its settings. The scene must outlive the search.
   /// Throws DeviceError if the optimizer needs a GPU and the scene is not evaluated on one.

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 
@@ -30,10 +29,10 @@ struct MotionLimits {
 };
 
 /// Returns the largest change of pose within a time. A time that is not positive counts as 1/30 s.
-HYPOTRACK_API Reach reach_within(const MotionLimits& limits, double seconds);
+Reach reach_within(const MotionLimits& limits, double seconds);
 
 /// Returns whether a normalised state is within reach of another.
-HYPOTRACK_API bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& from,
-                             const Eigen::VectorXd& to);
+bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& from,
+               const Eigen::VectorXd& to);
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 
@@ -43,7 +42,7 @@ struct OneEuroSettings {
 /// Roussel and Vogel, "1 Euro Filter" (CHI 2012). A position and a rotation are each filtered as a
 /// whole, by the length of their speed, rotations along the shortest turn. Every joint angle is
 /// filtered alone.
-class HYPOTRACK_API OneEuroFilter {
+class OneEuroFilter {
  public:
   /// The scene must outlive the filter.
   OneEuroFilter(const Scene& scene, const OneEuroSettings& settings);

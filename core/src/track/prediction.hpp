@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/tangent.hpp"
@@ -19,7 +18,7 @@ enum class Prediction {
   constant,  ///< a fixed share
   adaptive,  ///< the share that fits the new frame best
 };
-HYPOTRACK_API std::span<const std::string_view> enum_names(Prediction);
+std::span<const std::string_view> enum_names(Prediction);
 
 /// `search.prediction:` of a scene.
 struct PredictionSettings {
@@ -47,7 +46,7 @@ struct PredictionSettings {
 
 /// Extrapolates a part of the last motion to predict the next state. Motion is a difference of
 /// tangent.hpp.
-class HYPOTRACK_API Predictor {
+class Predictor {
  public:
   /// The scene must outlive the predictor.
   Predictor(const Scene& scene, const PredictionSettings& settings);

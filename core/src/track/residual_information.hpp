@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Information of the linearised residuals about a pose: J^T J / s^2 and J^T r / s^2, with s^2 the
@@ -16,7 +14,7 @@ struct ResidualInformation {
 /// Computes the information from finite differences. `residuals` (Mx(2D+1)) has the residuals of a
 /// pose, then those below and above it in each of D dimensions, `width` (D) apart. A dimension of
 /// width 0 touches nothing.
-HYPOTRACK_API ResidualInformation residual_information(const Eigen::MatrixXf& residuals,
-                                                       const Eigen::VectorXd& width);
+ResidualInformation residual_information(const Eigen::MatrixXf& residuals,
+                                         const Eigen::VectorXd& width);
 
 }  // namespace hypotrack

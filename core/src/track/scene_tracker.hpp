@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/solution.hpp"
@@ -27,7 +26,7 @@ namespace hypotrack {
 
 /// Tracks a scene from frame to frame. The search of a frame starts from the last solution, or from
 /// its extrapolated motion.
-class HYPOTRACK_API SceneTracker {
+class SceneTracker {
  public:
   /// `start` is the state from which the first frame's search starts. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.

@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
@@ -20,7 +19,7 @@ enum class RotationSearch {
   quaternion,  ///< its four components, normalised when a point becomes a state (as in the paper)
   tangent,     ///< a rotation vector (3 numbers, radians) applied to the prior's rotation
 };
-HYPOTRACK_API std::span<const std::string_view> enum_names(RotationSearch);
+std::span<const std::string_view> enum_names(RotationSearch);
 
 /// `search:` of a scene: where a search starts, and how far from there it expects the solution.
 struct SearchSettings {
@@ -62,7 +61,7 @@ struct SearchSettings {
 };
 
 /// Maps between states and search points. No other class knows how rotations are parametrised.
-class HYPOTRACK_API SearchSpace {
+class SearchSpace {
  public:
   /// `moving` has one flag per model (empty: all move); the others keep the prior's values. The
   /// scene must outlive the search space.

@@ -2,7 +2,6 @@
 
 #include <deque>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/solution.hpp"
 #include "tile/foreground_overlap.hpp"
@@ -93,7 +92,7 @@ struct StatusEvidence {
 
 /// Decides the status of a model in a frame. Where the pictures do not tell whether a pose is
 /// right, it compares the cost with those of past frames.
-class HYPOTRACK_API StatusMonitor {
+class StatusMonitor {
  public:
   explicit StatusMonitor(const StatusSettings& settings) : settings_(settings) {}
 

@@ -3,26 +3,25 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
 
 /// Returns the rotation by a rotation vector, whose length is the angle.
-HYPOTRACK_API Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& vector);
+Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& vector);
 
 /// Returns the rotation vector of a unit quaternion, the shorter way round.
-HYPOTRACK_API Eigen::Vector3d rotation_log(const Eigen::Quaterniond& rotation);
+Eigen::Vector3d rotation_log(const Eigen::Quaterniond& rotation);
 
 /// Computes the difference of two normalised states. It has for each model the difference of
 /// positions, the rotation vector v with from * exp(v) = to, and the differences of angles. It is
 /// one number shorter per model than a state.
-HYPOTRACK_API Eigen::VectorXd difference(const Scene& scene, const Eigen::VectorXd& from,
-                                         const Eigen::VectorXd& to);
+Eigen::VectorXd difference(const Scene& scene, const Eigen::VectorXd& from,
+                           const Eigen::VectorXd& to);
 
 /// Returns the normalised state that a difference leads to. Clamps angles to the models' bounds.
-HYPOTRACK_API Eigen::VectorXd moved(const Scene& scene, const Eigen::VectorXd& from,
-                                    const Eigen::VectorXd& difference);
+Eigen::VectorXd moved(const Scene& scene, const Eigen::VectorXd& from,
+                      const Eigen::VectorXd& difference);
 
 /// A range of a difference: a model's position, its rotation vector (`quaternion`) or its angles.
 struct TangentPart {
@@ -32,6 +31,6 @@ struct TangentPart {
 };
 
 /// Returns all parts of a difference, in order. A rigid model has no part for angles.
-HYPOTRACK_API std::vector<TangentPart> tangent_parts(const Scene& scene);
+std::vector<TangentPart> tangent_parts(const Scene& scene);
 
 }  // namespace hypotrack

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "cost/cost.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/uncertainty_settings.hpp"
 
@@ -25,7 +24,7 @@ namespace hypotrack {
 /// is the expected square of its distance from the truth. A finger that no pixel shows moves no
 /// residual and keeps P. Residuals of terms that look at the pose only are left out beside terms
 /// that look at pictures: a prior that holds a finger does not tell where it is.
-class HYPOTRACK_API PoseUncertainty {
+class PoseUncertainty {
  public:
   /// The scene must outlive the object.
   PoseUncertainty(const Scene& scene, const UncertaintySettings& settings);

@@ -6,13 +6,12 @@
 #include <string>
 
 #include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/export.hpp"
 
 namespace hypotrack::cuda {
 
 /// Returns why this machine cannot use the GPU backend: built without CUDA, no driver, driver too
 /// old, or no such device. Empty if it can.
-HYPOTRACK_API std::string why_no_device(int index = 0);
+std::string why_no_device(int index = 0);
 
 /// Returns why this GPU cannot be used although why_no_device() is empty: it does not answer, or
 /// hypotrack was not built for it. Empty if it can. Takes some of the GPU's memory.
@@ -20,10 +19,10 @@ std::string why_not_this_device(int index);
 
 /// Returns the free bytes of a GPU's memory, or nothing if there is no such GPU or it does not
 /// answer. Makes it the GPU of this thread.
-HYPOTRACK_API std::optional<std::size_t> free_memory(int index = 0);
+std::optional<std::size_t> free_memory(int index = 0);
 
 /// A GPU and the stream for all work of one cost.
-class HYPOTRACK_API Device {
+class Device {
  public:
   /// Makes `index` the GPU of this thread. Throws DeviceError with the reason of why_no_device() or
   /// why_not_this_device(), if there is one.

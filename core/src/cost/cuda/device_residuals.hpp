@@ -54,7 +54,6 @@ class DeviceResiduals final : public ResidualDifferences {
 };
 
 /// Extracts the normal equations from the matrix of enqueue_gram(), for columns times `scale`.
-HYPOTRACK_API NormalEquations unpack_gram(const double* sums,
-                                          const Eigen::Ref<const Eigen::VectorXd>& scale);
+NormalEquations unpack_gram(const double* sums, const Eigen::Ref<const Eigen::VectorXd>& scale);
 
 }  // namespace hypotrack::cuda

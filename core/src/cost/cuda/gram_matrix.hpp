@@ -35,6 +35,6 @@ struct GramJob {
 };
 
 /// Enqueues the sums, which are the same in every run.
-HYPOTRACK_API void enqueue_gram(const GramJob& job, Stream stream);
+void enqueue_gram(const GramJob& job, Stream stream);
 
 }  // namespace hypotrack::cuda

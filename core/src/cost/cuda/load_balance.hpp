@@ -3,7 +3,6 @@
 #include <array>
 
 #include "hypotrack/cuda/layout.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/observation.hpp"
 #include "scene/posed_scene.hpp"
 
@@ -13,7 +12,7 @@ namespace hypotrack::cuda {
 using BandEnds = std::array<float, kMostBands + 1>;
 
 /// Returns equal work for every row.
-HYPOTRACK_API BandEnds even_bands();
+BandEnds even_bands();
 
 /// Estimates the work per row of hypotheses like a posed scene in the first camera's tile, from a
 /// sample of its triangles. A row's work is its surface pixels, a constant per triangle, and half

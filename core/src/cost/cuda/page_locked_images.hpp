@@ -1,13 +1,11 @@
 #pragma once
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack::cuda {
 
 /// Makes OpenCV allocate all later images of 64 KiB or more in page-locked memory, which a GPU
 /// reads directly. It takes up to 1 GiB, reuses it and never releases it. Makes `device` the GPU of
 /// this thread. Does nothing if the device is unusable; one call is enough. Forked children must
 /// exec before they touch such an image.
-HYPOTRACK_API void page_lock_images(int device);
+void page_lock_images(int device);
 
 }  // namespace hypotrack::cuda

@@ -5,14 +5,13 @@
 
 #include "cost/cuda/load_balance.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::cuda {
 
 /// Resamples tiles on the GPU; the pixels equal those of TileMaker::resample up to rounding.
-class HYPOTRACK_API TileResampler {
+class TileResampler {
  public:
   /// Takes TileMaker::resamplers(). Throws DeviceError on more than kMaxViews cameras, or if there
   /// is not enough memory. It needs 4 bytes per pixel of every camera's image. The frames' images

@@ -2,13 +2,11 @@
 
 #include <filesystem>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Throws DataError unless `file` exists, is at most 256 MiB and looks like OBJ, PLY, STL, glTF or
 /// GLB. Checks the file name, the beginning and, for GLB, PLY and binary STL, the end. The importer
 /// gets no other files.
-HYPOTRACK_API void check_mesh_format(const std::filesystem::path& file);
+void check_mesh_format(const std::filesystem::path& file);
 
 }  // namespace hypotrack

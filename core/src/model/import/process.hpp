@@ -4,8 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 struct MeshReader {
@@ -15,12 +13,11 @@ struct MeshReader {
 
 /// Returns the reader program of this build or installation. Throws DataError, naming `mesh`, if it
 /// is missing.
-HYPOTRACK_API MeshReader default_mesh_reader(const std::filesystem::path& mesh);
+MeshReader default_mesh_reader(const std::filesystem::path& mesh);
 
 /// Runs the reader program on `mesh` and returns the bytes that it wrote (wire.hpp). Safe in a
 /// program with threads. Throws DataError, naming `mesh`, if the reader crashes, fails, exceeds its
 /// time limit or writes more than 2 GiB.
-HYPOTRACK_API std::string run_mesh_reader(const MeshReader& reader,
-                                          const std::filesystem::path& mesh);
+std::string run_mesh_reader(const MeshReader& reader, const std::filesystem::path& mesh);
 
 }  // namespace hypotrack

@@ -3,8 +3,6 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Welding distance, as a share of the bounding box's diagonal. Exporters split vertices along
@@ -13,7 +11,7 @@ inline constexpr float kWeldTolerance = 1e-6f;
 
 /// Returns for every point (3xN, finite) the index of its representative: the first point within
 /// the tolerance, or itself.
-HYPOTRACK_API std::vector<int> weld_points(const Eigen::Matrix3Xf& points);
+std::vector<int> weld_points(const Eigen::Matrix3Xf& points);
 
 struct BoneWeight {
   int bone = 0;
@@ -22,6 +20,6 @@ struct BoneWeight {
 
 /// Returns the four strongest influences, strongest first, scaled to sum to 1. Adds up several
 /// entries of one bone first. The sum of all must be positive.
-HYPOTRACK_API std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences);
+std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences);
 
 }  // namespace hypotrack

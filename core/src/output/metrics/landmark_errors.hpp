@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Assignment of landmarks to models.
@@ -19,12 +17,11 @@ struct LandmarkLayout {
 
 /// Assigns landmarks to models by the part of the name before the first dot. Names without a dot
 /// belong to a model called `model`.
-HYPOTRACK_API LandmarkLayout landmark_layout(std::span<const std::string> names);
+LandmarkLayout landmark_layout(std::span<const std::string> names);
 
 /// Returns for each model the mean of its landmarks' `values` (L numbers). NaN values are left out.
 /// A model with no other values gets NaN.
-HYPOTRACK_API std::vector<double> model_means(const LandmarkLayout& layout,
-                                              const Eigen::VectorXd& values);
+std::vector<double> model_means(const LandmarkLayout& layout, const Eigen::VectorXd& values);
 
 /// Error of an estimate in one frame, in the unit of the landmarks.
 struct FrameError {
@@ -36,7 +33,7 @@ struct FrameError {
 /// Computes the paper's error of a frame. It averages distances over the joints of a hand or the
 /// three anchors of a rigid object, then over the objects. Both matrices are 3xL; an empty `truth`
 /// is unknown.
-HYPOTRACK_API FrameError frame_error(const LandmarkLayout& layout, const Eigen::Matrix3Xd& estimate,
-                                     const Eigen::Matrix3Xd& truth);
+FrameError frame_error(const LandmarkLayout& layout, const Eigen::Matrix3Xd& estimate,
+                       const Eigen::Matrix3Xd& truth);
 
 }  // namespace hypotrack

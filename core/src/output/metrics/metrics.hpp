@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/statistics.hpp"
-#include "hypotrack/export.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "output/metrics/status_metrics.hpp"
 
@@ -47,13 +46,13 @@ struct Metrics {
 
 /// Returns the text of metrics.json: the numbers, then `models`, `landmarks` and `success_curve`.
 /// NaN becomes null.
-HYPOTRACK_API std::string to_json(const Metrics& metrics);
+std::string to_json(const Metrics& metrics);
 
 /// Returns the keys of the numbers in metrics.json, in their order.
-HYPOTRACK_API std::vector<std::string> metric_names();
+std::vector<std::string> metric_names();
 
 /// Collects Metrics frame by frame.
-class HYPOTRACK_API MetricsCollector {
+class MetricsCollector {
  public:
   explicit MetricsCollector(LandmarkLayout layout) : layout_(std::move(layout)) {}
 

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
 
@@ -28,13 +27,12 @@ struct ModelSpeeds {
 
 /// Computes the speeds of every model of the scene. `states` must be in ascending order of frames.
 /// Pairs of states of non-consecutive frames do not count.
-HYPOTRACK_API std::vector<ModelSpeeds> motion_speeds(const Scene& scene,
-                                                     std::span<const StateRow> states);
+std::vector<ModelSpeeds> motion_speeds(const Scene& scene, std::span<const StateRow> states);
 
 /// Returns the text of motion.json: peak, mean and frame of each speed by model, mm and degrees per
 /// frame.
-HYPOTRACK_API std::string motion_json(std::span<const ModelSpeeds> speeds);
+std::string motion_json(std::span<const ModelSpeeds> speeds);
 /// Returns a readable text with one line per model.
-HYPOTRACK_API std::string motion_text(std::span<const ModelSpeeds> speeds);
+std::string motion_text(std::span<const ModelSpeeds> speeds);
 
 }  // namespace hypotrack

@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdint>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Statistics of landmarks with a sigma in [low, high). Lengths are in metres.
@@ -17,7 +15,7 @@ struct ReliabilityBin {
 
 /// Measures the calibration of the predicted uncertainty (sigma) against the true error of
 /// landmarks.
-class HYPOTRACK_API Reliability {
+class Reliability {
  public:
   static constexpr std::size_t kBins = 9;
 

@@ -5,8 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 inline constexpr double kRightErrorMm = 10;  ///< up to this error a frame should be tracked
@@ -24,7 +22,7 @@ enum class FrameStatus {
 
 /// Returns the status that a word of a status column means, all but `solved`; nothing for other
 /// words.
-HYPOTRACK_API std::optional<FrameStatus> status_named(std::string_view word);
+std::optional<FrameStatus> status_named(std::string_view word);
 
 /// Metrics of how well a tracker's statuses fit the truth, and of how it recovers;
 /// docs/reference/metrics.md defines every number. NaN: unknown, because no frame has the data for
@@ -55,7 +53,7 @@ struct FrameStatuses {
 };
 
 /// Collects StatusMetrics frame by frame.
-class HYPOTRACK_API StatusCollector {
+class StatusCollector {
  public:
   /// Status and truth of one model in a frame.
   struct ModelStatus {

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "hypotrack/export.hpp"
 #include "tile/color_map.hpp"
 #include "track/color/color_samples.hpp"
 
@@ -19,19 +18,19 @@ namespace hypotrack {
 /// Returns nothing in three cases: a channel has fewer than 100 samples that are neither dark nor
 /// saturated; the pairs scatter around the line by more than a fifth of their brightness; the line
 /// is implausible for a pair of cameras.
-HYPOTRACK_API std::optional<ColorMap> fit_color_map(const ColorSamples& samples);
+std::optional<ColorMap> fit_color_map(const ColorSamples& samples);
 
 /// Computes Pearson's correlation of the two views' samples, the mean over the channels that vary
 /// in both. It is near 1 if both views show the same points, near 0 if they show different ones,
 /// and 0 if no channel varies.
-HYPOTRACK_API double correlation(const ColorSamples& samples);
+double correlation(const ColorSamples& samples);
 
 /// Computes the median distance of the samples after mapping the other view's colours. The distance
 /// is the Euclidean norm of colours in 0..1; 0 without samples.
-HYPOTRACK_API double median_difference(const ColorSamples& samples, const ColorMap& map);
+double median_difference(const ColorSamples& samples, const ColorMap& map);
 
 /// Computes how much brighter the first view is than the other's mapped colours, averaged over the
 /// channels, for each of N samples (0 .. 255).
-HYPOTRACK_API Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map);
+Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map);
 
 }  // namespace hypotrack

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
@@ -26,7 +25,7 @@ struct ColorSamples {
 
 /// Samples the colours of a posed scene where two views see the same surface. Reads the images
 /// themselves, so that the result does not depend on the backend, or tiles that were kept.
-class HYPOTRACK_API ColorSampler {
+class ColorSampler {
  public:
   /// The scene must outlive the sampler.
   explicit ColorSampler(const Scene& scene);

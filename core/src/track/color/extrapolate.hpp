@@ -3,14 +3,11 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Extrapolates values of grid points to a whole tile by normalised Gaussian blurring. The values
 /// belong to the `inside` points (8-bit), row by row. Returns an image of the tile's size (32-bit
 /// float).
-HYPOTRACK_API cv::Mat extrapolate(const cv::Mat& inside, const Eigen::VectorXf& values,
-                                  cv::Size tile);
+cv::Mat extrapolate(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile);
 
 }  // namespace hypotrack

@@ -2,8 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Directions from a surface to two cameras: unit vectors in the world.
@@ -20,7 +18,7 @@ struct ViewDirections {
 ///   first view - other view = sum over l of a_l (max(0, n h_first)^s - max(0, n h_other)^s),
 ///
 /// n is the normal, h are the unit vectors half way between l and each camera, s = 32.
-class HYPOTRACK_API Highlights {
+class Highlights {
  public:
   /// `kept` is the factor by which each call of learn() fades what was learned before. With the
   /// default it fades to about a third (0.4) in 30 calls.

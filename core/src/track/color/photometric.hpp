@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/color_samples.hpp"
@@ -37,7 +36,7 @@ struct PhotometricSettings {
 };
 
 /// Learns from frame to frame how to map each view's colours to the first's.
-class HYPOTRACK_API PhotometricMatch {
+class PhotometricMatch {
  public:
   /// The scene must outlive the object.
   PhotometricMatch(const Scene& scene, const PhotometricSettings& settings);

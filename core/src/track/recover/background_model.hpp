@@ -2,14 +2,12 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// Learns the background of a still camera as a mean colour per pixel (Wren et al., "Pfinder:
 /// real-time tracking of the human body", PAMI 1997). Pictures of a moving camera differ from it
 /// everywhere, so the model then has no effect.
-class HYPOTRACK_API BackgroundModel {
+class BackgroundModel {
  public:
   /// Learns the pixels of a picture that are not in `foreground` (empty: all pixels).
   void learn(const cv::Mat3b& picture, const cv::Mat1b& foreground);

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
@@ -17,24 +16,22 @@ struct HeldModel {
 };
 
 /// Returns the pose of a model of a scene in a state.
-HYPOTRACK_API Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state);
+Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state);
 /// Writes the pose of a model into a state.
-HYPOTRACK_API void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose,
-                            Eigen::VectorXd& state);
+void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose, Eigen::VectorXd& state);
 
 /// Returns the state `before` with one model moved by the rigid motion of another from `before` to
 /// `now`.
-HYPOTRACK_API Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t other,
-                                         const Eigen::VectorXd& before, const Eigen::VectorXd& now);
+Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t other,
+                           const Eigen::VectorXd& before, const Eigen::VectorXd& now);
 
 /// Returns a flag for each model: whether it is rigid and near enough to an articulated `model` to
 /// be held by it. All are false if `model` is rigid.
-HYPOTRACK_API std::vector<bool> held_by(const Scene& scene, std::size_t model,
-                                        const Eigen::VectorXd& state);
+std::vector<bool> held_by(const Scene& scene, std::size_t model, const Eigen::VectorXd& state);
 
 /// Returns how far held models have moved in their hands since `before`, in metres: the sum, over
 /// the models with `shown`, of mean distances of landmarks.
-HYPOTRACK_API double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before,
-                                   const Eigen::VectorXd& now, const std::vector<bool>& shown);
+double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before, const Eigen::VectorXd& now,
+                     const std::vector<bool>& shown);
 
 }  // namespace hypotrack

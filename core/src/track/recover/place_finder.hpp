@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
 #include "track/verify/foreground_colors.hpp"
@@ -34,7 +33,7 @@ struct Places {
 /// Searches whole pictures for places where both views agree and show a model's colours. It is a
 /// plane sweep with windows of the model's size (Collins, "A space-sweep approach to true
 /// multi-image matching", CVPR 1996).
-class HYPOTRACK_API PlaceFinder {
+class PlaceFinder {
  public:
   /// Searches for models of about `radius` metres between two depths (metres) from the first
   /// camera.

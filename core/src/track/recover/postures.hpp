@@ -3,14 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
 
 /// Postures to try for a model: limbs straight or bent in many combinations, and postures seen
 /// before. A posture is a model's parameters after its pose.
-class HYPOTRACK_API Postures {
+class Postures {
  public:
   explicit Postures(const ModelData& model);
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/frame_search.hpp"
@@ -41,7 +40,7 @@ struct Candidates {
 
 /// Searches whole pictures for a lost model: around its last place, and wherever both views show
 /// its colours.
-class HYPOTRACK_API Recovery {
+class Recovery {
  public:
   /// The search for one model in one frame.
   struct Task {

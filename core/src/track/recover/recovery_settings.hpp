@@ -3,7 +3,6 @@
 #include <span>
 #include <string_view>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
@@ -13,7 +12,7 @@ enum class RecoveryRun {
   frame,       ///< within the frame that is lost
   background,  ///< in a separate thread, while frames go by
 };
-HYPOTRACK_API std::span<const std::string_view> enum_names(RecoveryRun);
+std::span<const std::string_view> enum_names(RecoveryRun);
 
 /// `tracker.recovery:` of a scene.
 struct RecoverySettings {

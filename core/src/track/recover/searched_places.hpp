@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 
 namespace hypotrack {
 
 /// Remembers places that were searched in vain, so that they are not searched again while both
 /// views look the same there.
-class HYPOTRACK_API SearchedPlaces {
+class SearchedPlaces {
  public:
   /// Compares patches of about `radius` metres around a place.
   SearchedPlaces(const std::vector<Camera>& cameras, double radius);

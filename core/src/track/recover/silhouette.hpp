@@ -5,15 +5,13 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
 
 /// Draws the silhouettes of the flagged models into a picture that is reduced by an integer factor:
 /// 255 inside. Leaves out triangles that reach behind the camera.
-HYPOTRACK_API cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
-                                    const Eigen::VectorXd& state, const Camera& camera,
-                                    int reduction);
+cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
+                      const Eigen::VectorXd& state, const Camera& camera, int reduction);
 
 }  // namespace hypotrack

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cost/cost.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/motion_prior.hpp"
@@ -19,7 +18,7 @@ namespace hypotrack {
 /// the frames of a window together (TrajectoryFit), from the states that were found. Then it
 /// settles all but those of the last `lag`. The last two settled states constrain the next window's
 /// motion.
-class HYPOTRACK_API FixedLagSmoother {
+class FixedLagSmoother {
  public:
   /// The scene must outlive it. Throws ConfigError if a term has no residuals, or if the settings
   /// do not fit each other or the scene. With `highlights` it removes highlights from the tiles.

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/lag_window.hpp"
@@ -19,7 +18,7 @@ namespace hypotrack {
 ///
 /// sigma is the settings' change of velocity in a second. T is half the time from the first to the
 /// last state. A motion of constant velocity costs nothing.
-class HYPOTRACK_API MotionPrior {
+class MotionPrior {
  public:
   /// The scene must outlive it.
   MotionPrior(const Scene& scene, const FixedLagSettings& settings);

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"
 #include "track/smooth/lag_window.hpp"
@@ -13,7 +12,7 @@ namespace hypotrack {
 
 /// Removes highlights from the tiles of a window's frames. Learns them from all frames together: a
 /// pose that follows its own highlights contradicts frames with other poses.
-class HYPOTRACK_API TileHighlights {
+class TileHighlights {
  public:
   /// The scene must outlive it.
   explicit TileHighlights(const Scene& scene) : sampler_(scene) {}

@@ -6,7 +6,6 @@
 
 #include "cost/cost.hpp"
 #include "hypotrack/damping.hpp"
-#include "hypotrack/export.hpp"
 #include "track/smooth/motion_prior.hpp"
 #include "track/smooth/tile_highlights.hpp"
 
@@ -18,7 +17,7 @@ namespace hypotrack {
 ///
 /// by Levenberg-Marquardt over all frames at once. Dimensions that a frame's pictures determine
 /// keep their values; the others follow from the neighbouring frames.
-class HYPOTRACK_API TrajectoryFit {
+class TrajectoryFit {
  public:
   /// The cost must have residuals. `highlights` (may be null) removes highlights from the
   /// tiles, learned from the states so far. All arguments must outlive the fit.

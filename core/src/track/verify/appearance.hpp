@@ -3,14 +3,13 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
 
 /// Learns the colours of a model's surface points and compares later frames with them. A box that
 /// is turned or shifted agrees between the views, but not with its own earlier picture.
-class HYPOTRACK_API Appearance {
+class Appearance {
  public:
   /// Updates the running mean colour of every point that the samples show. Older colours fade.
   void learn(const SurfaceSamples& samples);

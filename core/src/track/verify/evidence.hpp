@@ -5,7 +5,6 @@
 #include <limits>
 #include <string_view>
 
-#include "hypotrack/export.hpp"
 #include "track/verify/foreground_colors.hpp"
 #include "track/verify/surface_samples.hpp"
 
@@ -45,10 +44,10 @@ struct Evidence {
 };
 
 /// Returns the names of the measurements, for tables.
-HYPOTRACK_API std::array<std::string_view, Evidence::kCount> evidence_names();
+std::array<std::string_view, Evidence::kCount> evidence_names();
 
 /// Measures how well the samples support the model's pose. `colors` gives the foreground
 /// probabilities, 0.5 before anything was learned.
-HYPOTRACK_API Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors);
+Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors);
 
 }  // namespace hypotrack

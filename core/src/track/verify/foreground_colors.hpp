@@ -3,7 +3,6 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "hypotrack/export.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
@@ -12,7 +11,7 @@ namespace hypotrack {
 /// right. P = f / (f + b), with f and b the frequencies of the colour on the model and beside it.
 /// Source: Jones and Rehg, "Statistical color models with application to skin detection", IJCV
 /// 2002, equal priors.
-class HYPOTRACK_API ForegroundColors {
+class ForegroundColors {
  public:
   /// Learns from samples of a model whose pose is surely right. Older frames fade.
   void learn(const SurfaceSamples& samples);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
@@ -18,7 +17,7 @@
 namespace hypotrack {
 
 /// Estimates from the pictures alone whether the pose of one model is right.
-class HYPOTRACK_API ModelVerifier {
+class ModelVerifier {
  public:
   /// The scene must outlive the verifier.
   ModelVerifier(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
@@ -63,7 +62,7 @@ class HYPOTRACK_API ModelVerifier {
 using ModelProbabilities = std::vector<double>;
 
 /// Estimates for every model of a scene whether its pose is right.
-class HYPOTRACK_API PoseVerifier {
+class PoseVerifier {
  public:
   /// The scene must outlive the verifier.
   PoseVerifier(const Scene& scene, const std::vector<Camera>& cameras);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 
-#include "hypotrack/export.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
@@ -16,10 +15,9 @@ struct SurfacePoints {
 };
 
 /// Spreads points evenly over the area of a mesh. Returns none if it has no area.
-HYPOTRACK_API SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count);
+SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count);
 
 /// Returns the positions (3xN) of the points with the mesh's vertices at `vertices` (3xV).
-HYPOTRACK_API Eigen::Matrix3Xf positions(const SurfacePoints& points,
-                                         const Eigen::Matrix3Xf& vertices);
+Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& vertices);
 
 }  // namespace hypotrack

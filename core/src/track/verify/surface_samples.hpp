@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/export.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
@@ -45,7 +44,7 @@ inline constexpr int kSampleGrid = 64;
 
 /// Samples the first two views of a frame around one model of a scene. Reuses its memory, so each
 /// thread needs its own.
-class HYPOTRACK_API SurfaceSampler {
+class SurfaceSampler {
  public:
   /// The scene must outlive the sampler.
   SurfaceSampler(const Scene& scene, std::size_t model, const std::vector<Camera>& cameras);
