@@ -106,15 +106,18 @@ std::string content_of(const Change& change, const std::filesystem::path& direct
   origin->name = change.where;
   origin->directory = directory;
   origin->is_override = true;
-  auto value = detail::read_assigned(change.key, change.value, origin);
+  std::unique_ptr<detail::YamlNode> value;
   if (change.key == "tracker") {  // what a tracker file has, not its name
-    auto scene = std::make_unique<detail::YamlNode>();
-    scene->kind = detail::YamlNode::Kind::kMap;
-    scene->origin = origin;
-    scene->add("tracker", std::move(value));
+    value = std::make_unique<detail::YamlNode>();
+    value->kind = detail::YamlNode::Kind::kMap;
+    value->origin = origin;
+    value->add("tracker", detail::read_unquoted(change.value, origin));
     detail::Includes includes;
-    detail::take_tracker(*scene, {}, includes);
-    value = std::move(scene);
+    detail::take_tracker(*value, {}, includes);
+    for (detail::YamlNode::Entry& entry : value->entries)
+      if (entry.key == "tracker") detail::resolve_includes(entry.value, {"tracker"});
+  } else {
+    value = detail::read_assigned(change.key, change.value, origin);
   }
   return to_flow(ConfigNode::parse(detail::write_yaml(*value), change.where));
 }

@@ -147,14 +147,17 @@ Subprocess& Subprocess::operator=(Subprocess&& other) noexcept {
 
 bool Subprocess::ended(int options) {
   if (pid_ <= 0) return true;
-  int status = 0;
-  pid_t found = 0;
+  siginfo_t info{};
+  int failed = 0;
   do {
-    found = waitpid(pid_, &status, options);
-  } while (found < 0 && errno == EINTR);
-  if (found == 0) return false;
-  pid_ = -1;
-  if (found < 0) return true;  // the status is lost
+    failed = waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOWAIT | options);
+  } while (failed && errno == EINTR);
+  if (!failed && info.si_pid == 0) return false;
+  const pid_t pid = std::exchange(pid_, -1);
+  if (failed) return true;  // the status is lost
+  ::kill(-pid, SIGKILL);    // while the ended program still keeps the group's number
+  int status = 0;
+  waitpid(pid, &status, 0);
   if (WIFSIGNALED(status)) end_.signal = WTERMSIG(status);
   end_.code = WIFSIGNALED(status) ? 128 + end_.signal : WEXITSTATUS(status);
   return true;

@@ -11,13 +11,12 @@
 #include <utility>
 #include <vector>
 
-#include "hypotrack/export.hpp"
-
 namespace hypotrack {
 
 /// A program that runs beside this one. The kernel kills it when the thread that started it ends.
-/// It leads a process group of its own, so that the terminal's Ctrl-C does not reach it.
-class HYPOTRACK_API Subprocess {
+/// It leads a process group of its own, so that the terminal's Ctrl-C does not reach it. What it
+/// leaves running in the group is killed at its end.
+class Subprocess {
  public:
   /// A program to start. Its standard input is empty.
   struct Command {
@@ -78,10 +77,10 @@ struct Captured {
 
 /// Runs a program until it ends or exceeds a limit. Collects what it writes to the descriptors of
 /// some numbers, 1 for standard output. Throws as Subprocess does.
-HYPOTRACK_API Captured capture_output(Subprocess::Command command, const std::vector<int>& numbers,
-                                      const CaptureLimits& limits = {});
+Captured capture_output(Subprocess::Command command, const std::vector<int>& numbers,
+                        const CaptureLimits& limits = {});
 
 /// Returns the name of a signal: "SIGSEGV", or "signal 40" if it has none.
-HYPOTRACK_API std::string signal_name(int signal);
+std::string signal_name(int signal);
 
 }  // namespace hypotrack

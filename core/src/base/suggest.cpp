@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace hypotrack {
@@ -37,14 +38,19 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   if (word.empty() || word.size() > kLongestWord) return "";
   // Allow one error per three letters; words of two letters resemble anything.
   int nearest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
+  std::size_t added = kLongestWord;  // letters that the nearest has more or less
   const std::string* best = nullptr;
   for (const std::string& candidate : candidates) {
     if (candidate.empty() || candidate.size() > kLongestWord) continue;
     const bool starts =
         word.size() >= 3 && (candidate.starts_with(word) || word.starts_with(candidate));
     const int distance = starts ? 1 : edit_distance(word, candidate);
-    if (distance < nearest && distance < static_cast<int>(candidate.size())) {
+    const std::size_t more =
+        std::max(candidate.size(), word.size()) - std::min(candidate.size(), word.size());
+    if (std::pair(distance, more) < std::pair(nearest, added) &&
+        distance < static_cast<int>(candidate.size())) {
       nearest = distance;
+      added = more;
       best = &candidate;
     }
   }

@@ -106,15 +106,17 @@ std::size_t depth_of(const YamlNode& node) {
   return deepest + (nests ? 1 : 0);
 }
 
+std::unique_ptr<YamlNode> read_unquoted(std::string_view text,
+                                        const std::shared_ptr<const YamlOrigin>& origin) {
+  if (!text.starts_with('@')) return read_yaml(text, origin);
+  auto value = make_scalar(std::string(text), false);
+  value->origin = origin;
+  return value;
+}
+
 std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
                                         const std::shared_ptr<const YamlOrigin>& origin) {
-  std::unique_ptr<YamlNode> value;
-  if (text.starts_with('@')) {  // YAML would require quotes
-    value = make_scalar(std::string(text), false);
-    value->origin = origin;
-  } else {
-    value = read_yaml(text, origin);
-  }
+  auto value = read_unquoted(text, origin);
   resolve_includes(value, split_path(path));
   return value;
 }

@@ -9,12 +9,11 @@
 #include <vector>
 
 #include "config/yaml.hpp"
-#include "hypotrack/export.hpp"
 
 namespace hypotrack::detail {
 
 /// Splits a path such as `models.0.type` into its steps.
-HYPOTRACK_API std::vector<std::string> split_path(std::string_view path);
+std::vector<std::string> split_path(std::string_view path);
 
 /// Returns a step as a list index, or nothing if it is not a number.
 std::optional<std::size_t> as_index(std::string_view step);
@@ -28,11 +27,15 @@ std::size_t depth_of(const YamlNode& node);
 /// Applies one override `key.path=value`. Throws ConfigError, naming the override.
 void apply_override(YamlNode& root, const std::string& assignment);
 
+/// Parses the value of an assignment, where a text that begins with @ needs no quotes. Throws
+/// ConfigError.
+std::unique_ptr<YamlNode> read_unquoted(std::string_view text,
+                                        const std::shared_ptr<const YamlOrigin>& origin);
+
 /// Parses the value of an assignment to `path` and replaces its references to other scenes. Throws
 /// ConfigError.
-HYPOTRACK_API std::unique_ptr<YamlNode> read_assigned(
-    const std::string& path, std::string_view text,
-    const std::shared_ptr<const YamlOrigin>& origin);
+std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_view text,
+                                        const std::shared_ptr<const YamlOrigin>& origin);
 
 /// Sets the value at a path below `root` and creates missing nodes on the way. `say` names the
 /// assignment in messages.

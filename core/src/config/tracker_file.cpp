@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "config/includes.hpp"
+#include "config/overrides.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
@@ -55,12 +56,12 @@ bool is_file(const fs::path& file) {
   return fs::is_regular_file(file, error);
 }
 
-/// Returns the names of the trackers that come with hypotrack.
+/// Returns the references to the trackers that come with hypotrack.
 std::vector<std::string> known_trackers() {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(data_file("configs/trackers"), error))
-    names.push_back("trackers/" + entry.path().stem().string());
+    names.push_back("@trackers/" + entry.path().stem().string());
   std::ranges::sort(names);
   return names;
 }
@@ -72,11 +73,12 @@ fs::path find(const TrackerName& name) {
   std::string hint;
   if (!is_file_name(name.text)) {
     const std::vector<std::string> known = known_trackers();
-    if (std::ranges::find(known, name.text) != known.end()) return data_file("configs" / file);
-    hint = fmt::format("{} With hypotrack come @{}.", did_you_mean(name.text, known),
-                       fmt::join(known, ", @"));
+    const std::string reference = "@" + name.text;
+    if (std::ranges::find(known, reference) != known.end()) return data_file("configs" / file);
+    hint = fmt::format("{}. With hypotrack come {}", did_you_mean(reference, known),
+                       fmt::join(known, ", "));
   }
-  throw ConfigError(fmt::format("{}: there is no tracker '@{}': {} is no file.{}", name.where,
+  throw ConfigError(fmt::format("{}: there is no tracker '@{}': {} is no file{}", name.where,
                                 name.text, beside.string(), hint));
 }
 
@@ -125,15 +127,8 @@ std::unique_ptr<YamlNode> tracker_value(const std::string& assignment) {
   origin->name = "--set " + assignment;
   origin->directory = fs::current_path();
   origin->is_override = true;
-  const std::string text = assignment.substr(kKey.size());
-  std::unique_ptr<YamlNode> value;
-  if (text.starts_with('@')) {  // YAML would require quotes
-    value = make_scalar(text, false);
-    value->origin = origin;
-    return value;
-  }
   try {
-    return read_yaml(text, origin);
+    return read_unquoted(assignment.substr(kKey.size()), origin);
   } catch (const ConfigError&) {
     return nullptr;
   }

@@ -114,6 +114,11 @@ std::filesystem::path RunDirectory::part(const std::string& name) {
 
 void RunDirectory::finish() {
   keep_ = true;
+  // All or none: look before the first is renamed.
+  for (const std::string& name : names_)
+    if (!std::filesystem::exists(part_path(name)))
+      throw OutputError(fmt::format("{}: was never written, so the results stay in {}*",
+                                    part_path(name).string(), part_path("").string()));
   for (const std::string& name : names_) {
     std::error_code error;
     std::filesystem::rename(part_path(name), directory_ / name, error);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <map>
 #include <utility>
 
@@ -139,7 +140,15 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
 }
 
 Summary RunOutput::finish(bool complete) {
-  for (const NamedOutput& output : outputs_) output.output->finish(complete);
+  std::exception_ptr first_error;
+  for (const NamedOutput& output : outputs_) {
+    try {
+      output.output->finish(complete);
+    } catch (...) {  // the others' files are to be whole
+      if (!first_error) first_error = std::current_exception();
+    }
+  }
+  if (first_error) std::rethrow_exception(first_error);
   directory_.finish();
   return metrics_->summary();
 }

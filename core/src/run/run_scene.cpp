@@ -178,10 +178,21 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
   return true;
 }
 
+/// Throws OutputError if the run's protocol would replace the scene, where no run wrote that.
+void spare_scene(const std::filesystem::path& scene, const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool same = std::filesystem::equivalent(scene, folder / "run.yaml", error);
+  if (same && !std::filesystem::exists(folder / "track.csv"))
+    throw OutputError(fmt::format(
+        "{}: the run would replace this scene by its own run.yaml; name another folder with --out",
+        scene.string()));
+}
+
 }  // namespace
 
 RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
                     PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher) {
+  spare_scene(scene, options.out);
   Latch latch(watcher);
   EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
   if (latch.stopped()) return {};

@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/landmark_fit.hpp"
 #include "hypotrack/plugin.hpp"
@@ -8,13 +11,28 @@
 namespace hypotrack {
 namespace {
 
-/// Returns the mean distance of the known landmarks from their mean.
-double extent(const Eigen::Matrix3Xd& landmarks) {
+/// Returns the known landmarks, less their mean.
+Eigen::Matrix3Xd centred(const Eigen::Matrix3Xd& landmarks) {
   std::vector<Eigen::Index> known;
   for (Eigen::Index i = 0; i < landmarks.cols(); ++i)
     if (landmarks.col(i).allFinite()) known.push_back(i);
   const Eigen::Matrix3Xd points = landmarks(Eigen::all, known);
-  return (points.colwise() - points.rowwise().mean()).colwise().norm().mean();
+  return points.colwise() - points.rowwise().mean();
+}
+
+/// Returns the mean distance of the known landmarks from their mean.
+double extent(const Eigen::Matrix3Xd& landmarks) {
+  return centred(landmarks).colwise().norm().mean();
+}
+
+/// Returns whether three or more landmarks lie on a line, about which a model could turn freely.
+bool on_a_line(const Eigen::Matrix3Xd& landmarks) {
+  const Eigen::Matrix3Xd points = centred(landmarks);
+  if (points.cols() < 3) return false;
+  const Eigen::Vector3d spreads =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(points * points.transpose())
+          .eigenvalues();  // in rising order
+  return spreads[1] <= 1e-6 * spreads[2];
 }
 
 class Landmarks final : public Start {
@@ -79,7 +97,15 @@ class Landmarks final : public Start {
                          std::span<const double> rest) const {
     // Landmarks that belong to the model fit better than this, as a share of their extent.
     constexpr double kWorst = 0.5;
+    constexpr double kFarthest = 1000;  // metres
     const Model& model = *item.model;
+    for (const double value : landmarks.reshaped())
+      if (std::abs(value) > kFarthest)
+        fail(fmt::format("has a landmark of '{}' {:.3g} m away; check the units", item.name,
+                         std::abs(value)));
+    if (on_a_line(landmarks))
+      fail(fmt::format("has only landmarks of '{}' on a line; a pose needs one beside it",
+                       item.name));
     LandmarkFit fit;
     try {
       const Eigen::VectorXd aligned = align_to_landmarks(model, landmarks, rest);

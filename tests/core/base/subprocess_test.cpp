@@ -202,6 +202,15 @@ TEST(Subprocess, DiesWhenItsParentIsKilled) {
   EXPECT_TRUE(ends(child));
 }
 
+TEST(Subprocess, WhatItLeavesRunningIsKilledAtItsEnd) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "out";
+  Subprocess::Command command = shell("sleep 1000 & echo $!; exit 3");
+  command.output = file;
+  EXPECT_EQ(Subprocess(command).wait().code, 3);
+  EXPECT_TRUE(ends(std::stoi("0" + first_line(file))));
+}
+
 TEST(Subprocess, StartsWhileOtherThreadsAllocate) {
   std::atomic<bool> stop = false;
   std::thread busy([&] {

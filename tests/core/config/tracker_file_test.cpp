@@ -95,8 +95,9 @@ TEST_F(TrackerFile, IsRefusedWithWhatThereIs) {
   EXPECT_THAT(error("tracker: \"@trackers/real_tim\""),
               AllOf(StartsWith(file("scene.yaml").string() +
                                ":1:10: there is no tracker '@trackers/real_tim': " +
-                               file("trackers/real_tim.yaml").string() + " is no file."),
-                    HasSubstr("real_time"), HasSubstr("@trackers/recommended")));
+                               file("trackers/real_tim.yaml").string() +
+                               " is no file; did you mean '@trackers/real_time'?"),
+                    HasSubstr("@trackers/recommended")));
   write("trackers/scene.yaml", "models: []\nsource: {}\n");
   EXPECT_THAT(error("tracker: \"@trackers/scene\""), HasSubstr("is no tracker; expected a map"));
   write("trackers/list.yaml", "[1, 2]\n");

@@ -26,6 +26,18 @@ TEST(RunDirectory, FilesGetTheirNamesAllTogether) {
   EXPECT_FALSE(exists(directory.path() / ".part.a.csv"));
 }
 
+TEST(RunDirectory, NoFileGetsItsNameWhenOneWasNeverWritten) {
+  const test::TemporaryDirectory folder;
+  std::ofstream(folder.path() / "a.csv") << "old";
+  RunDirectory directory(folder.path(), {"a.csv", "b.csv"});
+  TextFile(directory.part("a.csv")).write("new");
+  directory.part("b.csv");
+  EXPECT_THAT(test::message_of<OutputError>([&] { directory.finish(); }),
+              ::testing::HasSubstr(".part.b.csv: was never written"));
+  EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "a.csv"), 3U);
+}
+
 TEST(RunDirectory, WithoutAnythingToKeepNothingStays) {
   const test::TemporaryDirectory folder;
   {

@@ -36,9 +36,13 @@ class Diary final : public Output {
   void frame(const Frame& frame, const Solution&) override {
     file_->write(" frame " + std::to_string(frame.index));
   }
-  void finish(bool complete) override { file_->write(complete ? " finish" : " finish early"); }
+  void finish(bool complete) override {
+    if (fails) throw OutputError("the diary is full");
+    file_->write(complete ? " finish" : " finish early");
+  }
 
   std::string asks_for;
+  bool fails = false;
 
  private:
   std::vector<std::string> names_;
@@ -125,6 +129,17 @@ TEST_F(RunOutputTest, WithoutFramesNothingStays) {
 TEST_F(RunOutputTest, FramesSoFarStayUnderTheirUnfinishedNames) {
   open("diary.txt")->add(frame(0), solution(0));
   EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0");
+}
+
+TEST_F(RunOutputTest, AnOutputThatFailsAtTheEndLeavesTheOthersWhole) {
+  auto bad = std::make_unique<Diary>("bad.txt");
+  bad->fails = true;
+  std::vector<NamedOutput> outputs = one(std::move(bad));
+  outputs.push_back({"good", std::make_unique<Diary>("good.txt")});
+  const auto output = open(std::move(outputs));
+  output->add(frame(0), solution(0));
+  EXPECT_EQ(message_of<OutputError>([&] { output->finish(true); }), "the diary is full");
+  EXPECT_EQ(text(".part.good.txt"), "begin online 0 frame 0 finish");
 }
 
 TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {

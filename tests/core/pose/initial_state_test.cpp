@@ -239,6 +239,17 @@ TEST_F(LandmarkStart, SaysWhatItDoesNotFind) {
   EXPECT_THAT(message_of(session_, {}), HasSubstr("frame 2 knows no landmark of the scene"));
 }
 
+TEST_F(LandmarkStart, RefusesLandmarksThatFixNoPose) {
+  set("frame: 2");
+  truth_.col(3).x() = 1e300;
+  write();
+  EXPECT_THAT(message_of(session_, {}), HasSubstr("has a landmark of 'hand' 1e+300 m away"));
+  for (Eigen::Index i = 0; i < truth_.cols(); ++i)
+    truth_.col(i) = Eigen::Vector3d(0.01, 0.02, 0.5 + 0.01 * static_cast<double>(i));
+  write();
+  EXPECT_THAT(message_of(session_, {}), HasSubstr("only landmarks of 'hand' on a line"));
+}
+
 TEST_F(LandmarkStart, LeavesAModelWithoutLandmarksAtRest) {
   session_.scene =
       std::make_unique<Scene>(std::vector<std::pair<std::string, std::shared_ptr<const Model>>>{

@@ -94,6 +94,18 @@ TEST_F(PlanTest, WhatIsTakenFromOtherScenesCountsAsIfItWereWrittenThere) {
   EXPECT_NE(taken, ids_with("optimizer: {type: pso}", "optimizer: \"@best.yaml\""));
 }
 
+TEST_F(PlanTest, TrackersMayBeFilesWhereverTheyLie) {
+  write("quick.yaml", "optimizer: {type: pso, particles: 8}\n");
+  const auto with = [&](const std::string& name) {
+    return ids_with("optimizer: {type: pso}", "tracker: \"" + name + "\"");
+  };
+  const auto taken = with("@quick.yaml");
+  write("trackers/quick.yaml", "optimizer: {type: pso, particles: 8}\n");
+  EXPECT_EQ(with("@trackers/quick"), taken);
+  write("quick.yaml", "optimizer: {type: pso, particles: 9}\n");
+  EXPECT_NE(with("@quick.yaml"), taken);
+}
+
 TEST_F(PlanTest, WhatSceneFilesTakeFromOthersCounts) {
   write("best.yaml", "seed: 1\noptimizer: {type: pso}\n");
   write("box.yaml", "models: []\noptimizer: \"@best.yaml\"\n");

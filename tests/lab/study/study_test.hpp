@@ -23,6 +23,7 @@ class StudyTest : public testing::Test {
   std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
   void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(path(name).parent_path());
     std::ofstream(path(name), std::ios::binary) << text;
   }
 

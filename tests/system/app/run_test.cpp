@@ -163,6 +163,14 @@ TEST_F(RunTest, ASecondRunReplacesTheResultsAndDropsThoseItDoesNotHave) {
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(2));
 }
 
+TEST_F(RunTest, ASceneIsNotReplacedByItsRun) {
+  write_text(path("run.yaml"), box_scene());
+  Start start;
+  start.arguments = {"run", path("run.yaml").string(), "--out", folder()};
+  EXPECT_THAT(run_program(start).err, HasSubstr("run.yaml: the run would replace this scene"));
+  EXPECT_EQ(read_text(path("run.yaml")), box_scene());
+}
+
 TEST_F(RunTest, WithoutOutResultsAreInAFolderOfTheWorkingDirectory) {
   Start start;
   start.arguments = {"run", scene(box_scene()), "--frames", "1"};
