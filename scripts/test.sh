@@ -5,6 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source scripts/setup.sh
 install_missing_packages packages-test.txt
+scripts/get_hand_detector.sh || echo "The tests of the hand detector will be skipped." >&2
 for preset in dev sanitize; do
   build "$preset"
   ctest --preset "$preset" -j "$(nproc)"

@@ -190,7 +190,7 @@ TEST(Subprocess, DiesWhenItsParentIsKilled) {
   const auto file = folder.path() / "out";
   const pid_t parent = fork();
   if (parent == 0) {
-    Subprocess::Command command = shell("echo $$; sleep 1000");
+    Subprocess::Command command = shell("echo $$; exec sleep 1000");
     command.output = file;
     Subprocess(command).wait();
     _exit(0);

@@ -1,0 +1,64 @@
+#include "region.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/imgproc.hpp>
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::hands {
+namespace {
+
+/// An upright hand: wrist at the bottom, fingers up.
+HandPoints upright() {
+  HandPoints out;
+  out.col(0) << 0, 100;
+  for (int finger = 0; finger < 5; ++finger) {
+    for (int joint = 0; joint < 4; ++joint) {
+      out.col(1 + 4 * finger + joint) << 20.0 * (finger - 2), 20 - 25.0 * joint;
+    }
+  }
+  return out;
+}
+
+TEST(HandRegion, TurnsWithTheHand) {
+  const Region straight = region_of(upright());
+  EXPECT_NEAR(straight.angle, 0, 1e-9);
+  for (const double degrees : {30.0, 90.0, 179.0, -120.0}) {
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(degrees * kDegree).toRotationMatrix();
+    const Region turned = region_of(HandPoints(turn * upright()));
+    EXPECT_TRUE(rotation_of(turned).isApprox(turn, 1e-9)) << degrees;
+    EXPECT_NEAR(turned.side, straight.side, 1e-9);
+    EXPECT_TRUE(turned.center.isApprox(turn * straight.center, 1e-9)) << degrees;
+  }
+}
+
+TEST(HandRegion, IsCutOutUpright) {
+  cv::Mat picture(300, 400, CV_8UC3, cv::Scalar::all(0));
+  cv::circle(picture, {250, 120}, 4, cv::Scalar::all(255), cv::FILLED);
+  // The fingers point to the right, and the circle lies in their direction.
+  Region region;
+  region.center << 200, 120;
+  region.side = 200;
+  region.angle = 90 * kDegree;
+  const cv::Mat cut = cut_out(picture, region, 100);
+  EXPECT_EQ(cut.size(), cv::Size(100, 100));
+  EXPECT_EQ(cut.at<cv::Vec3b>(25, 50)[0], 255);
+  EXPECT_EQ(cut.at<cv::Vec3b>(75, 50)[0], 0);
+}
+
+TEST(HandRegion, IsNearlyEqualAfterSmallChanges) {
+  Region a;
+  a.center << 10, 20;
+  a.side = 100;
+  a.angle = 3.13;
+  Region b = a;
+  b.center.x() += 2;
+  b.angle = -3.13;
+  EXPECT_TRUE(nearly_equal(a, b));
+  b.side = 110;
+  EXPECT_FALSE(nearly_equal(a, b));
+}
+
+}  // namespace
+}  // namespace hypotrack::hands
