@@ -34,6 +34,7 @@ std::vector<Frame> first_seconds(Source& source, double seconds) {
     auto frame = source.next();
     if (!frame) break;
     frames.push_back(*std::move(frame));
+    if (frames.back().time >= seconds) break;  // behind a gap
   }
   return frames;
 }

@@ -29,7 +29,8 @@ class ReplaySource final : public Source {
   std::size_t next_ = 0;
 };
 
-/// Returns the frames of a source before `seconds`, missing ones included.
+/// Returns the frames of a source before `seconds`, missing ones included. Where a gap lies across
+/// that time, the frame behind it is one of them.
 std::vector<Frame> first_seconds(Source& source, double seconds);
 
 }  // namespace hypotrack

@@ -10,9 +10,11 @@
 #include "hypotrack/image_file.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/truth.hpp"
-#include "pattern.hpp"
+#include "timed_images.hpp"
 
 namespace hypotrack {
+
+constexpr double kUsualRate = 30;  // frames per second
 
 struct ImageSequenceParams {
   std::filesystem::path left;
@@ -26,7 +28,8 @@ struct ImageSequenceParams {
   std::optional<int> start;
   int step = 1;
   std::optional<int> count;
-  double frame_rate = 30;
+  std::optional<double> frame_rate;
+  TimestampSettings timestamps;
   int bits = 16;
   TruthSettings truth;
 
@@ -54,7 +57,13 @@ struct ImageSequenceParams {
     v("step", step, {.help = "take every step-th image", .min = 1, .max = 1000000});
     v("count", count, {.help = "number of frames; default: all", .min = 1, .max = 10000000});
     v("frame_rate", frame_rate,
-      {.help = "images per second of the recording", .min = 1e-3, .max = 1e5, .unit = "1/s"});
+      {.help = "images per second of the recording; default: 30, or as the time stamps have it",
+       .min = 1e-3,
+       .max = 1e5,
+       .unit = "1/s"});
+    v("timestamps", timestamps,
+      {.help = "when images were taken, if not at a constant rate: with them a gap is as long as "
+               "it was"});
     v("bits", bits, {.help = "significant bits of 16-bit images", .min = 8, .max = 16});
     truth.visit(v);
   }
@@ -102,7 +111,8 @@ std::vector<Layer> layers_of(const ImageSequenceParams& params, const std::strin
 /// Reads pictures from disk, one per view and frame: colour, depth or both. Truth tables
 /// (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp. A row's frame
 /// is the number in the image's file name (with * instead of a number: the position in the sorted
-/// list), unless `truth_offset` shifts it.
+/// list), unless `truth_offset` shifts it. A frame's time is its number over the frame rate, or
+/// that of its time stamp since the first frame's.
 class ImageSequence : public Source {
  public:
   using Params = ImageSequenceParams;
@@ -114,9 +124,17 @@ class ImageSequence : public Source {
       patterns.push_back(layer.pattern);
       views_ = std::max(views_, layer.view + 1);
     }
-    Images images = find_images(patterns, {params.start, params.step, params.count});
-    lists_ = std::move(images.views);
-    first_ = images.first;
+    check(params.timestamps, context.config().where());
+    if (params.timestamps.given() && params.frame_rate) {
+      throw ConfigError(context.config().where_key("frame_rate") +
+                        ": frame_rate is given together with timestamps; expected one of the two");
+    }
+    TimedImages found =
+        find_timed_images(patterns, {params.start, params.step, params.count}, params.timestamps);
+    lists_ = std::move(found.images.views);
+    first_ = found.images.first;
+    rate_ = params.frame_rate.value_or(kUsualRate) / params.step;
+    take_times(found.stamps);
     cameras_ = load_calibration(params.calibration);
     if (cameras_.size() != views_) {
       throw DataError(fmt::format(
@@ -132,7 +150,7 @@ class ImageSequence : public Source {
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
-  double frame_rate() const override { return params_.frame_rate / params_.step; }
+  double frame_rate() const override { return rate_; }
   std::optional<int> frame_count() const override { return static_cast<int>(lists_[0].size()); }
 
   std::optional<Frame> next() override {
@@ -146,7 +164,7 @@ class ImageSequence : public Source {
   Frame read(std::size_t index) const {
     Frame frame;
     frame.index = static_cast<int>(index);
-    frame.time = frame.index / frame_rate();
+    frame.time = times_.empty() ? frame.index / rate_ : times_[index];
     frame.truth = truth_.at(first_ + frame.index * params_.step);
     frame.views.resize(views_);
     for (std::size_t i = 0; i < layers_.size() && frame.problem.empty(); ++i) {
@@ -159,6 +177,14 @@ class ImageSequence : public Source {
     }
     if (!frame.problem.empty()) frame.views.clear();
     return frame;
+  }
+
+  void take_times(const std::vector<Stamp>& stamps) {
+    if (stamps.empty()) return;
+    const TimestampSettings& settings = params_.timestamps;
+    rate_ = rate_of(stamps, *settings.unit,
+                    (settings.file.empty() ? layers_[0].pattern : settings.file).string());
+    for (const Stamp stamp : stamps) times_.push_back(seconds_between(stamps.front(), stamp));
   }
 
   ReadImage read_layer(std::size_t layer, std::size_t index) const {
@@ -206,6 +232,8 @@ class ImageSequence : public Source {
   std::size_t views_ = 1;
   std::vector<ImageList> lists_;  ///< images of every layer
   int first_ = 0;                 ///< number of the first image
+  double rate_ = kUsualRate;      ///< frames per second
+  std::vector<double> times_;     ///< of the frames, seconds since the first; empty: constant rate
   std::vector<Camera> cameras_;
   TruthTables truth_;
   std::size_t next_ = 0;

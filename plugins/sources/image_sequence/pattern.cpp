@@ -112,23 +112,6 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-ImageList glob(const fs::path& pattern) {
-  const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
-  const std::string name = pattern.filename().string();
-  ImageList files;
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    std::error_code ignored;
-    if (matches(name, it->path().filename().string()) && it->is_regular_file(ignored)) {
-      files.push_back(it->path());
-    }
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.string(), b.string());
-  });
-  return files;
-}
-
 /// Returns advice if files match a numbered pattern but for the form of the number.
 std::string other_numbers(const std::vector<Numbered>& views) {
   for (const Numbered& view : views) {
@@ -157,21 +140,6 @@ void refuse_other_kinds(const fs::path& pattern, const ImageList& files) {
                     "of the name",
                     pattern.string(), picture->filename().string(), other->filename().string()));
   }
-}
-
-[[noreturn]] void nothing_found(const std::vector<fs::path>& patterns,
-                                const std::string& what_is_there = {}) {
-  std::string tried;
-  for (const fs::path& pattern : patterns) {
-    fs::path folder = pattern.parent_path();
-    if (folder.empty()) folder = ".";
-    std::error_code error;
-    const bool exists = fs::is_directory(folder, error);
-    const bool numbered = folder.string().find('%') != std::string::npos;
-    tried += fmt::format("\n  {} in {}{}", pattern.filename().string(), folder.string(),
-                         exists || numbered ? "" : " (no such folder)");
-  }
-  throw DataError("no image was found; looked for" + tried + what_is_there);
 }
 
 Images numbered_lists(const std::vector<fs::path>& patterns, const std::vector<Numbered>& views,
@@ -203,7 +171,7 @@ Images numbered_lists(const std::vector<fs::path>& patterns, const std::vector<N
       lists[v].emplace_back(views[v].with(static_cast<int>(number)));
     }
   }
-  return {std::move(lists), start};
+  return {std::move(lists), start, *numbers.begin(), *numbers.rbegin()};
 }
 
 Images listed(const std::vector<fs::path>& patterns, const Selection& selection) {
@@ -229,23 +197,63 @@ Images listed(const std::vector<fs::path>& patterns, const Selection& selection)
         "can be told from a shift",
         patterns[0].string(), lists[0].size(), patterns[v].string(), lists[v].size()));
   }
+  const auto size = static_cast<int>(lists[0].size());
+  const std::vector<std::size_t> chosen = positions(selection, lists[0].size(), patterns[0]);
   for (ImageList& list : lists) {
     ImageList taken;
-    const auto limit = static_cast<std::size_t>(selection.count.value_or(kLargestCount));
-    for (auto i = static_cast<std::size_t>(selection.start.value_or(0));
-         i < list.size() && taken.size() < limit; i += static_cast<std::size_t>(selection.step)) {
-      taken.push_back(list[i]);
-    }
-    if (taken.empty()) {
-      throw DataError(fmt::format("{} finds {} images; expected more than `start: {}`",
-                                  patterns[0].string(), list.size(), selection.start.value_or(0)));
-    }
+    for (const std::size_t i : chosen) taken.push_back(list[i]);
     list = std::move(taken);
   }
-  return {std::move(lists), selection.start.value_or(0)};
+  return {std::move(lists), selection.start.value_or(0), 0, size - 1};
 }
 
 }  // namespace
+
+ImageList glob(const fs::path& pattern) {
+  const fs::path folder = pattern.has_parent_path() ? pattern.parent_path() : fs::path(".");
+  const std::string name = pattern.filename().string();
+  ImageList files;
+  std::error_code error;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+    std::error_code ignored;
+    if (matches(name, it->path().filename().string()) && it->is_regular_file(ignored)) {
+      files.push_back(it->path());
+    }
+  }
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.string(), b.string());
+  });
+  return files;
+}
+
+std::vector<std::size_t> positions(const Selection& selection, std::size_t size,
+                                   const fs::path& pattern) {
+  std::vector<std::size_t> out;
+  const auto limit = static_cast<std::size_t>(selection.count.value_or(kLargestCount));
+  for (auto i = static_cast<std::size_t>(selection.start.value_or(0));
+       i < size && out.size() < limit; i += static_cast<std::size_t>(selection.step)) {
+    out.push_back(i);
+  }
+  if (out.empty()) {
+    throw DataError(fmt::format("{} finds {} images; expected more than `start: {}`",
+                                pattern.string(), size, selection.start.value_or(0)));
+  }
+  return out;
+}
+
+void nothing_found(const std::vector<fs::path>& patterns, const std::string& what_is_there) {
+  std::string tried;
+  for (const fs::path& pattern : patterns) {
+    fs::path folder = pattern.parent_path();
+    if (folder.empty()) folder = ".";
+    std::error_code error;
+    const bool exists = fs::is_directory(folder, error);
+    const bool numbered = folder.string().find('%') != std::string::npos;
+    tried += fmt::format("\n  {} in {}{}", pattern.filename().string(), folder.string(),
+                         exists || numbered ? "" : " (no such folder)");
+  }
+  throw DataError("no image was found; looked for" + tried + what_is_there);
+}
 
 bool natural_less(const std::string& a, const std::string& b) {
   std::size_t i = 0;

@@ -21,6 +21,8 @@ using ImageList = std::vector<std::filesystem::path>;
 struct Images {
   std::vector<ImageList> views;  ///< of equal length
   int first = 0;                 ///< number (printf) or position (glob) of the first frame
+  int lowest = 0;                ///< the same of the first frame that exists
+  int highest = 0;               ///< and of the last one
 };
 
 /// Expands patterns, one per view, to lists of equal length. A pattern is one of
@@ -31,6 +33,18 @@ struct Images {
 /// Throws DataError if nothing is found, if glob patterns find different numbers of files, or if
 /// the numbers are so sparse that most frames would be gaps.
 Images find_images(const std::vector<std::filesystem::path>& patterns, const Selection& selection);
+
+/// Finds the files of a pattern with * or ? in its file name, sorted by natural_less().
+ImageList glob(const std::filesystem::path& pattern);
+
+/// Returns the positions that a selection takes from a list. Throws DataError, naming `pattern`, if
+/// these are none.
+std::vector<std::size_t> positions(const Selection& selection, std::size_t size,
+                                   const std::filesystem::path& pattern);
+
+/// Throws DataError, naming the patterns, because they find no image.
+[[noreturn]] void nothing_found(const std::vector<std::filesystem::path>& patterns,
+                                const std::string& what_is_there = {});
 
 /// Returns whether `a` sorts before `b`, with runs of digits compared as numbers.
 bool natural_less(const std::string& a, const std::string& b);

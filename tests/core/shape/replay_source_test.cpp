@@ -5,7 +5,7 @@
 namespace hypotrack {
 namespace {
 
-/// Ten frames at 5 Hz.
+/// Ten frames at 5 Hz, the first before a gap.
 class Counting final : public Source {
  public:
   const std::vector<Camera>& cameras() const override { return cameras_; }
@@ -15,8 +15,10 @@ class Counting final : public Source {
     if (next_ == 10) return std::nullopt;
     Frame frame;
     frame.index = next_++;
+    frame.time = frame.index / 5.0 + (frame.index > 0 ? gap : 0);
     return frame;
   }
+  double gap = 0;  ///< s
 
  private:
   std::vector<Camera> cameras_{Camera{}};
@@ -41,6 +43,12 @@ TEST(ReplaySource, GivesTheFirstSecondsAgainAndThenTheRest) {
   EXPECT_EQ(all.frame_count(), 10);
   EXPECT_EQ(all.cameras().size(), 1u);
   EXPECT_EQ(indices_of(all), (std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST(ReplaySource, TakesTheFirstSecondsByTimeWhereThereIsAGap) {
+  Counting source;
+  source.gap = 0.4;
+  EXPECT_EQ(first_seconds(source, 0.6).size(), 2u) << "at 0 and 0.6 s";
 }
 
 TEST(ReplaySource, TakesAShortSourceAsItIs) {
