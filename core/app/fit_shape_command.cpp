@@ -37,16 +37,6 @@ void print_estimate(const ShapeEstimate& e) {
   }
 }
 
-void warn_of_bounds(const ShapeEstimate& e) {
-  for (const ShapeParameter& p : e.wanted) {
-    if (p.value > p.lower && p.value < p.upper) continue;
-    tell(
-        "hypotrack: {} ends at its bound, {:.4g}: the pictures do not determine it, or the "
-        "frames were not tracked (look at the overlay of a run)\n",
-        p.name, p.value);
-  }
-}
-
 /// Opens each round with a new source. The source is opened with the models of the scene file: a
 /// synthetic one renders those, whatever is tracked.
 class Rounds {
@@ -75,7 +65,8 @@ class Rounds {
 };
 
 int finish(const ShapeEstimate& estimate, const FitShapeOptions& options) {
-  warn_of_bounds(estimate);
+  for (const std::string& warning : warnings_of_bounds(estimate))
+    tell("hypotrack: warning: {}\n", warning);
   write_whole(options.out, shape_file_text(estimate));
   fmt::print("shape in {}\n", options.out.string());
   return 0;
@@ -87,7 +78,11 @@ int fit_to_labels(const FitShapeOptions& options, const CommonOptions& common) {
   const ShapeEstimateSettings settings = session.shape;
   const ShapeEstimate estimate =
       shape_of_labels(std::move(session), settings, options.frames.value_or(0));
-  fmt::print("{} of {} labelled frames\n", estimate.used_frames, estimate.tracked_frames);
+  fmt::print(
+      "{} of {} labelled frames, mean distance {:.1f} mm with the shape given, {:.1f} mm with "
+      "the one found\n",
+      estimate.used_frames, estimate.tracked_frames, 1e3 * estimate.first_distance,
+      1e3 * estimate.distance);
   print_estimate(estimate);
   return finish(estimate, options);
 }

@@ -80,12 +80,10 @@ class Minimizer {
   }
 
  private:
-  MatrixXd prior_hessian() const {
-    return (2 * prior_.weight * prior_.deviation.array().square().inverse()).matrix().asDiagonal();
-  }
+  MatrixXd prior_hessian() const { return 2 * prior_.weight * prior_.precision; }
   double total(const JointTrial& trial, const VectorXd& costs) const {
-    const VectorXd off = (trial.shape - prior_.mean).cwiseQuotient(prior_.deviation);
-    double sum = prior_.weight * off.squaredNorm();
+    const VectorXd off = trial.shape - prior_.mean;
+    double sum = prior_.weight * off.dot(prior_.precision * off);
     for (Index k = 0; k < costs.size(); ++k)
       if (keep_[k]) sum += costs[k];
     return sum;

@@ -37,9 +37,10 @@ class JointProblem {
   virtual Eigen::VectorXd moved(const Eigen::VectorXd& pose, const Eigen::VectorXd& step) const = 0;
 };
 
-/// Gaussian prior of the shape. It adds weight * sum(((shape - mean) / deviation)^2) to the cost.
+/// Gaussian prior of the shape. With d = shape - mean it adds weight * d^T precision d to the cost.
 struct ShapePrior {
-  Eigen::VectorXd mean, deviation, lower, upper;  ///< P numbers each; bounds are hard
+  Eigen::VectorXd mean, lower, upper;  ///< P numbers each; bounds are hard
+  Eigen::MatrixXd precision;           ///< PxP, the inverse of the covariance
   double weight = 0;
 };
 

@@ -219,9 +219,29 @@ ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& 
   for (std::size_t i = 0; i < count; ++i) used.push_back(labelled[i * labelled.size() / count]);
   estimate.used_frames = static_cast<int>(count);
   LandmarkProblem problem(scene, targets, std::move(used));
-  take(fit_jointly(problem, problem.start(), targets.prior(1), settings.iterations), targets,
-       estimate);
+  const JointTrial start = problem.start();
+  const JointFit fit = fit_jointly(problem, start, targets.prior(1), settings.iterations);
+  take(fit, targets, estimate);
+  estimate.first_distance = problem.mean_distance(start);
+  estimate.distance = problem.mean_distance(fit.best);
   return estimate;
+}
+
+std::vector<std::string> warnings_of_bounds(const ShapeEstimate& estimate) {
+  constexpr double kNear = 0.005;  // of the bound
+  std::vector<std::string> warnings;
+  for (const ShapeParameter& p : estimate.wanted) {
+    for (const double bound : {p.lower, p.upper}) {
+      if (std::abs(p.value - bound) > kNear * std::abs(bound)) continue;
+      warnings.push_back(
+          fmt::format("{} ends at {:.4f}, its {} bound being {:.4g}: nobody is built like that, so "
+                      "the frames do not show it or were not tracked (look at the overlay of a "
+                      "run), or the labels mean other points of the hand. Leave it out of "
+                      "shape.parameters, or give its value in `shape`",
+                      p.name, p.value, bound == p.lower ? "lower" : "upper", bound));
+    }
+  }
+  return warnings;
 }
 
 std::string shape_file_text(const ShapeEstimate& estimate) {
@@ -234,6 +254,7 @@ std::string shape_file_text(const ShapeEstimate& estimate) {
     text += fmt::format("#   {:<10} {:.4f}{}\n", estimate.wanted[i].name, estimate.wanted[i].value,
                         std::isfinite(deviation) ? fmt::format(" +- {:.4f}", deviation) : "");
   }
+  for (const std::string& warning : warnings_of_bounds(estimate)) text += "# " + warning + "\n";
   return text + shape_yaml(estimate.shape);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct ShapeEstimate {
   std::vector<ShapeParameter> wanted;  ///< the fitted parameters, with their values
   Eigen::VectorXd deviation;  ///< standard error of `wanted`, from fits to parts of the frames;
                               ///< NaN: unknown
-  int tracked_frames = 0;     ///< in the last round
+  /// Mean distance of the labelled landmarks before and after the fit, in metres; NaN: no labels.
+  double first_distance = std::numeric_limits<double>::quiet_NaN();
+  double distance = std::numeric_limits<double>::quiet_NaN();
+  int tracked_frames = 0;  ///< in the last round
   int used_frames = 0;
   double first_cost = 0, cost = 0;     ///< of the last round's joint fit
   std::vector<std::string> overrides;  ///< scene overrides that give the models this shape
@@ -54,7 +58,10 @@ ShapeEstimate estimate_shape(const OpenShaped& open, const ShapeEstimateSettings
 ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& settings,
                               int limit);
 
-/// Returns the text of a `shape_file` with the shape, and its origin in comments.
+/// Returns a warning for every fitted parameter that ends within 0.5 % of one of its bounds.
+std::vector<std::string> warnings_of_bounds(const ShapeEstimate& estimate);
+
+/// Returns the text of a `shape_file` with the shape, and its origin and warnings in comments.
 std::string shape_file_text(const ShapeEstimate& estimate);
 
 }  // namespace hypotrack

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <utility>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
+#include "shape/hand_proportions.hpp"
 
 namespace hypotrack {
 namespace {
@@ -100,15 +102,19 @@ std::vector<ShapeParameter> ShapeTargets::with(const Eigen::VectorXd& values) co
 
 ShapePrior ShapeTargets::prior(double weight) const {
   ShapePrior prior;
-  for (Eigen::VectorXd* v : {&prior.mean, &prior.deviation, &prior.lower, &prior.upper})
+  Eigen::VectorXd deviation;
+  for (Eigen::VectorXd* v : {&prior.mean, &deviation, &prior.lower, &prior.upper})
     v->resize(static_cast<Eigen::Index>(wanted_.size()));
   for (std::size_t k = 0; k < wanted_.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     prior.mean[i] = wanted_[k].neutral;
-    prior.deviation[i] = wanted_[k].deviation;
+    deviation[i] = wanted_[k].deviation;
     prior.lower[i] = wanted_[k].lower;
     prior.upper[i] = wanted_[k].upper;
   }
+  const Eigen::MatrixXd covariance =
+      deviation.asDiagonal() * shape_correlations(wanted_) * deviation.asDiagonal();
+  prior.precision = covariance.inverse();
   prior.weight = weight;
   return prior;
 }

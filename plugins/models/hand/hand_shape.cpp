@@ -14,16 +14,17 @@ namespace {
 constexpr std::array<std::string_view, 5> kAllFingers = {"thumb", "index", "middle", "ring",
                                                          "little"};
 
-// Standard deviations among adults. Hand length varies by 5 % within either sex and by 7 % between
-// their means (C. C. Gordon et al., "1988 Anthropometric Survey of U.S. Army Personnel: Methods and
-// Summary Statistics", NATICK/TR-89/044). 7 % allows for a neutral hand that is not the mean one.
-// Finger lengths vary by 6 to 8 %, the thumb's by 11 % (Chatzioglou, Pinar and Govsa, "Biometric
-// analysis hand parameters in young adults", Anat. Cell Biol. 57(2), 2024: 63.9 +- 4.1, 70.7 +-
-// 5.2, 65.5 +- 4.8, 53.3 +- 4.3 and 49.5 +- 5.5 mm). Without the correlation with the size of the
-// hand, 5 % remain. The thumb's 11 % is assumed to come mostly from the point it was measured from.
-// Width has no source of its own and is assumed to vary as the lengths do. The bounds are at 4 to 5
-// deviations.
-constexpr double kSizeDeviation = 0.07, kFingerDeviation = 0.05;
+// Standard deviations among adults. In ANSUR II, with equal shares of men and women, the palm's
+// length varies by 6.4 %, hand breadth over it by 5.9 % and the middle finger's length over it by
+// 8.2 % (C. C. Gordon et al., "2012 Anthropometric Survey of U.S. Army Personnel: Methods and
+// Summary Statistics", NATICK/TR-15/007). 7 % for the size allows for a neutral hand that is not
+// the mean one. Both lengths of the third ratio end at a crease, which is found to some millimetres
+// only. Finger lengths themselves vary by 6 to 8 % (Chatzioglou, Pinar and Govsa, "Biometric
+// analysis hand parameters in young adults", Anat. Cell Biol. 57(2), 2024: 63.9 +- 4.1, 70.7
+// +- 5.2, 65.5 +- 4.8 and 53.3 +- 4.3 mm), which leaves 6.5 % over the palm. Width is assumed to
+// vary as breadth does, the thumb as fingers do. The core knows the correlations
+// (core/src/shape/hand_proportions.cpp). The bounds are at 4 to 5 deviations.
+constexpr double kSizeDeviation = 0.07, kFingerDeviation = 0.065, kWidthDeviation = 0.06;
 constexpr double kSmallest = 0.7, kLargest = 1.35;
 constexpr double kShortest = 0.75, kLongest = 1.3;
 
@@ -67,7 +68,7 @@ const std::vector<ShapeParameter>& hand_shape_parameters() {
     std::vector<ShapeParameter> all = {{"scale", 1, 1, kSmallest, kLargest, kSizeDeviation}};
     for (const std::string_view finger : kAllFingers)
       all.push_back({std::string(finger), 1, 1, kShortest, kLongest, kFingerDeviation});
-    all.push_back({"width", 1, 1, kShortest, kLongest, kFingerDeviation});
+    all.push_back({"width", 1, 1, kShortest, kLongest, kWidthDeviation});
     return all;
   }();
   return parameters;

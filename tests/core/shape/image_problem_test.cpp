@@ -116,8 +116,10 @@ class ShapeFromImages : public ::testing::Test {
     learn(*silhouette);
     const ShapeTargets targets(scene_, {}, {});
     ImageProblem problem(scene_, targets, parts_, frames_);
-    const ShapePrior prior{Eigen::Vector2d(1, 1), Eigen::Vector2d(0.07, 0.05),
-                           Eigen::Vector2d(0.7, 0.75), Eigen::Vector2d(1.35, 1.3), 1};
+    const Eigen::Vector2d deviation(0.07, 0.05);
+    const ShapePrior prior{Eigen::Vector2d(1, 1), Eigen::Vector2d(0.7, 0.75),
+                           Eigen::Vector2d(1.35, 1.3),
+                           deviation.cwiseAbs2().cwiseInverse().asDiagonal().toDenseMatrix(), 1};
     problem.set_steps(2);
     JointFit fit = fit_jointly(problem, problem.start(), prior, 10);
     problem.set_steps(1);

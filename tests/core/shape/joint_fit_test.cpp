@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -67,9 +68,36 @@ class Linear : public JointProblem {
   std::vector<VectorXd> targets_;
 };
 
+/// A problem with one more number of the shape, which no frame shows.
+class Blind final : public JointProblem {
+ public:
+  explicit Blind(JointProblem& problem) : problem_(problem) {}
+  std::vector<FrameSystem> systems(const JointTrial& trial) override {
+    std::vector<FrameSystem> systems = problem_.systems(seen(trial));
+    for (FrameSystem& system : systems) {
+      const Eigen::Index size = system.gradient.size() + 1;
+      system.gradient.conservativeResize(size);
+      system.gradient[size - 1] = 0;
+      system.hessian.conservativeResize(size, size);
+      system.hessian.row(size - 1).setZero();
+      system.hessian.col(size - 1).setZero();
+    }
+    return systems;
+  }
+  VectorXd costs(const JointTrial& trial) override { return problem_.costs(seen(trial)); }
+  VectorXd moved(const VectorXd& pose, const VectorXd& step) const override { return pose + step; }
+
+ private:
+  static JointTrial seen(JointTrial trial) {
+    trial.shape.conservativeResize(trial.shape.size() - 1);
+    return trial;
+  }
+  JointProblem& problem_;
+};
+
 ShapePrior wide_prior(int shapes, double weight = 0) {
-  return {VectorXd::Ones(shapes), VectorXd::Constant(shapes, 0.1), VectorXd::Constant(shapes, -9),
-          VectorXd::Constant(shapes, 9), weight};
+  return {VectorXd::Ones(shapes), VectorXd::Constant(shapes, -9), VectorXd::Constant(shapes, 9),
+          100 * MatrixXd::Identity(shapes, shapes), weight};
 }
 
 const VectorXd kTrue = Eigen::Vector3d(1.1, 0.9, 1.02);
@@ -92,6 +120,19 @@ TEST(JointFit, StaysNearThePriorAndWithinTheBounds) {
   bounded.upper[0] = 1.05;
   const JointFit clipped = fit_jointly(problem, problem.start(3), bounded, 50);
   EXPECT_DOUBLE_EQ(clipped.best.shape[0], 1.05);
+}
+
+TEST(JointFit, FollowsThePriorsCorrelationsWhereFramesTellNothing) {
+  Linear problem(6, 5, 2, Eigen::Vector2d(1.1, 1.1), 0);
+  ShapePrior prior = wide_prior(3, 0.01);
+  Eigen::Matrix3d covariance = 0.01 * Eigen::Matrix3d::Identity();
+  covariance(2, 0) = covariance(0, 2) = 0.009;
+  prior.precision = covariance.inverse();
+  JointTrial start = problem.start(3);
+  Blind blind(problem);
+  const JointFit fit = fit_jointly(blind, start, prior, 50);
+  EXPECT_NEAR(fit.best.shape[0], 1.1, 3e-3);
+  EXPECT_NEAR(fit.best.shape[2], 1.09, 3e-3) << "1 + 0.9 times what the first is off";
 }
 
 TEST(JointFit, LeavesOutFramesWithoutACost) {

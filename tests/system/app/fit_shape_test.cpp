@@ -50,6 +50,19 @@ TEST_F(FitShapeTest, FromTruthFindsWhatTheLabelsHaveAndRunTakesIt) {
   EXPECT_EQ(tracked.exit_code, 0) << tracked.err;
 }
 
+TEST_F(FitShapeTest, WarnsOfWhatEndsAtABoundAndOfNothingElse) {
+  const Outcome usual = fit(kHand, {"--from", "truth"});
+  ASSERT_EQ(usual.exit_code, 0) << usual.err;
+  EXPECT_THAT(usual.out, HasSubstr("8 of 8 labelled frames, mean distance "));
+  EXPECT_THAT(usual.err, testing::Not(HasSubstr("bound")));
+  const Outcome large = fit(replaced(kHand, "shape: {scale: 1.06, index: 1.04}", "scale: 1.5"),
+                            {"--from", "truth", "--set", "shape.parameters=[scale]"});
+  ASSERT_EQ(large.exit_code, 0) << large.err;
+  const std::string warning = "scale ends at 1.3500, its upper bound being 1.35: nobody is built";
+  EXPECT_THAT(large.err, HasSubstr("hypotrack: warning: " + warning));
+  EXPECT_THAT(read_text(path("out")), HasSubstr("\n# " + warning));
+}
+
 TEST_F(FitShapeTest, TracksAndFitsInRoundsAndSaysWhatItFinds) {
   const Outcome outcome =
       fit(kHand, {"--frames", "4", "--set", "shape={rounds: 1, frames: 4, iterations: 2}"});
