@@ -4,66 +4,26 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "hypotrack/back_project.hpp"
 
 namespace hypotrack {
 namespace {
 
-/// Largest angle from the axis (tangent) of a ray in the pinhole's picture.
-constexpr double kWidestTangent = 6.0;    // 80.5 degrees
 constexpr double kLargestPinhole = 6144;  // pixels along one side
 constexpr double kLargestGeometry = 8192;
 /// Factor by which geometry is drawn finer, so that the nearest pixel is at most 1/8 pixel off.
 constexpr int kGeometryScale = 4;
-constexpr double kInversionTolerance = 0.1;  // pixels
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-cv::Matx33d intrinsics(const Camera& c) { return {c.fx, 0, c.cx, 0, c.fy, c.cy, 0, 0, 1}; }
-
-std::vector<cv::Point2d> undistort(const Camera& c, const std::vector<cv::Point2d>& pixels) {
-  std::vector<cv::Point2d> rays;
-  if (c.distortion_model == DistortionModel::fisheye) {
-    cv::fisheye::undistortPoints(pixels, rays, intrinsics(c), c.distortion);
-  } else {
-    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 1e-8);
-    cv::undistortPoints(pixels, rays, intrinsics(c), c.distortion, cv::noArray(), cv::noArray(),
-                        until);
-  }
-  return rays;
-}
-
-std::vector<cv::Point2d> distort(const Camera& c, const std::vector<cv::Point2d>& rays) {
-  std::vector<cv::Point2d> pixels;
-  if (c.distortion_model == DistortionModel::fisheye) {
-    cv::fisheye::distortPoints(rays, pixels, intrinsics(c), c.distortion);
-  } else {
-    std::vector<cv::Point3d> points;
-    points.reserve(rays.size());
-    for (const cv::Point2d& ray : rays) points.emplace_back(ray.x, ray.y, 1.0);
-    cv::projectPoints(points, cv::Vec3d(), cv::Vec3d(), intrinsics(c), c.distortion, pixels);
-  }
-  return pixels;
-}
-
-/// Computes the rays of one row of pixels. OpenCV inverts the distortion iteratively; where that
-/// fails there is no ray.
 void fill_row(const Camera& camera, int y, cv::Point2f* row) {
-  std::vector<cv::Point2d> pixels(static_cast<std::size_t>(camera.width));
+  Eigen::Matrix2Xd pixels(2, camera.width);
+  pixels.row(0).setLinSpaced(camera.width, 0, camera.width - 1);
+  pixels.row(1).setConstant(y);
+  const Eigen::Matrix3Xd rays = back_project(camera, pixels);
   for (int x = 0; x < camera.width; ++x)
-    pixels[x] = {static_cast<double>(x), static_cast<double>(y)};
-  std::vector<cv::Point2d> rays = undistort(camera, pixels);
-  for (cv::Point2d& ray : rays) {
-    const double tangent = std::hypot(ray.x, ray.y);
-    if (!(tangent < kWidestTangent)) ray = {kWidestTangent, 0};  // fails the check below
-  }
-  const std::vector<cv::Point2d> again = distort(camera, rays);
-  for (int x = 0; x < camera.width; ++x) {
-    const cv::Point2d error = again[x] - pixels[x];
-    const bool inverted = std::hypot(error.x, error.y) < kInversionTolerance;
-    row[x] = inverted ? cv::Point2f(rays[x]) : cv::Point2f(kNaN, kNaN);
-  }
+    row[x] = {static_cast<float>(rays(0, x)), static_cast<float>(rays(1, x))};
 }
 
 bool contains(const Eigen::AlignedBox2d& box, const cv::Point2f& p) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "camera/distortion.hpp"
+#include "hypotrack/back_project.hpp"
 #include "hypotrack/error.hpp"
 #include "test_cameras.hpp"
 
@@ -46,6 +47,19 @@ TEST_P(Lens, ProjectsAsOpenCvDoes) {
     EXPECT_NEAR(pixel.x(), expected[i].x, 1e-9) << i;
     EXPECT_NEAR(pixel.y(), expected[i].y, 1e-9) << i;
   }
+}
+
+TEST_P(Lens, BackProjectsToTheRayOfAPixel) {
+  Camera camera = test::lens_camera(GetParam());
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> side(-0.4, 0.4);
+  Eigen::Matrix3Xd rays(3, 100);
+  Eigen::Matrix2Xd pixels(2, 100);
+  for (Eigen::Index i = 0; i < rays.cols(); ++i) {
+    rays.col(i) << side(random), side(random), 1;
+    pixels.col(i) = project(camera, 0.6 * rays.col(i));
+  }
+  EXPECT_LT((back_project(camera, pixels) - rays).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TEST(Camera, PutsAPointOnTheAxisAtThePrincipalPoint) {
