@@ -31,6 +31,7 @@ int validate_scene(const SceneOptions& options, const CommonOptions& common, boo
                        session.seed);
   if (usable) {
     tracker.check(*first);
+    for (const std::string& note : session.notes) tell("note: {}\n", note);
     tell_notes(*session.source, tracker, *first);
   }
   if (print)

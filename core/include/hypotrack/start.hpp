@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,14 +13,40 @@
 
 namespace hypotrack {
 
+/// Receives the parameters of one model in a pose that may be right. Returns false if no further
+/// pose is wanted.
+using TakePose = std::function<bool(const Eigen::VectorXd& parameters)>;
+
+/// Settings of GlobalSearch::find(). A 0 stands for the value in `tracker.recovery`.
+struct GlobalSearchSettings {
+  int hypotheses = 0;  ///< poses evaluated per place
+  int refined = 0;     ///< best of them refined by least squares
+  int searched = 0;    ///< best of those proposed per place
+};
+
+/// Searches whole pictures for a model in any pose, with the scene's objective and without training
+/// data. A tracker lends it to its starts.
+class HYPOTRACK_API GlobalSearch {
+ public:
+  GlobalSearch() = default;
+  virtual ~GlobalSearch();
+  GlobalSearch(const GlobalSearch&) = delete;
+  GlobalSearch& operator=(const GlobalSearch&) = delete;
+
+  /// Proposes poses of the model that is looked for, place by place, likeliest places first.
+  virtual void find(const GlobalSearchSettings& settings, const TakePose& take) = 0;
+};
+
 /// Data that a start may look at.
 struct StartContext {
   const Scene& scene;
   const std::vector<Camera>& cameras;  ///< in the order of a frame's views
-  const Frame* frame = nullptr;  ///< the frame to search, with views; null before there is one
+  const Frame* frame = nullptr;    ///< the frame to search, with views; null before there is one
+  GlobalSearch* search = nullptr;  ///< for find() only
 };
 
-/// Gives the state in which the search of the first frame begins.
+/// Says where a search begins. Some starts know a state of the scene before they see pictures.
+/// Others look for each model in the pictures, in the first frames and after every loss.
 class HYPOTRACK_API Start {
  public:
   Start() = default;
@@ -26,11 +54,19 @@ class HYPOTRACK_API Start {
   Start(const Start&) = delete;
   Start& operator=(const Start&) = delete;
 
+  /// Returns whether this start looks for models in pictures: find() is called then, state() never.
+  virtual bool looks() const { return false; }
+
   /// Returns a state of the scene with unit quaternions and angles within their bounds. Returns
   /// nothing if it needs a frame and there is none yet; with a frame it returns a state or throws.
   /// Equal contexts give equal states. Throws ConfigError or DataError, which say where it looked
   /// and what it did not find.
-  virtual std::optional<Eigen::VectorXd> state(const StartContext& context) = 0;
+  virtual std::optional<Eigen::VectorXd> state(const StartContext& context);
+
+  /// Proposes poses of one model of the scene (its index) in a frame, likeliest first, with unit
+  /// quaternions and angles within their bounds. Proposes none if it sees none. The tracker refines
+  /// them and chooses. Equal calls propose equal poses. Throws ConfigError or DataError.
+  virtual void find(const StartContext& context, std::size_t model, const TakePose& take);
 };
 
 }  // namespace hypotrack

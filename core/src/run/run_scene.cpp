@@ -71,6 +71,8 @@ EstimatedScene open_for_run(const std::filesystem::path& scene,
   for (const ShapeParameter& p : opened.estimate.wanted)
     shape += fmt::format(", {} {:.3f}", p.name, p.value);
   watcher.say(fmt::format("shape from {} frames{}", opened.estimate.used_frames, shape));
+  for (const std::string& warning : warnings_of_bounds(opened.estimate))
+    watcher.say("warning: " + warning);
   return opened;
 }
 
@@ -207,6 +209,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     results = std::make_unique<Results>(opened, std::move(smoother), tracker.backend(), options.out,
                                         watcher);
   watcher.say(fmt::format("tracking with {}", tracker.backend()));
+  for (const std::string& note : opened.notes) watcher.say("note: " + note);
   for (const std::string& problem : {problem_of_pair(opened.source->cameras(), first.back()),
                                      tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
 #include "hypotrack/pose.hpp"
 #include "hypotrack/start.hpp"
 #include "session/opened_scene.hpp"
@@ -12,13 +15,60 @@
 
 namespace hypotrack {
 
+namespace {
+
+/// Returns a point about half a metre away that both first cameras see: where their axes are
+/// nearest to each other, if they converge.
+Eigen::Vector3d point_in_view(const std::vector<Camera>& cameras) {
+  constexpr double kDepth = 0.5, kNearest = 0.2, kFarthest = 1.5;  // metres
+  std::vector<Eigen::Isometry3d> from_camera;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, cameras.size()); ++i)
+    from_camera.push_back(cameras[i].camera_from_world.inverse());
+  const auto at = [&](std::size_t i, double depth) {
+    return Eigen::Vector3d(from_camera[i] * Eigen::Vector3d(0, 0, depth));
+  };
+  if (from_camera.size() == 1) return at(0, kDepth);
+  const Eigen::Vector3d a = from_camera[0].linear().col(2), b = from_camera[1].linear().col(2);
+  const Eigen::Vector3d apart = from_camera[1].translation() - from_camera[0].translation();
+  const double turned = 1 - a.dot(b) * a.dot(b);  // squared sine of the angle between the axes
+  double depth = kDepth;
+  if (turned > 1e-3)
+    depth = std::clamp((a - a.dot(b) * b).dot(apart) / turned, kNearest, kFarthest);
+  return (at(0, depth) + at(1, depth)) / 2;
+}
+
+/// Returns the rest state with the models moved to where both first cameras see them.
+Eigen::VectorXd state_in_view(const Scene& scene, const std::vector<Camera>& cameras) {
+  Eigen::VectorXd state = scene.rest_state();
+  const Eigen::Vector3d point = point_in_view(cameras);
+  for (const Scene::Item& item : scene.items()) {
+    const Eigen::Matrix3Xd landmarks = posed_landmarks(*item.model, scene.part(item, state));
+    if (landmarks.cols() > 0)
+      state.segment<3>(item.offset) += point - landmarks.rowwise().mean();
+    else
+      state.segment<3>(item.offset) = point;
+  }
+  return state;
+}
+
+}  // namespace
+
+GlobalSearch::~GlobalSearch() = default;
 Start::~Start() = default;
+
+std::optional<Eigen::VectorXd> Start::state(const StartContext& /*context*/) {
+  return std::nullopt;
+}
+
+void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
+}
 
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame) {
   const Scene& scene = *session.scene;
   // A tracker may have taken the parts already.
   const std::vector<Camera>& cameras =
       session.source ? session.source->cameras() : session.parts.cameras;
+  if (!session.start) return state_in_view(scene, cameras);
   std::optional<Eigen::VectorXd> state = session.start->state({scene, cameras, frame});
   const InitSettings& init = session.init;
   const std::string who = fmt::format(

@@ -35,6 +35,8 @@ class Opening {
   void images();
   void optimizer();
   void start();
+  std::vector<std::unique_ptr<Start>> starts(const ConfigNode& from,
+                                             std::vector<YamlDocument>& records);
   void outputs();
   OpenedScene finish();
 
@@ -163,16 +165,60 @@ void Opening::optimizer() {
   record_.set("optimizer", record);
 }
 
+std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
+                                                    std::vector<YamlDocument>& records) {
+  const std::vector<ConfigNode> nodes = start_nodes(from, root_.get("init"));
+  std::vector<std::unique_ptr<Start>> all;
+  for (const ConfigNode& node : nodes) {
+    YamlDocument record;
+    try {
+      all.push_back(make<Start>(node, {}, record));
+    } catch (const DataError& e) {
+      if (from.scalar() != kStartAuto) throw;
+      session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
+                                           text_of(node, "type", ""), e.what()));
+      continue;
+    }
+    if (nodes.size() > 1 && !all.back()->looks())
+      detail::fail_at(node, fmt::format("'{}' gives a state and does not look for the models; "
+                                        "expected it alone, or a list of starts that look",
+                                        text_of(node, "type", "")));
+    records.push_back(std::move(record));
+  }
+  return all;
+}
+
 void Opening::start() {
-  const ConfigNode node = start_node(file_.init, root_.get("init"));
-  YamlDocument record;
-  session_.start = make<Start>(node, {}, record);
-  const std::string& word = file_.init.from.scalar();  // empty if it is a map
+  std::vector<YamlDocument> records;
+  std::vector<std::unique_ptr<Start>> all = starts(file_.init.from, records);
+  TrackerParts& parts = session_.parts;
+  parts.begins_by_looking = all.front()->looks();
+  if (parts.begins_by_looking)
+    parts.starts = std::move(all);
+  else
+    session_.start = std::move(all.front());
+  const std::string& word = file_.init.from.scalar();  // empty if it is a map or a list
   // The record has a word already, and the parameters of `file` beside it.
-  if (word == kStartFromFile || record.text() == fmt::format("type: {}\n", word)) return;
-  YamlDocument init(dump_params(file_.init));
-  init.set("from", record);
-  record_.set("init", init);
+  const bool has_word =
+      records.size() == 1 &&
+      (word == kStartFromFile || records.front().text() == fmt::format("type: {}\n", word));
+  if (!has_word) {
+    YamlDocument init(dump_params(file_.init));
+    if (records.size() == 1)
+      init.set("from", records.front());
+    else
+      init.set_list("from", records);
+    record_.set("init", init);
+  }
+  ConfigNode from = file_.tracker.recovery.from;
+  if (!from.defined() && parts.begins_by_looking) return;
+  if (!from.defined()) from = ConfigNode::parse("global_search", "the default of recovery.from");
+  parts.starts = starts(from, records);
+  for (const std::unique_ptr<Start>& start : parts.starts)
+    if (!start->looks())
+      detail::fail_at(from,
+                      "gives a state and does not look for lost models; expected starts "
+                      "such as global_search or hand_landmarks");
 }
 
 void Opening::outputs() {

@@ -31,14 +31,15 @@ struct OpenedScene {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<Source> source;
   TrackerParts parts;
-  std::unique_ptr<Start> start;
+  std::unique_ptr<Start> start;  ///< null: `parts.starts` look for the models
   InitSettings init;
   OutputSettings output;
   std::vector<NamedOutput> outputs;  ///< of a scene with a source
   std::uint64_t seed = 0;
   ShapeEstimateSettings shape;
-  std::string resolved;         ///< YAML that repeats the run, with the value of every parameter
-  std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
+  std::vector<std::string> notes;  ///< for the user: what was not used, and why
+  std::string resolved;            ///< YAML that repeats the run, with the value of every parameter
+  std::string source_resolved;     ///< YAML of the source alone, with the value of every parameter
 };
 
 /// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws
@@ -67,8 +68,9 @@ OpenedScene open_scene(const std::filesystem::path& scene_file,
 std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& session);
 
 /// Returns the state from which the search of a frame starts: that of the scene's start, changed as
-/// `init` says. Returns nothing if there is no frame (null) and the start needs one. Throws
-/// ConfigError or DataError, for example if the scene asks for a ground truth that does not exist.
+/// `init` says. Where starts look for the models, it is any state in view. Returns nothing if there
+/// is no frame (null) and the start needs one. Throws ConfigError or DataError, for example if the
+/// scene asks for a ground truth that does not exist.
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame);
 
 /// Returns start_state() of the first usable frame of the source.

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -23,15 +24,28 @@ void refuse_old_keys(const ConfigNode& root) {
 
 }  // namespace
 
-ConfigNode start_node(const InitSettings& init, const ConfigNode& written) {
-  if (init.from.is_map()) return init.from;
-  std::array<std::pair<std::string, ConfigNode>, 3> entries;
-  entries[0] = {"type", init.from};
-  if (init.from.scalar() == kStartFromFile) {
-    entries[1] = {"file", written.get("file")};
-    entries[2] = {"frame", written.get("frame")};
+std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written) {
+  std::vector<ConfigNode> all;
+  const auto add = [&](const ConfigNode& node) {
+    if (node.is_map()) return all.push_back(node);
+    std::array<std::pair<std::string, ConfigNode>, 3> entries;
+    entries[0] = {"type", node};
+    if (node.scalar() == kStartFromFile) {
+      entries[1] = {"file", written.get("file")};
+      entries[2] = {"frame", written.get("frame")};
+    }
+    all.push_back(ConfigNode::map_of(entries));
+  };
+  if (from.is_list()) {
+    for (std::size_t i = 0; i < from.size(); ++i) add(from.at(i));
+  } else if (from.scalar() == kStartAuto) {
+    for (const char* type : {"hand_landmarks", "global_search"})
+      add(ConfigNode::parse(type, "the starts of auto"));
+  } else {
+    add(from);
   }
-  return ConfigNode::map_of(entries);
+  if (all.empty()) detail::fail_at(from, "an empty list; expected the starts to try");
+  return all;
 }
 
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides) {

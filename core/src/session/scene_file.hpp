@@ -23,6 +23,9 @@ namespace hypotrack {
 /// The start that takes its parameters from `init.file` and `init.frame`.
 inline constexpr std::string_view kStartFromFile = "file";
 
+/// The word in `init.from` for all starts that look for models and can.
+inline constexpr std::string_view kStartAuto = "auto";
+
 /// `init:` of a scene.
 struct InitSettings {
   ConfigNode from = ConfigNode::parse("rest", "the default of init.from");
@@ -34,8 +37,9 @@ struct InitSettings {
   double away_angles = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
-      {.help = "start of the first search: the name of a start without parameters (rest, truth), "
-               "file, or {type, ...}"});
+      {.help = "start of the first search: the name of a start (rest, truth, file, global_search, "
+               "hand_landmarks) or {type, ...}; a list of starts that look for the models, tried "
+               "in this order; or auto: all of these that can"});
     v("file", file,
       {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
                "track.csv for example)"});
@@ -67,9 +71,9 @@ struct InitSettings {
   }
 };
 
-/// Returns the map, with a `type`, that a start is made from: `init.from`, or what its word stands
-/// for. `written` is the scene's `init`.
-ConfigNode start_node(const InitSettings& init, const ConfigNode& written);
+/// Returns the maps, each with a `type`, that starts are made from: `from` (of `init` or of
+/// `tracker.recovery`), or what its words stand for. `written` is the scene's `init`.
+std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written);
 
 /// `budget:` of a scene.
 struct BudgetSettings {

@@ -1,9 +1,13 @@
 #include "track/candidate_finder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
+#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/displace.hpp"
@@ -29,6 +33,30 @@ double as_likely(double highest) {
   return odds / (1 + odds);
 }
 
+/// Lends a tracker's global search to its starts.
+class LentSearch final : public GlobalSearch {
+ public:
+  using Search = std::function<void(const GlobalSearchSettings&, const TakePose&)>;
+  explicit LentSearch(Search search) : search_(std::move(search)) {}
+  void find(const GlobalSearchSettings& settings, const TakePose& take) override {
+    search_(settings, take);
+  }
+
+ private:
+  Search search_;
+};
+
+/// Throws PluginError unless a start proposes a pose of the model.
+void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
+  const Eigen::Index size = item.model->dimension();
+  if (parameters.size() != size || !parameters.allFinite() ||
+      std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
+    throw PluginError(
+        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
+                    "and a unit quaternion; this is a bug in the start",
+                    item.name, parameters.size(), size));
+}
+
 }  // namespace
 
 double Candidate::probability() const {
@@ -41,7 +69,9 @@ double Candidate::probability() const {
 CandidateFinder::CandidateFinder(const Scene& scene, TrackerParts& parts,
                                  const StatusSettings& settings)
     : scene_(scene),
+      cameras_(parts.cameras),
       settings_(settings),
+      starts_(std::move(parts.starts)),
       budget_(parts.budget),
       search_(scene, parts),
       verifier_(scene, parts.cameras),
@@ -173,6 +203,21 @@ void CandidateFinder::look_at(const Frame& frame, const Eigen::VectorXd& state) 
   search_.look(frame, state, false);
 }
 
+Candidate CandidateFinder::searched_from(const Frame& frame, const Eigen::VectorXd& state,
+                                         std::uint64_t seed) {
+  if (verifier_.experienced()) {
+    search_.look(frame, state, false);
+    return verified(frame, search_.settled(state, budget_, seed));
+  }
+  search_.forget_colors();
+  Found found = search_.from_guess(frame, state, budget_, seed);
+  if (search_.tiles().visible_share(found.state) == 0) return verified(frame, std::move(found));
+  look_at(frame, found.state);
+  Found better = search_.settled(found.state, budget_, seed_of_part(seed, 2));
+  better.evaluations += found.evaluations;
+  return verified(frame, std::move(better));
+}
+
 std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
                                                      const RecoveryRequest& request,
                                                      const Candidate& base, Candidate& best,
@@ -204,31 +249,58 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
   std::uint32_t part = 0;
   bool sure = false;
   const bool is_recent = request.seconds[model] < kRecent;
-  for (const PoseGuess& guess : task.guesses) {
-    if (sure || (is_recent && has_confirmed(all, model))) break;
-    const Candidates found =
-        recovery_.find(task, guess, settings_.motion, seed_of_part(seed, part++));
-    best.found.evaluations += found.evaluations;
+  const auto enough = [&] { return sure || (is_recent && has_confirmed(all, model)); };
+  const auto take = [&](const Eigen::VectorXd& state) {
     search_.show(shown, moving);
-    for (const Eigen::VectorXd& state : found.states) {
-      if (search_.tiles().visible_share(state) == 0) continue;
-      search_.look(frame, state, false);
-      Candidate one = verified(frame, search_.settled(state, budget_, seed_of_part(seed, part++)));
-      best.found.evaluations += std::exchange(one.found.evaluations, 0);
-      Eigen::VectorXd moved = request.kept;
-      put(moved, one.found.state);
-      if (!is_within(scene_, reach_within(settings_.motion, task.last.seconds), request.kept,
-                     moved))
-        continue;
-      sure = sure || one.probability() >= kSure;
-      all.push_back(std::move(one));
+    if (search_.tiles().visible_share(state) == 0) return;
+    Candidate one = searched_from(frame, state, seed_of_part(seed, part++));
+    best.found.evaluations += std::exchange(one.found.evaluations, 0);
+    Eigen::VectorXd moved = request.kept;
+    put(moved, one.found.state);
+    if (std::isfinite(task.last.seconds) &&
+        !is_within(scene_, reach_within(settings_.motion, task.last.seconds), request.kept, moved))
+      return;
+    sure = sure || one.probability() >= kSure;
+    all.push_back(std::move(one));
+  };
+  const auto search_places = [&](const GlobalSearchSettings& effort, const auto& found_one) {
+    for (const PoseGuess& guess : task.guesses) {
+      if (enough()) return;
+      const Candidates found =
+          recovery_.find(task, guess, effort, settings_.motion, seed_of_part(seed, part++));
+      best.found.evaluations += found.evaluations;
+      for (const Eigen::VectorXd& state : found.states) found_one(state);
+    }
+  };
+  if (starts_.empty() || any(held) || request.near_only) {
+    search_places(GlobalSearchSettings(), take);
+  } else {
+    LentSearch lent([&](const GlobalSearchSettings& effort, const TakePose& offer) {
+      search_places(effort, [&](const Eigen::VectorXd& state) {
+        offer(state.segment(item.offset, item.model->dimension()));
+      });
+    });
+    const StartContext context{scene_, cameras_, &frame, &lent};
+    const auto is_good = [&](const Candidate& one) {
+      return one.probability() >= settings_.surely_above;
+    };
+    for (const std::unique_ptr<Start>& start : starts_) {
+      if (enough() || (start != starts_.front() && std::ranges::any_of(all, is_good))) break;
+      start->find(context, model, [&](const Eigen::VectorXd& parameters) {
+        Eigen::VectorXd state = task.last.state;
+        check_proposal(item, parameters);
+        state.segment(item.offset, parameters.size()) = parameters;
+        take(state);
+        return !enough();
+      });
     }
   }
   search_.show(shown);
   if (all.empty()) return std::nullopt;
   std::vector<double> apart;
-  for (const Candidate& one : all)
-    apart.push_back(moved_in_hand(scene_, request.together, one.found.state, shown));
+  if (request.together.size() > 0)
+    for (const Candidate& one : all)
+      apart.push_back(moved_in_hand(scene_, request.together, one.found.state, shown));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
   for (std::size_t m = 0; m < moving.size(); ++m)
@@ -262,6 +334,7 @@ bool CandidateFinder::is_same(const Candidate& a, const Candidate& b, std::size_
 
 ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Candidate& base,
                                       std::size_t model) const {
+  if (request.together.size() == 0) return ModelFlags(scene_.items().size(), false);
   ModelFlags out = held_by(scene_, model, request.together);
   for (std::size_t m = 0; m < out.size(); ++m)
     out[m] = out[m] && request.sought[m] && !base.shown[m] && !request.near_only;

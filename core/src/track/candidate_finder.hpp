@@ -46,8 +46,9 @@ struct Candidate {
 /// Input of a recovery: the last known poses and the models to find.
 struct RecoveryRequest {
   Eigen::VectorXd kept;      ///< each model's last pose that was surely right
-  Eigen::VectorXd together;  ///< the last state in which all models were surely right at once
-  std::vector<double> seconds = {};  ///< time since `kept`, by model
+  Eigen::VectorXd together;  ///< the last state in which all models were surely right at once;
+                             ///< empty: none
+  std::vector<double> seconds = {};  ///< time since `kept`, by model; infinite: never seen
   std::vector<double> needed = {};   ///< probability, by model, that an answer needs to count as
                                      ///< right
   ModelFlags sought;                 ///< models to find, or to find alternative poses for
@@ -94,6 +95,8 @@ class CandidateFinder {
 
  private:
   void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
+  /// Searches a frame repeatedly from a state that may be some centimetres off.
+  Candidate searched_from(const Frame& frame, const Eigen::VectorXd& state, std::uint64_t seed);
   Candidate verified(const Frame& frame, Found found);
   /// Returns the most probable candidate; among about equally probable ones the cheapest. All must
   /// show the same models. Prepares the search for the frame around the result.
@@ -119,7 +122,9 @@ class CandidateFinder {
                 std::size_t model) const;
 
   const Scene& scene_;
+  std::vector<Camera> cameras_;
   StatusSettings settings_;
+  std::vector<std::unique_ptr<Start>> starts_;
   Budget budget_;
   FrameSearch search_;
   PoseVerifier verifier_;

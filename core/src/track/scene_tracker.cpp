@@ -89,14 +89,26 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
     : scene_(scene),
       settings_(of_pictures(parts.status, parts.objective)),
       first_(std::move(start)),
+      begins_by_looking_(parts.begins_by_looking),
       finder_(scene, parts, settings_),
       predictor_(scene, parts.search.prediction),
       smoother_(scene, parts.one_euro),
       smoothing_(parts.one_euro.enabled),
       seed_(seed) {
+  if (begins_by_looking_ && !recovers())
+    throw ConfigError(
+        "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "
+        "tracker.evidence and an objective that compares pictures; give a start, for example "
+        "`init: {pose: ...}`");
+  if (begins_by_looking_ && parts.cameras.size() < 2)
+    throw ConfigError(
+        "init.from looks for the models in two views, and the source has one; give a start, for "
+        "example `init: {pose: ...}`");
+  StatusSettings judged = parts.status;
+  if (begins_by_looking_) judged.first_above = judged.tracked_above;
   Eigen::Index landmarks = 0;
   for (const Scene::Item& item : scene.items()) {
-    models_.emplace_back(parts.status, landmarks, std::ssize(item.model->data().landmarks));
+    models_.emplace_back(judged, landmarks, std::ssize(item.model->data().landmarks));
     landmarks += models_.back().landmarks;
   }
   scene.normalize(first_);
@@ -142,7 +154,7 @@ void SceneTracker::find(const Frame& frame, Solution& solution) {
 
 Candidate SceneTracker::follow(const Frame& frame) {
   const std::uint64_t seed = frame_seed(seed_, frame.index);
-  if (!found_any_) {
+  if (!found_any_ && !begins_by_looking_) {
     const bool several = recovers() && begun_ < kPatientFrames;
     ++begun_;
     return finder_.begin(frame, first_, several ? settings_.recovery.first_starts : 1, seed);
@@ -161,7 +173,7 @@ Candidate SceneTracker::follow(const Frame& frame) {
   if (recovers()) reach = reach_within(settings_.motion, frame.time - time_);
   Candidate best = finder_.follow(frame, possible_starts(frame.time), models, budget, reach, seed);
   // The models may still come to the start that was given.
-  if (recovers() && !finder_.verifier().experienced() &&
+  if (recovers() && !begins_by_looking_ && !finder_.verifier().experienced() &&
       best.probability() < settings_.uncertain_above) {
     const bool several = begun_++ % kSeveralAgain == 0;
     if (finder_.begin_again(frame, first_, several ? settings_.recovery.first_starts : 1,
@@ -182,9 +194,10 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
   for (std::size_t m = 0; m < models_.size(); ++m) {
     const ModelTrack& model = models_[m];
     const double p = best.probabilities[m];
-    out.seconds.push_back(std::max(frame.time - model.kept_time, 1e-3));
+    out.seconds.push_back(looks_for(m) ? kInfinite : std::max(frame.time - model.kept_time, 1e-3));
     out.needed.push_back(model.monitor.needed());
-    if (!finder_.verifier().experienced(m)) continue;
+    if (!finder_.verifier().experienced(m) && !begins_by_looking_) continue;
+    if (looks_for(m)) out.together.resize(0);
     out.sought[m] = !best.answers() || !best.shown[m] || p < out.needed[m];
     out.lost = out.lost || out.sought[m];
     confirmed[m] = model.confirmations > 0;
@@ -274,8 +287,8 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
   // holds for models that were never surely found.
   if (best.answers() && finder_.search().tiles().visible_share(best.found.state) > 0)
     for (std::size_t m = 0; m < models_.size(); ++m) {
-      const bool never_found =
-          !finder_.verifier().experienced(m) && (begun_ >= kPatientFrames || any_good);
+      const bool never_found = !finder_.verifier().experienced(m) && !begins_by_looking_ &&
+                               (begun_ >= kPatientFrames || any_good);
       good[m] = good[m] || (best.shown[m] && (!recovers() || never_found));
     }
   go_on_from(frame, best, good);
@@ -321,8 +334,8 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
 ModelFlags SceneTracker::followed() const {
   ModelFlags out;
   for (std::size_t m = 0; m < models_.size(); ++m)
-    out.push_back(found_any_ &&
-                  (!recovers() || models_[m].is_followed() || !finder_.verifier().experienced(m)));
+    out.push_back(found_any_ && (!recovers() || models_[m].is_followed() ||
+                                 (!finder_.verifier().experienced(m) && !begins_by_looking_)));
   return out;
 }
 
@@ -411,6 +424,7 @@ std::string SceneTracker::problem_of_start(const Frame& frame) const {
   constexpr const char* kQuestion =
       "is the start (init) where the models are, and do the cameras and their units (calibration) "
       "belong to the pictures?";
+  if (begins_by_looking_) return {};
   const double visible = finder_.search().tiles().visible_share(state_);
   if (visible < settings_.min_visible)
     return fmt::format(

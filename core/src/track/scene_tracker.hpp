@@ -28,7 +28,8 @@ namespace hypotrack {
 /// its extrapolated motion.
 class SceneTracker {
  public:
-  /// `start` is the state from which the first frame's search starts. Equal seeds and input give
+  /// `start` is the state from which the first frame's search starts, or, with
+  /// `parts.begins_by_looking`, any state in view. Equal seeds and input give
   /// equal solutions, except with recovery in the background. The scene must outlive the tracker.
   SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start, std::uint64_t seed);
   ~SceneTracker();
@@ -89,6 +90,10 @@ class SceneTracker {
   void stay_lost(const Frame& frame, Solution& solution);
 
   bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
+  /// Returns whether a model that was never surely found is looked for in pictures.
+  bool looks_for(std::size_t model) const {
+    return begins_by_looking_ && !finder_.verifier().experienced(model);
+  }
   ModelFlags followed() const;
   /// Returns states from which the search of a frame may start. The middle one, which is in view,
   /// comes first.
@@ -103,7 +108,8 @@ class SceneTracker {
 
   const Scene& scene_;
   StatusSettings settings_;
-  Eigen::VectorXd first_;  ///< start of the first search
+  Eigen::VectorXd first_;   ///< start of the first search
+  bool begins_by_looking_;  ///< `first_` is any state in view: the models are looked for
   CandidateFinder finder_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;

@@ -6,6 +6,7 @@
 #include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/start.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/one_euro.hpp"
@@ -28,6 +29,10 @@ struct TrackerParts {
   OneEuroSettings one_euro;
   FixedLagSettings fixed_lag;
   Budget budget;  ///< 0 evaluations: the optimizer's default
+  /// Starts that look for lost models, in this order; empty: the global search alone.
+  std::vector<std::unique_ptr<Start>> starts = {};
+  /// True if they also look for models that were never seen: no start gives a state.
+  bool begins_by_looking = false;
 };
 
 /// Returns what the search, the uncertainty and fixed-lag smoothing require of the cost.

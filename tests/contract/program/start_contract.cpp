@@ -59,6 +59,73 @@ void check_state(const Scene& scene, const Eigen::VectorXd& state) {
   }
 }
 
+/// Proposes a model's rest pose at three places.
+class ThreePlaces final : public GlobalSearch {
+ public:
+  explicit ThreePlaces(const Model& model) : model_(model) {}
+  void find(const GlobalSearchSettings& /*settings*/, const TakePose& take) override {
+    for (const double depth : {0.4, 0.5, 0.6}) {
+      Eigen::VectorXd pose(model_.dimension());
+      for (Eigen::Index i = 0; i < pose.size(); ++i)
+        pose[i] = model_.data().parameters[static_cast<std::size_t>(i)].rest;
+      pose[2] = depth;
+      if (!take(pose)) return;
+    }
+  }
+
+ private:
+  const Model& model_;
+};
+
+using Poses = std::vector<Eigen::VectorXd>;
+
+/// Returns what a start proposes for every model; at most `most` poses for each.
+Poses proposals(Start& start, const StartContext& context, std::size_t most) {
+  Poses all;
+  for (std::size_t m = 0; m < context.scene.items().size(); ++m) {
+    ThreePlaces search(*context.scene.items()[m].model);
+    std::size_t taken = 0;
+    start.find({context.scene, context.cameras, context.frame, &search}, m,
+               [&](const Eigen::VectorXd& pose) {
+                 require(taken < most, "it goes on after the tracker has enough");
+                 all.push_back(pose);
+                 return ++taken < most;
+               });
+  }
+  return all;
+}
+
+void check_looking(Report& report, const Subject& subject, const StartContext& context) {
+  constexpr std::size_t kAll = 1000;
+  const Scene& scene = context.scene;
+  const auto start = subject.make<Start>();
+  Poses poses;
+  std::string refusal;
+  const auto ask_all = [&](Start& of, std::size_t most) {
+    try {
+      return proposals(of, context, most);
+    } catch (const Error& e) {
+      require(std::string(e.what()).size() > 0, "it refuses a frame without a message");
+      refusal = e.what();
+      return Poses();
+    }
+  };
+  report.row("it proposes poses of the models, or none", [&] {
+    poses = ask_all(*start, kAll);
+    for (const Eigen::VectorXd& pose : poses) {
+      require(pose.size() == scene.dimension(), "a pose has another number of parameters");
+      check_state(scene, pose);
+    }
+    if (poses.empty()) throw Skipped("it finds nothing in plain pictures: " + refusal);
+  });
+  report.row("asked twice it proposes the same",
+             [&] { require(ask_all(*start, kAll) == poses, "it proposes others"); });
+  report.row("a second object proposes the same", [&] {
+    require(ask_all(*subject.make<Start>(), kAll) == poses, "it proposes others");
+  });
+  report.row("it stops when the tracker has enough", [&] { ask_all(*start, 1); });
+}
+
 }  // namespace
 
 void check_start(Report& report, const Subject& subject) {
@@ -69,6 +136,7 @@ void check_start(Report& report, const Subject& subject) {
   const StartContext bare{scene, without.cameras, &without.frame};
   const StartContext none{scene, with_truth.cameras, nullptr};
   const auto start = subject.make<Start>();
+  if (start->looks()) return check_looking(report, subject, bare);
   State state;
   report.row("it gives a state for a frame", [&] {
     std::string refusal;

@@ -168,6 +168,35 @@ TEST(InitialState, TakesAFrameOnlyWhereTheStartNeedsOne) {
   EXPECT_EQ(start_state(session, nullptr), std::nullopt);
 }
 
+TEST(InitialState, IsInViewOfBothCamerasWhereModelsAreLookedFor) {
+  OpenedScene session = hand_session();
+  session.start.reset();
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 600;
+  camera.cx = 319.5;
+  camera.cy = 239.5;
+  Camera other = camera;
+  other.camera_from_world.translation().x() = -0.12;
+  // Cameras side by side, and cameras half a metre apart that look at one point.
+  Camera turned = camera;
+  turned.camera_from_world.linear() =
+      Eigen::AngleAxisd(0.75, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  turned.camera_from_world.translation() =
+      -(turned.camera_from_world.linear() * Eigen::Vector3d(0.5, 0, 0));
+  for (const Camera& second : {other, turned}) {
+    session.parts.cameras = {camera, second};
+    const Eigen::Matrix3Xd landmarks =
+        session.scene->landmarks(start_state(session, nullptr).value());
+    for (const Camera& one : session.parts.cameras) {
+      const Eigen::Vector2d middle = project(one, landmarks.rowwise().mean());
+      EXPECT_NEAR(middle.x(), one.cx, 100);
+      EXPECT_NEAR(middle.y(), one.cy, 100);
+    }
+  }
+}
+
 /// A hand in some pose, and a table of its landmarks in frame 2.
 class LandmarkStart : public ::testing::Test {
  protected:

@@ -30,6 +30,17 @@ TEST(ForegroundColors, KnowNothingAtFirst) {
   EXPECT_EQ(colors.probability(kSkin), kNoIdea);
 }
 
+TEST(ForegroundColors, ExpectASurfaceInAnyLightBeforeOtherColours) {
+  ForegroundColors colors;
+  const std::vector<cv::Vec3f> surface{kSkin};
+  const std::vector<cv::Mat3b> pictures{cv::Mat3b(40, 60, cv::Vec3b(80, 160, 60))};
+  colors.expect(surface, pictures);
+  ASSERT_TRUE(colors.known());
+  EXPECT_GT(colors.probability(kSkin), 0.9f);
+  EXPECT_GT(colors.probability(0.5f * kSkin), 0.9f);
+  EXPECT_LT(colors.probability(kGreen), 0.1f);
+}
+
 TEST(ForegroundColors, TellTheModelFromWhatIsBesideIt) {
   ForegroundColors colors;
   colors.learn(disc(kSkin, kGreen));

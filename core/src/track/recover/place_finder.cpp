@@ -213,8 +213,7 @@ std::vector<PlaceFinder::Candidate> PlaceFinder::sweep(const Views& views, doubl
 Places PlaceFinder::find(const Frame& frame, const ForegroundColors& colors, const ColorMap& map,
                          std::size_t count, const std::array<cv::Mat1f, 2>& weights) const {
   Places out;
-  if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty() ||
-      !colors.known())
+  if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty())
     return out;
   Views views{reduce(reduced(frame.views[0].color, 0), colors, {}, weights[0]),
               reduce(reduced(frame.views[1].color, 1), colors, map, weights[1])};

@@ -110,8 +110,15 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
                                       const HypothesisCounts& counts, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const Eigen::MatrixXd own = hypotheses(guess, counts.hypotheses, random);
-  if (tiles_.visible_share(own.col(0)) == 0) return {};
-  take_in(search, frame, base, own.col(0));
+  Eigen::VectorXd first = own.col(0);
+  if (guess.centred)
+    first.head<3>() +=
+        guess.center -
+        posed_landmarks(*item_.model, {first.data(), static_cast<std::size_t>(first.size())})
+            .rowwise()
+            .mean();
+  if (tiles_.visible_share(first) == 0) return {};
+  take_in(search, frame, base, first);
   Cost& cost = search.cost();
   const Eigen::VectorXd others = without(base, hidden);
   Eigen::MatrixXd states(base.size(), own.cols());

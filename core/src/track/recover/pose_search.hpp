@@ -30,6 +30,7 @@ struct PoseGuess {
   /// Centres for half of the hypotheses, instead of `center`; empty: none.
   std::vector<Eigen::Vector3d> points = {};
   double covered = 0.5;  ///< largest share of the model that others may hide
+  bool centred = false;  ///< looks at a tile around `center`, not around the first hypothesis
 };
 
 /// Numbers of hypotheses that a search of one place scores and refines.

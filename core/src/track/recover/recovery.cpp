@@ -18,12 +18,13 @@ constexpr double kSeen = 0.35;    // of the colours that a tracked model shows: 
 constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the guess's rotation, by kind of guess.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
-constexpr double kHintTurn = 0.5;       // radians
-constexpr double kHopeless = 4;         // -log odds: no search makes such a candidate right
-constexpr double kPlaceScatter = 0.02;  // metres
-constexpr double kHeldCovered = 0.7;    // largest hidden share of a held model
-constexpr double kDistinct = 0.012;  // metres between candidates, mean over the model's landmarks
-constexpr double kHides = 0.35;      // share of another model that a candidate may newly hide
+constexpr double kHintTurn = 0.5;  // radians
+constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
+constexpr int kUnknownEffort = 3;  // factor where a model was never seen
+constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
+constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
+constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
+constexpr double kHides = 0.35;       // share of another model that a candidate may newly hide
 
 /// Returns the first states that are `near` metres or more apart (mean over landmarks), at most
 /// `count`.
@@ -44,6 +45,21 @@ std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, doub
   return out;
 }
 
+/// Returns the colours (B, G, R, 0 .. 255) of a mesh's texture at its texture coordinates; none
+/// without a texture.
+std::vector<cv::Vec3f> texture_colors(const Mesh& mesh) {
+  std::vector<cv::Vec3f> out;
+  if (mesh.texture.empty()) return out;
+  const cv::Mat3b texture = mesh.texture;
+  for (Eigen::Index i = 0; i < mesh.uv.cols(); ++i) {
+    const auto at = [](float share, int size) {
+      return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
+    };
+    out.push_back(texture(at(1 - mesh.uv(1, i), texture.rows), at(mesh.uv(0, i), texture.cols)));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::span<const std::string_view> enum_names(RecoveryRun) {
@@ -58,6 +74,7 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
     searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
     finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
                           settings.farthest);
+    surfaces_.push_back(texture_colors(scene.items()[m].model->data().mesh));
     searched_.emplace_back(cameras, searches_[m]->radius());
     searched_held_.push_back(searched_.back());
   }
@@ -90,7 +107,19 @@ void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& stat
   }
 }
 
-Places Recovery::places(const Task& task) const {
+ForegroundColors Recovery::colors_of(const Task& task) const {
+  ForegroundColors colors = task.verifier.model(task.model).colors();
+  const std::vector<View>& views = task.frame.views;
+  if (colors.known() || surfaces_[task.model].empty()) return colors;
+  std::vector<cv::Mat3b> pictures;
+  for (std::size_t i = 0; i < std::min<std::size_t>(2, views.size()); ++i)
+    if (!views[i].color.empty())
+      pictures.push_back(finders_[task.model].reduced(views[i].color, i));
+  colors.expect(surfaces_[task.model], pictures);
+  return colors;
+}
+
+Places Recovery::places(const Task& task) {
   const PlaceFinder& finder = finders_[task.model];
   const std::vector<View>& views = task.frame.views;
   std::vector<bool> others = task.hidden;
@@ -102,9 +131,17 @@ Places Recovery::places(const Task& task) const {
     weights[i].setTo(
         0, silhouettes(scene_, others, task.last.state, cameras_[i], finder.reduction(i)));
   }
-  return finder.find(task.frame, task.verifier.model(task.model).colors(),
-                     task.search.second_view_colors(), static_cast<std::size_t>(settings_.places),
-                     weights);
+  if (!task.verifier.model(task.model).colors().known() && views.size() >= 2 &&
+      !weights[0].empty() && !weights[1].empty()) {
+    if (!depths_)
+      depths_.emplace(cameras_, std::array{finder.reduction(0), finder.reduction(1)},
+                      settings_.nearest, settings_.farthest);
+    const std::array<cv::Mat1f, 2> near =
+        depths_->weights({finder.reduced(views[0].color, 0), finder.reduced(views[1].color, 1)});
+    for (std::size_t i = 0; i < 2; ++i) weights[i] = weights[i].mul(near[i]);
+  }
+  return finder.find(task.frame, colors_of(task), task.search.second_view_colors(),
+                     static_cast<std::size_t>(settings_.places), weights);
 }
 
 std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
@@ -127,10 +164,18 @@ std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
   SearchedPlaces& searched = (task.held.empty() ? searched_ : searched_held_)[task.model];
   if (last.seconds < kPlaceRemembered && searched.is_worth(task.frame, was))
     out.push_back({was, own(last.state), kNearLast, turn});
-  const double reach = reach_within(limits, last.seconds).position + search.radius();
+  const bool is_known = std::isfinite(last.seconds);
+  const double reach =
+      is_known ? reach_within(limits, last.seconds).position + search.radius() : last.seconds;
   for (const Place& place : places.best)
     if ((place.center - was).norm() <= reach && searched.is_worth(task.frame, place.center))
-      out.push_back({place.center, own(last.state), kNearPlace, turn, kPlaceScatter, place.points});
+      out.push_back({.center = place.center,
+                     .pose = own(last.state),
+                     .near_share = is_known ? kNearPlace : 0,
+                     .rotation = turn,
+                     .scatter = is_known ? kPlaceScatter : kUnknownScatter,
+                     .points = place.points,
+                     .centred = !is_known});
   searched.end_frame();
   return out;
 }
@@ -181,15 +226,21 @@ Recovery::Task Recovery::begin(FrameSearch& search, const Frame& frame, PoseVeri
   return task;
 }
 
-Candidates Recovery::find(const Task& task, const PoseGuess& guess, const MotionLimits& limits,
+Candidates Recovery::find(const Task& task, const PoseGuess& guess,
+                          const GlobalSearchSettings& effort, const MotionLimits& limits,
                           std::uint64_t seed) {
   const Scene::Item& item = scene_.items()[task.model];
   const Eigen::VectorXd& base = task.last.state;
   const ColorMap colors = task.search.second_view_colors();
-  const HypothesisCounts counts{settings_.hypotheses, settings_.refined,
-                                (settings_.refined + 3) / 4};
+  const bool is_known = std::isfinite(task.last.seconds);
+  const auto or_usual = [&](int wanted, int usual) {
+    return wanted > 0 ? wanted : usual * (is_known ? 1 : kUnknownEffort);
+  };
+  const int refined = or_usual(effort.refined, settings_.refined);
+  const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses), refined,
+                                (refined + 3) / 4};
   ModelVerifier& verifier = task.verifier.model(task.model);
-  const Reach reach = reach_within(limits, task.last.seconds);
+  const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
   Candidates out;
   std::vector<Refined> seen;
   for (Refined& one : searches_[task.model]->find(task.search, task.frame, base, task.hidden,
@@ -209,7 +260,7 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess, const Motion
       const Scene::Item& with = scene_.items()[held.model];
       for (Eigen::VectorXd* to : {&state, &from}) set_pose(with, pose_of(with, one.state), *to);
     }
-    if (!is_within(scene_, reach, from, state)) continue;
+    if (is_known && !is_within(scene_, reach, from, state)) continue;
     one.state = std::move(state);
     seen.push_back(std::move(one));
   }
@@ -217,7 +268,8 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess, const Motion
                            [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
   const double near = kDistinct / static_cast<double>(scene_.items().size());
   for (Refined& one :
-       distinct(scene_, std::move(seen), near, static_cast<std::size_t>(settings_.searched)))
+       distinct(scene_, std::move(seen), near,
+                static_cast<std::size_t>(or_usual(effort.searched, settings_.searched))))
     out.states.push_back(std::move(one.state));
   return out;
 }

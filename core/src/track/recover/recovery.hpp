@@ -4,14 +4,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
+#include "hypotrack/start.hpp"
 #include "track/frame_search.hpp"
 #include "track/motion_limits.hpp"
 #include "track/recover/background_model.hpp"
+#include "track/recover/depth_weights.hpp"
 #include "track/recover/held_models.hpp"
 #include "track/recover/place_finder.hpp"
 #include "track/recover/pose_search.hpp"
@@ -24,7 +27,7 @@ namespace hypotrack {
 /// The last known pose of a lost model.
 struct LastKnown {
   Eigen::VectorXd state;  ///< of the scene; the other models have their present poses
-  double seconds = 0;     ///< time since then
+  double seconds = 0;     ///< time since then; infinite: it was never seen
   /// State with a guess of its present pose; empty if there is none.
   Eigen::VectorXd hint = {};
   bool near_hint_only = false;  ///< searches around the hint only
@@ -67,10 +70,9 @@ class Recovery {
              std::size_t model, const std::vector<bool>& shown, const std::vector<bool>& held,
              const MotionLimits& limits);
 
-  /// Finds up to `settings.searched` poses of the model, and of what it holds, at one of the
-  /// places.
-  Candidates find(const Task& task, const PoseGuess& guess, const MotionLimits& limits,
-                  std::uint64_t seed);
+  /// Finds poses of the model, and of what it holds, at one of the places.
+  Candidates find(const Task& task, const PoseGuess& guess, const GlobalSearchSettings& effort,
+                  const MotionLimits& limits, std::uint64_t seed);
 
   /// Learns the postures of the models with `tracked`, which are surely right. Learns the
   /// background if all are tracked.
@@ -79,7 +81,10 @@ class Recovery {
  private:
   std::vector<PoseGuess> guesses(const Task& task, const Places& places,
                                  const MotionLimits& limits);
-  Places places(const Task& task) const;
+  Places places(const Task& task);
+  /// Returns the colours to look for: those learned, or else those of the model's texture. Unknown
+  /// where there is none.
+  ForegroundColors colors_of(const Task& task) const;
   /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
   PoseGuess beside(const Task& task, std::size_t other) const;
   void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
@@ -91,9 +96,11 @@ class Recovery {
   RecoverySettings settings_;
   std::vector<std::unique_ptr<PoseSearch>> searches_;
   std::vector<PlaceFinder> finders_;
-  std::vector<SearchedPlaces> searched_;        ///< by model
-  std::vector<SearchedPlaces> searched_held_;   ///< for searches with what it holds
-  std::array<BackgroundModel, 2> backgrounds_;  ///< of the reduced pictures
+  std::vector<std::vector<cv::Vec3f>> surfaces_;  ///< colours of each model's texture
+  std::vector<SearchedPlaces> searched_;          ///< by model
+  std::vector<SearchedPlaces> searched_held_;     ///< for searches with what it holds
+  std::optional<DepthWeights> depths_;            ///< for models whose colours are unknown
+  std::array<BackgroundModel, 2> backgrounds_;    ///< of the reduced pictures
 };
 
 }  // namespace hypotrack

@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 
+#include "hypotrack/config.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
@@ -18,6 +19,7 @@ std::span<const std::string_view> enum_names(RecoveryRun);
 struct RecoverySettings {
   bool enabled = true;
   RecoveryRun run = RecoveryRun::frame;
+  ConfigNode from;
   int first_starts = 8;
   int places = 6;
   int hypotheses = 2000;
@@ -32,6 +34,9 @@ struct RecoverySettings {
     v("run", run,
       {.help = "frame: within the frame that is lost; background: in a thread of its own, while "
                "frames are answered at once as lost (results then depend on timing)"});
+    v("from", from,
+      {.help = "starts that look for lost models, as in init.from; without it those of init.from, "
+               "or global_search if these give a state"});
     v("first_starts", first_starts,
       {.help = "starts around the given one that the first frame is searched from",
        .min = 1,

@@ -9,6 +9,7 @@ namespace {
 
 // Histogram bins of brightness and of the red and green chromaticity, which light changes less.
 constexpr int kBright = 8, kShares = 32;
+constexpr std::size_t kBins = std::size_t{kBright} * kShares * kShares;
 constexpr float kFade = 0.9f;
 // Count below which a colour says little: it is hardly foreground then.
 constexpr float kUnseenShare = 1e-4f;
@@ -63,7 +64,6 @@ float sum(const std::vector<float>& counts) {
 }  // namespace
 
 void ForegroundColors::learn(const SurfaceSamples& samples) {
-  constexpr std::size_t kBins = std::size_t{kBright} * kShares * kShares;
   foreground_.resize(kBins);
   background_.resize(kBins);
   for (float& c : foreground_) c *= kFade;
@@ -77,6 +77,22 @@ void ForegroundColors::learn(const SurfaceSamples& samples) {
         if (view.ring(y, x)) add(background_, view.color(y, x));
       }
   }
+  update();
+}
+
+void ForegroundColors::expect(std::span<const cv::Vec3f> surface,
+                              std::span<const cv::Mat3b> pictures) {
+  foreground_.assign(kBins, 0);
+  background_.assign(kBins, 0);
+  for (const cv::Vec3f& color : surface)
+    for (const float light : {0.35f, 0.5f, 0.7f, 0.85f, 1.0f, 1.15f})
+      add(foreground_, light * color);
+  for (const cv::Mat3b& picture : pictures)
+    for (const cv::Vec3b& color : picture) add(background_, color);
+  update();
+}
+
+void ForegroundColors::update() {
   probability_.resize(kBins);
   const float f = 1 / sum(foreground_), b = 1 / sum(background_);
   for (std::size_t i = 0; i < kBins; ++i)
