@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "hand_detector.hpp"
+#include "hand_model.hpp"
+#include "hand_pairs.hpp"
+#include "hypotrack/landmark_fit.hpp"
+#include "hypotrack/plugin.hpp"
+#include "other_view.hpp"
+
+namespace hypotrack::hands {
+namespace {
+
+class HandLandmarks final : public Start {
+ public:
+  struct Params {
+    std::filesystem::path folder;
+    bool lite = false;
+    double smallest_hand = 50;
+    void visit(ParamVisitor& v) {
+      v("folder", folder,
+        {.help = "where scripts/get_hand_detector.sh has put the detector; default: where it puts "
+                 "it by itself"});
+      v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
+      v("smallest_hand_px", smallest_hand,
+        {.help = "length of the smallest hands to look for in small pieces of the pictures, where "
+                 "no larger ones are seen; 0: do not",
+         .min = 0,
+         .max = 10000,
+         .unit = "px"});
+    }
+  };
+  explicit HandLandmarks(const Params& params)
+      : detector_(
+            {.folder = params.folder, .lite = params.lite, .smallest_hand = params.smallest_hand}) {
+  }
+
+  bool looks() const override { return true; }
+
+  void find(const StartContext& context, std::size_t model, const TakePose& take) override {
+    const Scene::Item& item = context.scene.items().at(model);
+    const std::optional<HandModel> hand = hand_model(*item.model);
+    if (!hand || !context.frame || context.cameras.size() < 2) return;
+    look_at(*context.frame, context.cameras);
+    // The likeliest hand of the model's side first; a hand of the other side may be this one, too.
+    std::vector<HandPair> pairs = pairs_;
+    const auto other_side = [&](const HandPair& pair) { return (pair.right > 0.5) != hand->right; };
+    std::ranges::stable_sort(pairs, {}, other_side);
+    for (const HandPair& pair : pairs) {
+      const double likely = hand->right ? pair.right : 1 - pair.right;
+      if (likely < kLeastLikely) return;
+      if (!take(fitted(*item.model, *hand, pair))) return;
+    }
+  }
+
+ private:
+  static constexpr double kLeastLikely = 0.1;
+
+  /// Detects the hands of a frame, once.
+  void look_at(const Frame& frame, const std::vector<Camera>& cameras) {
+    if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty())
+      return pairs_.clear();
+    const std::array<const unsigned char*, 2> pictures{frame.views[0].color.data,
+                                                       frame.views[1].color.data};
+    if (seen_ == std::pair(frame.index, pictures)) return;
+    seen_ = {frame.index, pictures};
+    const std::array<Camera, 2> pair{cameras[0], cameras[1]};
+    const auto& views = frame.views;
+    std::vector<HandDetection> first = detector_.detect(views[0].color),
+                               second = detector_.detect(views[1].color);
+    look_in_other_view(detector_, pair, first, 0, views[1].color, second);
+    look_in_other_view(detector_, pair, second, 1, views[0].color, first);
+    pairs_ = pair_hands(pair, first, second);
+  }
+
+  /// Fits a hand to triangulated landmarks.
+  static Eigen::VectorXd fitted(const Model& model, const HandModel& hand, const HandPair& pair) {
+    std::vector<double> rest;
+    for (const Parameter& p : model.data().parameters) rest.push_back(p.rest);
+    const Eigen::Matrix3Xd landmarks =
+        hand.in_model_order(pair.landmarks, std::ssize(model.data().landmarks));
+    const Eigen::VectorXd aligned = align_to_landmarks(model, landmarks, rest);
+    return fit_landmarks(model, landmarks,
+                         {aligned.data(), static_cast<std::size_t>(aligned.size())})
+        .parameters;
+  }
+
+  HandDetector detector_;
+  std::pair<int, std::array<const unsigned char*, 2>> seen_{-1, {}};
+  std::vector<HandPair> pairs_;  ///< in the frame seen last
+};
+
+}  // namespace
+}  // namespace hypotrack::hands
+
+HYPOTRACK_PLUGIN(hypotrack::hands::HandLandmarks,
+                 "hands that a learned detector sees in both views", "")
