@@ -38,7 +38,7 @@ std::string did_you_mean(std::string_view word, std::span<const std::string> can
   if (word.empty() || word.size() > kLongestWord) return "";
   // Allow one error per three letters; words of two letters resemble anything.
   int nearest = std::max(1, static_cast<int>(word.size()) / 3) + 1;
-  std::size_t added = kLongestWord;  // letters that the nearest has more or less
+  std::size_t added = 0;  // letters that the nearest has more or less
   const std::string* best = nullptr;
   for (const std::string& candidate : candidates) {
     if (candidate.empty() || candidate.size() > kLongestWord) continue;

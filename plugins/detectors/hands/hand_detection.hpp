@@ -9,6 +9,9 @@ namespace hypotrack {
 /// Landmarks of a hand in a picture, in pixels; pixel centres are at integers.
 using HandPoints = Eigen::Matrix<double, 2, 21>;
 
+/// Landmarks of a hand in space, metres.
+using HandPoints3D = Eigen::Matrix<double, 3, 21>;
+
 /// Names of the columns of HandPoints: the landmarks of hypotrack's hands.
 inline constexpr std::array<std::string_view, 21> kHandPointNames = {
     "wrist",     "thumb_cmc", "thumb_mcp",  "thumb_ip",   "thumb_tip",  "index_mcp",  "index_pip",
@@ -23,7 +26,7 @@ struct HandDetection {
   double right = 0;       ///< probability that it is a right hand, if the picture is not mirrored
   /// Shape of the hand in metres, about its own centre: x to the picture's right, y down, z away
   /// from the camera. The size is that of an average hand.
-  Eigen::Matrix<double, 3, 21> relative;
+  HandPoints3D relative;
 };
 
 }  // namespace hypotrack

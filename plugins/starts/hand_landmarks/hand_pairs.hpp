@@ -10,8 +10,6 @@
 
 namespace hypotrack::hands {
 
-using HandPoints3D = Eigen::Matrix<double, 3, 21>;
-
 /// A hand that both views show.
 struct HandPair {
   HandPoints3D landmarks;  ///< in the world, metres

@@ -4,7 +4,7 @@
 
 #include "hypotrack/plugin.hpp"
 
-namespace hypotrack::hands {
+namespace hypotrack {
 namespace {
 
 std::shared_ptr<const Model> model(const std::string& yaml) {
@@ -42,4 +42,4 @@ TEST(HandModel, PutsLandmarksInTheModelsOrder) {
 }
 
 }  // namespace
-}  // namespace hypotrack::hands
+}  // namespace hypotrack

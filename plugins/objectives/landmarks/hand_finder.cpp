@@ -1,0 +1,70 @@
+#include "hand_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hypotrack::landmarks {
+namespace {
+
+constexpr std::size_t kRemembered = 64;  // views of frames; fixed-lag smoothing goes back by some
+
+bool all_found(const std::vector<std::optional<SeenHand>>& hands) {
+  return std::ranges::all_of(hands, [](const auto& hand) { return hand.has_value(); });
+}
+
+}  // namespace
+
+std::vector<std::optional<SeenHand>> HandFinder::find(const Observation& observation,
+                                                      std::size_t view,
+                                                      std::span<const WantedHand> wanted,
+                                                      std::span<const HandPoints3D> starts) {
+  const TileView& tile = observation.views[view];
+  Seen& seen = known(observation, view);
+  std::vector<std::optional<SeenHand>> found = match(wanted, seen.hands);
+  const Part part = part_of(tile.camera);
+  if (all_found(found) || searched(seen, part)) return found;
+  seen.searched.push_back(part);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (found[i]) continue;
+    const auto hand = detector_.refine(tile.color, in_tile(starts[i], tile.camera));
+    if (hand) add(seen, *hand, tile.camera);
+  }
+  found = match(wanted, seen.hands);
+  if (all_found(found)) return found;
+  for (const HandDetection& hand : detector_.detect(tile.color)) add(seen, hand, tile.camera);
+  return match(wanted, seen.hands);
+}
+
+HandFinder::Part HandFinder::part_of(const TileCamera& camera) {
+  const Eigen::Vector3d ray(((camera.width - 1) / 2.0 - camera.cx) / camera.fx,
+                            ((camera.height - 1) / 2.0 - camera.cy) / camera.fy, 1);
+  return {camera.camera_from_world.linear().transpose() * ray.normalized(),
+          std::max(camera.width / camera.fx, camera.height / camera.fy) / ray.squaredNorm()};
+}
+
+bool HandFinder::searched(const Seen& seen, const Part& part) {
+  constexpr double kShift = 0.15, kScale = 1.25;  // of sides
+  return std::ranges::any_of(seen.searched, [&](const Part& other) {
+    return (part.center - other.center).norm() < kShift * other.side &&
+           part.side < kScale * other.side && other.side < kScale * part.side;
+  });
+}
+
+HandFinder::Seen& HandFinder::known(const Observation& observation, std::size_t view) {
+  const auto found = std::ranges::find_if(seen_, [&](const Seen& seen) {
+    return seen.frame == observation.frame && seen.time == observation.time && seen.view == view;
+  });
+  if (found != seen_.end()) return *found;
+  if (seen_.size() == kRemembered) seen_.pop_front();
+  return seen_.emplace_back(Seen{observation.frame, observation.time, view});
+}
+
+void HandFinder::add(Seen& seen, const HandDetection& detection, const TileCamera& camera) {
+  const SeenHand hand = seen_hand(detection, camera);
+  if (!hand.directions.allFinite() || !std::isfinite(hand.distance) || !(hand.distance > 0)) return;
+  const bool is_known = std::ranges::any_of(
+      seen.hands, [&](const SeenHand& other) { return same_hand(hand, other); });
+  if (!is_known) seen.hands.push_back(hand);
+}
+
+}  // namespace hypotrack::landmarks

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hand_finder.hpp"
+#include "hypotrack/objective.hpp"
+#include "params.hpp"
+#include "sight_term.hpp"
+
+namespace hypotrack::landmarks {
+
+/// Pulls hands to where a learned detector sees their landmarks in the pictures. The cost is
+///
+///   sum over hands and landmarks, mean over views with colour, of  w^p * s^2 / (1 + s^2),
+///   s = max(0, distance - free) / sigma.
+///
+/// `distance` is how far the landmark is beside the line of sight of the detected one, measured
+/// where an average hand looks as large as the detected one. So it does not depend on focal lengths
+/// and tiles, and a hand gains nothing by coming nearer. w is the detector's probability of a hand,
+/// p is presence_power. The bounded penalty is that of S. Geman and D. McClure (Bayesian image
+/// analysis, 1985): a landmark that was detected elsewhere pulls little.
+///
+/// A hand gets the detection of its side (left or right) next to where the search starts. Without
+/// one it costs nothing, as other models do. Residuals are two per view, hand and landmark. Needs
+/// no rendering.
+class Landmarks : public Objective, public ResidualTerm {
+ public:
+  using Params = LandmarksParams;
+
+  /// The scene must outlive it. The detector is not asked if no model of the scene is a hand.
+  Landmarks(const Params& params, const Scene& scene, Detector detector);
+
+  bool needs_rendering() const override { return false; }
+  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
+  void prepare(const Observation& observation) override;
+  double cost(const RenderedHypothesis& hypothesis) const override;
+
+  const ResidualTerm* residual_term() const override { return this; }
+  std::int64_t residual_count() const override { return landmarks::residual_count(sights_); }
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
+
+ private:
+  struct Hand {
+    const Scene::Item* item;
+    HandModel model;
+  };
+
+  void take_view(const Observation& observation, std::size_t view,
+                 std::span<const HandPoints3D> starts);
+  void take_hand(HandSights& sights, const HandModel& model, const TileCamera& camera,
+                 const std::optional<SeenHand>& seen) const;
+
+  Params params_;
+  const Scene& scene_;
+  std::vector<Hand> hands_;
+  HandFinder finder_;
+  std::vector<HandSights> sights_;  // one per hand
+};
+
+/// Returns the networks as a Detector that looks at whole tiles; an empty one if no model of the
+/// scene is a hand. Throws DataError as HandDetector does.
+Detector networks(const LandmarksParams& params, const Scene& scene);
+
+}  // namespace hypotrack::landmarks

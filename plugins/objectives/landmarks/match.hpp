@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "seen_hand.hpp"
+
+namespace hypotrack::landmarks {
+
+/// A model's hand, where the search starts, from one camera.
+struct WantedHand {
+  HandPoints3D
+      directions;  ///< unit vectors along the world's axes; NaN: the model has no such point
+  bool right = true;
+};
+
+/// Returns the detected hand of each model: of its side and near where its search starts, nearest
+/// first. No hand is given to two models.
+std::vector<std::optional<SeenHand>> match(std::span<const WantedHand> wanted,
+                                           std::span<const SeenHand> seen);
+
+/// Returns whether two detections are of the same hand of a picture.
+bool same_hand(const SeenHand& a, const SeenHand& b);
+
+}  // namespace hypotrack::landmarks

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+
+#include "hypotrack/params.hpp"
+
+namespace hypotrack::landmarks {
+
+struct LandmarksParams {
+  double sigma = 0.02;
+  double free = 0.01;
+  double least_presence = 0.5;
+  double presence_power = 1;
+  std::filesystem::path folder;
+  bool lite = false;
+  void visit(ParamVisitor& v) {
+    v("sigma_mm", sigma,
+      {.help = "how far beyond `free_mm` a landmark costs half of what it can cost at most",
+       .min = 0.1,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("free_mm", free,
+      {.help = "how far a landmark may be from the detected one at no cost: the detector's joints "
+               "are not quite the model's",
+       .min = 0,
+       .max = 1000,
+       .unit = "mm",
+       .to_si = kMillimetre});
+    v("least_presence", least_presence,
+      {.help = "least probability of a hand, by the detector", .min = 0, .max = 1});
+    v("presence_power", presence_power,
+      {.help = "a hand's weight is its probability to this power; 0: all hands weigh the same",
+       .min = 0,
+       .max = 1000});
+    v("folder", folder,
+      {.help = "where scripts/get_hand_detector.sh has put the detector; default: where it puts it "
+               "by itself"});
+    v("lite", lite, {.help = "smaller networks: quicker, less accurate"});
+  }
+};
+
+}  // namespace hypotrack::landmarks
