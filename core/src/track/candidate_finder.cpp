@@ -1,27 +1,19 @@
 #include "track/candidate_finder.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <utility>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 #include "track/displace.hpp"
+#include "track/model_search.hpp"
 
 namespace hypotrack {
 namespace {
 
 // Ratio of odds below which candidates count as equally probable; their costs decide then.
 constexpr double kAlike = 2.3;
-// A candidate of this probability ends the search for other poses.
-constexpr double kSure = 0.95;
-// Longest time since a model was surely right, in seconds, at which two agreeing poses end the
-// search. Later they may both be wrong.
-constexpr double kRecent = 0.15;
 // Time constant, in seconds, with which the belief in a hidden model decays.
 constexpr double kForgotten = 0.6;
 
@@ -31,30 +23,6 @@ double as_likely(double highest) {
   const double p = std::min(highest, kMost);
   const double odds = p / (1 - p) / kAlike;
   return odds / (1 + odds);
-}
-
-/// Lends a tracker's global search to its starts.
-class LentSearch final : public GlobalSearch {
- public:
-  using Search = std::function<void(const GlobalSearchSettings&, const TakePose&)>;
-  explicit LentSearch(Search search) : search_(std::move(search)) {}
-  void find(const GlobalSearchSettings& settings, const TakePose& take) override {
-    search_(settings, take);
-  }
-
- private:
-  Search search_;
-};
-
-/// Throws PluginError unless a start proposes a pose of the model.
-void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
-  const Eigen::Index size = item.model->dimension();
-  if (parameters.size() != size || !parameters.allFinite() ||
-      std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
-    throw PluginError(
-        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
-                    "and a unit quaternion; this is a bug in the start",
-                    item.name, parameters.size(), size));
 }
 
 }  // namespace
@@ -223,88 +191,19 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
                                                      const Candidate& base, Candidate& best,
                                                      std::size_t model, const ModelFlags& held,
                                                      std::uint64_t seed) {
-  const Scene::Item& item = scene_.items()[model];
-  const auto put = [&](Eigen::VectorXd& to, const Eigen::VectorXd& from) {
-    to.segment(item.offset, item.model->dimension()) =
-        from.segment(item.offset, item.model->dimension());
-  };
-  LastKnown last{base.answers() ? base.found.state : request.kept, request.seconds[model]};
-  put(last.state, request.kept);
-  const bool has_answer = best.answers() && best.shown[model];
-  if (has_answer && best.probabilities[model] >= kLeastPromising) {
-    last.hint = last.state;
-    put(last.hint, best.found.state);
-  }
-  last.near_hint_only = request.near_only;
-  last.before = request.together;
-  const Recovery::Task task = recovery_.begin(search_, frame, verifier_, std::move(last), model,
-                                              base.shown, held, settings_.motion);
-  best.in_view[model] = task.in_view;
-  ModelFlags shown = base.shown, moving(shown.size(), false);
-  shown[model] = moving[model] = true;
-  for (std::size_t m = 0; m < held.size(); ++m)
-    if (held[m]) shown[m] = moving[m] = true;
-  std::vector<Candidate> all;
-  if (has_answer && shown == best.shown) all.push_back(best);
-  std::uint32_t part = 0;
-  bool sure = false;
-  const bool is_recent = request.seconds[model] < kRecent;
-  const auto enough = [&] { return sure || (is_recent && has_confirmed(all, model)); };
-  const auto take = [&](const Eigen::VectorXd& state) {
-    search_.show(shown, moving);
-    if (search_.tiles().visible_share(state) == 0) return;
-    Candidate one = searched_from(frame, state, seed_of_part(seed, part++));
-    best.found.evaluations += std::exchange(one.found.evaluations, 0);
-    Eigen::VectorXd moved = request.kept;
-    put(moved, one.found.state);
-    if (std::isfinite(task.last.seconds) &&
-        !is_within(scene_, reach_within(settings_.motion, task.last.seconds), request.kept, moved))
-      return;
-    sure = sure || one.probability() >= kSure;
-    all.push_back(std::move(one));
-  };
-  const auto search_places = [&](const GlobalSearchSettings& effort, const auto& found_one) {
-    for (const PoseGuess& guess : task.guesses) {
-      if (enough()) return;
-      const Candidates found =
-          recovery_.find(task, guess, effort, settings_.motion, seed_of_part(seed, part++));
-      best.found.evaluations += found.evaluations;
-      for (const Eigen::VectorXd& state : found.states) found_one(state);
-    }
-  };
-  if (starts_.empty() || any(held) || request.near_only) {
-    search_places(GlobalSearchSettings(), take);
-  } else {
-    LentSearch lent([&](const GlobalSearchSettings& effort, const TakePose& offer) {
-      search_places(effort, [&](const Eigen::VectorXd& state) {
-        offer(state.segment(item.offset, item.model->dimension()));
-      });
-    });
-    const StartContext context{scene_, cameras_, &frame, &lent};
-    const auto is_good = [&](const Candidate& one) {
-      return one.probability() >= settings_.surely_above;
-    };
-    for (const std::unique_ptr<Start>& start : starts_) {
-      if (enough() || (start != starts_.front() && std::ranges::any_of(all, is_good))) break;
-      start->find(context, model, [&](const Eigen::VectorXd& parameters) {
-        Eigen::VectorXd state = task.last.state;
-        check_proposal(item, parameters);
-        state.segment(item.offset, parameters.size()) = parameters;
-        take(state);
-        return !enough();
-      });
-    }
-  }
-  search_.show(shown);
+  ModelSearch search(*this, frame, request, base, best, model, held, seed);
+  search.run();
+  search_.show(search.shown());
+  const std::vector<Candidate>& all = search.found();
   if (all.empty()) return std::nullopt;
   std::vector<double> apart;
   if (request.together.size() > 0)
     for (const Candidate& one : all)
-      apart.push_back(moved_in_hand(scene_, request.together, one.found.state, shown));
+      apart.push_back(moved_in_hand(scene_, request.together, one.found.state, search.shown()));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
-  for (std::size_t m = 0; m < moving.size(); ++m)
-    if (moving[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
+  for (std::size_t m = 0; m < search.moving().size(); ++m)
+    if (search.moving()[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
   return chosen;
 }
 

@@ -54,6 +54,7 @@ struct RecoveryRequest {
   ModelFlags sought;                 ///< models to find, or to find alternative poses for
   bool lost = false;                 ///< false: only alternative poses are wanted
   bool near_only = false;            ///< searches only around the answer
+  bool contradicts = false;          ///< only asks starts whether they see tracked models elsewhere
 };
 
 /// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the
@@ -94,6 +95,8 @@ class CandidateFinder {
   Budget& budget() { return budget_; }
 
  private:
+  class ModelSearch;
+
   void learn(const Frame& frame, const Candidate& best, const ModelFlags& sure);
   /// Searches a frame repeatedly from a state that may be some centimetres off.
   Candidate searched_from(const Frame& frame, const Eigen::VectorXd& state, std::uint64_t seed);

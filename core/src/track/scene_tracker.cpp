@@ -205,6 +205,12 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
     doubts = doubts || doubtful[m];
   }
   if (out.lost) return out;
+  if (settings_.recovery.check > 0 && frame.time - checked_ >= settings_.recovery.check) {
+    checked_ = frame.time;
+    out.contradicts = true;
+    out.sought[checks_++ % models_.size()] = true;
+    return out;
+  }
   // Search alternatives around an acceptable but doubtful pose, ever less often while there are
   // none.
   out.near_only = true;

@@ -19,7 +19,7 @@ struct Found {
 };
 
 /// Tracks frames of real_time.yaml in small pictures, with global_search as its start.
-std::vector<Found> track(int frames, std::vector<std::string> overrides) {
+std::vector<Found> track_unstarted(int frames, std::vector<std::string> overrides) {
   PluginLoader plugins;
   overrides.insert(overrides.end(),
                    {"evaluate.backend=cpu", "init={from: global_search}",
@@ -41,14 +41,15 @@ std::vector<Found> track(int frames, std::vector<std::string> overrides) {
 }
 
 TEST(LookedFor, HandIsFoundInTheFirstFrame) {
-  const std::vector<Found> found = track(2, {});
+  const std::vector<Found> found = track_unstarted(2, {});
   EXPECT_EQ(found[0].status, Status::tracked);
   EXPECT_LT(found[0].error, 0.010);
   EXPECT_LT(found[1].error, 0.005);
 }
 
 TEST(LookedFor, HandIsFoundWhenItAppears) {
-  const std::vector<Found> found = track(5, {"source.faults=[{frames: [0, 1], kind: absent}]"});
+  const std::vector<Found> found =
+      track_unstarted(5, {"source.faults=[{frames: [0, 1], kind: absent}]"});
   EXPECT_NE(found[0].status, Status::tracked);
   EXPECT_NE(found[1].status, Status::tracked);
   EXPECT_EQ(found[4].status, Status::tracked);
@@ -56,8 +57,56 @@ TEST(LookedFor, HandIsFoundWhenItAppears) {
 }
 
 TEST(LookedFor, ModelsNeedTwoViewsAndARecovery) {
-  EXPECT_THROW(track(1, {"tracker.recovery.enabled=false"}), ConfigError);
-  EXPECT_THROW(track(1, {"tracker.evidence=false"}), ConfigError);
+  EXPECT_THROW(track_unstarted(1, {"tracker.recovery.enabled=false"}), ConfigError);
+  EXPECT_THROW(track_unstarted(1, {"tracker.evidence=false"}), ConfigError);
+}
+
+/// Proposes one pose of a model whenever it is asked.
+class AlwaysThere final : public Start {
+ public:
+  explicit AlwaysThere(Eigen::VectorXd pose) : pose_(std::move(pose)) {}
+  bool looks() const override { return true; }
+  void find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& take) override {
+    take(pose_);
+  }
+
+ private:
+  Eigen::VectorXd pose_;
+};
+
+/// Tracks a hand from 150 mm beside it with a tracker that believes any pose; returns the last
+/// frame's error in metres. A start knows better.
+double last_error_of_a_believer(double check_s) {
+  PluginLoader plugins;
+  std::vector<std::string> overrides{
+      "evaluate.backend=cpu", "tracker.recovery.first_starts=1",
+      "tracker.recovery.check_s=" + std::to_string(check_s),
+      "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"};
+  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
+    overrides.push_back("tracker." + std::string(key) + "_above=0");
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  std::optional<SceneTracker> tracker;
+  double error = 0;
+  for (int i = 0; i < 6; ++i) {
+    const Frame frame = session.source->next().value();
+    if (!tracker) {
+      session.parts.starts.clear();
+      session.parts.starts.push_back(std::make_unique<AlwaysThere>(frame.truth->state));
+      Eigen::VectorXd beside = frame.truth->state;
+      beside.x() -= 0.15;
+      tracker.emplace(*session.scene, std::move(session.parts), beside, session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    const Eigen::Matrix3Xd truth = session.scene->landmarks(frame.truth->state);
+    error = (solution.landmarks - truth).colwise().norm().mean();
+  }
+  return error;
+}
+
+TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {
+  EXPECT_GT(last_error_of_a_believer(0), 0.05);
+  EXPECT_LT(last_error_of_a_believer(0.1), 0.01);
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct RecoverySettings {
   bool enabled = true;
   RecoveryRun run = RecoveryRun::frame;
   ConfigNode from;
+  double check = 0;
   int first_starts = 8;
   int places = 6;
   int hypotheses = 2000;
@@ -37,6 +38,11 @@ struct RecoverySettings {
     v("from", from,
       {.help = "starts that look for lost models, as in init.from; without it those of init.from, "
                "or global_search if these give a state"});
+    v("check_s", check,
+      {.help = "time after which the starts look whether a tracked model is elsewhere; 0: never",
+       .min = 0,
+       .max = 1e6,
+       .unit = "s"});
     v("first_starts", first_starts,
       {.help = "starts around the given one that the first frame is searched from",
        .min = 1,

@@ -1,0 +1,161 @@
+#include "track/model_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
+#include "hypotrack/search.hpp"
+
+namespace hypotrack {
+namespace {
+
+// A candidate of this probability ends the search for other poses.
+constexpr double kSure = 0.95;
+// Longest time since a model was surely right, in seconds, at which two agreeing poses end the
+// search. Later they may both be wrong.
+constexpr double kRecent = 0.15;
+// Distance (mean over landmarks, metres) beyond which a start contradicts a tracked pose.
+constexpr double kElsewhere = 0.04;
+
+/// Lends a tracker's global search to its starts.
+class LentSearch final : public GlobalSearch {
+ public:
+  using Search = std::function<void(const GlobalSearchSettings&, const TakePose&)>;
+  explicit LentSearch(Search search) : search_(std::move(search)) {}
+  void find(const GlobalSearchSettings& settings, const TakePose& take) override {
+    search_(settings, take);
+  }
+
+ private:
+  Search search_;
+};
+
+/// Throws PluginError unless a start proposes a pose of the model.
+void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) {
+  const Eigen::Index size = item.model->dimension();
+  if (parameters.size() != size || !parameters.allFinite() ||
+      std::abs(parameters.segment<4>(3).norm() - 1) > 1e-6)
+    throw PluginError(
+        fmt::format("a start proposes a pose of '{}' with {} parameters; expected {} finite ones "
+                    "and a unit quaternion; this is a bug in the start",
+                    item.name, parameters.size(), size));
+}
+
+}  // namespace
+
+CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& frame,
+                                          const RecoveryRequest& request, const Candidate& base,
+                                          Candidate& best, std::size_t model,
+                                          const ModelFlags& held, std::uint64_t seed)
+    : finder_(finder),
+      frame_(frame),
+      request_(request),
+      base_(base),
+      best_(best),
+      item_(finder.scene_.items()[model]),
+      model_(model),
+      has_held_(any(held)),
+      seed_(seed),
+      shown_(base.shown),
+      moving_(base.shown.size(), false),
+      task_(finder.recovery_.begin(finder.search_, frame, finder.verifier_, last_known(), model,
+                                   base.shown, held, finder.settings_.motion)) {
+  best.in_view[model] = task_.in_view;
+  shown_[model] = moving_[model] = true;
+  for (std::size_t m = 0; m < held.size(); ++m)
+    if (held[m]) shown_[m] = moving_[m] = true;
+  if (best.answers() && best.shown[model] && shown_ == best.shown) found_.push_back(best);
+}
+
+Eigen::VectorXd CandidateFinder::ModelSearch::with_own_part(Eigen::VectorXd to,
+                                                            const Eigen::VectorXd& from) const {
+  const Eigen::Index size = item_.model->dimension();
+  to.segment(item_.offset, size) = from.segment(item_.offset, size);
+  return to;
+}
+
+LastKnown CandidateFinder::ModelSearch::last_known() const {
+  const Eigen::VectorXd& others = base_.answers() ? base_.found.state : request_.kept;
+  LastKnown last{with_own_part(others, request_.kept), request_.seconds[model_]};
+  if (best_.answers() && best_.shown[model_] && best_.probabilities[model_] >= kLeastPromising)
+    last.hint = with_own_part(last.state, best_.found.state);
+  last.near_hint_only = request_.near_only;
+  last.before = request_.together;
+  return last;
+}
+
+bool CandidateFinder::ModelSearch::enough() const {
+  const bool is_recent = request_.seconds[model_] < kRecent;
+  return sure_ || (is_recent && finder_.has_confirmed(found_, model_));
+}
+
+void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
+  FrameSearch& search = finder_.search_;
+  search.show(shown_, moving_);
+  if (search.tiles().visible_share(state) == 0) return;
+  Candidate one = finder_.searched_from(frame_, state, seed_of_part(seed_, part_++));
+  best_.found.evaluations += std::exchange(one.found.evaluations, 0);
+  const Reach reach = reach_within(finder_.settings_.motion, task_.last.seconds);
+  const bool may_be_anywhere = !std::isfinite(task_.last.seconds) || request_.contradicts;
+  if (!may_be_anywhere && !is_within(finder_.scene_, reach, request_.kept,
+                                     with_own_part(request_.kept, one.found.state)))
+    return;
+  sure_ = sure_ || one.probability() >= kSure;
+  found_.push_back(std::move(one));
+}
+
+template <class Take>
+void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& effort,
+                                                 const Take& take) {
+  for (const PoseGuess& guess : task_.guesses) {
+    if (enough()) return;
+    const Candidates places = finder_.recovery_.find(task_, guess, effort, finder_.settings_.motion,
+                                                     seed_of_part(seed_, part_++));
+    best_.found.evaluations += places.evaluations;
+    for (const Eigen::VectorXd& state : places.states) take(state);
+  }
+}
+
+void CandidateFinder::ModelSearch::ask_starts() {
+  LentSearch lent([&](const GlobalSearchSettings& effort, const TakePose& offer) {
+    search_places(effort, [&](const Eigen::VectorXd& state) {
+      offer(state.segment(item_.offset, item_.model->dimension()));
+    });
+  });
+  const StartContext context{finder_.scene_, finder_.cameras_, &frame_,
+                             request_.contradicts ? nullptr : &lent};
+  const auto is_good = [&](const Candidate& one) {
+    return one.probability() >= finder_.settings_.surely_above;
+  };
+  const auto contradicts = [&](const Eigen::VectorXd& state) {
+    const auto landmarks = [&](const Eigen::VectorXd& of) {
+      return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
+    };
+    return (landmarks(state) - landmarks(best_.found.state)).colwise().norm().mean() > kElsewhere;
+  };
+  for (const std::unique_ptr<Start>& start : finder_.starts_) {
+    const bool is_first = start == finder_.starts_.front();
+    if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) return;
+    start->find(context, model_, [&](const Eigen::VectorXd& parameters) {
+      check_proposal(item_, parameters);
+      Eigen::VectorXd state = task_.last.state;
+      state.segment(item_.offset, parameters.size()) = parameters;
+      if (!request_.contradicts || contradicts(state)) add(state);
+      return !enough();
+    });
+  }
+}
+
+void CandidateFinder::ModelSearch::run() {
+  if (finder_.starts_.empty() || has_held_ || request_.near_only)
+    search_places(GlobalSearchSettings(), [&](const Eigen::VectorXd& state) { add(state); });
+  else
+    ask_starts();
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "track/candidate_finder.hpp"
+
+namespace hypotrack {
+
+/// Collects candidates for one model of a frame that is lost or in a doubtful pose: around guesses,
+/// and where starts see the model.
+class CandidateFinder::ModelSearch {
+ public:
+  /// `held` flags models that move with the sought one. Writes evaluations and in_view to `best`.
+  /// All arguments must outlive the object.
+  ModelSearch(CandidateFinder& finder, const Frame& frame, const RecoveryRequest& request,
+              const Candidate& base, Candidate& best, std::size_t model, const ModelFlags& held,
+              std::uint64_t seed);
+
+  void run();
+
+  const std::vector<Candidate>& found() const { return found_; }
+  /// Returns the models that the candidates show, and those of them that were searched.
+  const ModelFlags& shown() const { return shown_; }
+  const ModelFlags& moving() const { return moving_; }
+
+ private:
+  LastKnown last_known() const;
+  Eigen::VectorXd with_own_part(Eigen::VectorXd to, const Eigen::VectorXd& from) const;
+  bool enough() const;
+  /// Searches from a state of the scene and adds what was found.
+  void add(const Eigen::VectorXd& state);
+  /// Searches the places of the guesses. Calls `take` with states of the scene.
+  template <class Take>
+  void search_places(const GlobalSearchSettings& effort, const Take& take);
+  void ask_starts();
+
+  CandidateFinder& finder_;
+  const Frame& frame_;
+  const RecoveryRequest& request_;
+  const Candidate& base_;
+  Candidate& best_;
+  const Scene::Item& item_;
+  std::size_t model_;
+  bool has_held_;
+  std::uint64_t seed_;
+  std::uint32_t part_ = 0;  ///< counts the seeds of parts
+  ModelFlags shown_, moving_;
+  Recovery::Task task_;
+  std::vector<Candidate> found_;
+  bool sure_ = false;
+};
+
+}  // namespace hypotrack
