@@ -199,6 +199,9 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
     if (!finder_.verifier().experienced(m) && !begins_by_looking_) continue;
     if (looks_for(m)) out.together.resize(0);
     out.sought[m] = !best.answers() || !best.shown[m] || p < out.needed[m];
+    // A doubtful first pose may prove right: look elsewhere ever less often.
+    if (looks_for(m) && out.sought[m] && p >= settings_.uncertain_above)
+      out.sought[m] = std::has_single_bit(++looked_);
     out.lost = out.lost || out.sought[m];
     confirmed[m] = model.confirmations > 0;
     doubtful[m] = p < kDoubt;
@@ -233,7 +236,14 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
       return false;
     }
   }
-  finder_.recover(frame, request, best, seed_of_part(frame_seed(seed_, frame.index), 7));
+  const std::uint64_t seed = frame_seed(seed_, frame.index);
+  finder_.recover(frame, request, best, seed_of_part(seed, 7));
+  // From here on it is as if this pose had been given as the start.
+  if (begins_by_looking_ && !finder_.verifier().experienced() &&
+      std::ranges::find(best.shown, false) == best.shown.end() &&
+      best.probability() >= settings_.uncertain_above)
+    finder_.begin_again(frame, best.found.state, settings_.recovery.first_starts,
+                        seed_of_part(seed, 8), best);
   return true;
 }
 

@@ -123,6 +123,7 @@ class SceneTracker {
   Eigen::VectorXd output_;    ///< last state returned
   int begun_ = 0;             ///< frames searched before anything was found
   bool found_any_ = false;    ///< whether `state_` is a solution
+  unsigned looked_ = 0;       ///< frames with a doubtful first pose
   double checked_ = 0;        ///< time at which starts last looked whether a model is elsewhere
   std::size_t checks_ = 0;    ///< number of these checks, which take turns among the models
   unsigned doubts_ = 0;       ///< recent count of doubtful poses
