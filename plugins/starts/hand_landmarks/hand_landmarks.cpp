@@ -32,16 +32,21 @@ class HandLandmarks final : public Start {
          .unit = "px"});
     }
   };
-  explicit HandLandmarks(const Params& params)
-      : detector_(
-            {.folder = params.folder, .lite = params.lite, .smallest_hand = params.smallest_hand}) {
+  /// Reads the networks if a model of the scene is a hand.
+  HandLandmarks(const Params& params, PluginContext& context) {
+    for (const Scene::Item& item : context.scene().items()) {
+      models_.push_back(hand_model(*item.model));
+      if (models_.back() && !detector_)
+        detector_.emplace(HandDetector::Options{
+            .folder = params.folder, .lite = params.lite, .smallest_hand = params.smallest_hand});
+    }
   }
 
   bool looks() const override { return true; }
 
   void find(const StartContext& context, std::size_t model, const TakePose& take) override {
     const Scene::Item& item = context.scene.items().at(model);
-    const std::optional<HandModel> hand = hand_model(*item.model);
+    const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return;
     look_at(*context.frame, context.cameras);
     // The likeliest hand of the model's side first; a hand of the other side may be this one, too.
@@ -68,10 +73,10 @@ class HandLandmarks final : public Start {
     seen_ = {frame.index, pictures};
     const std::array<Camera, 2> pair{cameras[0], cameras[1]};
     const auto& views = frame.views;
-    std::vector<HandDetection> first = detector_.detect(views[0].color),
-                               second = detector_.detect(views[1].color);
-    look_in_other_view(detector_, pair, first, 0, views[1].color, second);
-    look_in_other_view(detector_, pair, second, 1, views[0].color, first);
+    std::vector<HandDetection> first = detector_->detect(views[0].color),
+                               second = detector_->detect(views[1].color);
+    look_in_other_view(*detector_, pair, first, 0, views[1].color, second);
+    look_in_other_view(*detector_, pair, second, 1, views[0].color, first);
     pairs_ = pair_hands(pair, first, second);
   }
 
@@ -87,7 +92,8 @@ class HandLandmarks final : public Start {
         .parameters;
   }
 
-  HandDetector detector_;
+  std::vector<std::optional<HandModel>> models_;  ///< by model; nothing: it is no hand
+  std::optional<HandDetector> detector_;          ///< nothing: the scene has no hand
   std::pair<int, std::array<const unsigned char*, 2>> seen_{-1, {}};
   std::vector<HandPair> pairs_;  ///< in the frame seen last
 };
