@@ -193,6 +193,13 @@ void Opening::start() {
   std::vector<std::unique_ptr<Start>> all = starts(file_.init.from, records);
   TrackerParts& parts = session_.parts;
   parts.begins_by_looking = all.front()->looks();
+  const InitSettings& init = file_.init;
+  if (parts.begins_by_looking &&
+      (init.pose.defined() || init.away != 0 || init.away_turn != 0 || init.away_angles != 0))
+    detail::fail_at(
+        root_.get("init"),
+        "init.pose and init.away_* change a start that is given, and init.from looks for "
+        "the models; leave one of them out");
   if (parts.begins_by_looking)
     parts.starts = std::move(all);
   else
@@ -203,17 +210,18 @@ void Opening::start() {
       records.size() == 1 &&
       (word == kStartFromFile || records.front().text() == fmt::format("type: {}\n", word));
   if (!has_word) {
-    YamlDocument init(dump_params(file_.init));
+    YamlDocument resolved(dump_params(init));
     if (records.size() == 1)
-      init.set("from", records.front());
+      resolved.set("from", records.front());
     else
-      init.set_list("from", records);
-    record_.set("init", init);
+      resolved.set_list("from", records);
+    record_.set("init", resolved);
   }
   ConfigNode from = file_.tracker.recovery.from;
   if (!from.defined() && parts.begins_by_looking) return;
   if (!from.defined()) from = ConfigNode::parse("global_search", "the default of recovery.from");
-  parts.starts = starts(from, records);
+  std::vector<YamlDocument> of_recovery;
+  parts.starts = starts(from, of_recovery);
   for (const std::unique_ptr<Start>& start : parts.starts)
     if (!start->looks())
       detail::fail_at(from,

@@ -196,7 +196,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
     const double p = best.probabilities[m];
     out.seconds.push_back(looks_for(m) ? kInfinite : std::max(frame.time - model.kept_time, 1e-3));
     out.needed.push_back(model.monitor.needed());
-    if (!finder_.verifier().experienced(m) && !begins_by_looking_) continue;
+    if (awaits(m)) continue;
     if (looks_for(m)) out.together.resize(0);
     out.sought[m] = !best.answers() || !best.shown[m] || p < out.needed[m];
     // A doubtful first pose may prove right: look elsewhere ever less often.
@@ -226,7 +226,7 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   if (!recovers() || (best.answers() && std::isnan(best.probability()))) return true;
   const RecoveryRequest request = recovery_request(frame, best);
   if (!any(request.sought)) return true;
-  if (settings_.recovery.run == RecoveryRun::background) {
+  if (settings_.recovery.run == RecoveryRun::background && !request.contradicts) {
     if (!request.lost) return true;
     bool follows_some = false;
     for (std::size_t m = 0; m < models_.size(); ++m)
@@ -303,8 +303,7 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
   // holds for models that were never surely found.
   if (best.answers() && finder_.search().tiles().visible_share(best.found.state) > 0)
     for (std::size_t m = 0; m < models_.size(); ++m) {
-      const bool never_found = !finder_.verifier().experienced(m) && !begins_by_looking_ &&
-                               (begun_ >= kPatientFrames || any_good);
+      const bool never_found = awaits(m) && (begun_ >= kPatientFrames || any_good);
       good[m] = good[m] || (best.shown[m] && (!recovers() || never_found));
     }
   go_on_from(frame, best, good);
@@ -350,8 +349,7 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
 ModelFlags SceneTracker::followed() const {
   ModelFlags out;
   for (std::size_t m = 0; m < models_.size(); ++m)
-    out.push_back(found_any_ && (!recovers() || models_[m].is_followed() ||
-                                 (!finder_.verifier().experienced(m) && !begins_by_looking_)));
+    out.push_back(found_any_ && (!recovers() || models_[m].is_followed() || awaits(m)));
   return out;
 }
 

@@ -94,6 +94,10 @@ class SceneTracker {
   bool looks_for(std::size_t model) const {
     return begins_by_looking_ && !finder_.verifier().experienced(model);
   }
+  /// Returns whether a model that was never surely found is awaited at the start that was given.
+  bool awaits(std::size_t model) const {
+    return !begins_by_looking_ && !finder_.verifier().experienced(model);
+  }
   ModelFlags followed() const;
   /// Returns states from which the search of a frame may start. The middle one, which is in view,
   /// comes first.

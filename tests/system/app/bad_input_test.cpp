@@ -162,6 +162,8 @@ TEST_F(BadInputTest, StartOfATableOutsideTheBounds) {
     return replaced(box_scene(), "init: {from: truth}", "init: {" + init + "}");
   };
   expect_refused(with("from: file, file: states.csv"), {"states.csv:2", "finite"});
+  expect_refused(with("from: global_search, pose: {box: {position_mm: [0, 0, 400]}}"),
+                 {"scene.yaml:11:", "leave one of them out"});
   expect_refused(with("from: file"), {"scene.yaml:11:", "init.file names none"});
   expect_refused(with("from: file, file: missing.csv"), {"missing.csv", "no such file"});
   expect_refused(with("from: {type: file}"), {"scene.yaml:11:", "init.from.file: required key"});

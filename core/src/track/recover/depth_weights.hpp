@@ -8,9 +8,8 @@
 
 namespace hypotrack {
 
-/// Tells surfaces in a range of depths from those behind and before it, by the correlation of both
-/// pictures over planes that face a camera (Collins, "A space-sweep approach to true multi-image
-/// matching", CVPR 1996).
+/// Tells surfaces in a range of depths from others, by the correlation of both pictures over
+/// planes. Source: Collins, "A space-sweep approach to true multi-image matching", CVPR 1996.
 class DepthWeights {
  public:
   /// `reductions` are the integer factors by which the pictures are reduced. The range is of depths
