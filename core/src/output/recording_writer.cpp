@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <system_error>
 #include <utility>
@@ -61,12 +62,43 @@ RecordingWriter::~RecordingWriter() {
 
 void RecordingWriter::write_image(const std::string& name, int index, cv::Mat image) {
   names_.insert(name);
+  if (first_image_ < 0) first_image_ = index;
+  last_image_ = index;
   images_->write(part_ / fmt::format("{}_{:06}.png", name, index), std::move(image));
 }
 
-void RecordingWriter::add(const Frame& frame) {
-  if (first_ < 0) first_ = frame.index;
+/// Spreads frames whose numbers are left out evenly.
+void RecordingWriter::note_time(const Frame& frame) {
+  if (first_ < 0) {
+    first_ = frame.index;
+    times_.push_back(frame.time);
+  } else {
+    const double before = times_.back();
+    const int steps = frame.index - last_;
+    for (int k = 1; k <= steps; ++k)
+      times_.push_back(k == steps ? frame.time : before + (frame.time - before) * k / steps);
+  }
   last_ = frame.index;
+}
+
+bool RecordingWriter::evenly_spaced() const {
+  constexpr double kSame = 1e-6;  // seconds
+  for (std::size_t i = 0; i < times_.size(); ++i) {
+    const double expected = times_[0] + static_cast<double>(i) / frame_rate_;
+    if (std::abs(times_[i] - expected) > kSame) return false;
+  }
+  return true;
+}
+
+void RecordingWriter::write_times() const {
+  std::string text = "frame,time\n";
+  for (int i = first_image_; i <= last_image_; ++i)
+    text += fmt::format("{},{:.9f}\n", i, times_[static_cast<std::size_t>(i - first_)]);
+  TextFile(part_ / "times.csv").write(text);
+}
+
+void RecordingWriter::add(const Frame& frame) {
+  note_time(frame);
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
     const std::string side = i == 0 ? "left" : "right";
@@ -109,9 +141,18 @@ void RecordingWriter::write_scene() const {
   if (names_.contains("left_depth")) {
     source.set_plain("depth_units_mm", fmt::format("{}", kDepthUnitMm));
   }
-  source.set_plain("start", std::to_string(first_));
-  source.set_plain("count", std::to_string(last_ - first_ + 1));
-  source.set_plain("frame_rate", fmt::format("{}", frame_rate_));
+  if (evenly_spaced() || first_image_ < 0) {
+    source.set_plain("start", std::to_string(first_));
+    source.set_plain("count", std::to_string(last_ - first_ + 1));
+    source.set_plain("frame_rate", fmt::format("{}", frame_rate_));
+  } else {
+    write_times();
+    detail::YamlDocument timestamps;
+    timestamps.set_string("file", "times.csv");
+    timestamps.set_string("column", "time");
+    timestamps.set_string("unit", "s");
+    source.set("timestamps", timestamps);
+  }
   source.set("calibration", calibration);
   if (!states_.empty()) source.set_string("truth_states", "truth_states.csv");
   if (!landmarks_.empty()) source.set_string("truth_landmarks", "truth_landmarks.csv");

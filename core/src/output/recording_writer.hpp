@@ -19,9 +19,10 @@ namespace hypotrack {
 ///
 /// Images: left_000000.png, right_000000.png, masks (left_mask_000000.png) and depths
 /// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
-/// Also calibration.yaml; scene.yaml, which tracks the recording; source.yaml, the recorded scene.
-/// If the truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the speeds.
-/// The folder gets its name when it is complete.
+/// Also times.csv if frames are not evenly spaced in time; calibration.yaml; scene.yaml, which
+/// tracks the recording; source.yaml, the recorded scene. If the truth is known: truth_states.csv,
+/// truth_landmarks.csv and motion.json with the speeds. The folder gets its name when it is
+/// complete.
 class RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
@@ -45,6 +46,9 @@ class RecordingWriter {
 
  private:
   void write_image(const std::string& name, int index, cv::Mat image);
+  void note_time(const Frame& frame);
+  bool evenly_spaced() const;
+  void write_times() const;
   void write_truth() const;
   void write_scene() const;
 
@@ -60,6 +64,9 @@ class RecordingWriter {
   std::set<std::string> names_;  ///< kinds of images: left, left_mask, ...
   int first_ = -1;
   int last_ = -1;
+  int first_image_ = -1;
+  int last_image_ = -1;
+  std::vector<double> times_;  ///< of the frames from first_ to last_
   std::optional<ImageWriter> images_{std::in_place};
 };
 

@@ -72,6 +72,16 @@ TEST(MotionSpeeds, DoesNotCountOverMissingFrames) {
   EXPECT_EQ(motion_speeds(scene, std::span(states).first(1))[0].translation.mean, 0);
 }
 
+TEST(MotionSpeeds, DoesNotCountOverGapsInTime) {
+  const Scene scene = hand_and_box();
+  auto states = some_states(scene);
+  for (std::size_t i = 0; i < states.size(); ++i)
+    states[i].time = static_cast<double>(i + (i >= 2 ? 12 : 0)) / 30;
+  const auto speeds = motion_speeds(scene, states);
+  EXPECT_NEAR(speeds[0].translation.peak, 0.003, 1e-12) << "5 mm over the gap";
+  EXPECT_EQ(speeds[0].rotation.peak, 0);
+}
+
 TEST(MotionSpeeds, SaysThemInMillimetresAndDegrees) {
   const Scene scene = hand_and_box();
   const auto speeds = motion_speeds(scene, some_states(scene));

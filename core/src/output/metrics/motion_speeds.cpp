@@ -5,7 +5,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
+#include "hypotrack/median.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
@@ -46,6 +49,14 @@ void add_pair(const Scene::Item& item, const StateRow& from, const StateRow& to,
   if (add_step(speeds.joints, largest, to.frame)) speeds.fastest_joint = joint;
 }
 
+/// Returns the median time between two states, 0 without one.
+double usual_step(std::span<const StateRow> states) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < states.size(); ++i)
+    steps.push_back(states[i].time - states[i - 1].time);
+  return steps.empty() ? 0 : upper_median(std::move(steps));
+}
+
 nlohmann::ordered_json to_json(const Speed& speed, double unit) {
   return {{"peak", speed.peak / unit}, {"mean", speed.mean / unit}, {"frame", speed.frame}};
 }
@@ -53,6 +64,7 @@ nlohmann::ordered_json to_json(const Speed& speed, double unit) {
 }  // namespace
 
 std::vector<ModelSpeeds> motion_speeds(const Scene& scene, std::span<const StateRow> states) {
+  const double longest_step = 1.5 * usual_step(states);
   std::vector<ModelSpeeds> all;
   for (const Scene::Item& item : scene.items()) {
     ModelSpeeds speeds;
@@ -60,6 +72,7 @@ std::vector<ModelSpeeds> motion_speeds(const Scene& scene, std::span<const State
     int pairs = 0;
     for (std::size_t i = 1; i < states.size(); ++i) {
       if (states[i].frame != states[i - 1].frame + 1) continue;
+      if (states[i].time - states[i - 1].time > longest_step) continue;
       add_pair(item, states[i - 1], states[i], speeds);
       ++pairs;
     }

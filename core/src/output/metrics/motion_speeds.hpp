@@ -26,7 +26,7 @@ struct ModelSpeeds {
 };
 
 /// Computes the speeds of every model of the scene. `states` must be in ascending order of frames.
-/// Pairs of states of non-consecutive frames do not count.
+/// Pairs of states of non-consecutive frames, or with a gap in time between them, do not count.
 std::vector<ModelSpeeds> motion_speeds(const Scene& scene, std::span<const StateRow> states);
 
 /// Returns the text of motion.json: peak, mean and frame of each speed by model, mm and degrees per
