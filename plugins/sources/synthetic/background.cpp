@@ -106,28 +106,48 @@ std::vector<Mesh> surfaces_of(const BackgroundParams& params, const Eigen::Align
   return meshes;
 }
 
-}  // namespace
-
-std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
-                                           const std::vector<Camera>& cameras) {
-  std::vector<RenderedView> views;
-  if (params.kind == BackgroundKind::color) {
-    const cv::Scalar bgr(params.color.z(), params.color.y(), params.color.x());
-    for (const Camera& c : cameras) {
-      const cv::Size size(c.width, c.height);
-      views.push_back({cv::Mat(size, CV_8UC3, bgr), cv::Mat::zeros(size, CV_32FC1), {}});
-    }
-    return views;
-  }
-  const Eigen::AlignedBox2d wall = seen_wall(cameras, params.distance);
+/// Draws surfaces over pictures, with their depth.
+void draw_over(std::vector<RenderedView>& views, std::vector<Mesh> meshes,
+               const std::vector<Camera>& cameras, const RenderStyle& style) {
   std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
-  for (Mesh& mesh : surfaces_of(params, wall)) {
+  for (Mesh& mesh : meshes) {
     models.emplace_back(fmt::format("background_{}", models.size()),
                         std::make_shared<Model>(rigid_model(std::move(mesh))));
   }
   const Scene scene(std::move(models));
   Renderer renderer(scene);
-  for (const Camera& c : cameras) views.push_back(renderer.render(scene.rest_state(), c, {}));
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    RenderedView drawn = renderer.render(scene.rest_state(), cameras[i], style, views[i].color);
+    views[i].depth.copyTo(drawn.depth, drawn.label == 0);
+    views[i] = std::move(drawn);
+  }
+}
+
+}  // namespace
+
+std::vector<RenderedView> draw_backgrounds(const BackgroundParams& params,
+                                           const std::vector<Camera>& cameras,
+                                           const RenderStyle& light, const Eigen::Vector3d& skin,
+                                           const std::string& where) {
+  const bool surfaces = params.kind != BackgroundKind::color;
+  std::vector<RenderedView> views;
+  const cv::Scalar bgr(params.color.z(), params.color.y(), params.color.x());
+  for (const Camera& c : cameras) {
+    const cv::Size size(c.width, c.height);
+    views.push_back({cv::Mat(size, CV_8UC3, surfaces ? cv::Scalar() : bgr),
+                     cv::Mat::zeros(size, CV_32FC1),
+                     {}});
+  }
+  if (surfaces)
+    draw_over(views, surfaces_of(params, seen_wall(cameras, params.distance)), cameras, {});
+  if (!params.person) return views;
+  if (surfaces && params.person->distance >= params.distance) {
+    throw ConfigError(
+        fmt::format("{}: background.person.distance_mm is {:.6g}, expected less than that of the "
+                    "wall, {:.6g}",
+                    where, params.person->distance / kMillimetre, params.distance / kMillimetre));
+  }
+  draw_over(views, make_person(*params.person, skin, where), cameras, light);
   return views;
 }
 

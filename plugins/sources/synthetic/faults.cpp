@@ -75,6 +75,9 @@ Faults::Faults(const std::vector<FaultParams>& params, const ConfigNode& node, c
     if (fault.kind == FaultKind::frozen && fault.first == 0)
       throw ConfigError(item.get("frames").where() +
                         ": no picture comes before frame 0 that could be repeated");
+    if (fault.kind == FaultKind::missing && fault.first == 0)
+      throw ConfigError(item.get("frames").where() +
+                        ": frame 0 cannot be missing; a recording begins with its first frame");
     faults_.push_back(fault);
   }
 }
@@ -91,6 +94,11 @@ bool Faults::holds(FaultKind kind, int frame, std::size_t part) const {
   });
 }
 
+int Faults::next_delivered(int frame) const {
+  while (holds(FaultKind::missing, frame)) ++frame;
+  return frame;
+}
+
 std::vector<bool> Faults::absent(int frame) const {
   std::vector<bool> absent;
   for (std::size_t m = 0; m < models_; ++m) absent.push_back(holds(FaultKind::absent, frame, m));
@@ -99,11 +107,12 @@ std::vector<bool> Faults::absent(int frame) const {
 }
 
 void Faults::apply(int frame, std::vector<View>& views) {
+  const int next = next_delivered(frame + 1);
   kept_.resize(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (holds(FaultKind::frozen, frame, v)) {
       views[v] = copy_of(kept_[v]);
-    } else if (holds(FaultKind::frozen, frame + 1, v)) {
+    } else if (holds(FaultKind::frozen, next, v)) {
       kept_[v] = copy_of(views[v]);
     }
   }

@@ -20,10 +20,11 @@ enum class FaultKind {
   exchanged,  ///< each camera's picture arrives as the other's
   black,      ///< all pictures are black, without foreground and depth
   frozen,     ///< the previous picture is repeated
+  missing,    ///< the frame does not arrive
 };
 inline std::span<const std::string_view> enum_names(FaultKind) {
-  static constexpr std::array<std::string_view, 4> kNames = {"absent", "exchanged", "black",
-                                                             "frozen"};
+  static constexpr std::array<std::string_view, 5> kNames = {"absent", "exchanged", "black",
+                                                             "frozen", "missing"};
   return kNames;
 }
 
@@ -36,7 +37,7 @@ struct FaultParams {
   void visit(ParamVisitor& v) {
     v("frames", frames,
       {.help = "first and last frame of it", .min = 0, .max = 1e7, .required = true});
-    v("kind", kind, {.help = "absent, exchanged, black or frozen", .required = true});
+    v("kind", kind, {.help = "absent, exchanged, black, frozen or missing", .required = true});
     v("model", model, {.help = "of the kind absent: which one; all without it"});
     v("view", view, {.help = "of the kind frozen: which one; all without it", .min = 0, .max = 1});
   }
@@ -57,7 +58,11 @@ class Faults {
   /// Returns for each model of the scene whether it is absent from a frame; empty if none is.
   std::vector<bool> absent(int frame) const;
 
-  /// Applies the faults to the views of a frame. Call it with all frames in their order.
+  /// Returns the first frame from `frame` on that is not missing.
+  int next_delivered(int frame) const;
+
+  /// Applies the faults to the views of a frame. Call it with all frames that are not missing, in
+  /// their order.
   void apply(int frame, std::vector<View>& views);
 
  private:

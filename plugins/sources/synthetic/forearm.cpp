@@ -171,6 +171,11 @@ cv::Mat make_cover(const cv::Scalar& color, double contrast) {
 
 }  // namespace
 
+Eigen::Vector3d skin_color(const ModelData& hand, int wrist_bone) {
+  const cv::Scalar bgr = measure(hand, wrist_bone).color;
+  return {bgr[2], bgr[1], bgr[0]};
+}
+
 ModelData make_forearm(const ModelData& hand, int wrist_bone, const ForearmParams& params) {
   if (!params.color.empty() && params.color.size() != 3) {
     throw ConfigError(fmt::format("forearm.color has {} numbers, expected three: red, green, blue",

@@ -31,6 +31,9 @@ struct ForearmParams {
   }
 };
 
+/// Returns the mean colour of a hand's skin at its wrist: red, green, blue, up to 255.
+Eigen::Vector3d skin_color(const ModelData& hand, int wrist_bone);
+
 /// Makes a forearm: a tapered elliptic tube that continues a hand's mesh, in the frame of the bone
 /// at its wrist (hand axes: y distal). It is a rigid model, as wide as the mesh at its end. Throws
 /// ConfigError unless `color` has no number or three.

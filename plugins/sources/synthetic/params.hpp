@@ -14,6 +14,7 @@
 #include "hypotrack/params.hpp"
 #include "hypotrack/renderer.hpp"
 #include "joint_motion.hpp"
+#include "person.hpp"
 #include "random_motion.hpp"
 
 namespace hypotrack::synthetic {
@@ -53,6 +54,7 @@ struct BackgroundParams {
   double distance = 1.5;
   int clutter = 8;
   int dark_regions = 0;
+  std::optional<PersonParams> person;
   int seed = 1;
   void visit(ParamVisitor& v) {
     v("kind", kind,
@@ -70,6 +72,7 @@ struct BackgroundParams {
       {.help = "dark flat boards before the wall of the kinds image and procedural",
        .min = 0,
        .max = 40});
+    v("person", person, {.help = "somebody who sits behind the hands, before the rest"});
     v("seed", seed, {.help = "of clutter, dark regions and the pattern", .min = 0});
   }
 };
@@ -97,6 +100,7 @@ struct SensorParams {
   double blur_sigma = 0;
   std::vector<double> gain;
   std::vector<double> offset;
+  double exposure = 0;
   double depth_noise = 0;
   double depth_step = 0.1 * kMillimetre;
   int seed = 1;
@@ -111,6 +115,13 @@ struct SensorParams {
        .min = -255,
        .max = 255,
        .unit = "of 255"});
+    v("exposure_s", exposure,
+      {.help =
+           "time over which a picture is exposed, about the frame's time: what moves is blurred; "
+           "at most 1/frame_rate",
+       .min = 0,
+       .max = 100,
+       .unit = "s"});
     v("depth_noise_mm", depth_noise,
       {.help =
            "sigma of the depth noise at 1 m; it grows with the square of the distance, as where "

@@ -121,6 +121,14 @@ void Stage::match_landmarks(const Scene& tracked) {
     owners_.insert(owners_.end(), tracked.items()[m].model->data().landmarks.size(), m);
 }
 
+Eigen::Vector3d Stage::skin() const {
+  for (std::size_t m = 0; m < models_; ++m) {
+    const Model& model = *scene_->items()[m].model;
+    if (const std::optional<int> bone = wrist_bone(model)) return skin_color(model.data(), *bone);
+  }
+  return 255 * Mesh().color.cast<double>();
+}
+
 Eigen::VectorXd Stage::state(const Eigen::VectorXd& tracked) const {
   Eigen::VectorXd state(scene_->dimension());
   for (std::size_t i = 0; i < parameters_.size(); ++i) {

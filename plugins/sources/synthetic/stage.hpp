@@ -22,6 +22,10 @@ class Stage {
   /// Returns the rendered scene: a model for each tracked one, in their order, then the forearms.
   const Scene& scene() const { return *scene_; }
 
+  /// Returns the colour of the first hand's skin (red, green, blue, up to 255), a usual one if
+  /// there is no hand.
+  Eigen::Vector3d skin() const;
+
   /// Returns the state of scene() for a state of the tracked scene. Parameters with the same name
   /// have the same value.
   Eigen::VectorXd state(const Eigen::VectorXd& tracked) const;

@@ -92,6 +92,16 @@ RenderStyle style_of(const LightParams& light) {
   return style;
 }
 
+double checked_exposure(const SyntheticParams& params, const ConfigNode& config) {
+  constexpr double kRoundOff = 1e-9;
+  const double exposure = params.sensor.exposure;
+  if (exposure * params.frame_rate <= 1 + kRoundOff) return exposure;
+  throw ConfigError(fmt::format(
+      "{}: sensor.exposure_s is {:.6g} s, expected at most the time between two frames, "
+      "{:.6g} s",
+      config.get("sensor").get("exposure_s").where(), exposure, 1 / params.frame_rate));
+}
+
 /// Renders the scene's models, or replacements that move alike, on a scripted motion, with ground
 /// truth.
 class Synthetic final : public Source {
@@ -109,8 +119,10 @@ class Synthetic final : public Source {
         sensor_(params.sensor, cameras_.size(), context.config().where()),
         depth_sensor_(params.sensor),
         depth_(params.depth),
-        backgrounds_(draw_backgrounds(params.background, cameras_)),
+        exposure_(checked_exposure(params, context.config())),
         stage_(scene_, params.render_models, params.forearm, context),
+        backgrounds_(draw_backgrounds(params.background, cameras_, style_, stage_.skin(),
+                                      context.config().where())),
         renderer_(stage_.scene()) {
     for (const auto& [first, last] : script_.absences) faults_.add_absence(first, last);
     frames_ = params.frames > 0 ? params.frames : frames_of_motion(context.config().where());
@@ -118,35 +130,86 @@ class Synthetic final : public Source {
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
   double frame_rate() const override { return frame_rate_; }
-  std::optional<int> frame_count() const override { return frames_; }
+  std::optional<int> frame_count() const override {
+    int count = 0;
+    for (int n = 0; n < frames_; n = faults_.next_delivered(n + 1)) ++count;
+    return count;
+  }
 
+  /// Numbers frames as they arrive; after missing ones the time goes on as it would have.
   std::optional<Frame> next() override {
     if (next_ >= frames_) return std::nullopt;
+    const int number = next_;
+    next_ = faults_.next_delivered(number + 1);
     Frame frame;
-    frame.index = next_++;
-    frame.time = frame.index / frame_rate_;
+    frame.index = delivered_++;
+    frame.time = number / frame_rate_;
     frame.truth.emplace();
     frame.truth->state = script_.state(frame.time);
-    frame.truth->absent = faults_.absent(frame.index);
+    frame.truth->absent = faults_.absent(number);
     const Eigen::VectorXd state = stage_.state(frame.truth->state);
     frame.truth->landmarks = stage_.landmarks(state, frame.truth->absent);
     style_.hidden = stage_.hidden(frame.truth->absent);
+    const std::vector<Eigen::VectorXd> others = other_states(frame.time, state);
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       RenderedView rendered = renderer_.render(state, cameras_[i], style_, backgrounds_[i].color);
-      sensor_.apply(rendered.color, frame.index, i);
+      blur(rendered.color, others, i);
+      sensor_.apply(rendered.color, number, i);
       View view{.color = std::move(rendered.color), .mask = stage_.mask(rendered.label)};
       if (depth_) {
         view.depth = std::move(rendered.depth);
         backgrounds_[i].depth.copyTo(view.depth, rendered.label == 0);
-        depth_sensor_.apply(view.depth, frame.index, i);
+        depth_sensor_.apply(view.depth, number, i);
       }
       frame.views.push_back(std::move(view));
     }
-    faults_.apply(frame.index, frame.views);
+    faults_.apply(number, frame.views);
     return frame;
   }
 
  private:
+  /// Returns the states of the stage at which else a picture is rendered during an exposure about
+  /// `time`: evenly spread, the more the farther a landmark moves. `state` is that of `time`.
+  std::vector<Eigen::VectorXd> other_states(double time, const Eigen::VectorXd& state) const {
+    constexpr double kStep = 1.5;  // pixels from one picture to the next
+    constexpr int kMost = 8;       // pictures before `time`, and as many after it
+    std::vector<Eigen::VectorXd> states;
+    const Eigen::VectorXd first = state_at(time - 0.5 * exposure_);
+    const Eigen::VectorXd last = state_at(time + 0.5 * exposure_);
+    const double moved = std::max(pixels_between(first, state), pixels_between(state, last));
+    const int steps = std::min(static_cast<int>(std::ceil(moved / kStep)), kMost);
+    for (int i = -steps; i <= steps; ++i)
+      if (i != 0) states.push_back(state_at(time + i * exposure_ / (2 * steps + 1)));
+    return states;
+  }
+
+  Eigen::VectorXd state_at(double time) const { return stage_.state(script_.state(time)); }
+
+  /// Returns how far a landmark moves at most in the first camera's picture.
+  double pixels_between(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+    const Eigen::Matrix3Xd from = stage_.scene().landmarks(a), to = stage_.scene().landmarks(b);
+    double most = 0;
+    for (Eigen::Index i = 0; i < from.cols(); ++i) {
+      const double z = (cameras_[0].camera_from_world * from.col(i)).z();
+      const double moved = (to.col(i) - from.col(i)).norm();
+      if (z > 0) most = std::max(most, cameras_[0].fx * moved / z);
+    }
+    return most;
+  }
+
+  /// Averages a picture with those of other states.
+  void blur(cv::Mat& color, const std::vector<Eigen::VectorXd>& others, std::size_t camera) {
+    if (others.empty()) return;
+    cv::Mat sum;
+    color.convertTo(sum, CV_32F);
+    for (const Eigen::VectorXd& state : others) {
+      cv::add(sum,
+              renderer_.render(state, cameras_[camera], style_, backgrounds_[camera].color).color,
+              sum, {}, CV_32F);
+    }
+    sum.convertTo(color, CV_8U, 1.0 / static_cast<double>(others.size() + 1));
+  }
+
   int frames_of_motion(const std::string& where) const {
     constexpr double kRoundOff = 1e-6, kMost = 1e7;
     const double frames = std::floor(script_.duration * frame_rate_ + kRoundOff) + 1;
@@ -166,11 +229,13 @@ class Synthetic final : public Source {
   const Sensor sensor_;
   const DepthSensor depth_sensor_;
   const bool depth_;
-  const std::vector<RenderedView> backgrounds_;
+  const double exposure_;
   const Stage stage_;
+  const std::vector<RenderedView> backgrounds_;
   Renderer renderer_;
   int frames_ = 0;
-  int next_ = 0;
+  int next_ = 0;       ///< frame of the motion
+  int delivered_ = 0;  ///< frames before it that were not missing
 };
 
 }  // namespace

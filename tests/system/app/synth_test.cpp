@@ -51,6 +51,25 @@ TEST_F(SynthTest, ARecordingKnowsWhatIsAbsent) {
   EXPECT_EQ(read_text(path("from_disk/metrics.json")), read_text(path("direct/metrics.json")));
 }
 
+TEST_F(SynthTest, ARecordingKeepsTheTimesOfFramesAroundAGap) {
+  ASSERT_EQ(record(replaced(box_scene(), "type: synthetic",
+                            "type: synthetic\n  faults: [{frames: [2, 3], kind: missing}]"))
+                .exit_code,
+            0);
+  EXPECT_THAT(names_in(path("out")), Contains("left_000002.png"));
+  EXPECT_THAT(names_in(path("out")), testing::Not(Contains("left_000003.png")));
+  EXPECT_EQ(read_text(path("out/times.csv")),
+            "frame,time\n0,0.000000000\n1,0.033333333\n2,0.133333333\n");
+  const Outcome again =
+      run_program({"synth", path("out/scene.yaml").string(), "--out", path("again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_text(path("again/times.csv")), read_text(path("out/times.csv")));
+  EXPECT_EQ(read_text(path("again/left_000002.png")), read_text(path("out/left_000002.png")));
+  EXPECT_EQ(run_program({"run", path("out/scene.yaml").string(), "--out", path("run").string()})
+                .exit_code,
+            0);
+}
+
 TEST_F(SynthTest, ARecordingCanBeMoved) {
   ASSERT_EQ(record(box_scene(), {"--frames", "2"}).exit_code, 0);
   std::filesystem::rename(path("out"), path("moved"));

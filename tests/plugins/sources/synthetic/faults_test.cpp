@@ -75,6 +75,28 @@ TEST(Faults, ViewsAreExchangedBlackenedAndFrozenAndTheTruthStays) {
   }
 }
 
+TEST(Faults, MissingFramesLeaveAGapInTimeAndNotInTheNumbers) {
+  Loaded loaded(kScene +
+                "faults: [{frames: [1, 2], kind: missing}, {frames: [4, 9], kind: missing}]\n");
+  EXPECT_EQ(loaded.source->frame_count(), 2);
+  const std::vector<Frame> frames = loaded.frames();
+  const std::vector<Frame> all = frames_with("");
+  ASSERT_EQ(frames.size(), 2U);
+  EXPECT_EQ(frames[1].index, 1);
+  EXPECT_EQ(frames[1].time, all[3].time);
+  EXPECT_EQ(frames[1].truth->state, all[3].truth->state);
+  EXPECT_TRUE(same(frames[1].views[1].color, all[3].views[1].color));
+}
+
+TEST(Faults, RepeatThePictureBeforeMissingFrames) {
+  const std::vector<Frame> all = frames_with("");
+  const std::vector<Frame> frames =
+      frames_with("{frames: [2, 2], kind: missing}, {frames: [2, 3], kind: frozen}");
+  ASSERT_EQ(frames.size(), 4U);
+  EXPECT_TRUE(same(frames[2].views[0].color, all[1].views[0].color));
+  EXPECT_TRUE(same(frames[3].views[0].color, all[4].views[0].color));
+}
+
 TEST(Faults, MayHaveEmptyKeysOfOtherKinds) {  // as run.yaml has them
   EXPECT_EQ(frames_with("{frames: [1, 2], kind: black, model: ''}, "
                         "{frames: [3, 3], kind: absent, model: hand}")
@@ -98,6 +120,7 @@ TEST(Faults, ExplainWhatIsWrongWithThem) {
               HasSubstr("`model` belongs to the kind absent; leave it out of the kind black"));
   EXPECT_THAT(message("{frames: [1, 2], kind: absent, view: 1}"),
               HasSubstr("`view` belongs to the kind frozen"));
+  EXPECT_THAT(message("{frames: [0, 2], kind: missing}"), HasSubstr("frame 0 cannot be missing"));
   EXPECT_THAT(message("{frames: [0, 2], kind: frozen}"),
               HasSubstr("no picture comes before frame 0"));
   const std::string one = "type: synthetic\ncameras: {count: 1}\n" + std::string(kMotion);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/kinematics.hpp"
@@ -184,6 +185,61 @@ TEST(Background, HasDarkFlatRegionsWhereWanted) {
   const double with = dark_share("{kind: procedural, clutter: 0, dark_regions: 3}");
   EXPECT_GT(with, 0.05);
   EXPECT_LT(with, 0.8);
+}
+
+/// Pixels of a picture that are near a colour (blue, green, red).
+int count_near(const cv::Mat& picture, const cv::Scalar& color) {
+  cv::Mat near;
+  cv::inRange(picture, color - cv::Scalar::all(14), color + cv::Scalar::all(14), near);
+  return cv::countNonZero(near);
+}
+
+TEST(Person, WearsTheShirtBehindTheModelsAndIsBackground) {
+  const std::string person =
+      "background: {kind: color, color: [10, 20, 30], person: {shirt: [40, 60, 200]}}\n";
+  const std::string rest =
+      std::string(kCameras) + kQuiet + "light: {ambient: 1, diffuse: 0, specular: 0}\n" + kMotion;
+  Loaded plain(rest + kPlain), loaded(rest + person);
+  const Frame without = plain.frames().at(0), with = loaded.frames().at(0);
+  for (std::size_t v = 0; v < 2; ++v) {
+    EXPECT_TRUE(same(with.views[v].mask, without.views[v].mask));
+    EXPECT_GT(count_near(with.views[v].color, {200, 60, 40}), 3000);
+    EXPECT_GT(count_near(with.views[v].color, {0.47 * 255, 0.55 * 255, 0.70 * 255}), 200)
+        << "face and neck have the hand's skin";
+    cv::Mat changed;
+    cv::absdiff(with.views[v].color, without.views[v].color, changed);
+    cv::Mat inside;
+    cv::erode(without.views[v].mask, inside, cv::Mat());
+    EXPECT_EQ(cv::mean(changed, inside), cv::Scalar::all(0));
+  }
+}
+
+TEST(Person, IsASurfaceInTheWorldUnderTheLightOfTheModels) {
+  const auto frame = [](const std::string& light, const std::string& person) {
+    return first_frame(std::string(kCameras) + kUpright + "depth: true\n" + light +
+                       "sensor: {noise_sigma: 0, depth_step_mm: 0}\n"
+                       "background: {kind: procedural, clutter: 0, distance_mm: 1500, person: " +
+                       person + "}\n");
+  };
+  const std::string dark = "light: {ambient: 0.3, diffuse: 0, specular: 0}\n";
+  const Frame dim = frame(dark, "{offset_mm: [-120, -250], shirt: [200, 200, 200]}");
+  const cv::Point chest(115, 130);  // beside the hand
+  EXPECT_NEAR(dim.views[0].depth.at<float>(chest), 0.92, 0.03);
+  EXPECT_NEAR(dim.views[0].color.at<cv::Vec3b>(chest)[1], 60, 6);
+  // f b / z = 175 * 0.12 / 0.92 = 22.8 px
+  EXPECT_NEAR(dim.views[1].depth.at<float>(130, 115 - 23), 0.92, 0.03);
+  const Frame no_chair = frame(dark, "{offset_mm: [-120, -250], chair: false}");
+  const cv::Mat fewer = no_chair.views[0].depth > 1.3, more = dim.views[0].depth > 1.3;
+  EXPECT_GT(cv::countNonZero(fewer), cv::countNonZero(more));
+}
+
+TEST(Person, IsRefusedBehindTheWallOrWithHalfAColour) {
+  EXPECT_THAT(message_of(std::string(kMotion) +
+                         "background: {kind: procedural, distance_mm: 800, person: {}}\n"),
+              AllOf(HasSubstr("scene.yaml"), HasSubstr("person.distance_mm is 900"),
+                    HasSubstr("the wall, 800")));
+  EXPECT_THAT(message_of(std::string(kMotion) + "background: {person: {skin: [1, 2]}}\n"),
+              HasSubstr("person.skin has 2 numbers, expected three"));
 }
 
 }  // namespace

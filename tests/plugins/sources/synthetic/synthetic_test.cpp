@@ -369,5 +369,34 @@ TEST(Synthetic, ExplainsWhatIsWrongWithCamerasBackgroundAndSensor) {
               AllOf(HasSubstr("scene.yaml"), HasSubstr("colour")));
 }
 
+TEST(Synthetic, BlursWhatMovesDuringTheExposureOnly) {
+  const std::string scene = std::string(kCameras) + kPlain + kMotion;
+  const auto frames = [&](const std::string& sensor) {
+    return load(scene + "sensor: {noise_sigma: 0" + sensor + "}\n").frames();
+  };
+  const std::vector<Frame> sharp = frames(""), blurred = frames(", exposure_s: 0.03");
+  for (std::size_t v = 0; v < 2; ++v) {
+    const View &a = sharp[5].views[v], &b = blurred[5].views[v];
+    EXPECT_TRUE(same(a.mask, b.mask));
+    cv::Mat difference;
+    cv::absdiff(a.color, b.color, difference);
+    EXPECT_GT(cv::mean(difference, a.mask)[1], 1);
+    EXPECT_EQ(b.color.at<cv::Vec3b>(1, 1), cv::Vec3b(30, 20, 10));
+    EXPECT_NEAR(cv::mean(a.color)[1], cv::mean(b.color)[1], 0.3) << "as bright";
+  }
+  EXPECT_EQ(sharp[5].truth->state, blurred[5].truth->state);
+  const std::string still = std::string(kCameras) + kPlain +
+                            "keyframes: [{time: 0, pose: {hand: {position_mm: [0, 0, 400]}, box: "
+                            "{position_mm: [100, 0, 500]}}}]\nsensor: {noise_sigma: 0";
+  EXPECT_TRUE(same(load(still + "}\n").frames()[0].views[0].color,
+                   load(still + ", exposure_s: 0.03}\n").frames()[0].views[0].color));
+}
+
+TEST(Synthetic, RefusesAnExposureLongerThanAFrame) {
+  EXPECT_THAT(message_of(std::string(kMotion) + "sensor: {exposure_s: 0.04}\n"),
+              AllOf(HasSubstr("scene.yaml:"), HasSubstr("sensor.exposure_s is 0.04 s"),
+                    HasSubstr("0.0333333 s")));
+}
+
 }  // namespace
 }  // namespace hypotrack::test
