@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,21 @@ TEST_F(SkinOnDevice, SeesTheForegroundAsTheCpu) {
     std::vector<ForegroundEstimator> estimators(3, ForegroundEstimator(settings));
     expect_equals_cpu(device, estimators, box_in_views(0));
   }
+}
+
+TEST_F(SkinOnDevice, SeesBeforeAKnownBackgroundAsTheCpu) {
+  Settings settings;
+  settings.foreground = Foreground::color;
+  settings.still_cameras = true;
+  DeviceForeground device(settings);
+  std::vector<ForegroundEstimator> estimators(3, ForegroundEstimator(settings));
+  Observation observation = box_in_views(0);
+  for (const std::size_t i : {std::size_t{0}, std::size_t{2}}) {
+    cv::cvtColor(observation.views[i].color, observation.views[i].background, cv::COLOR_BGR2BGRA);
+    observation.views[i].background(cv::Rect(30, 30, 40, 40)).setTo(cv::Scalar(90, 90, 90, 255));
+    observation.views[i].background(cv::Rect(50, 20, 20, 40)).setTo(cv::Scalar(0, 0, 0, 0));
+  }
+  expect_equals_cpu(device, estimators, observation);
 }
 
 TEST_F(SkinOnDevice, LearnsColoursOnTheFramesThatTheCpuLearnsOn) {

@@ -72,6 +72,7 @@ class HYPOTRACK_API ResidualTerm {
 struct ImageUse {
   bool mask = true;
   bool depth = true;
+  bool background = false;  ///< TileView::background, which the tracker learns
 };
 
 /// A term of the cost: how badly a hypothesis explains a frame. A scene adds weighted terms.

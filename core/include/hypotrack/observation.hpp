@@ -29,6 +29,8 @@ struct TileView {
   cv::Mat mask;   ///< 8-bit foreground; empty if the view has none
   cv::Mat depth;  ///< 32-bit float z along the tile camera's axis, metres; 0 = not measured; never
                   ///< interpolated; empty if the view has none
+  cv::Mat background;  ///< 8-bit BGRA: colour without the models, and alpha 255 where it is known;
+                       ///< empty while nothing is known
 };
 
 /// What a tracker tells objectives of a frame besides its images and cameras.

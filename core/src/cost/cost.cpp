@@ -9,17 +9,6 @@
 namespace hypotrack {
 namespace {
 
-/// Returns the images that any of the terms reads.
-ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
-  ImageUse all{.mask = false, .depth = false};
-  for (const ObjectiveTerm& term : terms) {
-    const ImageUse use = term.objective->image_use();
-    all.mask = all.mask || use.mask;
-    all.depth = all.depth || use.depth;
-  }
-  return all;
-}
-
 /// Returns the frame without the images that no term reads.
 Frame looked_at(const Frame& frame, const ImageUse& use) {
   Frame out{frame.index, frame.time, frame.views, {}, {}};
@@ -31,6 +20,17 @@ Frame looked_at(const Frame& frame, const ImageUse& use) {
 }
 
 }  // namespace
+
+ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
+  ImageUse all{.mask = false, .depth = false};
+  for (const ObjectiveTerm& term : terms) {
+    const ImageUse use = term.objective->image_use();
+    all.mask = all.mask || use.mask;
+    all.depth = all.depth || use.depth;
+    all.background = all.background || use.background;
+  }
+  return all;
+}
 
 Cost::Cost(const Scene& scene, std::vector<ObjectiveTerm> terms)
     : scene_(scene), terms_(std::move(terms)) {}

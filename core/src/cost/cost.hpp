@@ -54,6 +54,9 @@ class StateResiduals : public ResidualCost {
   virtual std::vector<ResidualRows> pose_only() const = 0;
 };
 
+/// Returns the images that any of the terms reads.
+ImageUse joined_use(const std::vector<ObjectiveTerm>& terms);
+
 /// Turns batches of states into costs: normalises, poses, skins, draws depth tiles of every view,
 /// and scores. Each backend is one implementation (make_cost()). It uses several threads; the
 /// result does not depend on their number.

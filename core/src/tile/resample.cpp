@@ -78,9 +78,17 @@ cv::Mat with_colors(const cv::Mat& color, const ColorMap& map) {
   return out;
 }
 
-cv::Mat look_up(const cv::Mat& image, const cv::Mat& x, const cv::Mat& y, int size, int samples) {
+/// Samples the part of an image that a plan touches at lookups().
+cv::Mat look_up(cv::Mat part, const std::pair<cv::Mat, cv::Mat>& at, int size,
+                const ReductionPlan& reduction) {
+  const auto [blocks, samples] = reduction;
   cv::Mat out;
-  cv::remap(image, out, x, y, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  if (blocks > 1) {
+    cv::Mat means;
+    cv::resize(part, means, part.size() / blocks, 0, 0, cv::INTER_AREA);
+    part = means;
+  }
+  cv::remap(part, out, at.first, at.second, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   if (samples > 1) cv::resize(out, out, cv::Size(size, size), 0, 0, cv::INTER_AREA);
   return out;
 }
@@ -125,24 +133,30 @@ TileView Resampler::resample(const View& view, const TileCamera& tile,
   out.valid = inside_mask(map, size, image_);
   if (!view.depth.empty()) out.depth = nearest_depth(view.depth, out.valid, map, tile, lens_);
   if (view.color.empty() && view.mask.empty()) return out;
-  const auto [x, y] = lookups(map, size, plan);
-  const auto take = [&, &x = x, &y = y](cv::Mat part) {
-    const int blocks = plan.reduction.blocks;
-    if (blocks > 1) {
-      cv::Mat means;
-      cv::resize(part, means, part.size() / blocks, 0, 0, cv::INTER_AREA);
-      part = means;
-    }
-    return look_up(part, x, y, size, plan.reduction.samples);
-  };
+  const auto at = lookups(map, size, plan);
   if (!view.color.empty()) {
-    const cv::Mat color = with_colors(take(view.color(plan.touched)), plan.colors);
+    const cv::Mat color =
+        with_colors(look_up(view.color(plan.touched), at, size, plan.reduction), plan.colors);
     out.color = brightened(color, plan.brightness);
   }
   if (!view.mask.empty()) {
-    out.mask = take(view.mask(plan.touched) != 0) >= 128;
+    out.mask = look_up(view.mask(plan.touched) != 0, at, size, plan.reduction) >= 128;
     out.mask &= out.valid;
   }
+  return out;
+}
+
+cv::Mat Resampler::resample_background(const cv::Mat& background, const TileCamera& tile,
+                                       const ResamplePlan& plan) const {
+  const ImageMap map = this->map(tile);
+  const cv::Mat samples =
+      look_up(background(plan.touched), lookups(map, tile.width, plan), tile.width, plan.reduction);
+  cv::Mat color, known, out;
+  cv::cvtColor(samples, color, cv::COLOR_BGRA2BGR);
+  cv::extractChannel(samples, known, 3);
+  known = known == 255;
+  known &= inside_mask(map, tile.width, image_);
+  cv::merge(std::array{with_colors(color, plan.colors), known}, out);
   return out;
 }
 

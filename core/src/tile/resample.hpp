@@ -34,6 +34,11 @@ class Resampler {
   /// Depth comes from the nearest pixel, along the tile's optical axis, and is 0 outside.
   TileView resample(const View& view, const TileCamera& tile, const ResamplePlan& plan) const;
 
+  /// Resamples a background (8-bit BGRA, the camera's size) as `resample` does colours. Alpha is
+  /// 255 where all of a tile pixel's neighbours are known, otherwise 0.
+  cv::Mat resample_background(const cv::Mat& background, const TileCamera& tile,
+                              const ResamplePlan& plan) const;
+
  private:
   LensMap lens_;
   cv::Size image_;

@@ -163,7 +163,9 @@ Observation TileMaker::resample(const Frame& frame, const TilePlan& plan) const 
   Observation observation = plan.header;
   tbb::parallel_for(std::size_t{0}, plan.views.size(), [&](std::size_t i) {
     const TileCamera& tile = plan.header.views[i].camera;
-    observation.views[i] = impl_->resamplers[i].resample(frame.views[i], tile, plan.views[i]);
+    TileView view = impl_->resamplers[i].resample(frame.views[i], tile, plan.views[i]);
+    view.background = plan.header.views[i].background;
+    observation.views[i] = std::move(view);
   });
   return observation;
 }

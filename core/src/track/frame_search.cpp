@@ -32,6 +32,9 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       tiles_(scene, parts.cameras, parts.tile),
       photometric_(scene, of_pictures(parts.photometric, parts.objective)),
       space_(scene, parts.search),
+      background_(joined_use(parts.objective).background
+                      ? std::make_optional<StillBackground>(scene, parts.cameras)
+                      : std::nullopt),
       cost_(make_cost(scene, parts.objective, parts.evaluate, requirements_of(parts))),
       optimizer_(std::move(parts.optimizer)) {}
 
@@ -62,11 +65,13 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
   plan_.header.context.start_is_guess = is_guess;
+  if (background_) background_->add_to(plan_, tiles_.resamplers());
   cost_->prepare(tiles_, frame, plan_);
 }
 
 void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   photometric_.apply(plan);
+  if (background_) background_->add_to(plan, tiles.resamplers());
   cost_->prepare(tiles, frame, std::move(plan));
 }
 
@@ -145,6 +150,8 @@ Found FrameSearch::from_guess(const Frame& frame, const Eigen::VectorXd& start,
 
 void FrameSearch::learn(const Frame& frame, const Eigen::VectorXd& state) {
   photometric_.learn(tiles_, frame, plan_, drawn(state));
+  const bool all = std::ranges::find(shown_, false) == shown_.end();
+  if (background_ && all) background_->learn(frame, state);  // a lost model may be anywhere
 }
 
 Observation FrameSearch::seen(const Frame& frame) const {

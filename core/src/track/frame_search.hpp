@@ -11,6 +11,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
+#include "track/color/still_background.hpp"
 #include "track/search_space.hpp"
 #include "track/tracker_parts.hpp"
 
@@ -89,6 +90,7 @@ class FrameSearch {
   TileMaker tiles_;
   PhotometricMatch photometric_;
   SearchSpace space_;
+  std::optional<StillBackground> background_;  ///< if any term reads it
   std::unique_ptr<Cost> cost_;
   std::unique_ptr<Optimizer> optimizer_;
   TilePlan plan_;  ///< of the last frame

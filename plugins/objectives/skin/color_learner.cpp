@@ -56,6 +56,7 @@ void ColorLearner::learn(const Observation& observation, const TileCamera& camer
   const cv::Mat1b models = silhouette(*observation.scene, observation.start, camera);
   if (!shows(models, valid)) {
     if (learned_ == 0) probabilities_.assign(kBins, 0.5f);
+    if (learned_ == 0 && settings_.still_cameras) frequencies_.assign(kBins, {});
     return;
   }
   const double scale = scale_at(observation, camera);
@@ -63,6 +64,7 @@ void ColorLearner::learn(const Observation& observation, const TileCamera& camer
                                          std::max(kBeside * scale, 1.0));
   colors_.add(color, places.prior, places.weight);
   probabilities_ = colors_.probabilities();
+  if (settings_.still_cameras) frequencies_ = colors_.color_frequencies();
   ++learned_;
   from_guess_ = observation.context.start_is_guess;
   if (!from_guess_) return;

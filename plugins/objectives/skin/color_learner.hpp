@@ -32,11 +32,14 @@ class ColorLearner {
 
   /// Returns P of every bin (bin_of()); empty before the first frame.
   const std::vector<float>& probabilities() const { return probabilities_; }
+  /// Returns the frequencies of every bin's colour, if the cameras are still; otherwise empty.
+  const std::vector<ColorFrequency>& frequencies() const { return frequencies_; }
 
  private:
   Settings settings_;
   ColorModel colors_;
   std::vector<float> probabilities_;
+  std::vector<ColorFrequency> frequencies_;
   std::optional<int> last_seen_;
   int learned_ = 0;
   bool from_guess_ = false;

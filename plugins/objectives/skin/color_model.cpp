@@ -89,4 +89,12 @@ std::vector<float> ColorModel::probabilities() const {
   return {ratio.begin(), ratio.end()};
 }
 
+std::vector<ColorFrequency> ColorModel::color_frequencies() const {
+  const std::vector<double> f = frequencies(foreground_), b = frequencies(background_);
+  std::vector<ColorFrequency> out(kBins);
+  for (std::size_t i = 0; i < kBins; ++i)
+    out[i] = {static_cast<float>(f[i]), static_cast<float>(b[i])};
+  return out;
+}
+
 }  // namespace hypotrack::skin

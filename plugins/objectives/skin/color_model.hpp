@@ -21,6 +21,8 @@ class ColorModel {
 
   /// Returns P of every bin.
   std::vector<float> probabilities() const;
+  /// Returns the frequencies of every bin's colour.
+  std::vector<ColorFrequency> color_frequencies() const;
 
  private:
   using Counts = std::vector<double>;

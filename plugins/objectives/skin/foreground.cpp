@@ -24,6 +24,15 @@ ViewForeground fill(const TileView& view, Probability probability) {
   return out;
 }
 
+float squared_distance(const cv::Vec3b& a, const cv::Vec4b& b) {
+  float sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const auto apart = static_cast<float>(a[i] - b[i]);
+    sum += apart * apart;
+  }
+  return sum;
+}
+
 }  // namespace
 
 ViewForeground ForegroundEstimator::estimate(const Observation& observation, std::size_t index) {
@@ -45,7 +54,11 @@ ViewForeground ForegroundEstimator::estimate(const Observation& observation, std
       }
       return fill(view, [&](int x, int y) {
         const auto& p = view.color.at<cv::Vec3b>(y, x);
-        return colors_.probabilities()[static_cast<std::size_t>(bin_of(p[0], p[1], p[2]))];
+        const auto bin = static_cast<std::size_t>(bin_of(p[0], p[1], p[2]));
+        if (view.background.empty()) return colors_.probabilities()[bin];
+        const auto& b = view.background.at<cv::Vec4b>(y, x);
+        if (b[3] == 0) return colors_.probabilities()[bin];
+        return foreground_before(colors_.frequencies()[bin], squared_distance(p, b));
       });
     case Rule::none:
       break;

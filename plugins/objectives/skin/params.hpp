@@ -38,6 +38,9 @@ struct Params : Settings {
                "costs 1",
        .min = 0,
        .max = 1e3});
+    v("still_cameras", still_cameras,
+      {.help = "foreground: color: the cameras do not move; what each pixel shows without the "
+               "models is learned, and a pixel that shows it is background"});
     v("range_mm", range,
       {.help = "foreground: depth: how far before and behind the last solution it reaches",
        .min = 0,

@@ -12,6 +12,7 @@ struct Settings {
   double guess_trust = 0.4;
   double spill = 1;
   double range = 100e-3;  ///< m
+  bool still_cameras = false;
 };
 
 }  // namespace hypotrack::skin

@@ -21,7 +21,8 @@ Skin::Skin(const Params& params) : params_(params) {}
 ImageUse Skin::image_use() const {
   const Foreground by = params_.foreground;
   return {.mask = by == Foreground::automatic || by == Foreground::mask,
-          .depth = by == Foreground::depth};
+          .depth = by == Foreground::depth,
+          .background = params_.still_cameras};
 }
 
 void Skin::prepare(const Observation& observation) {

@@ -48,10 +48,29 @@ struct DeviceForeground::View {
         cudaMemcpyAsync(probabilities.data(), colors.probabilities().data(), kBins * sizeof(float),
                         cudaMemcpyHostToDevice, cuda::native(stream)),
         "uploading the colours of the foreground");
+    if (colors.frequencies().empty()) return;
+    frequencies.reserve(kBins);
+    cuda::check(cudaMemcpyAsync(frequencies.data(), colors.frequencies().data(),
+                                kBins * sizeof(ColorFrequency), cudaMemcpyHostToDevice,
+                                cuda::native(stream)),
+                "uploading the colours of the foreground");
+  }
+
+  /// Uploads what the pixels show without the models; returns null where nothing is known.
+  const std::uint32_t* upload(const cv::Mat& known, cuda::Stream stream) {
+    if (known.empty()) return nullptr;
+    background.reserve(known.total());
+    cuda::check(
+        cudaMemcpyAsync(background.data(), known.data, known.total() * sizeof(std::uint32_t),
+                        cudaMemcpyHostToDevice, cuda::native(stream)),
+        "uploading the background");
+    return background.data();
   }
 
   ColorLearner colors;
   cuda::DeviceBuffer<float> probabilities;
+  cuda::DeviceBuffer<ColorFrequency> frequencies;
+  cuda::DeviceBuffer<std::uint32_t> background;
   cuda::DeviceBuffer<std::uint32_t> pixels;
 };
 
@@ -80,8 +99,14 @@ void DeviceForeground::enqueue(const cuda::DeviceObservation& observation, cuda:
     pixels_[i] = view.pixels.data();
     DepthRange range;
     if (rule == Rule::depth) range = depth_range(header, camera, settings_.range);
-    job.views[static_cast<std::size_t>(job.view_count++)] = {
-        tile, rule, range, view.probabilities.data(), view.pixels.data()};
+    const std::uint32_t* background = view.upload(header.views[i].background, stream);
+    job.views[static_cast<std::size_t>(job.view_count++)] = {tile,
+                                                             rule,
+                                                             range,
+                                                             view.probabilities.data(),
+                                                             view.frequencies.data(),
+                                                             background,
+                                                             view.pixels.data()};
   }
   enqueue_foreground(job, stream);
 }

@@ -11,6 +11,11 @@ namespace {
 
 constexpr int kThreads = 256;
 
+/// Returns blue, green or red of a pixel.
+__device__ int channel(std::uint32_t pixel, int i) {
+  return static_cast<int>(pixel >> (8 * i) & 0xFF);
+}
+
 __device__ float probability(const ViewJob& view, int i, std::uint32_t pixel) {
   switch (view.rule) {
     case Rule::mask:
@@ -19,10 +24,18 @@ __device__ float probability(const ViewJob& view, int i, std::uint32_t pixel) {
       const float z = view.tile.depth[i];
       return z > 0 && z >= view.range.nearest && z <= view.range.farthest ? 1.0f : 0.0f;
     }
-    default:
-      return view
-          .probabilities[bin_of(static_cast<int>(pixel & 0xFF), static_cast<int>(pixel >> 8 & 0xFF),
-                                static_cast<int>(pixel >> 16 & 0xFF))];
+    default: {
+      const int bin = bin_of(channel(pixel, 0), channel(pixel, 1), channel(pixel, 2));
+      if (!view.background) return view.probabilities[bin];
+      const std::uint32_t background = view.background[i];
+      if (background >> 24 == 0) return view.probabilities[bin];
+      float square = 0;
+      for (int c = 0; c < 3; ++c) {
+        const auto apart = static_cast<float>(channel(pixel, c) - channel(background, c));
+        square += apart * apart;
+      }
+      return foreground_before(view.frequencies[bin], square);
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "color_bins.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "rule.hpp"
 
@@ -12,9 +13,11 @@ namespace hypotrack::skin {
 struct ViewJob {
   cuda::TileLayout tile;
   Rule rule;
-  DepthRange range;            ///< Rule::depth
-  const float* probabilities;  ///< Rule::color: per bin
-  std::uint32_t* pixels;       ///< ViewForeground::pixels, row by row without gaps
+  DepthRange range;                   ///< Rule::depth
+  const float* probabilities;         ///< Rule::color: per bin
+  const ColorFrequency* frequencies;  ///< per bin; null without `background`
+  const std::uint32_t* background;    ///< TileView::background; null without
+  std::uint32_t* pixels;              ///< ViewForeground::pixels, row by row without gaps
 };
 
 struct ForegroundJob {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "colored_box.hpp"
 #include "foreground.hpp"
@@ -151,6 +152,32 @@ TEST(SkinColors, DoNotComeFromInvalidPixels) {
   observation.views[0].valid.setTo(255);
   const ViewForeground all = estimator.estimate(observation, 0);
   EXPECT_LT(all.pixels.row(48)[40] & 0xFFFF, 700u) << "green, inside the box";
+}
+
+TEST(SkinColors, OfTheBackgroundAreTakenForItWhereThatIsKnown) {
+  Observation observation = colored_box();
+  TileView& view = observation.views[0];
+  cv::RNG random(3);
+  const cv::Rect ground(0, 0, view.color.cols, box_outline().y);  // of the box's colours
+  cv::Mat3f noise(ground.size());
+  random.fill(noise, cv::RNG::NORMAL, 0, 12);
+  cv::Mat(noise + cv::Scalar(80, 100, 170)).convertTo(view.color(ground), CV_8U);
+  const auto mean_at_ground = [&](ForegroundEstimator estimator) {
+    const ViewForeground seen = estimator.estimate(observation, 0);
+    double sum = 0;
+    for (int y = 0; y < ground.height; ++y)
+      for (int x = 0; x < ground.width; ++x) sum += (seen.pixels.row(y)[x] & 0xFFFF) / 65535.0;
+    return sum / ground.area();
+  };
+  const Settings still{.still_cameras = true};
+  const double unknown = mean_at_ground(ForegroundEstimator(still));
+  EXPECT_GT(unknown, 0.3);
+  cv::cvtColor(view.color, view.background, cv::COLOR_BGR2BGRA);  // alpha 255
+  EXPECT_LT(mean_at_ground(ForegroundEstimator(still)), 0.1);
+  view.background.setTo(cv::Scalar(0, 0, 0, 0));
+  EXPECT_EQ(mean_at_ground(ForegroundEstimator(still)), unknown);
+  view.background.setTo(cv::Scalar(20, 20, 20, 255));
+  EXPECT_GT(mean_at_ground(ForegroundEstimator(still)), 0.9) << "something stands before it";
 }
 
 TEST(SkinColors, SilhouetteOfABoxIsItsOutline) {
