@@ -31,6 +31,16 @@ std::pair<Index, Index> columns_of(const Scene& scene, int model) {
 
 }  // namespace
 
+bool place_models(const Scene& scene, const ShapeTargets& targets, const Matrix3Xd& landmarks) {
+  return std::ranges::all_of(targets.models(), [&](int model) {
+    const auto [first, count] = columns_of(scene, model);
+    int known = 0;
+    for (const auto& landmark : landmarks.middleCols(first, count).colwise())
+      known += landmark.allFinite() ? 1 : 0;
+    return known >= 3;
+  });
+}
+
 LandmarkProblem::LandmarkProblem(const Scene& scene, const ShapeTargets& targets,
                                  std::vector<Matrix3Xd> landmarks)
     : scene_(scene), targets_(targets), space_(scene, kTangent) {

@@ -8,6 +8,10 @@
 
 namespace hypotrack {
 
+/// Returns whether enough landmarks of a scene are known to say where the wanted models are.
+bool place_models(const Scene& scene, const ShapeTargets& targets,
+                  const Eigen::Matrix3Xd& landmarks);
+
 /// The sum of squared distances of labelled landmarks over several frames, in units of
 /// `kLabelDeviation`. With a prior of weight 1 its minimum is the most probable shape for labels
 /// with that standard deviation.

@@ -204,15 +204,16 @@ ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& 
     if (!frame) break;
     if (!frame->truth) continue;
     const GroundTruth& truth = *frame->truth;
-    if (truth.landmarks.size() > 0)
-      labelled.push_back(truth.landmarks);
-    else if (truth.state.size() > 0)
-      labelled.push_back(scene.landmarks(truth.state));
+    Eigen::Matrix3Xd landmarks = truth.landmarks;
+    if (landmarks.size() == 0 && truth.state.size() > 0) landmarks = scene.landmarks(truth.state);
+    if (landmarks.size() > 0 && place_models(scene, targets, landmarks))
+      labelled.push_back(std::move(landmarks));
   }
   estimate.tracked_frames = static_cast<int>(labelled.size());
   if (labelled.size() < 2) {
-    throw DataError(fmt::format("shape: {} frames of the source have a truth, expected at least 2",
-                                labelled.size()));
+    throw DataError(
+        fmt::format("shape: {} frames of the source have known landmarks, expected at least 2",
+                    labelled.size()));
   }
   const std::size_t count = std::min(labelled.size(), static_cast<std::size_t>(settings.frames));
   std::vector<Eigen::Matrix3Xd> used;

@@ -63,6 +63,14 @@ TEST_F(FitShapeTest, WarnsOfWhatEndsAtABoundAndOfNothingElse) {
   EXPECT_THAT(read_text(path("out")), HasSubstr("\n# " + warning));
 }
 
+TEST_F(FitShapeTest, LeavesOutFramesWhoseLandmarksAreUnknown) {
+  const Outcome outcome =
+      fit(kHand, {"--from", "truth", "--set", "source.faults=[{frames: [0, 1], kind: absent}]",
+                  "--set", "shape.parameters=[scale]"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("6 of 6 labelled frames, mean distance "));
+}
+
 TEST_F(FitShapeTest, TracksAndFitsInRoundsAndSaysWhatItFinds) {
   const Outcome outcome =
       fit(kHand, {"--frames", "4", "--set", "shape={rounds: 1, frames: 4, iterations: 2}"});
