@@ -132,7 +132,7 @@ class Recoveries {
     std::vector<bool> moving(shown.size(), false);
     moving[model] = true;
     for (const PoseGuess& guess : task.guesses) {
-      const Candidates found = recovery_.find(task, guess, limits_, seed++);
+      const Candidates found = recovery_.find(task, guess, {}, limits_, seed++);
       search_->show(shown, moving);
       for (const Eigen::VectorXd& state : found.states) {
         if (search_->tiles().visible_share(state) == 0) continue;
