@@ -128,11 +128,11 @@ Motion make_motion(const Scene& scene, const std::vector<Keys>& all) {
 
 }  // namespace
 
-Eigen::VectorXd Script::state(double time) const {
+const Motion& Script::motion_at(double time) const {
   const Motion* now = &motion;
   for (const Jump& jump : jumps)
     if (jump.from <= time) now = &jump.motion;
-  return now->state(time);
+  return *now;
 }
 
 Script read_script(const ConfigNode& keyframes, const Gestures& gestures, const Scene& scene,

@@ -21,7 +21,9 @@ struct Script {
   std::vector<Jump> jumps{};                    ///< ascending
   std::vector<std::pair<int, int>> absences{};  ///< first and last frames without any model
 
-  Eigen::VectorXd state(double time) const;
+  /// Returns the motion that is in force at a time.
+  const Motion& motion_at(double time) const;
+  Eigen::VectorXd state(double time) const { return motion_at(time).state(time); }
 };
 
 /// Reads `keyframes:` and the gestures they name.

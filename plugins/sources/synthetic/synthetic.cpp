@@ -174,6 +174,8 @@ class Synthetic final : public Source {
     constexpr double kStep = 1.5;  // pixels from one picture to the next
     constexpr int kMost = 8;       // pictures before `time`, and as many after it
     std::vector<Eigen::VectorXd> states;
+    const Motion& motion = script_.motion_at(time);
+    const auto state_at = [&](double t) { return stage_.state(motion.state(t)); };
     const Eigen::VectorXd first = state_at(time - 0.5 * exposure_);
     const Eigen::VectorXd last = state_at(time + 0.5 * exposure_);
     const double moved = std::max(pixels_between(first, state), pixels_between(state, last));
@@ -182,8 +184,6 @@ class Synthetic final : public Source {
       if (i != 0) states.push_back(state_at(time + i * exposure_ / (2 * steps + 1)));
     return states;
   }
-
-  Eigen::VectorXd state_at(double time) const { return stage_.state(script_.state(time)); }
 
   /// Returns how far a landmark moves at most in the first camera's picture.
   double pixels_between(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -171,6 +172,23 @@ TEST(RandomMotion, ExplainsWhatIsWrongWithIt) {
   EXPECT_THAT(message("hold: {box: foot}"), HasSubstr("'foot' is no model of this scene"));
   EXPECT_THAT(message("hold: {box: hand, hand: box}"), HasSubstr("must not be held itself"));
   EXPECT_THAT(message("sped: 1"), HasSubstr("sped"));
+}
+
+TEST(RandomMotion, IsNotBlurredOverAnAbsence) {
+  const std::string rest = std::string(kCameras) + kPlain + kGestures +
+                           "random: {seed: 3, frames: 6, absence: {after: 3, frames: [1, 1]}}\n";
+  const std::vector<Frame> sharp = load(rest + "sensor: {noise_sigma: 0}\n").frames();
+  const std::vector<Frame> blurred =
+      load(rest + "sensor: {noise_sigma: 0, exposure_s: 0.03}\n").frames();
+  ASSERT_EQ(sharp.size(), 7U);
+  for (const std::size_t f : {2U, 4U}) {  // the last before it and the first after it
+    const View& view = sharp[f].views[0];
+    cv::Mat near, difference;
+    cv::dilate(view.mask, near, cv::Mat(), {-1, -1}, 20);
+    cv::absdiff(view.color, blurred[f].views[0].color, difference);
+    EXPECT_EQ(cv::mean(difference, near == 0), cv::Scalar::all(0)) << f;
+    EXPECT_GT(cv::mean(difference, near)[1], 0) << f;
+  }
 }
 
 }  // namespace
