@@ -42,7 +42,8 @@ struct StartContext {
   const Scene& scene;
   const std::vector<Camera>& cameras;  ///< in the order of a frame's views
   const Frame* frame = nullptr;    ///< the frame to search, with views; null before there is one
-  GlobalSearch* search = nullptr;  ///< for find() only
+  GlobalSearch* search = nullptr;  ///< for find(); null: not in this frame
+  bool sure_only = false;  ///< find() proposes only what is surely this model, of several alike
 };
 
 /// Says where a search begins. Some starts know a state of the scene before they see pictures.
@@ -56,6 +57,10 @@ class HYPOTRACK_API Start {
 
   /// Returns whether this start looks for models in pictures: find() is called then, state() never.
   virtual bool looks() const { return false; }
+
+  /// Returns whether find() sees a model (its index) in nearly all pictures that show it. If it
+  /// then proposes no pose, others are doubted.
+  virtual bool recognizes(std::size_t model) const;
 
   /// Returns a state of the scene with unit quaternions and angles within their bounds. Returns
   /// nothing if it needs a frame and there is none yet; with a frame it returns a state or throws.

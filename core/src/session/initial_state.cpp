@@ -60,6 +60,7 @@ std::optional<Eigen::VectorXd> Start::state(const StartContext& /*context*/) {
   return std::nullopt;
 }
 
+bool Start::recognizes(std::size_t /*model*/) const { return false; }
 void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
 }
 

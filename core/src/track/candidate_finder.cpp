@@ -251,8 +251,13 @@ bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
   return true;
 }
 
+bool CandidateFinder::recognizes(std::size_t model) const {
+  return std::ranges::any_of(starts_, [&](const auto& start) { return start->recognizes(model); });
+}
+
 void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request, Candidate& best,
                               std::uint64_t seed) {
+  contradicted_ = false;
   Candidate base = best;
   for (std::size_t m = 0; m < request.sought.size(); ++m)
     if (request.sought[m]) {

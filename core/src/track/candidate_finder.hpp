@@ -52,9 +52,11 @@ struct RecoveryRequest {
   std::vector<double> needed = {};   ///< probability, by model, that an answer needs to count as
                                      ///< right
   ModelFlags sought;                 ///< models to find, or to find alternative poses for
-  bool lost = false;                 ///< false: only alternative poses are wanted
-  bool near_only = false;            ///< searches only around the answer
-  bool contradicts = false;          ///< only asks starts whether they see tracked models elsewhere
+  ModelFlags thorough = {};  ///< search the pictures even for those that a start would see and
+                             ///< does not
+  bool lost = false;         ///< false: only alternative poses are wanted
+  bool near_only = false;    ///< searches only around the answer
+  bool contradicts = false;  ///< only asks starts whether they see tracked models elsewhere
 };
 
 /// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the
@@ -87,6 +89,13 @@ class CandidateFinder {
   /// Records the final candidate of a frame. Learns from those tracked models that are surely right
   /// (StatusSettings::surely_above).
   void accept(const Frame& frame, const Candidate& best, const ModelFlags& tracked);
+
+  /// Returns whether any start recognises a model.
+  bool recognizes(std::size_t model) const;
+  /// Returns whether the starts of the last recovery saw a sought model, all of them elsewhere.
+  bool contradicted() const { return contradicted_; }
+  /// Forgets how a model looks: its poses were wrong.
+  void forget(std::size_t model) { verifier_.forget(model); }
 
   FrameSearch& search() { return search_; }
   const FrameSearch& search() const { return search_; }
@@ -135,6 +144,7 @@ class CandidateFinder {
   std::vector<double> believed_;  ///< probability of each model in the last candidate accepted
   double believed_time_ = 0;      ///< time of that candidate
   int learned_ = 0;               ///< frames learned from
+  bool contradicted_ = false;
 };
 
 }  // namespace hypotrack

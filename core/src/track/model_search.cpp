@@ -46,6 +46,14 @@ void check_proposal(const Scene::Item& item, const Eigen::VectorXd& parameters) 
                     item.name, parameters.size(), size));
 }
 
+/// Returns settings whose zeros are replaced by those of recoveries.
+GlobalSearchSettings with_defaults(GlobalSearchSettings settings, const RecoverySettings& usual) {
+  if (settings.hypotheses == 0) settings.hypotheses = usual.hypotheses;
+  if (settings.refined == 0) settings.refined = usual.refined;
+  if (settings.searched == 0) settings.searched = usual.searched;
+  return settings;
+}
+
 }  // namespace
 
 CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& frame,
@@ -121,34 +129,70 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
   }
 }
 
-void CandidateFinder::ModelSearch::ask_starts() {
-  LentSearch lent([&](const GlobalSearchSettings& effort, const TakePose& offer) {
+bool CandidateFinder::ModelSearch::contradicts(const Eigen::VectorXd& state) const {
+  const auto landmarks = [&](const Eigen::VectorXd& of) {
+    return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
+  };
+  return (landmarks(state) - landmarks(best_.found.state)).colwise().norm().mean() > kElsewhere;
+}
+
+CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start,
+                                                                          bool denied) {
+  LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
+    if (denied) effort = with_defaults(effort, finder_.settings_.recovery);
     search_places(effort, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
     });
   });
-  const StartContext context{finder_.scene_, finder_.cameras_, &frame_,
-                             request_.contradicts ? nullptr : &lent};
+  const bool searches = !request_.contradicts && (!denied || request_.thorough[model_]);
+  const StartContext context{finder_.scene_, finder_.cameras_, &frame_, searches ? &lent : nullptr,
+                             request_.contradicts};
+  Proposals out;
+  start.find(context, model_, [&](const Eigen::VectorXd& parameters) {
+    check_proposal(item_, parameters);
+    Eigen::VectorXd state = task_.last.state;
+    state.segment(item_.offset, parameters.size()) = parameters;
+    const bool is_new = !request_.contradicts || contradicts(state);
+    if (is_new) add(state);
+    (is_new ? out.taken : out.known).push_back(std::move(state));
+    return !enough();
+  });
+  return out;
+}
+
+void CandidateFinder::ModelSearch::search_only_near(const std::vector<Eigen::VectorXd>& states) {
+  constexpr std::size_t kMost = 2;
+  constexpr double kNearShare = 0.5, kTurn = 0.5, kScatter = 0.015;  // radians, metres
+  task_.guesses.clear();
+  for (std::size_t i = 0; i < std::min(kMost, states.size()); ++i)
+    task_.guesses.push_back(
+        {.center =
+             posed_landmarks(*item_.model, finder_.scene_.part(item_, states[i])).rowwise().mean(),
+         .pose = states[i].segment(item_.offset, item_.model->dimension()),
+         .near_share = kNearShare,
+         .rotation = kTurn,
+         .scatter = kScatter,
+         .centred = true});
+}
+
+void CandidateFinder::ModelSearch::ask_starts() {
   const auto is_good = [&](const Candidate& one) {
     return one.probability() >= finder_.settings_.surely_above;
   };
-  const auto contradicts = [&](const Eigen::VectorXd& state) {
-    const auto landmarks = [&](const Eigen::VectorXd& of) {
-      return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
-    };
-    return (landmarks(state) - landmarks(best_.found.state)).colwise().norm().mean() > kElsewhere;
-  };
+  bool denied = false;  // by a start that recognises the model
   for (const std::unique_ptr<Start>& start : finder_.starts_) {
     const bool is_first = start == finder_.starts_.front();
-    if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) return;
-    start->find(context, model_, [&](const Eigen::VectorXd& parameters) {
-      check_proposal(item_, parameters);
-      Eigen::VectorXd state = task_.last.state;
-      state.segment(item_.offset, parameters.size()) = parameters;
-      if (!request_.contradicts || contradicts(state)) add(state);
-      return !enough();
-    });
+    if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) break;
+    const Proposals proposed = ask(*start, denied);
+    if (!start->recognizes(model_)) continue;
+    denied = denied || (proposed.taken.empty() && proposed.known.empty());
+    if (!proposed.taken.empty()) search_only_near(proposed.taken);
+    if (request_.contradicts && !proposed.taken.empty() && proposed.known.empty())
+      finder_.contradicted_ = true;
   }
+  // Nothing was learned yet that would tell a hand from what is no hand.
+  if (denied && !std::isfinite(request_.seconds[model_]))
+    std::erase_if(found_, [&](const Candidate& one) { return !is_good(one); });
 }
 
 void CandidateFinder::ModelSearch::run() {

@@ -33,7 +33,18 @@ class CandidateFinder::ModelSearch {
   /// Searches the places of the guesses. Calls `take` with states of the scene.
   template <class Take>
   void search_places(const GlobalSearchSettings& effort, const Take& take);
+  /// States of the scene that a start proposes.
+  struct Proposals {
+    std::vector<Eigen::VectorXd> taken;
+    std::vector<Eigen::VectorXd> known;  ///< where a tracked model already is
+  };
+  /// Asks one start. `denied`: another one does not see the model, though it would.
+  Proposals ask(Start& start, bool denied);
   void ask_starts();
+  /// Lets the global search look at the first of these places only.
+  void search_only_near(const std::vector<Eigen::VectorXd>& states);
+  /// Returns whether the model is elsewhere in `state` than in the best candidate.
+  bool contradicts(const Eigen::VectorXd& state) const;
 
   CandidateFinder& finder_;
   const Frame& frame_;

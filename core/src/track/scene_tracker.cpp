@@ -57,6 +57,12 @@ Status worst(const std::vector<Status>& models) {
   return out;
 }
 
+/// Returns whether pictures are searched for a model that a start would see and does not: in the
+/// first frame and the 4th, 16th, 64th, ...
+bool is_time_to_search(unsigned frames) {
+  return std::has_single_bit(frames + 1) && std::countr_zero(frames + 1) % 2 == 0;
+}
+
 /// Subtracts the evaluations of fixed-lag smoothing from a search's budget. Throws ConfigError if
 /// less than half would be left.
 void reserve_for(const FixedLagSettings& settings, Budget& budget) {
@@ -186,13 +192,13 @@ Candidate SceneTracker::follow(const Frame& frame) {
 }
 
 RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candidate& best) {
-  RecoveryRequest out{
-      .kept = kept_, .together = together_, .sought = ModelFlags(models_.size(), false)};
+  const ModelFlags none(models_.size(), false);
+  RecoveryRequest out{.kept = kept_, .together = together_, .sought = none, .thorough = none};
   ModelFlags confirmed = out.sought, doubtful = out.sought;
   constexpr double kDoubt = 0.8;  // probability
   bool doubts = false;
   for (std::size_t m = 0; m < models_.size(); ++m) {
-    const ModelTrack& model = models_[m];
+    ModelTrack& model = models_[m];
     const double p = best.probabilities[m];
     out.seconds.push_back(looks_for(m) ? kInfinite : std::max(frame.time - model.kept_time, 1e-3));
     out.needed.push_back(model.monitor.needed());
@@ -203,6 +209,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
     if (looks_for(m) && out.sought[m] && p >= settings_.uncertain_above)
       out.sought[m] = std::has_single_bit(++looked_);
     out.lost = out.lost || out.sought[m];
+    if (out.sought[m]) out.thorough[m] = is_time_to_search(model.sought++);
     confirmed[m] = model.confirmations > 0;
     doubtful[m] = p < kDoubt;
     doubts = doubts || doubtful[m];
@@ -210,9 +217,9 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
   if (out.lost) return out;
   if (settings_.recovery.check > 0 && frame.time - checked_ >= settings_.recovery.check) {
     checked_ = frame.time;
-    out.contradicts = true;
-    out.sought[checks_++ % models_.size()] = true;
-    return out;
+    const std::size_t model = checks_++ % models_.size();
+    out.contradicts = out.sought[model] = finder_.recognizes(model);
+    if (out.contradicts) return out;
   }
   // Search alternatives around an acceptable but doubtful pose, ever less often while there are
   // none.
@@ -238,6 +245,7 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   }
   const std::uint64_t seed = frame_seed(seed_, frame.index);
   finder_.recover(frame, request, best, seed_of_part(seed, 7));
+  if (request.contradicts) doubt_contradicted(request.sought, best);
   // From here on it is as if this pose had been given as the start.
   if (begins_by_looking_ && !finder_.verifier().experienced() &&
       std::ranges::find(best.shown, false) == best.shown.end() &&
@@ -245,6 +253,21 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
     finder_.begin_again(frame, best.found.state, settings_.recovery.first_starts,
                         seed_of_part(seed, 8), best);
   return true;
+}
+
+void SceneTracker::doubt_contradicted(const ModelFlags& checked, Candidate& best) {
+  constexpr int kMost = 2;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (!checked[m]) continue;
+    int& contradictions = models_[m].contradictions;
+    contradictions = finder_.contradicted() ? contradictions + 1 : 0;
+    if (contradictions < kMost || !begins_by_looking_) continue;
+    contradictions = 0;
+    finder_.forget(m);
+    best.shown[m] = false;
+    best.probabilities[m] = 0;
+    if (!any(best.shown)) best.found.cost = kInfinite;
+  }
 }
 
 void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
@@ -385,6 +408,7 @@ void SceneTracker::keep(const Frame& frame, const Candidate& best, const ModelFl
     const Eigen::Index size = item.model->dimension();
     model.confirmations = tracked[m] ? std::max(0, model.confirmations - 1) : kConfirmations;
     if (tracked[m]) {
+      model.sought = 0;
       kept_.segment(item.offset, size) = best.found.state.segment(item.offset, size);
       model.kept_time = frame.time;
       const auto& velocity = predictor_.velocity();

@@ -61,8 +61,10 @@ class SceneTracker {
     StatusMonitor monitor;
     Eigen::Index first_landmark, landmarks;  ///< range among the scene's landmarks
     Status status = Status::missing;
-    double kept_time = 0;   ///< time at which it was surely right last
-    int confirmations = 0;  ///< frames left in which alternative poses are searched
+    double kept_time = 0;    ///< time at which it was surely right last
+    int confirmations = 0;   ///< frames left in which alternative poses are searched
+    unsigned sought = 0;     ///< frames in which it was looked for since it was tracked
+    int contradictions = 0;  ///< checks in a row in which starts saw it elsewhere only
     /// Motion at kept_time, per second, a difference of tangent.hpp; empty: unknown.
     Eigen::VectorXd velocity = {};
 
@@ -81,6 +83,9 @@ class SceneTracker {
   /// if the settings say so and no model can be followed. Returns false then: the frame has no
   /// result.
   bool complete(const Frame& frame, Candidate& best);
+  /// Loses models of which the starts saw nothing where they are, but saw them elsewhere, in
+  /// several checks.
+  void doubt_contradicted(const ModelFlags& checked, Candidate& best);
   RecoveryRequest recovery_request(const Frame& frame, const Candidate& best);
   void conclude(const Frame& frame, const Candidate& best, Solution& solution);
   void judge_models(const Frame& frame, const Candidate& best, Solution& solution);

@@ -44,6 +44,8 @@ class HandLandmarks final : public Start {
 
   bool looks() const override { return true; }
 
+  bool recognizes(std::size_t model) const override { return models_.at(model).has_value(); }
+
   void find(const StartContext& context, std::size_t model, const TakePose& take) override {
     const Scene::Item& item = context.scene.items().at(model);
     const std::optional<HandModel>& hand = models_.at(model);
@@ -55,13 +57,13 @@ class HandLandmarks final : public Start {
     std::ranges::stable_sort(pairs, {}, other_side);
     for (const HandPair& pair : pairs) {
       const double likely = hand->right ? pair.right : 1 - pair.right;
-      if (likely < kLeastLikely) return;
+      if (likely < (context.sure_only ? kSurely : kLeastLikely)) return;
       if (!take(fitted(*item.model, *hand, pair))) return;
     }
   }
 
  private:
-  static constexpr double kLeastLikely = 0.1;
+  static constexpr double kLeastLikely = 0.1, kSurely = 0.7;  // probabilities of the model's side
 
   /// Detects the hands of a frame, once.
   void look_at(const Frame& frame, const std::vector<Camera>& cameras) {

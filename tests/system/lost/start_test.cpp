@@ -66,6 +66,7 @@ class AlwaysThere final : public Start {
  public:
   explicit AlwaysThere(Eigen::VectorXd pose) : pose_(std::move(pose)) {}
   bool looks() const override { return true; }
+  bool recognizes(std::size_t /*model*/) const override { return true; }
   void find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& take) override {
     take(pose_);
   }
@@ -102,6 +103,86 @@ double last_error_of_a_believer(double check_s) {
     error = (solution.landmarks - truth).colwise().norm().mean();
   }
   return error;
+}
+
+/// Recognises a model, which it sees in the frames from `since` on.
+class Recognizer final : public Start {
+ public:
+  Recognizer(Eigen::VectorXd pose, int since) : pose_(std::move(pose)), since_(since) {}
+  bool looks() const override { return true; }
+  bool recognizes(std::size_t /*model*/) const override { return true; }
+  void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
+    if (context.frame->index >= since_) take(pose_);
+  }
+
+ private:
+  Eigen::VectorXd pose_;
+  int since_;
+};
+
+/// Counts how often it may search the pictures, and proposes a wrong pose each time.
+class WrongSearch final : public Start {
+ public:
+  WrongSearch(Eigen::VectorXd pose, int& searches) : pose_(std::move(pose)), searches_(searches) {}
+  bool looks() const override { return true; }
+  void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
+    if (!context.search) return;
+    ++searches_;
+    take(pose_);
+  }
+
+ private:
+  Eigen::VectorXd pose_;
+  int& searches_;
+};
+
+struct Doubted {
+  std::vector<Status> statuses;
+  int searches = 0;
+  double error = 0;  ///< of the last frame, metres
+};
+
+/// Tracks a hand that a start recognises from frame `since` on. Another start is wrong by 150 mm.
+Doubted track_doubted(int frames, int since, std::vector<std::string> overrides) {
+  PluginLoader plugins;
+  overrides.insert(overrides.end(),
+                   {"evaluate.backend=cpu", "init={from: global_search}",
+                    "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"});
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  std::optional<SceneTracker> tracker;
+  Doubted out;
+  for (int i = 0; i < frames; ++i) {
+    const Frame frame = session.source->next().value();
+    if (!tracker) {
+      Eigen::VectorXd beside = frame.truth->state;
+      beside.x() -= 0.15;
+      session.parts.starts.clear();
+      session.parts.starts.push_back(std::make_unique<Recognizer>(frame.truth->state, since));
+      session.parts.starts.push_back(std::make_unique<WrongSearch>(beside, out.searches));
+      tracker.emplace(*session.scene, std::move(session.parts), initial_state(session, frame),
+                      session.seed);
+    }
+    const Solution solution = tracker->track(frame);
+    out.statuses.push_back(solution.status);
+    out.error =
+        (solution.landmarks - session.scene->landmarks(frame.truth->state)).colwise().norm().mean();
+  }
+  return out;
+}
+
+TEST(LookedFor, WhatAStartWouldRecogniseAndDoesNotSeeIsSearchedEverMoreSeldom) {
+  const Doubted found = track_doubted(15, 100, {"tracker.confirmed_above=0"});
+  EXPECT_EQ(found.searches, 2) << "in the first frame and the fourth";
+  for (const Status status : found.statuses) EXPECT_EQ(status, Status::lost);
+}
+
+TEST(LookedFor, WhatAStartSeesElsewhereOnlyIsFoundThere) {
+  std::vector<std::string> believe{"tracker.recovery.check_s=0.1"};
+  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
+    believe.push_back("tracker." + std::string(key) + "_above=0");
+  const Doubted found = track_doubted(14, 2, believe);
+  EXPECT_LT(found.error, 0.02);
 }
 
 TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {

@@ -20,7 +20,7 @@ struct RecoverySettings {
   bool enabled = true;
   RecoveryRun run = RecoveryRun::frame;
   ConfigNode from;
-  double check = 0;
+  double check = 1;
   int first_starts = 8;
   int places = 6;
   int hypotheses = 2000;
@@ -39,7 +39,9 @@ struct RecoverySettings {
       {.help = "starts that look for lost models, as in init.from; without it those of init.from, "
                "or global_search if these give a state"});
     v("check_s", check,
-      {.help = "time after which the starts look whether a tracked model is elsewhere; 0: never",
+      {.help =
+           "time after which starts that recognise a tracked model look whether it is elsewhere; "
+           "0: never",
        .min = 0,
        .max = 1e6,
        .unit = "s"});

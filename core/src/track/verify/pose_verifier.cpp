@@ -55,6 +55,14 @@ double ModelVerifier::log_odds(const Evidence& evidence) const {
   return sum;
 }
 
+void ModelVerifier::forget() {
+  colors_ = {};
+  appearance_ = {};
+  usual_likeness_ = 0;
+  tracked_ = false;
+  usual_.reset();
+}
+
 void ModelVerifier::learn(const Evidence& evidence) {
   if (!evidence.known) return;
   const bool knew_colors = colors_.known();

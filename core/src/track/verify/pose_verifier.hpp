@@ -42,6 +42,8 @@ class ModelVerifier {
   /// Learns colours and usual evidence from the last measure_evidence(), in which the model was
   /// surely right.
   void learn(const Evidence& evidence);
+  /// Forgets what was learned.
+  void forget();
   bool experienced() const { return usual_.has_value(); }
   const ForegroundColors& colors() const { return colors_; }
   /// Returns the mean evidence of frames in which the model was surely right; 0 before learn().
@@ -79,6 +81,9 @@ class PoseVerifier {
 
   /// Learns from the last frame verified. `right` flags the models whose pose was surely right.
   void learn(const std::vector<bool>& right);
+
+  /// Forgets what was learned of a model.
+  void forget(std::size_t model) { models_.at(model).forget(); }
 
   /// Returns whether the last call of verify() was for this state.
   bool verified(const Eigen::VectorXd& state) const {
