@@ -72,6 +72,10 @@ class HYPOTRACK_API Start {
   /// quaternions and angles within their bounds. Proposes none if it sees none. The tracker refines
   /// them and chooses. Equal calls propose equal poses. Throws ConfigError or DataError.
   virtual void find(const StartContext& context, std::size_t model, const TakePose& take);
+
+  /// Returns how large a model (its index) looks in a frame, as a factor on its size. Returns
+  /// nothing if this start does not see it well.
+  virtual std::optional<double> size(const StartContext& context, std::size_t model);
 };
 
 }  // namespace hypotrack

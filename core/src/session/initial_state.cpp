@@ -61,6 +61,9 @@ std::optional<Eigen::VectorXd> Start::state(const StartContext& /*context*/) {
 }
 
 bool Start::recognizes(std::size_t /*model*/) const { return false; }
+std::optional<double> Start::size(const StartContext& /*context*/, std::size_t /*model*/) {
+  return std::nullopt;
+}
 void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
 }
 

@@ -1,15 +1,29 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
 
+/// What shapes are estimated from.
+enum class ShapeFrom {
+  images,  ///< all shape parameters, by tracking and fitting in turn
+  starts   ///< the scale, as starts that look for the models see it
+};
+inline std::span<const std::string_view> enum_names(ShapeFrom) {
+  static constexpr std::array<std::string_view, 2> kNames = {"images", "starts"};
+  return kNames;
+}
+
 /// `shape:` of a scene: how shapes are estimated.
 struct ShapeEstimateSettings {
   double seconds = 0;
+  ShapeFrom from = ShapeFrom::images;
   std::vector<std::string> models;
   std::vector<std::string> parameters;
   int frames = 16;
@@ -24,6 +38,9 @@ struct ShapeEstimateSettings {
        .min = 0,
        .max = 60,
        .unit = "s"});
+    v("from", from,
+      {.help = "images: fits all parameters while tracking; starts: takes the scale from what "
+               "init.from sees, such as hand_landmarks"});
     v("models", models, {.help = "models of one shape; default: all that have shape parameters"});
     v("parameters", parameters, {.help = "what to look for; default: all shape parameters"});
     v("frames", frames, {.help = "frames that are fitted together", .min = 2, .max = 1000});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shape/replay_source.hpp"
+#include "shape/size_by_starts.hpp"
 
 namespace hypotrack {
 namespace {
@@ -57,11 +58,15 @@ EstimatedScene open_estimated(const std::filesystem::path& scene_file,
     all.insert(all.end(), found.begin(), found.end());
     return open_scene(scene_file, all, plugins, std::move(source), first.source_resolved);
   };
-  opened.estimate = estimate_shape(
-      [&](const std::vector<std::string>& found) {
-        return open(found, std::make_unique<ReplaySource>(*first.source, frames));
-      },
-      first.shape, 0, false, progress);
+  if (first.shape.from == ShapeFrom::starts)
+    opened.estimate = size_by_starts(
+        open({}, std::make_unique<ReplaySource>(*first.source, frames)), first.shape);
+  else
+    opened.estimate = estimate_shape(
+        [&](const std::vector<std::string>& found) {
+          return open(found, std::make_unique<ReplaySource>(*first.source, frames));
+        },
+        first.shape, 0, false, progress);
   opened.scene = open(opened.estimate.overrides,
                       std::make_unique<ReplaySource>(std::move(first.source), std::move(frames)));
   return opened;

@@ -35,15 +35,9 @@ std::vector<std::string> overrides_of(const ShapeTargets& targets,
 }
 
 void take(const JointFit& fit, const ShapeTargets& targets, ShapeEstimate& estimate) {
-  estimate.shape = targets.with(fit.best.shape);
-  estimate.wanted = targets.wanted();
-  for (std::size_t i = 0; i < estimate.wanted.size(); ++i)
-    estimate.wanted[i].value = fit.best.shape[static_cast<Eigen::Index>(i)];
+  take_shape(targets, fit.best.shape, estimate);
   estimate.first_cost = fit.first_cost;
   estimate.cost = fit.cost;
-  estimate.deviation =
-      VectorXd::Constant(fit.best.shape.size(), std::numeric_limits<double>::quiet_NaN());
-  estimate.overrides = overrides_of(targets, estimate.shape);
 }
 
 /// One round of tracking and fitting.
@@ -191,6 +185,15 @@ ShapeEstimate estimate_shape(const OpenShaped& open, const ShapeEstimateSettings
     if (!progress.stop()) progress.end_round(round, estimate);
   }
   return estimate;
+}
+
+void take_shape(const ShapeTargets& targets, const VectorXd& values, ShapeEstimate& estimate) {
+  estimate.shape = targets.with(values);
+  estimate.wanted = targets.wanted();
+  for (std::size_t i = 0; i < estimate.wanted.size(); ++i)
+    estimate.wanted[i].value = values[static_cast<Eigen::Index>(i)];
+  estimate.deviation = VectorXd::Constant(values.size(), std::numeric_limits<double>::quiet_NaN());
+  estimate.overrides = overrides_of(targets, estimate.shape);
 }
 
 ShapeEstimate shape_of_labels(OpenedScene session, const ShapeEstimateSettings& settings,

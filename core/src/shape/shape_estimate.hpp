@@ -29,6 +29,10 @@ struct ShapeEstimate {
   std::vector<std::string> overrides;  ///< scene overrides that give the models this shape
 };
 
+/// Writes values of the wanted parameters into an estimate, of unknown deviation.
+void take_shape(const ShapeTargets& targets, const Eigen::VectorXd& values,
+                ShapeEstimate& estimate);
+
 /// Callbacks that report the progress of an estimate, and may stop it.
 struct ShapeProgress {
   std::function<void(int round)> begin_round = [](int) {};

@@ -6,6 +6,7 @@
 #include "hand_detector.hpp"
 #include "hand_model.hpp"
 #include "hand_pairs.hpp"
+#include "hand_size.hpp"
 #include "hypotrack/landmark_fit.hpp"
 #include "hypotrack/plugin.hpp"
 #include "other_view.hpp"
@@ -60,6 +61,18 @@ class HandLandmarks final : public Start {
       if (likely < (context.sure_only ? kSurely : kLeastLikely)) return;
       if (!take(fitted(*item.model, *hand, pair))) return;
     }
+  }
+
+  std::optional<double> size(const StartContext& context, std::size_t model) override {
+    const std::optional<HandModel>& hand = models_.at(model);
+    if (!hand || !context.frame || context.cameras.size() < 2) return std::nullopt;
+    look_at(*context.frame, context.cameras);
+    const auto is_surely_this = [&](const HandPair& pair) {
+      return (hand->right ? pair.right : 1 - pair.right) >= kSurely;
+    };
+    const auto pair = std::ranges::find_if(pairs_, is_surely_this);
+    if (pair == pairs_.end()) return std::nullopt;
+    return relative_size(*context.scene.items().at(model).model, *hand, *pair);
   }
 
  private:

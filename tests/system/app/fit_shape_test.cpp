@@ -148,5 +148,16 @@ TEST_F(FitShapeTest, RefusesAnObjectiveThatLooksAtNoPictures) {
                  {"shape: in most of the 8 tracked frames"});
 }
 
+TEST_F(FitShapeTest, FromStartsNeedsOneThatRecognisesAndTheScale) {
+  const Outcome no_start = run(kHand, {"--set", "shape={estimate_s: 0.1, from: starts}"});
+  EXPECT_NE(no_start.exit_code, 0);
+  EXPECT_THAT(no_start.err, HasSubstr("no start recognises the models"));
+  const Outcome no_scale =
+      run(kHand, {"--set", "init={from: global_search}", "--set",
+                  "shape={estimate_s: 0.1, from: starts, parameters: [index]}"});
+  EXPECT_NE(no_scale.exit_code, 0);
+  EXPECT_THAT(no_scale.err, HasSubstr("starts tell the scale alone"));
+}
+
 }  // namespace
 }  // namespace hypotrack::test

@@ -46,6 +46,29 @@ TEST(HandLandmarks, ProposeAPoseNearARenderedHand) {
   EXPECT_LT(mean_error(found, pictures.frame.truth->landmarks), 0.025);
 }
 
+TEST(HandLandmarks, TellHowLargeARenderedHandIs) {
+  HYPOTRACK_NEEDS_HAND_DETECTOR();
+  const test::HandPictures pictures = test::rendered_hand();
+  for (const double scale : {0.8, 1.0, 1.2}) {
+    Search search("{type: hand, scale: " + std::to_string(1 / scale) + "}");
+    const auto size = search.start->size({search.scene, pictures.cameras, &pictures.frame}, 0);
+    ASSERT_TRUE(size);
+    EXPECT_NEAR(*size / scale, 1, 0.06);
+  }
+}
+
+TEST(HandLandmarks, TellNoSizeOfWhatTheyDoNotSee) {
+  HYPOTRACK_NEEDS_HAND_DETECTOR();
+  test::HandPictures pictures = test::rendered_hand();
+  const auto size_of = [&](const std::string& model) {
+    Search search(model);
+    return search.start->size({search.scene, pictures.cameras, &pictures.frame}, 0);
+  };
+  EXPECT_FALSE(size_of("{type: mirrored_hand, of: {type: hand}}")) << "it is a right hand";
+  for (View& view : pictures.frame.views) view.color = cv::Scalar(90, 100, 110);
+  EXPECT_FALSE(size_of("type: hand"));
+}
+
 TEST(HandLandmarks, ProposeNoPoseOfAnObjectNorInAnEmptyPicture) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   test::HandPictures pictures = test::rendered_hand();

@@ -1,0 +1,77 @@
+#include "shape/size_by_starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+std::vector<Frame> spread_frames(Source& source, std::size_t most) {
+  std::vector<Frame> all, out;
+  while (auto frame = source.next())
+    if (!frame->views.empty()) all.push_back(*std::move(frame));
+  const std::size_t count = std::min(most, all.size());
+  for (std::size_t i = 0; i < count; ++i) out.push_back(std::move(all[i * all.size() / count]));
+  return out;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// Returns the most probable value: that of a normal prior and of a normal measurement.
+double most_probable(const ShapeParameter& scale, double measured) {
+  constexpr double kDeviation = 0.03;  // of sizes that starts see, as a share
+  const double prior = 1 / (scale.deviation * scale.deviation);
+  const double seen = 1 / (kDeviation * kDeviation);
+  return std::clamp((prior * scale.neutral + seen * measured) / (prior + seen), scale.lower,
+                    scale.upper);
+}
+
+}  // namespace
+
+ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& settings) {
+  constexpr std::size_t kLeast = 3;
+  const Scene& scene = *session.scene;
+  const ShapeTargets targets(scene, settings.models, settings.parameters);
+  const auto& wanted = targets.wanted();
+  const auto scale = std::ranges::find(wanted, "scale", &ShapeParameter::name);
+  if (scale == wanted.end())
+    throw ConfigError("shape.from: starts tell the scale alone, which shape.parameters lacks");
+  const auto knows = [&](const auto& start) {
+    return std::ranges::any_of(targets.models(), [&](int model) {
+      return start->recognizes(static_cast<std::size_t>(model));
+    });
+  };
+  if (std::ranges::none_of(session.parts.starts, knows))
+    throw ConfigError(
+        "shape.from: no start recognises the models; expected `init: {from: auto}` with the hand "
+        "detector (scripts/get_hand_detector.sh), or `shape.from: images`");
+  const std::vector<Camera> cameras = session.source->cameras();
+  std::vector<double> factors;
+  ShapeEstimate out;
+  for (const Frame& frame :
+       spread_frames(*session.source, 2 * static_cast<std::size_t>(settings.frames))) {
+    const StartContext context{scene, cameras, &frame};
+    bool seen = false;
+    for (const int model : targets.models())
+      for (const auto& start : session.parts.starts)
+        if (const auto factor = start->size(context, static_cast<std::size_t>(model))) {
+          factors.push_back(*factor);
+          seen = true;
+        }
+    out.used_frames += seen ? 1 : 0;
+  }
+  Eigen::VectorXd values = targets.values();
+  if (factors.size() >= kLeast)
+    values[scale - wanted.begin()] = most_probable(*scale, scale->value * median(factors));
+  take_shape(targets, values, out);
+  return out;
+}
+
+}  // namespace hypotrack
