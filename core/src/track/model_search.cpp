@@ -179,6 +179,7 @@ void CandidateFinder::ModelSearch::ask_starts() {
   const auto is_good = [&](const Candidate& one) {
     return one.probability() >= finder_.settings_.surely_above;
   };
+  const bool never_seen = !std::isfinite(request_.seconds[model_]);
   bool denied = false;  // by a start that recognises the model
   for (const std::unique_ptr<Start>& start : finder_.starts_) {
     const bool is_first = start == finder_.starts_.front();
@@ -186,12 +187,12 @@ void CandidateFinder::ModelSearch::ask_starts() {
     const Proposals proposed = ask(*start, denied);
     if (!start->recognizes(model_)) continue;
     denied = denied || (proposed.taken.empty() && proposed.known.empty());
-    if (!proposed.taken.empty()) search_only_near(proposed.taken);
+    if (never_seen && !proposed.taken.empty()) search_only_near(proposed.taken);
     if (request_.contradicts && !proposed.taken.empty() && proposed.known.empty())
       finder_.contradicted_ = true;
   }
   // Nothing was learned yet that would tell a hand from what is no hand.
-  if (denied && !std::isfinite(request_.seconds[model_]))
+  if (denied && never_seen)
     std::erase_if(found_, [&](const Candidate& one) { return !is_good(one); });
 }
 
