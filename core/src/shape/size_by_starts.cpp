@@ -36,7 +36,7 @@ double most_probable(const ShapeParameter& scale, double measured) {
 }  // namespace
 
 ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& settings) {
-  constexpr std::size_t kLeast = 3;
+  constexpr int kLeast = 3;  // frames
   const Scene& scene = *session.scene;
   const ShapeTargets targets(scene, settings.models, settings.parameters);
   const auto& wanted = targets.wanted();
@@ -68,7 +68,9 @@ ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& s
     out.used_frames += seen ? 1 : 0;
   }
   Eigen::VectorXd values = targets.values();
-  if (factors.size() >= kLeast)
+  if (out.used_frames < kLeast)
+    out.used_frames = 0;
+  else
     values[scale - wanted.begin()] = most_probable(*scale, scale->value * median(factors));
   take_shape(targets, values, out);
   return out;
