@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/error.hpp"
@@ -18,14 +19,18 @@ struct Found {
   double error;  ///< mean over the landmarks, metres
 };
 
-/// Tracks frames of real_time.yaml in small pictures, with global_search as its start.
-std::vector<Found> track_unstarted(int frames, std::vector<std::string> overrides) {
-  PluginLoader plugins;
+/// Opens real_time.yaml with small pictures, and global_search as its start.
+OpenedScene open_unstarted(PluginLoader& plugins, std::vector<std::string> overrides) {
   overrides.insert(overrides.end(),
                    {"evaluate.backend=cpu", "init={from: global_search}",
                     "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"});
-  OpenedScene session =
-      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  return open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+}
+
+/// Tracks frames of open_unstarted().
+std::vector<Found> track_unstarted(int frames, std::vector<std::string> overrides) {
+  PluginLoader plugins;
+  OpenedScene session = open_unstarted(plugins, std::move(overrides));
   std::optional<SceneTracker> tracker;
   std::vector<Found> out;
   for (int i = 0; i < frames; ++i) {
@@ -145,11 +150,7 @@ struct Doubted {
 /// Tracks a hand that a start recognises from frame `since` on. Another start is wrong by 150 mm.
 Doubted track_doubted(int frames, int since, std::vector<std::string> overrides) {
   PluginLoader plugins;
-  overrides.insert(overrides.end(),
-                   {"evaluate.backend=cpu", "init={from: global_search}",
-                    "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"});
-  OpenedScene session =
-      open_scene(test::source_dir() / "configs/scenes/real_time.yaml", overrides, plugins);
+  OpenedScene session = open_unstarted(plugins, std::move(overrides));
   std::optional<SceneTracker> tracker;
   Doubted out;
   for (int i = 0; i < frames; ++i) {
