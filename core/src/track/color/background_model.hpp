@@ -4,9 +4,9 @@
 
 namespace hypotrack {
 
-/// Learns what each pixel of a still camera shows without the models: a mean colour, known where
-/// the last pictures agreed with it (Wren et al., "Pfinder: real-time tracking of the human body",
-/// PAMI 1997). Of a moving camera it knows nothing.
+/// Learns what each pixel of a still camera shows without the models. A mean colour is known where
+/// the last pictures agreed with it, so nothing is known of a moving camera. Source: Wren et al.,
+/// "Pfinder: real-time tracking of the human body", PAMI 1997.
 class BackgroundModel {
  public:
   /// Learns the pixels of a picture that are not in `models` (empty: all).
