@@ -6,7 +6,7 @@
 
 namespace hypotrack {
 
-/// Landmarks of a hand in a picture, in pixels; pixel centres are at integers.
+/// Joints and fingertips of a hand in a picture, in pixels; pixel centres are at integers.
 using HandPoints = Eigen::Matrix<double, 2, 21>;
 
 /// Landmarks of a hand in space, metres.

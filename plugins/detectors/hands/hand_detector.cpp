@@ -10,6 +10,7 @@
 #include "duplicates.hpp"
 #include "hand_landmarker.hpp"
 #include "hypotrack/error.hpp"
+#include "joints.hpp"
 #include "palm_detector.hpp"
 #include "picture_check.hpp"
 #include "tiles.hpp"
@@ -46,6 +47,11 @@ HandDetector::Options checked(HandDetector::Options options) {
   }
   if (options.folder.empty()) options.folder = HandDetector::default_folder();
   return options;
+}
+
+void move_to_joints(HandDetection& hand) {
+  hand.landmarks = hands::joints_of(hand.landmarks);
+  hand.relative = hands::joints_of(hand.relative);
 }
 
 }  // namespace
@@ -117,14 +123,18 @@ HandDetector::HandDetector(HandDetector&&) noexcept = default;
 HandDetector& HandDetector::operator=(HandDetector&&) noexcept = default;
 
 std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture) {
-  return impl_->detect(hands::checked_color(picture));
+  std::vector<HandDetection> found = impl_->detect(hands::checked_color(picture));
+  std::ranges::for_each(found, move_to_joints);
+  return found;
 }
 
 std::optional<HandDetection> HandDetector::refine(const cv::Mat& picture, const HandPoints& guess) {
   const cv::Mat color = hands::checked_color(picture);
   if (!guess.allFinite()) return std::nullopt;
-  HandDetection hand = impl_->landmarker.find(color, hands::region_of(guess), kRounds);
+  HandDetection hand =
+      impl_->landmarker.find(color, hands::region_of(hands::landmarks_at(guess)), kRounds);
   if (!(hand.presence > impl_->options.presence)) return std::nullopt;
+  move_to_joints(hand);
   return hand;
 }
 

@@ -47,7 +47,7 @@ double both_right(double a, double b) {
 
 /// Returns whether triangulated landmarks have the size of a hand, a child's to a large man's.
 bool has_size_of_hand(const HandPoints3D& landmarks) {
-  constexpr double kShortest = 0.045, kLongest = 0.15;  // wrist to middle knuckle, metres
+  constexpr double kShortest = 0.05, kLongest = 0.165;  // wrist to middle knuckle, metres
   const double palm = (landmarks.col(9) - landmarks.col(0)).norm();
   return palm > kShortest && palm < kLongest;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/kinematics.hpp"
@@ -9,17 +10,10 @@
 namespace hypotrack::hands {
 namespace {
 
-/// Two landmarks of the palm, by the detector's order.
-struct Distance {
-  Eigen::Index from, to;
-  double seen;  ///< the detector's distance as a share of the joints', in rendered hands
-};
-// The detector's wrist is nearer to the fingers than the joint is.
-constexpr std::array<Distance, 5> kDistances = {{{0, 5, 0.924},     // wrist, index_mcp
-                                                 {0, 9, 0.939},     // wrist, middle_mcp
-                                                 {0, 13, 0.934},    // wrist, ring_mcp
-                                                 {0, 17, 0.890},    // wrist, little_mcp
-                                                 {5, 17, 0.957}}};  // index_mcp, little_mcp
+/// Distances in the palm, between landmarks by the detector's order: the wrist to each knuckle, and
+/// the index to the little knuckle.
+constexpr std::array<std::pair<Eigen::Index, Eigen::Index>, 5> kDistances = {
+    {{0, 5}, {0, 9}, {0, 13}, {0, 17}, {5, 17}}};
 
 }  // namespace
 
@@ -31,11 +25,11 @@ std::optional<double> relative_size(const Model& model, const HandModel& hand,
   const HandPoints3D own = hand.in_detector_order(posed_landmarks(model, rest));
   Eigen::Array<double, 5, 1> logs;
   for (std::size_t i = 0; i < kDistances.size(); ++i) {
-    const auto [from, to, seen] = kDistances[i];
+    const auto [from, to] = kDistances[i];
     const auto distance = [&, from = from, to = to](const HandPoints3D& points) {
       return (points.col(from) - points.col(to)).norm();
     };
-    logs[static_cast<Eigen::Index>(i)] = std::log(distance(pair.landmarks) / distance(own) / seen);
+    logs[static_cast<Eigen::Index>(i)] = std::log(distance(pair.landmarks) / distance(own));
   }
   const double mean = logs.mean();
   if (!std::isfinite(mean) || std::sqrt((logs - mean).square().mean()) > kMostApart)
