@@ -52,7 +52,10 @@ Candidate CandidateFinder::verified(const Frame& frame, Found found) {
   const std::size_t models = scene_.items().size();
   Candidate out{std::move(found),
                 ModelProbabilities(models, std::numeric_limits<double>::quiet_NaN()),
-                search_.shown(), ModelFlags(models, true), ModelFlags(models, false)};
+                search_.shown(),
+                ModelFlags(models, true),
+                ModelFlags(models, false),
+                std::vector<double>(models, std::numeric_limits<double>::infinity())};
   if (settings_.evidence && out.answers())
     out.probabilities = verifier_.verify(frame, search_.drawn(out.found.state),
                                          search_.second_view_colors(), out.shown);
@@ -124,6 +127,7 @@ Candidate CandidateFinder::go_on(const Frame& frame, const Candidate& from, std:
   search_.look(frame, from.found.state, false);
   Candidate out = verified(frame, search_.settled(from.found.state, budget_, seed));
   out.found.evaluations += from.found.evaluations;
+  out.unseen = from.unseen;
   return out;
 }
 
@@ -202,6 +206,8 @@ std::optional<Candidate> CandidateFinder::with_model(const Frame& frame,
       apart.push_back(moved_in_hand(scene_, request.together, one.found.state, search.shown()));
   Candidate chosen = best_of(frame, all, apart);
   chosen.confirmed = base.confirmed;
+  chosen.unseen = base.unseen;
+  chosen.unseen[model] = search.unseen(chosen.found.state);
   for (std::size_t m = 0; m < search.moving().size(); ++m)
     if (search.moving()[m]) chosen.confirmed[m] = is_confirmed(all, chosen, m);
   return chosen;
@@ -242,7 +248,7 @@ ModelFlags CandidateFinder::lost_with(const RecoveryRequest& request, const Cand
 
 bool CandidateFinder::may_join(const Candidate& with, const Candidate& base,
                                const RecoveryRequest& request, std::size_t model) const {
-  if (!(with.probabilities[model] >= settings_.uncertain_above)) return false;
+  if (!with.may_be_right(model, settings_.uncertain_above)) return false;
   for (std::size_t m = 0; m < base.shown.size(); ++m) {
     if (!base.shown[m] || m == model || std::isnan(base.probabilities[m])) continue;
     if (!(with.probabilities[m] >= std::min(request.needed[m], base.probabilities[m])))
@@ -287,11 +293,11 @@ void CandidateFinder::recover(const Frame& frame, const RecoveryRequest& request
     base = std::move(*chosen);
     for (std::size_t m = 0; m < left.size(); ++m)
       if (base.shown[m]) left[m] = false;
-    if (!(base.probabilities[joins] >= settings_.uncertain_above)) break;
+    if (!base.may_be_right(joins, settings_.uncertain_above)) break;
   }
   base.in_view = best.in_view;
   for (std::size_t m = 0; m < base.shown.size(); ++m)
-    if (base.shown[m] && base.probabilities[m] >= request.needed[m]) base.in_view[m] = true;
+    if (base.shown[m] && base.may_be_right(m, request.needed[m])) base.in_view[m] = true;
   base.found.evaluations = best.found.evaluations;
   best = std::move(base);
   if (!best.answers()) return;

@@ -28,6 +28,10 @@ inline bool any(const ModelFlags& flags) {
 /// Least probability of a candidate that is worth searches around it.
 inline constexpr double kLeastPromising = 0.02;
 
+/// Time, in seconds, for which a pose stays recognised while starts do not see the model: a hand is
+/// hard to see from some sides.
+inline constexpr double kRemembered = 0.5;
+
 /// A pose hypothesis for a frame and how well the pictures support it. The cost is infinite if no
 /// pose was found.
 struct Candidate {
@@ -36,11 +40,19 @@ struct Candidate {
   ModelFlags shown = {};    ///< models that this candidate poses; the state's values of the others
                             ///< are meaningless
   ModelFlags in_view = {};  ///< false: a search of the whole pictures did not find the model
-  ModelFlags confirmed = {};  ///< searches from other starts ended in the same pose
+  ModelFlags confirmed = {};        ///< searches from other starts ended in the same pose
+  std::vector<double> unseen = {};  ///< seconds since a start that recognises the model saw it
+                                    ///< about there; infinite: it never did
 
   bool answers() const { return std::isfinite(found.cost); }
   /// Returns the smallest probability of the models shown; NaN if none is known.
   double probability() const;
+  /// Returns whether a start has recognised the model there lately.
+  bool is_recognized(std::size_t model) const { return unseen[model] <= kRemembered; }
+  /// Returns whether a model's pose is worth following: likely enough, or recognised.
+  bool may_be_right(std::size_t model, double probability) const {
+    return probabilities[model] >= probability || is_recognized(model);
+  }
 };
 
 /// Input of a recovery: the last known poses and the models to find.
@@ -49,14 +61,14 @@ struct RecoveryRequest {
   Eigen::VectorXd together;  ///< the last state in which all models were surely right at once;
                              ///< empty: none
   std::vector<double> seconds = {};  ///< time since `kept`, by model; infinite: never seen
+  std::vector<double> unseen = {};   ///< time, by model, since it was recognised
   std::vector<double> needed = {};   ///< probability, by model, that an answer needs to count as
                                      ///< right
   ModelFlags sought;                 ///< models to find, or to find alternative poses for
-  ModelFlags thorough = {};  ///< search the pictures even for those that a start would see and
-                             ///< does not
-  bool lost = false;         ///< false: only alternative poses are wanted
-  bool near_only = false;    ///< searches only around the answer
-  bool contradicts = false;  ///< only asks starts whether they see tracked models elsewhere
+  ModelFlags thorough = {};          ///< search the pictures even for those that a start would see
+  bool lost = false;                 ///< false: only alternative poses are wanted
+  bool near_only = false;            ///< searches only around the answer
+  bool contradicts = false;          ///< only asks starts whether they see tracked models elsewhere
 };
 
 /// Finds the poses of one frame: searches from given starts, recovers lost models, and ranks the

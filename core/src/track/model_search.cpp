@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -19,8 +20,9 @@ constexpr double kSure = 0.95;
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
-// Distance (mean over landmarks, metres) beyond which a start contradicts a tracked pose.
-constexpr double kElsewhere = 0.04;
+// Distance (mean over landmarks, metres) up to which a start sees a model where a pose has it, and
+// beyond which it contradicts a tracked pose.
+constexpr double kHere = 0.025, kElsewhere = 0.04;
 
 /// Lends a tracker's global search to its starts.
 class LentSearch final : public GlobalSearch {
@@ -77,7 +79,8 @@ CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& 
   shown_[model] = moving_[model] = true;
   for (std::size_t m = 0; m < held.size(); ++m)
     if (held[m]) shown_[m] = moving_[m] = true;
-  if (best.answers() && best.shown[model] && shown_ == best.shown) found_.push_back(best);
+  is_followed_ = best.answers() && best.shown[model] && shown_ == best.shown;
+  if (is_followed_) found_.push_back(best);
 }
 
 Eigen::VectorXd CandidateFinder::ModelSearch::with_own_part(Eigen::VectorXd to,
@@ -129,22 +132,35 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
   }
 }
 
-bool CandidateFinder::ModelSearch::contradicts(const Eigen::VectorXd& state) const {
+double CandidateFinder::ModelSearch::distance(const Eigen::VectorXd& a,
+                                              const Eigen::VectorXd& b) const {
   const auto landmarks = [&](const Eigen::VectorXd& of) {
     return posed_landmarks(*item_.model, finder_.scene_.part(item_, of));
   };
-  return (landmarks(state) - landmarks(best_.found.state)).colwise().norm().mean() > kElsewhere;
+  return (landmarks(a) - landmarks(b)).colwise().norm().mean();
 }
 
-CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start,
-                                                                          bool denied) {
+double CandidateFinder::ModelSearch::unseen(const Eigen::VectorXd& state) const {
+  const auto is_here = [&](const Eigen::VectorXd& other) { return distance(other, state) < kHere; };
+  if (std::ranges::any_of(recognized_, is_here)) return 0;
+  if (is_followed_ && is_here(best_.found.state)) return request_.unseen[model_];
+  return std::numeric_limits<double>::infinity();
+}
+
+bool CandidateFinder::ModelSearch::is_known(const Eigen::VectorXd& state) const {
+  if (request_.contradicts) return distance(state, best_.found.state) <= kElsewhere;
+  return is_followed_ && !request_.thorough[model_] && distance(state, best_.found.state) < kHere;
+}
+
+CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start, bool denied,
+                                                                          bool may_search) {
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
     if (denied) effort = with_defaults(effort, finder_.settings_.recovery);
     search_places(effort, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
     });
   });
-  const bool searches = !request_.contradicts && (!denied || request_.thorough[model_]);
+  const bool searches = !request_.contradicts && may_search;
   const StartContext context{finder_.scene_, finder_.cameras_, &frame_, searches ? &lent : nullptr,
                              request_.contradicts};
   Proposals out;
@@ -152,8 +168,9 @@ CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start&
     check_proposal(item_, parameters);
     Eigen::VectorXd state = task_.last.state;
     state.segment(item_.offset, parameters.size()) = parameters;
-    const bool is_new = !request_.contradicts || contradicts(state);
+    const bool is_new = !is_known(state);
     if (is_new) add(state);
+    if (start.recognizes(model_)) recognized_.push_back(state);
     (is_new ? out.taken : out.known).push_back(std::move(state));
     return !enough();
   });
@@ -180,19 +197,22 @@ void CandidateFinder::ModelSearch::ask_starts() {
     return one.probability() >= finder_.settings_.surely_above;
   };
   const bool never_seen = !std::isfinite(request_.seconds[model_]);
-  bool denied = false;  // by a start that recognises the model
+  bool asked = false;   // a start that recognises the model
+  bool denied = false;  // by such a start
   for (const std::unique_ptr<Start>& start : finder_.starts_) {
     const bool is_first = start == finder_.starts_.front();
     if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) break;
-    const Proposals proposed = ask(*start, denied);
+    const Proposals proposed = ask(*start, denied, !asked || request_.thorough[model_]);
     if (!start->recognizes(model_)) continue;
+    asked = true;
     denied = denied || (proposed.taken.empty() && proposed.known.empty());
+    if (!request_.contradicts && !proposed.known.empty()) break;
     if (never_seen && !proposed.taken.empty()) search_only_near(proposed.taken);
     if (request_.contradicts && !proposed.taken.empty() && proposed.known.empty())
       finder_.contradicted_ = true;
   }
   // Nothing was learned yet that would tell a hand from what is no hand.
-  if (denied && never_seen)
+  if (denied && never_seen && !(request_.unseen[model_] <= kRemembered))
     std::erase_if(found_, [&](const Candidate& one) { return !is_good(one); });
 }
 

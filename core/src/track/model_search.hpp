@@ -20,6 +20,9 @@ class CandidateFinder::ModelSearch {
   void run();
 
   const std::vector<Candidate>& found() const { return found_; }
+  /// Returns for how many seconds no start that recognises the model has seen it about where
+  /// `state` has it; infinite: for ever.
+  double unseen(const Eigen::VectorXd& state) const;
   /// Returns the models that the candidates show, and those of them that were searched.
   const ModelFlags& shown() const { return shown_; }
   const ModelFlags& moving() const { return moving_; }
@@ -39,12 +42,14 @@ class CandidateFinder::ModelSearch {
     std::vector<Eigen::VectorXd> known;  ///< where a tracked model already is
   };
   /// Asks one start. `denied`: another one does not see the model, though it would.
-  Proposals ask(Start& start, bool denied);
+  Proposals ask(Start& start, bool denied, bool may_search);
   void ask_starts();
   /// Lets the global search look at the first of these places only.
   void search_only_near(const std::vector<Eigen::VectorXd>& states);
-  /// Returns whether the model is elsewhere in `state` than in the best candidate.
-  bool contradicts(const Eigen::VectorXd& state) const;
+  /// Returns how far apart two states have the model: metres, mean over its landmarks.
+  double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+  /// Returns whether a state that a start proposes is that of the candidate which is followed.
+  bool is_known(const Eigen::VectorXd& state) const;
 
   CandidateFinder& finder_;
   const Frame& frame_;
@@ -59,6 +64,8 @@ class CandidateFinder::ModelSearch {
   ModelFlags shown_, moving_;
   Recovery::Task task_;
   std::vector<Candidate> found_;
+  std::vector<Eigen::VectorXd> recognized_;  ///< states proposed by starts that recognise it
+  bool is_followed_ = false;                 ///< the frame's candidate shows the model
   bool sure_ = false;
 };
 

@@ -57,8 +57,8 @@ Status worst(const std::vector<Status>& models) {
   return out;
 }
 
-/// Returns whether pictures are searched for a model that a start would see and does not: in the
-/// first frame and the 4th, 16th, 64th, ...
+/// Returns whether pictures are searched for a lost model that a start would see: in the first
+/// frame and the 4th, 16th, 64th, ...
 bool is_time_to_search(unsigned frames) {
   return std::has_single_bit(frames + 1) && std::countr_zero(frames + 1) % 2 == 0;
 }
@@ -170,7 +170,8 @@ Candidate SceneTracker::follow(const Frame& frame) {
     return {.probabilities = ModelProbabilities(models.size(), kUnknown),
             .shown = models,
             .in_view = ModelFlags(models.size(), true),
-            .confirmed = ModelFlags(models.size(), false)};
+            .confirmed = ModelFlags(models.size(), false),
+            .unseen = std::vector<double>(models.size(), kInfinite)};
   }
   finder_.search().show(models);
   Budget budget = finder_.budget();
@@ -201,6 +202,7 @@ RecoveryRequest SceneTracker::recovery_request(const Frame& frame, const Candida
     ModelTrack& model = models_[m];
     const double p = best.probabilities[m];
     out.seconds.push_back(looks_for(m) ? kInfinite : std::max(frame.time - model.kept_time, 1e-3));
+    out.unseen.push_back(frame.time - model.seen_time);
     out.needed.push_back(model.monitor.needed());
     if (awaits(m)) continue;
     if (looks_for(m)) out.together.resize(0);
@@ -364,6 +366,8 @@ void SceneTracker::judge_models(const Frame& frame, const Candidate& best, Solut
       own.sigma = models_[m].part_of(solution.sigma).mean();
     own.in_view = best.in_view[m];
     own.confirmed = best.confirmed[m];
+    own.recognized = best.is_recognized(m);
+    if (best.unseen[m] <= 0) models_[m].seen_time = frame.time;
     solution.models[m] = models_[m].status = models_[m].monitor.judge(own);
   }
   solution.status = worst(solution.models);

@@ -61,7 +61,8 @@ class SceneTracker {
     StatusMonitor monitor;
     Eigen::Index first_landmark, landmarks;  ///< range among the scene's landmarks
     Status status = Status::missing;
-    double kept_time = 0;    ///< time at which it was surely right last
+    double kept_time = 0;  ///< time at which it was surely right last
+    double seen_time = -std::numeric_limits<double>::infinity();  ///< at which a start saw it last
     int confirmations = 0;   ///< frames left in which alternative poses are searched
     unsigned sought = 0;     ///< frames in which it was looked for since it was tracked
     int contradictions = 0;  ///< checks in a row in which starts saw it elsewhere only

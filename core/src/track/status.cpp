@@ -52,7 +52,7 @@ Status StatusMonitor::decide(const StatusEvidence& evidence) {
   if (!std::isfinite(evidence.cost) || evidence.visible < settings_.min_visible ||
       evidence.sigma > settings_.lost_sigma ||
       evidence.foreground_overlap == ForegroundOverlap::nowhere ||
-      evidence.probability < settings_.uncertain_above) {
+      (evidence.probability < settings_.uncertain_above && !evidence.recognized)) {
     uncertain_in_a_row_ = settings_.patience;
     return Status::lost;
   }

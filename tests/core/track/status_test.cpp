@@ -123,6 +123,16 @@ TEST(Status, FollowsWhatPicturesSayWhateverTheCost) {
   }
 }
 
+TEST(Status, ARecognisedAnswerIsUncertainHoweverUnlikely) {
+  StatusMonitor monitor({});
+  StatusEvidence evidence{.cost = -100, .probability = 0.01, .visible = 1, .sigma = kUnknown};
+  EXPECT_EQ(monitor.judge(evidence), Status::lost);
+  evidence.recognized = true;
+  EXPECT_EQ(monitor.judge(evidence), Status::uncertain);
+  evidence.visible = 0;
+  EXPECT_EQ(monitor.judge(evidence), Status::lost);
+}
+
 TEST(Status, AsksForMoreJustAfterALossThanBeforeIt) {
   StatusMonitor monitor({});
   EXPECT_EQ(judge_by_pictures(monitor, 0.6), Status::tracked);

@@ -110,19 +110,24 @@ double last_error_of_a_believer(double check_s) {
   return error;
 }
 
-/// Recognises a model, which it sees in the frames from `since` on.
+/// A range of frames.
+struct Frames {
+  int first, end;
+};
+
+/// Recognises a model, which it sees in some frames, where it was in the first one.
 class Recognizer final : public Start {
  public:
-  Recognizer(Eigen::VectorXd pose, int since) : pose_(std::move(pose)), since_(since) {}
+  Recognizer(Eigen::VectorXd pose, Frames seen) : pose_(std::move(pose)), seen_(seen) {}
   bool looks() const override { return true; }
   bool recognizes(std::size_t /*model*/) const override { return true; }
   void find(const StartContext& context, std::size_t /*model*/, const TakePose& take) override {
-    if (context.frame->index >= since_) take(pose_);
+    if (context.frame->index >= seen_.first && context.frame->index < seen_.end) take(pose_);
   }
 
  private:
   Eigen::VectorXd pose_;
-  int since_;
+  Frames seen_;
 };
 
 /// Counts how often it may search the pictures, and proposes a wrong pose each time.
@@ -147,8 +152,8 @@ struct Doubted {
   double error = 0;  ///< of the last frame, metres
 };
 
-/// Tracks a hand that a start recognises from frame `since` on. Another start is wrong by 150 mm.
-Doubted track_doubted(int frames, int since, std::vector<std::string> overrides) {
+/// Tracks a hand that a start recognises in some frames. Another start is wrong by 150 mm.
+Doubted track_doubted(int frames, Frames seen, std::vector<std::string> overrides) {
   PluginLoader plugins;
   OpenedScene session = open_unstarted(plugins, std::move(overrides));
   std::optional<SceneTracker> tracker;
@@ -159,7 +164,7 @@ Doubted track_doubted(int frames, int since, std::vector<std::string> overrides)
       Eigen::VectorXd beside = frame.truth->state;
       beside.x() -= 0.15;
       session.parts.starts.clear();
-      session.parts.starts.push_back(std::make_unique<Recognizer>(frame.truth->state, since));
+      session.parts.starts.push_back(std::make_unique<Recognizer>(frame.truth->state, seen));
       session.parts.starts.push_back(std::make_unique<WrongSearch>(beside, out.searches));
       tracker.emplace(*session.scene, std::move(session.parts), initial_state(session, frame),
                       session.seed);
@@ -173,7 +178,7 @@ Doubted track_doubted(int frames, int since, std::vector<std::string> overrides)
 }
 
 TEST(LookedFor, WhatAStartWouldRecogniseAndDoesNotSeeIsSearchedEverMoreSeldom) {
-  const Doubted found = track_doubted(15, 100, {"tracker.confirmed_above=0"});
+  const Doubted found = track_doubted(15, {100, 100}, {"tracker.confirmed_above=0"});
   EXPECT_EQ(found.searches, 2) << "in the first frame and the fourth";
   for (const Status status : found.statuses) EXPECT_EQ(status, Status::lost);
 }
@@ -182,8 +187,28 @@ TEST(LookedFor, WhatAStartSeesElsewhereOnlyIsFoundThere) {
   std::vector<std::string> believe{"tracker.recovery.check_s=0.1"};
   for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
     believe.push_back("tracker." + std::string(key) + "_above=0");
-  const Doubted found = track_doubted(14, 2, believe);
+  const Doubted found = track_doubted(14, {2, 100}, believe);
   EXPECT_LT(found.error, 0.02);
+}
+
+/// Returns settings with which the pictures deny every pose.
+std::vector<std::string> disbelieve() {
+  std::vector<std::string> out;
+  for (const char* key : {"tracked", "surely", "first", "confirmed", "uncertain"})
+    out.push_back("tracker." + std::string(key) + "_above=1");
+  return out;
+}
+
+TEST(LookedFor, PosesThatAStartRecognisesAreFollowedThoughThePicturesDenyThem) {
+  const Doubted found = track_doubted(15, {0, 100}, disbelieve());
+  for (const Status status : found.statuses) EXPECT_EQ(status, Status::uncertain);
+  EXPECT_LT(found.error, 0.01);
+}
+
+TEST(LookedFor, RecognisedPosesAreLostHalfASecondAfterTheyWereSeenLast) {
+  const Doubted found = track_doubted(24, {0, 4}, disbelieve());
+  EXPECT_EQ(found.statuses[17], Status::uncertain);
+  EXPECT_EQ(found.statuses[22], Status::lost);
 }
 
 TEST(LookedFor, TrackedModelsThatAStartSeesElsewhereMoveThere) {
