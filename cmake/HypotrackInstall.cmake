@@ -24,10 +24,13 @@ install(FILES
   ${CMAKE_CURRENT_LIST_DIR}/HypotrackCuda.cmake
   ${CMAKE_CURRENT_LIST_DIR}/HypotrackPlugin.cmake
   DESTINATION ${package_dir})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR})
-# The build tree has them, too, in the same place.
+# configs/data is the user's: recordings and meshes that scenes name.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR}
+  REGEX "/configs/data$" EXCLUDE)
+# The build tree has the rest, too, in the same place.
 file(GLOB_RECURSE configs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/configs/*)
+list(FILTER configs EXCLUDE REGEX "^configs/data")
 foreach(config IN LISTS configs)
   configure_file(${PROJECT_SOURCE_DIR}/${config}
     ${PROJECT_BINARY_DIR}/${HYPOTRACK_DATA_DIR}/${config} COPYONLY)

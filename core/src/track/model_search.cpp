@@ -79,8 +79,8 @@ CandidateFinder::ModelSearch::ModelSearch(CandidateFinder& finder, const Frame& 
   shown_[model] = moving_[model] = true;
   for (std::size_t m = 0; m < held.size(); ++m)
     if (held[m]) shown_[m] = moving_[m] = true;
-  is_followed_ = best.answers() && best.shown[model] && shown_ == best.shown;
-  if (is_followed_) found_.push_back(best);
+  is_followed_ = best.answers() && best.shown[model];
+  if (is_followed_ && shown_ == best.shown) found_.push_back(best);
 }
 
 Eigen::VectorXd CandidateFinder::ModelSearch::with_own_part(Eigen::VectorXd to,
@@ -197,14 +197,18 @@ void CandidateFinder::ModelSearch::ask_starts() {
     return one.probability() >= finder_.settings_.surely_above;
   };
   const bool never_seen = !std::isfinite(request_.seconds[model_]);
-  bool asked = false;   // a start that recognises the model
+  // Where several models are denied at once, none of them is shown yet.
+  if (found_.empty() && is_followed_ && request_.unseen[model_] <= kRemembered)
+    add(with_own_part(task_.last.state, best_.found.state));
+  bool asked = false;   // a start that recognises the model, this one or before
   bool denied = false;  // by such a start
   for (const std::unique_ptr<Start>& start : finder_.starts_) {
     const bool is_first = start == finder_.starts_.front();
     if (enough() || (!is_first && std::ranges::any_of(found_, is_good))) break;
+    const bool recognizes = start->recognizes(model_);
+    asked = asked || recognizes;
     const Proposals proposed = ask(*start, denied, !asked || request_.thorough[model_]);
-    if (!start->recognizes(model_)) continue;
-    asked = true;
+    if (!recognizes) continue;
     denied = denied || (proposed.taken.empty() && proposed.known.empty());
     if (!request_.contradicts && !proposed.known.empty()) break;
     if (never_seen && !proposed.taken.empty()) search_only_near(proposed.taken);

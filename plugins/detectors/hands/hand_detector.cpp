@@ -65,7 +65,7 @@ struct HandDetector::Impl {
                    (options.lite ? "hand_landmark_lite.onnx" : "hand_landmark_full.onnx")) {}
 
   double least_score() const { return kUnsure * options.palm_threshold; }
-  std::vector<HandDetection> detect(const cv::Mat& picture);
+  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough);
   std::vector<HandDetection> confirm(const cv::Mat& picture, std::span<const hands::Palm> found,
                                      bool sure);
   std::vector<HandDetection> detect_small(const cv::Mat& picture, int side);
@@ -75,7 +75,7 @@ struct HandDetector::Impl {
   hands::HandLandmarker landmarker;
 };
 
-std::vector<HandDetection> HandDetector::Impl::detect(const cv::Mat& picture) {
+std::vector<HandDetection> HandDetector::Impl::detect(const cv::Mat& picture, bool thorough) {
   const cv::Rect whole({}, picture.size());
   const std::vector<hands::Palm> found = palms.find(picture, whole, least_score());
   const auto unsure = std::find_if(found.begin(), found.end(), [&](const hands::Palm& palm) {
@@ -86,6 +86,7 @@ std::vector<HandDetection> HandDetector::Impl::detect(const cv::Mat& picture) {
   for (const int side : hands::tile_sides(picture.size(), options.smallest_hand)) {
     if (!out.empty()) break;
     out = detect_small(picture, side);
+    if (!thorough) break;
   }
   return out;
 }
@@ -122,8 +123,8 @@ HandDetector::~HandDetector() = default;
 HandDetector::HandDetector(HandDetector&&) noexcept = default;
 HandDetector& HandDetector::operator=(HandDetector&&) noexcept = default;
 
-std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture) {
-  std::vector<HandDetection> found = impl_->detect(hands::checked_color(picture));
+std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture, bool thorough) {
+  std::vector<HandDetection> found = impl_->detect(hands::checked_color(picture), thorough);
   std::ranges::for_each(found, move_to_joints);
   return found;
 }

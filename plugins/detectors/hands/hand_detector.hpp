@@ -33,9 +33,9 @@ class HandDetector {
   HandDetector(HandDetector&&) noexcept;
   HandDetector& operator=(HandDetector&&) noexcept;
 
-  /// Returns the hands in an 8-bit BGR or grey picture, those with the surest palms first. Throws
-  /// DataError for other pictures.
-  std::vector<HandDetection> detect(const cv::Mat& picture);
+  /// Returns the hands in an 8-bit BGR or grey picture, those with the surest palms first. Unless
+  /// `thorough`, looks in the largest tiles only. Throws DataError for other pictures.
+  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough = true);
 
   /// Returns the hand at about these landmarks, of the last frame or projected; nothing if there is
   /// none or a landmark is NaN. Takes a fraction of the time of detect().

@@ -51,7 +51,7 @@ class HandLandmarks final : public Start {
     const Scene::Item& item = context.scene.items().at(model);
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return;
-    look_at(*context.frame, context.cameras);
+    look_at(*context.frame, context.cameras, context.search != nullptr);
     // The likeliest hand of the model's side first; a hand of the other side may be this one, too.
     std::vector<HandPair> pairs = pairs_;
     const auto other_side = [&](const HandPair& pair) { return (pair.right > 0.5) != hand->right; };
@@ -66,7 +66,7 @@ class HandLandmarks final : public Start {
   std::optional<double> size(const StartContext& context, std::size_t model) override {
     const std::optional<HandModel>& hand = models_.at(model);
     if (!hand || !context.frame || context.cameras.size() < 2) return std::nullopt;
-    look_at(*context.frame, context.cameras);
+    look_at(*context.frame, context.cameras, false);
     const auto is_surely_this = [&](const HandPair& pair) {
       return (hand->right ? pair.right : 1 - pair.right) >= kSurely;
     };
@@ -76,20 +76,28 @@ class HandLandmarks final : public Start {
   }
 
  private:
+  /// What was looked at last.
+  struct Seen {
+    int frame = -1;
+    std::array<const unsigned char*, 2> pictures = {};
+    bool thorough = false;
+    bool operator==(const Seen&) const = default;
+  };
   static constexpr double kLeastLikely = 0.1, kSurely = 0.7;  // probabilities of the model's side
 
-  /// Detects the hands of a frame, once.
-  void look_at(const Frame& frame, const std::vector<Camera>& cameras) {
+  /// Detects the hands of a frame, once; small ones only if `thorough`.
+  void look_at(const Frame& frame, const std::vector<Camera>& cameras, bool thorough) {
     if (frame.views.size() < 2 || frame.views[0].color.empty() || frame.views[1].color.empty())
       return pairs_.clear();
     const std::array<const unsigned char*, 2> pictures{frame.views[0].color.data,
                                                        frame.views[1].color.data};
-    if (seen_ == std::pair(frame.index, pictures)) return;
-    seen_ = {frame.index, pictures};
+    const Seen now{frame.index, pictures, thorough};
+    if (seen_ == now || seen_ == Seen{frame.index, pictures, true}) return;
+    seen_ = now;
     const std::array<Camera, 2> pair{cameras[0], cameras[1]};
     const auto& views = frame.views;
-    std::vector<HandDetection> first = detector_->detect(views[0].color),
-                               second = detector_->detect(views[1].color);
+    std::vector<HandDetection> first = detector_->detect(views[0].color, thorough),
+                               second = detector_->detect(views[1].color, thorough);
     look_in_other_view(*detector_, pair, first, 0, views[1].color, second);
     look_in_other_view(*detector_, pair, second, 1, views[0].color, first);
     pairs_ = pair_hands(pair, first, second);
@@ -109,7 +117,7 @@ class HandLandmarks final : public Start {
 
   std::vector<std::optional<HandModel>> models_;  ///< by model; nothing: it is no hand
   std::optional<HandDetector> detector_;          ///< nothing: the scene has no hand
-  std::pair<int, std::array<const unsigned char*, 2>> seen_{-1, {}};
+  Seen seen_;
   std::vector<HandPair> pairs_;  ///< in the frame seen last
 };
 

@@ -42,7 +42,7 @@ TEST(RenderedHand, HasTheRelativeShapeOfItsLandmarksInThePicture) {
   EXPECT_NEAR((hand.relative.col(12) - hand.relative.col(0)).norm(), 0.17, 0.04) << "metres";
 }
 
-TEST(RenderedHand, OfFiftyPixelsIsFoundInALargePicture) {
+TEST(RenderedHand, OfFiftyPixelsIsFoundInALargePictureWhereThoroughlyLookedFor) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   HandDetector detector({});
   const auto pictures = test::rendered_hand();
@@ -53,6 +53,7 @@ TEST(RenderedHand, OfFiftyPixelsIsFoundInALargePicture) {
   cv::resize(pictures.picture()(around), small, {}, kScale, kScale, cv::INTER_AREA);
   small.copyTo(picture(cv::Rect(at, small.size())));
 
+  EXPECT_TRUE(detector.detect(picture, false).empty());
   const HandDetection hand = test::only_hand(detector, picture);
   HandPoints truth = test::true_points(pictures);
   truth.row(0) = kScale * (truth.row(0).array() + 0.5 - around.x) - 0.5 + at.x;
