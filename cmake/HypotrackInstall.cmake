@@ -30,7 +30,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR
 # The build tree has the rest, too, in the same place.
 file(GLOB_RECURSE configs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/configs/*)
-list(FILTER configs EXCLUDE REGEX "^configs/data")
+list(FILTER configs EXCLUDE REGEX "^configs/data(/|$)")
 foreach(config IN LISTS configs)
   configure_file(${PROJECT_SOURCE_DIR}/${config}
     ${PROJECT_BINARY_DIR}/${HYPOTRACK_DATA_DIR}/${config} COPYONLY)

@@ -42,7 +42,8 @@ struct StartContext {
   const Scene& scene;
   const std::vector<Camera>& cameras;  ///< in the order of a frame's views
   const Frame* frame = nullptr;    ///< the frame to search, with views; null before there is one
-  GlobalSearch* search = nullptr;  ///< for find(); null: not in this frame
+  GlobalSearch* search = nullptr;  ///< for find(); null: not in this frame, where
+                                   ///< find() has to be quick
   bool sure_only = false;  ///< find() proposes only what is surely this model, of several alike
 };
 
@@ -59,7 +60,8 @@ class HYPOTRACK_API Start {
   virtual bool looks() const { return false; }
 
   /// Returns whether find() sees a model (its index) in nearly all pictures that show it. If it
-  /// then proposes no pose, others are doubted.
+  /// then proposes no pose, others are doubted. A pose near one that it proposes is followed even
+  /// where the pictures deny it.
   virtual bool recognizes(std::size_t model) const;
 
   /// Returns a state of the scene with unit quaternions and angles within their bounds. Returns

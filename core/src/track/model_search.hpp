@@ -41,7 +41,8 @@ class CandidateFinder::ModelSearch {
     std::vector<Eigen::VectorXd> taken;
     std::vector<Eigen::VectorXd> known;  ///< where a tracked model already is
   };
-  /// Asks one start. `denied`: another one does not see the model, though it would.
+  /// Asks one start. `denied`: another one does not see the model, though it would. `may_search`:
+  /// it may search the whole pictures.
   Proposals ask(Start& start, bool denied, bool may_search);
   void ask_starts();
   /// Lets the global search look at the first of these places only.

@@ -8,13 +8,13 @@ namespace {
 
 using Weights = Eigen::Matrix<double, 21, 21>;
 
-/// A landmark that moves by a share of the way between two others.
+/// A landmark that moves by a share of the vector between two landmarks.
 struct Shift {
   Eigen::Index landmark, from, to;
   double share;
 };
-// Medians over hands of three meshes, rendered in any rotation. Indices are those of
-// kHandPointNames.
+// Rounded from medians over rendered hands in any rotation, of the built-in mesh and godot_xr.
+// Indices are those of kHandPointNames.
 constexpr std::array<Shift, 8> kShifts = {{{0, 9, 0, 0.1},      // wrist, away from the fingers
                                            {1, 5, 17, 0.25},    // base of the thumb, to the palm
                                            {3, 2, 3, 0.1},      // thumb_ip, outwards
@@ -24,7 +24,7 @@ constexpr std::array<Shift, 8> kShifts = {{{0, 9, 0, 0.1},      // wrist, away f
                                            {16, 15, 16, 0.25},  //
                                            {20, 19, 20, 0.25}}};
 
-/// Returns the matrix that joints are landmarks times.
+/// Returns the matrix that gives the joints when landmarks are multiplied by it.
 const Weights& joints_from_landmarks() {
   static const Weights weights = [] {
     Weights out = Weights::Identity();

@@ -5,7 +5,8 @@
 namespace hypotrack::hands {
 
 /// Moves the network's landmarks (2x21 or 3x21) to the joints and fingertips of hypotrack's hands.
-/// The network was taught to put wrist and base of the thumb beside them, and tips on the nails.
+/// The network puts the wrist nearer to the fingers, the thumb's base beside its joint, and tips
+/// short of the fingers' ends.
 HandPoints joints_of(const HandPoints& landmarks);
 HandPoints3D joints_of(const HandPoints3D& landmarks);
 
