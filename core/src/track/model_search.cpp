@@ -110,6 +110,12 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   search.show(shown_, moving_);
   if (search.tiles().visible_share(state) == 0) return;
   Candidate one = finder_.searched_from(frame_, state, seed_of_part(seed_, part_++));
+  const Eigen::VectorXd turned = finder_.verifier_.model(model_).turned_to_texture(
+      frame_, one.found.state, search.second_view_colors());
+  if (turned != one.found.state) {
+    one.found.state = turned;
+    one = finder_.go_on(frame_, one, seed_of_part(seed_, part_++));
+  }
   best_.found.evaluations += std::exchange(one.found.evaluations, 0);
   const Reach reach = reach_within(finder_.settings_.motion, task_.last.seconds);
   const bool may_be_anywhere = !std::isfinite(task_.last.seconds) || request_.contradicts;

@@ -31,7 +31,11 @@ struct RigidBoxParams {
        .min = 0,
        .max = 1});
     v("texture", texture, {.help = "picture for every face instead of the pattern"});
-    v("pattern", pattern, {.help = "which printed pattern: a different one per number", .min = 0});
+    v("pattern", pattern,
+      {.help =
+           "which printed pattern: a different one per number. Starts look for its colours: give "
+           "`color` or `texture` for a real box",
+       .min = 0});
   }
 };
 
@@ -56,8 +60,11 @@ Mesh plain_box(const RigidBoxParams& params, const ConfigNode& config) {
   }
   Mesh mesh = box_mesh(params.size, layout_in_proportion(params.size));
   mesh.color = Eigen::Map<const Eigen::Vector3d>(params.color.data()).cast<float>();
-  mesh.uv.resize(2, 0);
-  mesh.uv_triangles.resize(3, 0);
+  const Eigen::Vector3f bgr = 255 * mesh.color.reverse();
+  mesh.texture =
+      cv::Mat3b(1, 1,
+                cv::Vec3b(cv::saturate_cast<uchar>(bgr[0]), cv::saturate_cast<uchar>(bgr[1]),
+                          cv::saturate_cast<uchar>(bgr[2])));
   return mesh;
 }
 

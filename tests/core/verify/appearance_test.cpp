@@ -45,6 +45,17 @@ TEST_F(AppearanceTest, MillimetresAreForgiven) {
   EXPECT_GT(appearance_.likeness(at(box_.state(0.004))), 0.8);
 }
 
+TEST_F(AppearanceTest, ExpectedColoursAreComparedOnAllSides) {
+  const SurfaceSamples samples = at(box_.state());
+  std::vector<cv::Vec3f> colors;
+  for (const SurfaceSamples::Point& point : samples.points)
+    colors.push_back(samples.views[0].color(point.at));
+  appearance_.expect(colors);
+  EXPECT_GT(appearance_.likeness(samples), 0.85);
+  EXPECT_LT(appearance_.likeness(at(turned({0, 0, 1}))), 0.5);
+  EXPECT_FALSE(std::isnan(appearance_.likeness(at(turned({0, 1, 0})))));
+}
+
 TEST_F(AppearanceTest, OfASideNeverSeenNothingIsKnown) {
   appearance_.learn(at(box_.state()));
   EXPECT_TRUE(std::isnan(appearance_.likeness(at(turned({0, 1, 0})))));

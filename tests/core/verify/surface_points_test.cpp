@@ -34,6 +34,35 @@ TEST(SurfacePoints, FollowTheVertices) {
   EXPECT_TRUE(shift.isApprox(Eigen::Vector3f(1, 2, 3).replicate(1, 50), 1e-5f));
 }
 
+TEST(SurfacePoints, HaveTheColoursOfTheTexture) {
+  Mesh mesh = test::make_test_box({0.1, 0.1, 0.001}).mesh;
+  const SurfacePoints points = spread_points(mesh, 100);
+  EXPECT_TRUE(texture_colors(mesh, points, 0.001).empty()) << "without a texture";
+  mesh.texture = cv::Mat3b(100, 100, cv::Vec3b(200, 100, 50));  // top of the texture: v = 1
+  mesh.texture.rowRange(50, 100) = cv::Scalar(0, 0, 0);
+  mesh.uv = ((mesh.vertices.topRows<2>().array() + 0.05f) / 0.1f).matrix();
+  mesh.uv_triangles = mesh.triangles.cast<int>();
+  const Eigen::Matrix3Xf at = positions(points, mesh.vertices);
+  const std::vector<cv::Vec3f> colors = texture_colors(mesh, points, 0.001);
+  ASSERT_EQ(std::ssize(colors), points.count());
+  for (Eigen::Index i = 0; i < points.count(); ++i) {
+    if (std::abs(at(1, i)) < 0.002f) continue;
+    const cv::Vec3f expected = at(1, i) > 0 ? cv::Vec3f(200, 100, 50) : cv::Vec3f(0, 0, 0);
+    EXPECT_LT(cv::norm(colors[static_cast<std::size_t>(i)] - expected), 1) << at.col(i).transpose();
+  }
+}
+
+TEST(SurfacePoints, ShowTextureColoursAveragedOverASquare) {
+  Mesh mesh = test::make_test_box({0.1, 0.1, 0.001}).mesh;
+  const SurfacePoints points = spread_points(mesh, 100);
+  mesh.texture = cv::Mat3b(100, 100, cv::Vec3b(0, 0, 0));
+  for (int y = 0; y < 100; ++y)
+    for (int x = y % 2; x < 100; x += 2) mesh.texture.at<cv::Vec3b>(y, x) = {200, 200, 200};
+  mesh.uv = ((mesh.vertices.topRows<2>().array() + 0.05f) / 0.1f).matrix();
+  mesh.uv_triangles = mesh.triangles.cast<int>();
+  for (const cv::Vec3f& color : texture_colors(mesh, points, 0.01)) EXPECT_NEAR(color[0], 100, 25);
+}
+
 TEST(SurfacePoints, AMeshWithoutAreaHasNone) { EXPECT_EQ(spread_points(Mesh{}, 50).count(), 0); }
 
 }  // namespace

@@ -113,8 +113,9 @@ TEST(RigidBox, TextureTilesFaceOutwardsUnmirrored) {
 
 TEST(RigidBox, TakesAColourOrAPicture) {
   const auto plain = make_model("{type: rigid_box, color: [1, 0.5, 0]}");
-  EXPECT_TRUE(plain->data().mesh.texture.empty());
   EXPECT_TRUE(plain->data().mesh.color.isApprox(Vector3f(1, 0.5f, 0)));
+  EXPECT_EQ(plain->data().mesh.texture.at<cv::Vec3b>(0, 0), cv::Vec3b(0, 128, 255))
+      << "recoveries look for the texture's colours";
   TemporaryDirectory folder;
   const std::string file = (folder.path() / "label.png").string();
   cv::imwrite(file, cv::Mat(10, 20, CV_8UC3, cv::Scalar(1, 2, 3)));

@@ -61,6 +61,17 @@ TEST(LookedFor, HandIsFoundWhenItAppears) {
   EXPECT_LT(found[4].error, 0.010);
 }
 
+TEST(LookedFor, PrintedBoxesAreFoundTheRightWayRound) {
+  for (const char* seed : {"1", "3"}) {
+    const std::vector<Found> found = track_unstarted(
+        1,
+        {"models=[{name: box, type: rigid_box, size_mm: [110, 160, 70]}]", "source.keyframes=null",
+         std::string("source.random={frames: 1, rotation: any, seed: ") + seed + "}"});
+    EXPECT_EQ(found[0].status, Status::tracked);
+    EXPECT_LT(found[0].error, 0.002) << "seed " << seed;
+  }
+}
+
 TEST(LookedFor, ModelsNeedTwoViewsAndARecovery) {
   EXPECT_THROW(track_unstarted(1, {"tracker.recovery.enabled=false"}), ConfigError);
   EXPECT_THROW(track_unstarted(1, {"tracker.evidence=false"}), ConfigError);

@@ -5,8 +5,6 @@
 namespace hypotrack {
 namespace {
 
-bool is_rigid(const Scene::Item& item) { return item.model->dimension() == kPoseSize; }
-
 Eigen::Matrix3Xd landmarks_of(const Scene& scene, std::size_t model, const Eigen::VectorXd& state) {
   const Scene::Item& item = scene.items()[model];
   return posed_landmarks(*item.model, scene.part(item, state));
@@ -19,18 +17,6 @@ double reach_of(const Eigen::Matrix3Xd& landmarks) {
 }
 
 }  // namespace
-
-Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state) {
-  const auto pose = state.segment<kPoseSize>(item.offset);
-  Eigen::Isometry3d out(Eigen::Quaterniond(pose[3], pose[4], pose[5], pose[6]));
-  out.pretranslate(Eigen::Vector3d(pose.head<3>()));
-  return out;
-}
-
-void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose, Eigen::VectorXd& state) {
-  const Eigen::Quaterniond q(pose.linear());
-  state.segment<kPoseSize>(item.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
-}
 
 Eigen::VectorXd moved_with(const Scene& scene, std::size_t model, std::size_t other,
                            const Eigen::VectorXd& before, const Eigen::VectorXd& now) {

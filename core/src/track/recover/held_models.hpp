@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hypotrack/scene.hpp"
+#include "track/model_pose.hpp"
 
 namespace hypotrack {
 
@@ -14,11 +15,6 @@ struct HeldModel {
   std::size_t model;
   Eigen::Isometry3d pose;  ///< in the frame of the sought model
 };
-
-/// Returns the pose of a model of a scene in a state.
-Eigen::Isometry3d pose_of(const Scene::Item& item, const Eigen::VectorXd& state);
-/// Writes the pose of a model into a state.
-void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose, Eigen::VectorXd& state);
 
 /// Returns the state `before` with one model moved by the rigid motion of another from `before` to
 /// `now`.

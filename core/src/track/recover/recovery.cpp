@@ -9,6 +9,7 @@
 
 #include "hypotrack/search.hpp"
 #include "track/recover/silhouette.hpp"
+#include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
 namespace {
@@ -24,7 +25,9 @@ constexpr int kUnknownEffort = 3;  // factor where a model was never seen
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
-constexpr double kHides = 0.35;       // share of another model that a candidate may newly hide
+constexpr Eigen::Index kSurfacePoints = 2000;  // that show the colours of a texture
+constexpr double kTexel = 0.002;               // metres, as pictures show a texture
+constexpr double kHides = 0.35;  // share of another model that a candidate may newly hide
 
 /// Returns the first states that are `near` metres or more apart (mean over landmarks), at most
 /// `count`.
@@ -45,21 +48,6 @@ std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, doub
   return out;
 }
 
-/// Returns the colours (B, G, R, 0 .. 255) of a mesh's texture at its texture coordinates; none
-/// without a texture.
-std::vector<cv::Vec3f> texture_colors(const Mesh& mesh) {
-  std::vector<cv::Vec3f> out;
-  if (mesh.texture.empty()) return out;
-  const cv::Mat3b texture = mesh.texture;
-  for (Eigen::Index i = 0; i < mesh.uv.cols(); ++i) {
-    const auto at = [](float share, int size) {
-      return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
-    };
-    out.push_back(texture(at(1 - mesh.uv(1, i), texture.rows), at(mesh.uv(0, i), texture.cols)));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::span<const std::string_view> enum_names(RecoveryRun) {
@@ -74,7 +62,8 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
     searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
     finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
                           settings.farthest);
-    surfaces_.push_back(texture_colors(scene.items()[m].model->data().mesh));
+    const Mesh& mesh = scene.items()[m].model->data().mesh;
+    surfaces_.push_back(texture_colors(mesh, spread_points(mesh, kSurfacePoints), kTexel));
     searched_.emplace_back(cameras, searches_[m]->radius());
     searched_held_.push_back(searched_.back());
   }

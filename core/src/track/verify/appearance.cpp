@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace hypotrack {
 namespace {
@@ -39,6 +40,11 @@ double center(std::vector<cv::Vec3f>& colors) {
 }
 
 }  // namespace
+
+void Appearance::expect(std::vector<cv::Vec3f> colors) {
+  times_.assign(colors.size(), 1);
+  colors_ = std::move(colors);
+}
 
 void Appearance::learn(const SurfaceSamples& samples) {
   const std::vector<SurfaceSamples::Point>& points = samples.points;

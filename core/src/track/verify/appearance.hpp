@@ -11,6 +11,9 @@ namespace hypotrack {
 /// is turned or shifted agrees between the views, but not with its own earlier picture.
 class Appearance {
  public:
+  /// Takes the colours of all points as seen once.
+  void expect(std::vector<cv::Vec3f> colors);
+
   /// Updates the running mean colour of every point that the samples show. Older colours fade.
   void learn(const SurfaceSamples& samples);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "track/verify/symmetries.hpp"
 #include "track/verify/weights.hpp"
 
 namespace hypotrack {
@@ -20,7 +22,13 @@ bool has_colors(const Frame& frame) {
 
 ModelVerifier::ModelVerifier(const Scene& scene, std::size_t model,
                              const std::vector<Camera>& cameras)
-    : sampler_(scene, model, cameras) {}
+    : item_(scene.items()[model]), sampler_(scene, model, cameras) {
+  constexpr double kTexel = 0.003;  // metres, as pictures show a texture
+  const Mesh& mesh = item_.model->data().mesh;
+  if (!is_rigid(item_) || mesh.texture.empty()) return;  // no hand has the texture of a mesh
+  texture_.expect(texture_colors(mesh, sampler_.points(), kTexel));
+  symmetries_ = symmetries(mesh);
+}
 
 Evidence ModelVerifier::measure_evidence(const Frame& frame, const Eigen::VectorXd& state,
                                          const ColorMap& colors) {
@@ -28,6 +36,26 @@ Evidence ModelVerifier::measure_evidence(const Frame& frame, const Eigen::Vector
   Evidence evidence = measure(samples_, colors_);
   evidence.likeness = appearance_.likeness(samples_);
   return evidence;
+}
+
+Eigen::VectorXd ModelVerifier::turned_to_texture(const Frame& frame, const Eigen::VectorXd& state,
+                                                 const ColorMap& colors) {
+  constexpr double kBetter = 0.05;  // less is noise, as on surfaces of one colour
+  if (symmetries_.empty()) return state;
+  const auto likeness = [&](const Eigen::VectorXd& of) {
+    const double out = texture_.likeness(sampler_.sample(frame, of, colors));
+    return std::isnan(out) ? 0 : out;
+  };
+  const Eigen::Isometry3d pose = pose_of(item_, state);
+  Eigen::VectorXd best = state;
+  double most = likeness(state) + kBetter;
+  for (const Eigen::Isometry3d& symmetry : symmetries_) {
+    Eigen::VectorXd turned = state;
+    set_pose(item_, pose * symmetry, turned);
+    const double here = likeness(turned);
+    if (here > most) most = here, best = std::move(turned);
+  }
+  return best;
 }
 
 Eigen::VectorXd ModelVerifier::features(const Evidence& evidence) const {

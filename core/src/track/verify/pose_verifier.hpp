@@ -9,6 +9,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
+#include "track/model_pose.hpp"
 #include "track/verify/appearance.hpp"
 #include "track/verify/evidence.hpp"
 #include "track/verify/foreground_colors.hpp"
@@ -26,6 +27,11 @@ class ModelVerifier {
   /// view's colours to the first's.
   Evidence measure_evidence(const Frame& frame, const Eigen::VectorXd& state,
                             const ColorMap& colors);
+
+  /// Returns a state with the model turned to where its texture fits best, of all poses with the
+  /// same silhouette. Models that are not rigid, without texture or without symmetries stay.
+  Eigen::VectorXd turned_to_texture(const Frame& frame, const Eigen::VectorXd& state,
+                                    const ColorMap& colors);
 
   /// Returns the classifier's features: the evidence and, after learn(), its differences from the
   /// usual evidence (zeros before).
@@ -51,9 +57,12 @@ class ModelVerifier {
   double usual_likeness() const { return usual_likeness_; }
 
  private:
+  const Scene::Item& item_;
   SurfaceSampler sampler_;
   SurfaceSamples samples_;
   ForegroundColors colors_;
+  Appearance texture_;                         ///< of a rigid model; knows nothing of others
+  std::vector<Eigen::Isometry3d> symmetries_;  ///< of a rigid model with a texture
   Appearance appearance_;
   double usual_likeness_ = 0;
   bool tracked_ = false;

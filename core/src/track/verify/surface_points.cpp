@@ -3,12 +3,35 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 namespace hypotrack {
 namespace {
 
 double fraction(double x) { return x - std::floor(x); }
+
+double area_of(const Eigen::Vector3d& ab, const Eigen::Vector3d& ac) {
+  return ab.cross(ac).norm() / 2;
+}
+
+/// Returns how many pixels of the texture's side are as long as a metre of the surface, on average.
+double pixels_per_metre(const Mesh& mesh) {
+  double surface = 0, texture = 0;
+  const Eigen::Vector3d size(mesh.texture.cols, mesh.texture.rows, 0);
+  for (Eigen::Index i = 0; i < mesh.triangles.cols(); ++i) {
+    const auto corner = [&](int k) -> Eigen::Vector3d {
+      return mesh.vertices.col(mesh.triangles(k, i)).cast<double>();
+    };
+    const auto pixel = [&](int k) -> Eigen::Vector3d {
+      const Eigen::Vector2d uv = mesh.uv.col(mesh.uv_triangles(k, i)).cast<double>();
+      return Eigen::Vector3d(uv.x(), uv.y(), 0).cwiseProduct(size);
+    };
+    surface += area_of(corner(1) - corner(0), corner(2) - corner(0));
+    texture += area_of(pixel(1) - pixel(0), pixel(2) - pixel(0));
+  }
+  return surface > 0 ? std::sqrt(texture / surface) : 0;
+}
 
 }  // namespace
 
@@ -26,12 +49,14 @@ SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count) {
   if (!(area > 0)) return out;
   out.corners.resize(3, count);
   out.weights.resize(3, count);
+  out.triangles.resize(count);
   // Steps of the generalised golden ratio fill a square evenly (Roberts, "The unreasonable
   // effectiveness of quasirandom sequences", 2018).
   constexpr double kStep1 = 0.7548776662466927, kStep2 = 0.5698402909980532;
   for (Eigen::Index i = 0; i < count; ++i) {
     const double at = area * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
     const auto triangle = std::ranges::lower_bound(area_up_to, at) - area_up_to.begin();
+    out.triangles[i] = static_cast<int>(triangle);
     out.corners.col(i) = mesh.triangles.col(triangle).template cast<int>();
     double u = fraction(kStep1 * static_cast<double>(i)),
            v = fraction(kStep2 * static_cast<double>(i));
@@ -45,6 +70,23 @@ Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& 
   Eigen::Matrix3Xf out(3, points.count());
   for (Eigen::Index i = 0; i < points.count(); ++i)
     out.col(i) = vertices(Eigen::all, points.corners.col(i)) * points.weights.col(i);
+  return out;
+}
+
+std::vector<cv::Vec3f> texture_colors(const Mesh& mesh, const SurfacePoints& points, double side) {
+  std::vector<cv::Vec3f> out;
+  if (mesh.texture.empty() || mesh.uv_triangles.cols() == 0) return out;
+  const int window = std::max(1, cvRound(side * pixels_per_metre(mesh)));
+  cv::Mat3b texture;
+  cv::blur(mesh.texture, texture, {window, window}, {-1, -1}, cv::BORDER_REPLICATE);
+  for (Eigen::Index i = 0; i < points.count(); ++i) {
+    const Eigen::Vector2f uv =
+        mesh.uv(Eigen::all, mesh.uv_triangles.col(points.triangles[i])) * points.weights.col(i);
+    const auto at = [](float share, int size) {
+      return std::clamp(static_cast<int>(share * static_cast<float>(size)), 0, size - 1);
+    };
+    out.push_back(texture(at(1 - uv.y(), texture.rows), at(uv.x(), texture.cols)));
+  }
   return out;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core/types.hpp>
+#include <vector>
 
 #include "hypotrack/model.hpp"
 
@@ -8,8 +10,9 @@ namespace hypotrack {
 
 /// Points on a mesh, each a weighted sum of its triangle's corners.
 struct SurfacePoints {
-  Eigen::Matrix3Xi corners;  ///< vertex indices
-  Eigen::Matrix3Xf weights;  ///< barycentric coordinates
+  Eigen::Matrix3Xi corners;   ///< vertex indices
+  Eigen::Matrix3Xf weights;   ///< barycentric coordinates
+  Eigen::VectorXi triangles;  ///< the triangle of each point
 
   Eigen::Index count() const { return corners.cols(); }
 };
@@ -19,5 +22,9 @@ SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count);
 
 /// Returns the positions (3xN) of the points with the mesh's vertices at `vertices` (3xV).
 Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& vertices);
+
+/// Returns the colours (B, G, R, 0 .. 255) of a mesh's texture at its points, each the mean over a
+/// square of `side` metres. Returns none without a texture.
+std::vector<cv::Vec3f> texture_colors(const Mesh& mesh, const SurfacePoints& points, double side);
 
 }  // namespace hypotrack

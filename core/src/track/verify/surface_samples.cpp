@@ -10,7 +10,6 @@
 #include "hypotrack/stereo_pixels.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "tile/tiles.hpp"
-#include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
 namespace {
@@ -125,6 +124,8 @@ SurfaceSampler::SurfaceSampler(const Scene& scene, std::size_t model,
     : impl_(std::make_unique<Impl>(scene, model, cameras)) {}
 SurfaceSampler::~SurfaceSampler() = default;
 SurfaceSampler::SurfaceSampler(SurfaceSampler&&) noexcept = default;
+
+const SurfacePoints& SurfaceSampler::points() const { return impl_->surface; }
 
 void SurfaceSampler::Impl::draw(const Observation& header, const Eigen::VectorXd& state,
                                 const Eigen::VectorXd& part) {

@@ -9,6 +9,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/color_map.hpp"
+#include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
 
@@ -55,6 +56,9 @@ class SurfaceSampler {
   /// colours to the first's. The result is empty if a view has no colour or a camera does not see
   /// the model.
   SurfaceSamples sample(const Frame& frame, const Eigen::VectorXd& state, const ColorMap& colors);
+
+  /// Returns the points of the surface that samples show.
+  const SurfacePoints& points() const;
 
  private:
   struct Impl;

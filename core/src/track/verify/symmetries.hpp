@@ -1,0 +1,14 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "hypotrack/model.hpp"
+
+namespace hypotrack {
+
+/// Returns the motions of a mesh, other than the identity, that put its surface onto itself. Tries
+/// quarter and half turns about its axes of inertia and those of its file.
+std::vector<Eigen::Isometry3d> symmetries(const Mesh& mesh);
+
+}  // namespace hypotrack
