@@ -21,7 +21,9 @@ constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;  // radians
 constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
-constexpr int kUnknownEffort = 3;  // factor where a model was never seen
+// Factors where a model was never seen: of the poses that are scored and refined, and of those
+// searched.
+constexpr int kUnknownEffort = 6, kUnknownSearched = 3;
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
@@ -222,12 +224,12 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   const Eigen::VectorXd& base = task.last.state;
   const ColorMap colors = task.search.second_view_colors();
   const bool is_known = std::isfinite(task.last.seconds);
-  const auto or_usual = [&](int wanted, int usual) {
-    return wanted > 0 ? wanted : usual * (is_known ? 1 : kUnknownEffort);
+  const auto or_usual = [&](int wanted, int usual, int unknown) {
+    return wanted > 0 ? wanted : usual * (is_known ? 1 : unknown);
   };
-  const int refined = or_usual(effort.refined, settings_.refined);
-  const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses), refined,
-                                (refined + 3) / 4};
+  const int refined = or_usual(effort.refined, settings_.refined, kUnknownEffort);
+  const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses, kUnknownEffort),
+                                refined, (refined + 3) / 4};
   ModelVerifier& verifier = task.verifier.model(task.model);
   const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
   Candidates out;
@@ -256,9 +258,9 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   std::ranges::stable_sort(seen,
                            [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
   const double near = kDistinct / static_cast<double>(scene_.items().size());
-  for (Refined& one :
-       distinct(scene_, std::move(seen), near,
-                static_cast<std::size_t>(or_usual(effort.searched, settings_.searched))))
+  for (Refined& one : distinct(scene_, std::move(seen), near,
+                               static_cast<std::size_t>(or_usual(
+                                   effort.searched, settings_.searched, kUnknownSearched))))
     out.states.push_back(std::move(one.state));
   return out;
 }
