@@ -20,31 +20,20 @@ HYPOTRACK_API std::span<const std::string_view> enum_names(LengthUnit);
 HYPOTRACK_API double metres_per(LengthUnit unit);
 HYPOTRACK_API std::span<const std::string_view> enum_names(DistortionModel);
 
-/// Parameters of a source's `calibration:` section, which names an OpenCV YAML file of one of three
-/// forms. Matrices are OpenCV's (`!!opencv-matrix`) or plain lists of numbers.
+/// Parameters of a source's `calibration:` section. The content of the file says which of these it
+/// is (docs/reference/recordings.md shows hypotrack's own):
 ///
-/// 1. Stereo, as OpenCV's stereo_calib writes it, in one file or two: M1 D1 M2 D2 and R T with
-///    p_second = R p_first + T. (K1/K2 or cameraMatrix1/2 for M, distCoeffs1/2 for D are fine.)
-/// 2. One camera, as OpenCV's calibration program writes it: camera_matrix,
-///    distortion_coefficients.
-/// 3. Any number of cameras, in hypotrack's own form:
-///
-///      %YAML:1.0
-///      ---
-///      units: m            # of T: m, cm or mm
-///      cameras:
-///        - image_width: 1280
-///          image_height: 720
-///          model: brown    # none, brown (4, 5 or 8 coefficients) or fisheye (4)
-///          K: [fx, 0, cx, 0, fy, cy, 0, 0, 1]
-///          D: [k1, k2, p1, p2, k3]
-///          R: [1, 0, 0, 0, 1, 0, 0, 0, 1]    # p_camera = R p_world + T
-///          T: [0, 0, 0]
-///
-/// image_width and image_height (or imageSize) may also stand at the top of forms 1 and 2.
+/// - hypotrack's: any number of cameras, YAML.
+/// - OpenCV's YAML or JSON: of stereo_calib, in one file or two, or of one camera.
+/// - Kalibr's camchain.
+/// - a ZED's factory calibration, SN*.conf, which has cameras for several sizes of pictures.
+/// - camera_info of ROS, a file for each camera.
+/// - TOML of caliscope or anipose.
 struct CalibrationSettings {
   std::filesystem::path file;
+  std::filesystem::path second;
   std::filesystem::path extrinsics;
+  std::vector<std::string> cameras;
   std::optional<LengthUnit> units;
   double scale = 1;
   std::vector<double> image_size;
@@ -52,11 +41,16 @@ struct CalibrationSettings {
   bool any_baseline = false;
 
   void visit(ParamVisitor& v) {
-    v("file", file, {.help = "OpenCV YAML with the cameras", .required = true});
+    v("file", file,
+      {.help = "calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, caliscope or anipose",
+       .required = true});
+    v("second", second, {.help = "file of the second camera, where each has its own, as in ROS"});
     v("extrinsics", extrinsics, {.help = "second file with R and T, as stereo_calib writes it"});
+    v("cameras", cameras,
+      {.help = "which cameras of the file, by name, first and second view (default: all)"});
     v("units", units,
       {.help = "unit of the translations in the file: m, cm or mm (default: what the file says "
-               "under `units`, otherwise m)"});
+               "under `units`, otherwise m, for a ZED mm)"});
     v("scale", scale,
       {.help = "further factor on the translations: the side of a checkerboard square, in `units`, "
                "where the calibration was made in squares",
@@ -74,14 +68,36 @@ struct CalibrationSettings {
   }
 };
 
-/// Loads the cameras of a calibration file. The first camera is the world unless the file gives it
-/// a pose (form 3). A camera's width and height are 0 if neither file nor settings give them;
-/// fit_image_size() then sets them.
-/// Throws DataError, naming file and line, on unreadable files, XML, JSON, missing matrices, wrong
-/// sizes and NaN. It also rejects skewed or upside-down intrinsics, an R that is not a rotation and
-/// unsupported numbers of distortion coefficients. Baselines must be plausible, which detects
-/// millimetres read as metres.
-HYPOTRACK_API std::vector<Camera> load_calibration(const CalibrationSettings& settings);
+/// Width and height of pictures; zeros: unknown.
+struct ImageSize {
+  int width = 0;
+  int height = 0;
+};
+
+/// A camera and what its calibration calls it.
+struct NamedCamera {
+  std::string name;
+  Camera camera;
+};
+
+/// Cameras and the format of the file that they come from.
+struct Calibration {
+  std::string format;
+  std::vector<NamedCamera> cameras;
+};
+
+/// Reads a calibration file. The first camera is the world unless the file gives it a pose. A
+/// camera's width and height are 0 if neither file nor settings give them; fit_image_size() then
+/// sets them. `pictures` chooses between resolutions where a file has several.
+/// Throws DataError, naming file and line, on unreadable files, XML, missing matrices, wrong sizes
+/// and NaN. It also rejects skewed or upside-down intrinsics, an R that is not a rotation and
+/// unsupported lens models. Baselines must be plausible, which detects millimetres read as metres.
+HYPOTRACK_API Calibration read_calibration(const CalibrationSettings& settings,
+                                           const ImageSize& pictures = {});
+
+/// Returns the cameras of read_calibration().
+HYPOTRACK_API std::vector<Camera> load_calibration(const CalibrationSettings& settings,
+                                                   const ImageSize& pictures = {});
 
 /// Sets a camera's size to that of its images. Throws DataError, naming `where`, if the camera is
 /// calibrated for another size.

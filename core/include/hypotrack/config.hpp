@@ -47,6 +47,9 @@ class HYPOTRACK_API ConfigNode {
   static ConfigNode parse(std::string_view text, std::string name,
                           std::filesystem::path directory = {});
 
+  /// Parses TOML text; the result is that of the same YAML. Throws ConfigError, also on dates.
+  static ConfigNode parse_toml(std::string_view text, std::string name);
+
   /// Makes a map of nodes that remember where they were written. Undefined nodes are left out. The
   /// map has the position and path of its first value.
   static ConfigNode map_of(std::span<const std::pair<std::string, ConfigNode>> entries);

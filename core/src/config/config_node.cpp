@@ -5,6 +5,7 @@
 
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
+#include "config/toml.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
@@ -52,6 +53,12 @@ ConfigNode ConfigNode::parse(std::string_view text, std::string name,
                              std::filesystem::path directory) {
   return ConfigNode(
       std::shared_ptr<const YamlNode>(detail::read_document(text, std::move(name), directory)));
+}
+
+ConfigNode ConfigNode::parse_toml(std::string_view text, std::string name) {
+  auto origin = std::make_shared<YamlOrigin>();
+  origin->name = std::move(name);
+  return ConfigNode(std::shared_ptr<const YamlNode>(detail::read_toml(text, origin)));
 }
 
 ConfigNode ConfigNode::map_of(std::span<const std::pair<std::string, ConfigNode>> entries) {

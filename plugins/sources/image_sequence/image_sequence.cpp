@@ -135,11 +135,11 @@ class ImageSequence : public Source {
     first_ = found.images.first;
     rate_ = params.frame_rate.value_or(kUsualRate) / params.step;
     take_times(found.stamps);
-    cameras_ = load_calibration(params.calibration);
+    cameras_ = load_calibration(params.calibration, first_image(0).size);
     if (cameras_.size() != views_) {
       throw DataError(fmt::format(
           "{}: holds {} cameras, the source has {} views (left{}); expected "
-          "one camera per view",
+          "one camera per view, which `cameras` (calibration) chooses",
           params.calibration.file.string(), cameras_.size(), views_, views_ == 2 ? ", right" : ""));
     }
     for (std::size_t i = 0; i < layers_.size(); ++i) take_image_size(i);
@@ -215,14 +215,22 @@ class ImageSequence : public Source {
   /// whole recording is a mistake of the scene; a single frame of another size is damaged.
   void take_image_size(std::size_t layer) {
     if (layers_[layer].content == Content::mask) return;
+    const FirstImage first = first_image(layer);
+    fit_image_size(cameras_[layers_[layer].view], first.size.width, first.size.height,
+                   first.file.string());
+  }
+
+  /// The first image of a layer that can be read.
+  struct FirstImage {
+    std::filesystem::path file;
+    ImageSize size;
+  };
+  FirstImage first_image(std::size_t layer) const {
     std::string first_problem;
     for (std::size_t i = 0; i < lists_[layer].size(); ++i) {
       const ReadImage read = read_layer(layer, i);
       if (first_problem.empty()) first_problem = read.problem;
-      if (!read.problem.empty()) continue;
-      fit_image_size(cameras_[layers_[layer].view], read.image.cols, read.image.rows,
-                     lists_[layer][i].string());
-      return;
+      if (read.problem.empty()) return {lists_[layer][i], {read.image.cols, read.image.rows}};
     }
     throw DataError(fmt::format("no image can be read: {}", first_problem));
   }

@@ -62,12 +62,14 @@ class Video : public Source {
 
   Video(const Params& params, PluginContext& context) : params_(params) {
     open(context.config().where());
-    cameras_ = load_calibration(params.calibration);
     const std::size_t views = split_ ? 2 : readers_.size();
+    cameras_ = load_calibration(
+        params.calibration,
+        {split_ ? readers_[0].width() / 2 : readers_[0].width(), readers_[0].height()});
     if (cameras_.size() != views) {
       throw DataError(
           fmt::format("{}: holds {} cameras, the source has {} views; expected one "
-                      "camera per view",
+                      "camera per view, which `cameras` (calibration) chooses",
                       params.calibration.file.string(), cameras_.size(), views));
     }
     for (std::size_t v = 0; v < views; ++v) {

@@ -251,7 +251,7 @@ TEST_F(Calibration, SaysWhatItDoesNotRead) {
   settings.file = folder_.path() / "none.yml";
   EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("no such file")));
   settings.file = write("camera.xml", "<?xml version=\"1.0\"?><opencv_storage/>");
-  EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("read as YAML only")));
+  EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("is XML or compressed")));
   settings.file = write("other.yml", "cam0: {a: 1}\n");
   EXPECT_THAT(loading(settings),
               ThrowsMessage<DataError>(AllOf(HasSubstr("is no calibration"), HasSubstr("cam0"))));

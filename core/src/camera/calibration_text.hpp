@@ -9,10 +9,10 @@
 
 namespace hypotrack {
 
-/// Reads YAML of cv::FileStorage with hypotrack's own parser, because cv::FileStorage crashes on
-/// damaged files and does not locate errors. Throws DataError on XML, JSON and compressed files,
-/// files over 8 MiB and broken YAML.
-ConfigNode read_opencv_yaml(const std::filesystem::path& file);
+/// Reads YAML or JSON of cv::FileStorage, or TOML, with hypotrack's own parser of YAML:
+/// cv::FileStorage crashes on damaged files and does not locate errors. Throws DataError on XML and
+/// compressed files, files over 8 MiB and broken text.
+ConfigNode read_calibration_text(const std::filesystem::path& file);
 
 /// A matrix of a YAML file: `!!opencv-matrix` with rows, cols, dt and data, a plain list of numbers
 /// (one row), or a list of rows.
@@ -30,6 +30,9 @@ YamlMatrix read_matrix(const ConfigNode& node, std::string_view name);
 /// Throws DataError unless the matrix has this shape. A row vector may replace a column vector, and
 /// a plain list of the right length may replace a matrix.
 void expect_shape(const YamlMatrix& matrix, int rows, int cols);
+
+/// Reads a finite number. Throws DataError.
+double read_number(const ConfigNode& node, std::string_view name);
 
 /// Reads a positive integer. Throws DataError.
 int read_count(const ConfigNode& node, std::string_view name);

@@ -1,4 +1,4 @@
-#include "camera/opencv_yaml.hpp"
+#include "camera/calibration_text.hpp"
 
 #include <fmt/format.h>
 
@@ -21,15 +21,6 @@ std::string read_text(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) {
     throw DataError(fmt::format("{}: no such file; expected a calibration", file.string()));
   }
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".xml" || extension == ".json" || extension == ".gz") {
-    throw DataError(
-        fmt::format("{}: calibrations are read as YAML only; expected a .yml or .yaml "
-                    "file as cv::FileStorage writes it",
-                    file.string()));
-  }
   if (std::filesystem::file_size(file, error) > kLargestYamlFile || error) {
     throw DataError(
         fmt::format("{}: is larger than 8 MiB, which no calibration is", file.string()));
@@ -39,6 +30,26 @@ std::string read_text(const std::filesystem::path& file) {
     throw DataError(fmt::format("{}: cannot be read; check its permissions", file.string()));
   }
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+enum class Language { yaml, json, toml, unknown };
+
+/// Returns the language of a text by its first line that is no comment.
+Language language_of(std::string_view text) {
+  constexpr std::string_view kBlank = " \t\r\n", kMark = "\xEF\xBB\xBF";
+  if (text.starts_with("\x1F\x8B")) return Language::unknown;
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  while (true) {
+    text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
+    if (!text.starts_with('#')) break;
+    text.remove_prefix(std::min(text.find('\n'), text.size()));
+  }
+  const std::string_view line = text.substr(0, text.find('\n'));
+  if (line.starts_with('<')) return Language::unknown;
+  if (line.starts_with('{')) return Language::json;
+  if (line.starts_with('[')) return Language::toml;
+  const std::size_t equals = line.find('='), colon = line.find(':');
+  return equals < colon ? Language::toml : Language::yaml;
 }
 
 /// Blanks OpenCV's deviations from YAML 1.2 and keeps all positions.
@@ -59,36 +70,21 @@ std::string name_at(const ConfigNode& node, std::string_view name) {
   return fmt::format("{}: {}", node.where(), name);
 }
 
-double read_number(const ConfigNode& node, std::string_view name) {
-  const std::string& text = node.scalar();
-  std::string_view rest = text;
-  if (rest.starts_with('+')) rest.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
-  const bool read =
-      node.is_scalar() && !rest.empty() && error == std::errc{} && end == rest.data() + rest.size();
-  if (!read || !std::isfinite(value)) {
-    throw DataError(fmt::format("{} holds '{}'; expected finite numbers", name_at(node, name),
-                                node.is_scalar() ? text.substr(0, 40) : "a map or list"));
-  }
-  return value;
-}
-
 void append_numbers(const ConfigNode& list, std::string_view name, std::vector<double>& values) {
   for (std::size_t i = 0; i < list.size(); ++i) values.push_back(read_number(list.at(i), name));
 }
 
 YamlMatrix read_opencv_matrix(const ConfigNode& node, std::string_view name) {
-  for (const char* key : {"rows", "cols", "dt", "data"}) {
+  for (const char* key : {"rows", "cols", "data"}) {
     if (!node.get(key).defined()) {
-      throw DataError(fmt::format("{} has no '{}'; expected a matrix with rows, cols, dt and data",
+      throw DataError(fmt::format("{} has no '{}'; expected a matrix with rows, cols and data",
                                   name_at(node, name), key));
     }
   }
   YamlMatrix matrix;
   matrix.rows = read_count(node.get("rows"), name);
   matrix.cols = read_count(node.get("cols"), name);
-  const std::string& type = node.get("dt").scalar();
+  const std::string type = node.get("dt").defined() ? node.get("dt").scalar() : "d";
   if (type != "d" && type != "f") {
     throw DataError(
         fmt::format("{} has elements of type '{}'; expected d or f (one channel of "
@@ -130,10 +126,38 @@ YamlMatrix read_plain_matrix(const ConfigNode& node, std::string_view name) {
 
 }  // namespace
 
-ConfigNode read_opencv_yaml(const std::filesystem::path& file) {
+double read_number(const ConfigNode& node, std::string_view name) {
+  const std::string& text = node.scalar();
+  std::string_view rest = text;
+  if (rest.starts_with('+')) rest.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), value);
+  const bool read =
+      node.is_scalar() && !rest.empty() && error == std::errc{} && end == rest.data() + rest.size();
+  if (!read || !std::isfinite(value)) {
+    throw DataError(fmt::format("{} holds '{}'; expected finite numbers", name_at(node, name),
+                                node.is_scalar() ? text.substr(0, 40) : "a map or list"));
+  }
+  return value;
+}
+
+ConfigNode read_calibration_text(const std::filesystem::path& file) {
   std::string text = read_text(file);
-  blank_opencv_marks(text);
   try {
+    switch (language_of(text)) {
+      case Language::toml:
+        return ConfigNode::parse_toml(text, file.string());
+      case Language::json:
+        std::ranges::replace(text, '\t', ' ');
+        break;
+      case Language::yaml:
+        blank_opencv_marks(text);
+        break;
+      case Language::unknown:
+        throw DataError(fmt::format(
+            "{}: is XML or compressed; expected YAML or JSON of cv::FileStorage, or TOML",
+            file.string()));
+    }
     return ConfigNode::parse(text, file.string(), file.parent_path());
   } catch (const ConfigError& e) {
     throw DataError(e.what());

@@ -1,0 +1,134 @@
+#include "camera/camera_fields.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "camera/calibration_text.hpp"
+
+namespace hypotrack::calibration {
+namespace {
+
+constexpr std::array<std::string_view, 3> kUnits = {"m", "cm", "mm"};
+
+}  // namespace
+
+ConfigNode first_of(const ConfigNode& node, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    if (ConfigNode found = node.get(name); found.defined()) return found;
+  }
+  return {};
+}
+
+ConfigNode required(const ConfigNode& node, std::initializer_list<std::string_view> names,
+                    std::string_view advice) {
+  ConfigNode found = first_of(node, names);
+  if (!found.defined()) {
+    throw DataError(fmt::format("{}: has no {}; {}", node.where(), *names.begin(), advice));
+  }
+  return found;
+}
+
+ImageSize read_size(const ConfigNode& node) {
+  const ConfigNode width = node.get("image_width");
+  const ConfigNode height = node.get("image_height");
+  if (width.defined() != height.defined()) {
+    throw DataError(fmt::format("{}: gives only one of image_width and image_height; expected both",
+                                node.where()));
+  }
+  if (width.defined()) {
+    return {read_count(width, "image_width"), read_count(height, "image_height")};
+  }
+  if (const ConfigNode size = first_of(node, {"imageSize", "image_size", "resolution", "size"});
+      size.defined()) {
+    expect_shape(read_matrix(size, "imageSize"), 1, 2);
+    return {read_count(size.at(0), "image width"), read_count(size.at(1), "image height")};
+  }
+  return {};
+}
+
+void read_intrinsics(const ConfigNode& node, Camera& camera) {
+  const YamlMatrix k = read_matrix(node, "the camera matrix");
+  expect_shape(k, 3, 3);
+  const auto& v = k.values;
+  if (std::abs(v[1]) > 1e-6 * std::abs(v[0])) {
+    throw DataError(
+        fmt::format("{} has a skew of {:g}; expected 0 (square pixel corners)", k.where, v[1]));
+  }
+  if (v[3] != 0 || v[6] != 0 || v[7] != 0 || v[8] != 1) {
+    throw DataError(
+        fmt::format("{} is not of the form fx 0 cx / 0 fy cy / 0 0 1; is it transposed?", k.where));
+  }
+  camera.fx = v[0];
+  camera.fy = v[4];
+  camera.cx = v[2];
+  camera.cy = v[5];
+}
+
+void read_lens(const ConfigNode& node, std::optional<DistortionModel> model, Camera& camera) {
+  if (node.defined()) {
+    const YamlMatrix d = read_matrix(node, "the distortion");
+    if (d.rows != 1 && d.cols != 1) {
+      throw DataError(
+          fmt::format("{} is {} x {}; expected one row or column", d.where, d.rows, d.cols));
+    }
+    camera.distortion = d.values;
+    // OpenCV pads with zeros: 12 or 14 coefficients equal 8 if thin prism and tilt are unused.
+    while (camera.distortion.size() > 8 && camera.distortion.back() == 0) {
+      camera.distortion.pop_back();
+    }
+    if (camera.distortion.size() > 8) {
+      throw DataError(
+          fmt::format("{} has {} coefficients: thin-prism and tilted-sensor models are "
+                      "not supported; calibrate with 5 or 8",
+                      d.where, d.values.size()));
+    }
+  }
+  const bool flat = std::all_of(camera.distortion.begin(), camera.distortion.end(),
+                                [](double k) { return k == 0; });
+  camera.distortion_model = model.value_or(DistortionModel::brown);
+  if (!node.defined() || (flat && camera.distortion_model == DistortionModel::none)) {
+    camera.distortion_model = DistortionModel::none;
+    camera.distortion.clear();
+  }
+}
+
+void read_pose(const ConfigNode& r_node, const ConfigNode& t_node, double metres_per_unit,
+               Camera& camera) {
+  const YamlMatrix r = read_matrix(r_node, "R");
+  expect_shape(r, 3, 3);
+  const YamlMatrix t = read_matrix(t_node, "T");
+  expect_shape(t, 3, 1);
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 9; ++i) rotation(i / 3, i % 3) = r.values[static_cast<std::size_t>(i)];
+  set_pose(rotation, metres_per_unit * Eigen::Vector3d(t.values[0], t.values[1], t.values[2]),
+           r.where, camera);
+}
+
+void set_pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
+              std::string_view where, Camera& camera) {
+  Camera checked;  // R alone, so that the message gives its line
+  checked.camera_from_world.linear() = rotation;
+  checked.width = checked.height = 1;
+  checked.fx = checked.fy = 1;
+  validate(checked, where);
+  // Files have few digits; orthonormalise the rotation.
+  camera.camera_from_world.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
+  camera.camera_from_world.translation() = translation;
+}
+
+double metres_per_unit(const ConfigNode& file, const CalibrationSettings& settings,
+                       LengthUnit usual) {
+  std::optional<LengthUnit> units = settings.units;
+  if (const ConfigNode said = file.get("units"); said.defined()) {
+    const auto in_file = static_cast<LengthUnit>(index_of(said, "units", kUnits));
+    if (units && *units != in_file) {
+      throw DataError(fmt::format("{}: the file is in {}, the scene says `units: {}`; remove one",
+                                  said.where(), said.scalar(),
+                                  kUnits[static_cast<std::size_t>(*units)]));
+    }
+    units = in_file;
+  }
+  return settings.scale * metres_per(units.value_or(usual));
+}
+
+}  // namespace hypotrack::calibration
