@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
   add_compare_command(root, common, exit_code);
   add_bench_command(root, common, exit_code);
   add_report_command(root, common, exit_code);
+  add_calibrate_command(root, exit_code);
+  add_calibration_command(root, exit_code);
   add_plugins_command(root, common, exit_code);
   try {
     if (const int mistake = line.run(argc, argv); mistake != 0) return mistake;

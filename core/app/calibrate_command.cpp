@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/board.hpp"
+#include "calibrate/coverage.hpp"
+#include "calibrate/picture_pairs.hpp"
+#include "calibrate/stereo_calibration.hpp"
+#include "calibrate/verdict.hpp"
+#include "calibration_output.hpp"
+#include "commands.hpp"
+#include "hypotrack/calibration.hpp"
+#include "hypotrack/error.hpp"
+#include "tell.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct CalibrateOptions {
+  std::string left, right, board, square, dictionary = "4X4_50";
+  std::optional<std::string> marker;
+  bool inverted = false, force = false;
+  int step = 1;
+  std::optional<std::filesystem::path> lenses, coverage;
+  std::vector<std::string> cameras;
+  std::filesystem::path out = "calibration.yaml";
+};
+
+calibrate::Board board_of(const CalibrateOptions& options) {
+  calibrate::Board out = calibrate::parse_board(options.board, options.square);
+  out.dictionary = options.dictionary;
+  out.inverted = options.inverted;
+  if (options.marker) out.marker = calibrate::parse_length(*options.marker, "--marker");
+  if (out.marker >= out.square) {
+    throw ConfigError(fmt::format("--marker is {}; expected less than --square, {}",
+                                  *options.marker, options.square));
+  }
+  return out;
+}
+
+/// Pairs of pictures with the board, and names of those without.
+struct FoundBoards {
+  std::vector<calibrate::BoardPair> pairs;
+  std::vector<std::string> without;
+  cv::Size size;  ///< of the pictures
+};
+
+FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOptions& options) {
+  FoundBoards out;
+  calibrate::read_pairs(
+      options.left, options.right, options.step, [&](const calibrate::PicturePair& pair) {
+        for (const cv::Mat& picture : {pair.left, pair.right}) {
+          if (out.size.empty()) out.size = picture.size();
+          if (picture.size() == out.size) continue;
+          throw DataError(
+              fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected "
+                          "one size",
+                          pair.name, picture.cols, picture.rows, out.size.width, out.size.height));
+        }
+        calibrate::BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
+        if (finder.whole_only()) calibrate::number_alike(board.corners[0], board.corners[1]);
+        if (board.corners[0].ids.empty() || board.corners[1].ids.empty())
+          out.without.push_back(pair.name);
+        else
+          out.pairs.push_back(std::move(board));
+      });
+  return out;
+}
+
+/// Reads the lenses of both cameras.
+std::optional<std::array<Camera, 2>> lenses_of(const CalibrateOptions& options, cv::Size size) {
+  if (!options.lenses) return std::nullopt;
+  CalibrationSettings settings;
+  settings.file = *options.lenses;
+  settings.cameras = options.cameras;
+  settings.any_baseline = true;
+  std::vector<Camera> cameras = load_calibration(settings, {size.width, size.height});
+  if (cameras.size() != 2) {
+    throw DataError(
+        fmt::format("{}: has {} cameras; expected the two of the pictures, which --cameras chooses",
+                    options.lenses->string(), cameras.size()));
+  }
+  for (Camera& camera : cameras) {
+    fit_image_size(camera, size.width, size.height, options.left);
+    if (camera.distortion_model != DistortionModel::fisheye) continue;
+    throw DataError(
+        fmt::format("{}: has a fisheye lens; expected the model brown", options.lenses->string()));
+  }
+  return std::array{cameras[0], cameras[1]};
+}
+
+void print_pairs(const calibrate::StereoCalibration& found) {
+  std::size_t width = 4;
+  for (const auto& pair : found.pairs) width = std::max(width, pair.name.size());
+  fmt::print("{:{}}   left px  right px   (root mean square distance of the corners)\n", "pair",
+             width);
+  for (const auto& pair : found.pairs)
+    if (pair.too_few)
+      fmt::print("{:{}}         -         -   too few corners that both show\n", pair.name, width);
+    else
+      fmt::print("{:{}}  {:8.3f}  {:8.3f}{}\n", pair.name, width, pair.rms[0], pair.rms[1],
+                 pair.dropped ? "   dropped: far worse than the others" : "");
+}
+
+void print_without(const std::vector<std::string>& names) {
+  constexpr std::ptrdiff_t kMost = 6;
+  if (names.empty()) return;
+  const auto shown = std::min(kMost, std::ssize(names));
+  fmt::print("{} pairs do not show the board in both pictures: {}{}\n", names.size(),
+             fmt::join(names.begin(), names.begin() + shown, ", "),
+             shown < std::ssize(names) ? ", ..." : "");
+}
+
+int calibrate_pair(const CalibrateOptions& options) {
+  check_new_file(options.out, options.force);
+  const calibrate::BoardFinder finder(board_of(options));
+  const FoundBoards boards = find_boards(finder, options);
+  const calibrate::StereoCalibration found = calibrate::calibrate_stereo(
+      finder, boards.size, boards.pairs, lenses_of(options, boards.size));
+  print_pairs(found);
+  print_without(boards.without);
+  print_cameras({{"left", found.cameras[0]}, {"right", found.cameras[1]}});
+  const calibrate::Verdict verdict = calibrate::verdict_of(boards.pairs, found);
+  fmt::print("{}\n", verdict.summary);
+  for (const std::string& advice : verdict.advice) fmt::print("- {}\n", advice);
+  if (options.coverage &&
+      !cv::imwrite(options.coverage->string(), calibrate::draw_coverage(boards.pairs, found))) {
+    throw OutputError(
+        fmt::format("{}: the picture cannot be written; expected a .png in a folder that exists",
+                    options.coverage->string()));
+  }
+  write_calibration(options.out, {found.cameras[0], found.cameras[1]});
+  fmt::print("calibration in {}\n", options.out.string());
+  return verdict.usable ? 0 : 1;
+}
+
+}  // namespace
+
+void add_calibrate_command(const Command& root, int& exit_code) {
+  auto options = std::make_shared<CalibrateOptions>();
+  const Command command =
+      root.add_command("calibrate", "Calibrate two cameras from pictures of a board");
+  command.add("--left", &options->left,
+              "Pictures of the left camera: a pattern in quotes or a video",
+              {.required = true, .value_name = "'left*.jpg'"});
+  command.add("--right", &options->right, "Pictures of the right camera, in the same order",
+              {.required = true, .value_name = "'right*.jpg'"});
+  command.add("--board", &options->board,
+              "Inner corners of a chessboard (9x6) or squares of a ChArUco board (charuco:5x7)",
+              {.required = true, .value_name = "9x6"});
+  command.add("--square", &options->square, "Side of a square, with its unit",
+              {.required = true, .value_name = "25mm"});
+  command.add("--marker", &options->marker, "Side of a marker (default: 0.75 of a square)",
+              {.value_name = "18mm"});
+  command.add("--dictionary", &options->dictionary, "Markers of a ChArUco board",
+              {.show_default = true, .check = one_of(calibrate::dictionary_names())});
+  command.add("--inverted", &options->inverted, "White and black of the board are exchanged");
+  command.add("--step", &options->step, "Use every n-th frame of videos",
+              {.show_default = true, .check = whole_number(1)});
+  command.add("--lenses", &options->lenses,
+              "Calibration file with the lenses of both cameras: find only where they are");
+  command.add("--cameras", &options->cameras, "Names of the two cameras in --lenses",
+              {.value_name = "LEFT,RIGHT", .commas = true});
+  command.add("--out", &options->out, "Calibration file to write",
+              {.show_default = true, .check = file_name()});
+  command.add("--coverage", &options->coverage, "Picture to write of where corners were seen",
+              {.value_name = "FILE.png"});
+  command.add("--force", &options->force, "Replace the calibration file");
+  command.on_call([=, &exit_code] { exit_code = calibrate_pair(*options); });
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "calibrate/match_check.hpp"
+#include "calibrate/picture_pairs.hpp"
+#include "calibration_output.hpp"
+#include "commands.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/median.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+struct CalibrationOptions {
+  CalibrationSettings settings;
+  std::optional<std::string> units, image_size;
+  double scale = 1;
+  std::filesystem::path out;
+  bool force = false;
+  std::string left, right;
+};
+
+/// Returns the settings with what the options say in words.
+CalibrationSettings settings_of(const CalibrationOptions& options) {
+  CalibrationSettings out = options.settings;
+  out.scale = options.scale;
+  if (options.units) {
+    const auto names = enum_names(LengthUnit());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == *options.units) out.units = static_cast<LengthUnit>(i);
+  }
+  if (options.image_size) {
+    int width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(options.image_size->c_str(), "%dx%d%c", &width, &height, &rest) != 2) {
+      throw ConfigError(fmt::format("--image-size is '{}'; expected width and height, as 1280x720",
+                                    *options.image_size));
+    }
+    out.image_size = {static_cast<double>(width), static_cast<double>(height)};
+  }
+  return out;
+}
+
+int info(const CalibrationOptions& options) {
+  const Calibration found = read_calibration(settings_of(options));
+  fmt::print("{}: {}, {} camera{}\n", options.settings.file.string(), found.format,
+             found.cameras.size(), found.cameras.size() == 1 ? "" : "s");
+  print_cameras(found.cameras);
+  return 0;
+}
+
+int convert(const CalibrationOptions& options) {
+  check_new_file(options.out, options.force);
+  const std::vector<Camera> cameras = load_calibration(settings_of(options));
+  for (std::size_t i = 0; i < cameras.size(); ++i)
+    if (cameras[i].width == 0) {
+      throw DataError(fmt::format("{}: does not say how large the pictures are; give --image-size",
+                                  options.settings.file.string()));
+    }
+  write_calibration(options.out, cameras);
+  fmt::print("calibration in {}\n", options.out.string());
+  return 0;
+}
+
+/// The checks of all pairs that can be judged.
+struct Judged {
+  std::vector<double> distances;  ///< medians, pixels
+  std::ptrdiff_t exchanged = 0;
+};
+
+/// Prints the check of one pair.
+void print_check(const std::string& name, const calibrate::MatchCheck& check, Judged& judged) {
+  constexpr int kFew = 20;
+  if (check.matches < kFew) {
+    fmt::print("{}: {} matches, too few to tell\n", name, check.matches);
+    return;
+  }
+  fmt::print(
+      "{}: {} matches, median {:.2f} px from the epipolar line ({:+.2f} px with its sign), {:.0f} "
+      "% "
+      "consistent\n",
+      name, check.matches, check.distance, check.offset, 100 * check.consistent);
+  judged.distances.push_back(check.distance);
+  if (!check.looks_exchanged()) return;
+  fmt::print("  left and right seem exchanged: {:.0f} % are consistent the other way round\n",
+             100 * check.consistent_exchanged);
+  ++judged.exchanged;
+}
+
+/// Prints what the checks say together. Returns the exit code.
+int print_judgement(const Judged& judged) {
+  constexpr double kFar = 1.5;  // pixels
+  if (judged.distances.empty())
+    throw DataError("no pair has enough matches; expected pictures of a scene with much texture");
+  const double distance = upper_median(judged.distances);
+  if (2 * judged.exchanged > std::ssize(judged.distances)) {
+    fmt::print("left and right are exchanged, in the pictures or in the calibration\n");
+    return 1;
+  }
+  if (distance >= kFar) {
+    fmt::print(
+        "calibration and pictures do not agree: {:.1f} px from the epipolar lines; calibrate "
+        "again\n",
+        distance);
+    return 1;
+  }
+  fmt::print("calibration and pictures agree: {:.2f} px from the epipolar lines\n", distance);
+  return 0;
+}
+
+int check(const CalibrationOptions& options) {
+  CalibrationSettings settings = settings_of(options);
+  Judged judged;
+  calibrate::read_pairs(options.left, options.right, 30, [&](const calibrate::PicturePair& pair) {
+    std::vector<Camera> cameras = load_calibration(settings, {pair.left.cols, pair.left.rows});
+    if (cameras.size() != 2) {
+      throw DataError(fmt::format("{}: has {} cameras; expected two, which --cameras chooses",
+                                  settings.file.string(), cameras.size()));
+    }
+    fit_image_size(cameras[0], pair.left.cols, pair.left.rows, options.left);
+    fit_image_size(cameras[1], pair.right.cols, pair.right.rows, options.right);
+    print_check(pair.name,
+                calibrate::check_matches({cameras[0], cameras[1]}, pair.left, pair.right), judged);
+  });
+  return print_judgement(judged);
+}
+
+void add_file_options(const Command& command, CalibrationOptions& options) {
+  command.add("file", &options.settings.file,
+              "Calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, caliscope or anipose",
+              {.required = true});
+  command.add("--second", &options.settings.second, "File of the second camera, as ROS has");
+  command.add("--extrinsics", &options.settings.extrinsics,
+              "File with R and T, as OpenCV's stereo_calib writes");
+  command.add("--cameras", &options.settings.cameras, "Names of the cameras to take, in order",
+              {.commas = true});
+  command.add("--units", &options.units, "Unit of the translations, where the file does not say",
+              {.check = one_of({"m", "cm", "mm"})});
+  command.add("--scale", &options.scale, "Further factor on the translations",
+              {.check = positive_number()});
+  command.add("--image-size", &options.image_size, "Size of the pictures",
+              {.value_name = "1280x720"});
+  command.add("--any-baseline", &options.settings.any_baseline,
+              "Accept cameras less than 5 mm or more than 2 m apart");
+}
+
+}  // namespace
+
+void add_calibration_command(const Command& root, int& exit_code) {
+  const Command command = root.add_command("calibration", "Look at calibration files");
+  command.need_command();
+
+  auto of_info = std::make_shared<CalibrationOptions>();
+  const Command info_command = command.add_command("info", "Print the cameras of a file");
+  add_file_options(info_command, *of_info);
+  info_command.on_call([=, &exit_code] { exit_code = info(*of_info); });
+
+  auto of_convert = std::make_shared<CalibrationOptions>();
+  const Command convert_command =
+      command.add_command("convert", "Write the cameras of a file in hypotrack's form");
+  add_file_options(convert_command, *of_convert);
+  convert_command.add("--out", &of_convert->out, "File to write",
+                      {.required = true, .check = file_name()});
+  convert_command.add("--force", &of_convert->force, "Replace the file");
+  convert_command.on_call([=, &exit_code] { exit_code = convert(*of_convert); });
+
+  auto of_check = std::make_shared<CalibrationOptions>();
+  const Command check_command = command.add_command(
+      "check", "Compare pictures with a file: distances from epipolar lines, exchanged views");
+  add_file_options(check_command, *of_check);
+  check_command.add("--left", &of_check->left, "Pictures of the first camera, or a video",
+                    {.required = true, .value_name = "'left*.jpg'"});
+  check_command.add("--right", &of_check->right, "Pictures of the second camera",
+                    {.required = true, .value_name = "'right*.jpg'"});
+  check_command.on_call([=, &exit_code] { exit_code = check(*of_check); });
+}
+
+}  // namespace hypotrack::app

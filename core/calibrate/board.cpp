@@ -1,0 +1,183 @@
+#include "calibrate/board.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <opencv2/aruco/charuco.hpp>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::calibrate {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, cv::aruco::PREDEFINED_DICTIONARY_NAME>, 21>
+    kDictionaries = {{{"4X4_50", cv::aruco::DICT_4X4_50},
+                      {"4X4_100", cv::aruco::DICT_4X4_100},
+                      {"4X4_250", cv::aruco::DICT_4X4_250},
+                      {"4X4_1000", cv::aruco::DICT_4X4_1000},
+                      {"5X5_50", cv::aruco::DICT_5X5_50},
+                      {"5X5_100", cv::aruco::DICT_5X5_100},
+                      {"5X5_250", cv::aruco::DICT_5X5_250},
+                      {"5X5_1000", cv::aruco::DICT_5X5_1000},
+                      {"6X6_50", cv::aruco::DICT_6X6_50},
+                      {"6X6_100", cv::aruco::DICT_6X6_100},
+                      {"6X6_250", cv::aruco::DICT_6X6_250},
+                      {"6X6_1000", cv::aruco::DICT_6X6_1000},
+                      {"7X7_50", cv::aruco::DICT_7X7_50},
+                      {"7X7_100", cv::aruco::DICT_7X7_100},
+                      {"7X7_250", cv::aruco::DICT_7X7_250},
+                      {"7X7_1000", cv::aruco::DICT_7X7_1000},
+                      {"ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL},
+                      {"APRILTAG_16h5", cv::aruco::DICT_APRILTAG_16h5},
+                      {"APRILTAG_25h9", cv::aruco::DICT_APRILTAG_25h9},
+                      {"APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10},
+                      {"APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11}}};
+constexpr double kUsualMarker = 0.75;  // of a square
+
+/// Parses a number at the start of a text and removes it.
+template <class T>
+std::optional<T> take_number(std::string_view& text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+cv::Size parse_size(std::string_view text, std::string_view whole) {
+  constexpr int kLeast = 3, kMost = 100;
+  const auto columns = take_number<int>(text);
+  const bool by = text.starts_with('x');
+  if (by) text.remove_prefix(1);
+  const auto rows = take_number<int>(text);
+  if (columns && by && rows && text.empty() && std::min(*columns, *rows) >= kLeast &&
+      std::max(*columns, *rows) <= kMost)
+    return {*columns, *rows};
+  throw ConfigError(
+      fmt::format("--board is '{}'; expected the inner corners of a chessboard, as 9x6, or the "
+                  "squares of a ChArUco board, as charuco:5x7; {} to {} each",
+                  whole, kLeast, kMost));
+}
+
+cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
+  cv::Mat gray = picture;
+  if (picture.channels() == 3) cv::cvtColor(picture, gray, cv::COLOR_BGR2GRAY);
+  if (inverted) cv::bitwise_not(gray, gray);
+  return gray;
+}
+
+/// Returns the corners of a whole chessboard.
+std::vector<cv::Point2f> chessboard_corners(const cv::Mat& gray, cv::Size size) {
+  constexpr int kWindow = 5, kIterations = 40;
+  constexpr double kAccuracy = 0.001;  // pixels
+  std::vector<cv::Point2f> corners;
+  if (!cv::findChessboardCorners(
+          gray, size, corners,
+          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
+    return {};
+  cv::cornerSubPix(gray, corners, {kWindow, kWindow}, {-1, -1},
+                   {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kIterations, kAccuracy});
+  return corners;
+}
+
+}  // namespace
+
+struct BoardFinder::Markers {
+  explicit Markers(const Board& board)
+      : dictionary(cv::aruco::getPredefinedDictionary(
+            std::ranges::find(kDictionaries, board.dictionary,
+                              &decltype(kDictionaries)::value_type::first)
+                ->second)),
+        layout(cv::aruco::CharucoBoard::create(board.size.width, board.size.height,
+                                               static_cast<float>(board.square),
+                                               static_cast<float>(board.marker), dictionary)),
+        parameters(cv::aruco::DetectorParameters::create()) {}
+
+  cv::Ptr<cv::aruco::Dictionary> dictionary;
+  cv::Ptr<cv::aruco::CharucoBoard> layout;
+  cv::Ptr<cv::aruco::DetectorParameters> parameters;
+};
+
+std::vector<std::string> dictionary_names() {
+  std::vector<std::string> out;
+  for (const auto& [name, dictionary] : kDictionaries) out.emplace_back(name);
+  return out;
+}
+
+double parse_length(std::string_view text, std::string_view what) {
+  constexpr std::array<std::pair<std::string_view, double>, 3> kUnits = {
+      {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}}};
+  std::string_view unit = text;
+  const auto number = take_number<double>(unit);
+  const auto found = std::ranges::find(kUnits, unit, &decltype(kUnits)::value_type::first);
+  if (number && *number > 0 && found != kUnits.end() && *number * found->second < 10)
+    return *number * found->second;
+  throw ConfigError(
+      fmt::format("{} is '{}'; expected a length with its unit, as 25mm or 2.5cm", what, text));
+}
+
+Board parse_board(std::string_view size, std::string_view square) {
+  constexpr std::string_view kCharuco = "charuco:";
+  Board out;
+  std::string_view numbers = size;
+  if (size.starts_with(kCharuco)) {
+    out.kind = Board::Kind::charuco;
+    numbers.remove_prefix(kCharuco.size());
+  }
+  out.size = parse_size(numbers, size);
+  out.square = parse_length(square, "--square");
+  out.marker = kUsualMarker * out.square;
+  return out;
+}
+
+void number_alike(const BoardCorners& left, BoardCorners& right) {
+  if (left.ids != right.ids || left.ids.empty()) return;
+  const auto mean = [](const std::vector<cv::Point2f>& points) {
+    cv::Point2f sum;
+    for (const cv::Point2f& p : points) sum += p;
+    return sum / static_cast<float>(points.size());
+  };
+  const cv::Point2f shift = mean(right.at) - mean(left.at);
+  double same = 0, reversed = 0;
+  for (std::size_t i = 0; i < left.at.size(); ++i) {
+    same += cv::norm(left.at[i] + shift - right.at[i]);
+    reversed += cv::norm(left.at[i] + shift - right.at[right.at.size() - 1 - i]);
+  }
+  if (reversed < same) std::ranges::reverse(right.at);
+}
+
+BoardFinder::BoardFinder(const Board& board) : board_(board) {
+  if (board.kind == Board::Kind::charuco) markers_ = std::make_unique<Markers>(board);
+}
+BoardFinder::~BoardFinder() = default;
+
+BoardCorners BoardFinder::find(const cv::Mat& picture) const {
+  const cv::Mat gray = gray_of(picture, board_.inverted);
+  BoardCorners out;
+  if (!markers_) {
+    out.at = chessboard_corners(gray, board_.size);
+    for (int i = 0; i < static_cast<int>(out.at.size()); ++i) out.ids.push_back(i);
+    return out;
+  }
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(gray, markers_->dictionary, markers, ids, markers_->parameters);
+  if (ids.empty()) return out;
+  cv::aruco::interpolateCornersCharuco(markers, ids, gray, markers_->layout, out.at, out.ids);
+  return out;
+}
+
+cv::Point3f BoardFinder::place(int id) const {
+  if (markers_) return markers_->layout->chessboardCorners[static_cast<std::size_t>(id)];
+  const int column = id % board_.size.width, row = id / board_.size.width;
+  return {static_cast<float>(column * board_.square), static_cast<float>(row * board_.square), 0};
+}
+
+}  // namespace hypotrack::calibrate

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "calibrate/stereo_calibration.hpp"
+
+namespace hypotrack::calibrate {
+
+/// Share of a picture's cells in which a corner was seen, and where cells lack one.
+struct Coverage {
+  double share = 0;
+  std::vector<std::string> empty;  ///< `top left`, `right`, ...
+};
+
+/// Returns the coverage of the left (0) or right (1) pictures by pairs that count.
+Coverage coverage_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration,
+                     std::size_t view);
+
+/// Draws the corners of all pairs, both pictures side by side: green, or red where a pair
+/// does not count.
+cv::Mat draw_coverage(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration);
+
+}  // namespace hypotrack::calibrate

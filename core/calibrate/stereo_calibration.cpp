@@ -1,0 +1,186 @@
+#include "calibrate/stereo_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+#include "hypotrack/error.hpp"
+#include "hypotrack/median.hpp"
+
+namespace hypotrack::calibrate {
+namespace {
+
+constexpr std::size_t kLeastCorners = 6;  // that both pictures show
+constexpr std::size_t kLeastPairs = 3;
+
+/// Corners that both pictures of a pair show.
+struct CommonCorners {
+  std::size_t pair;  ///< index of the given pair
+  std::vector<cv::Point3f> board;
+  std::array<std::vector<cv::Point2f>, 2> at;
+};
+
+/// One camera's matrix and distortion.
+struct Lens {
+  cv::Mat matrix, distortion;
+};
+
+std::vector<CommonCorners> common_corners(const BoardFinder& board,
+                                          const std::vector<BoardPair>& pairs) {
+  std::vector<CommonCorners> out;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [left, right] = pairs[i].corners;
+    CommonCorners common{i, {}, {}};
+    for (std::size_t a = 0; a < left.ids.size(); ++a) {
+      const auto b = std::ranges::find(right.ids, left.ids[a]) - right.ids.begin();
+      if (b == std::ssize(right.ids)) continue;
+      common.board.push_back(board.place(left.ids[a]));
+      common.at[0].push_back(left.at[a]);
+      common.at[1].push_back(right.at[static_cast<std::size_t>(b)]);
+    }
+    if (common.board.size() >= kLeastCorners) out.push_back(std::move(common));
+  }
+  return out;
+}
+
+Lens lens_of(const Camera& camera) {
+  return {(cv::Mat_<double>(3, 3) << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1),
+          cv::Mat(camera.distortion, true).reshape(1, 1)};
+}
+
+/// Calibrates one camera. Returns the standard deviation of its focal length as a share of it.
+double calibrate_one(const std::vector<CommonCorners>& views, std::size_t view, cv::Size pictures,
+                     Lens& lens) {
+  std::vector<std::vector<cv::Point3f>> board;
+  std::vector<std::vector<cv::Point2f>> at;
+  for (const CommonCorners& one : views) {
+    board.push_back(one.board);
+    at.push_back(one.at[view]);
+  }
+  std::vector<cv::Mat> turns, places;
+  cv::Mat sigmas, pose_sigmas, errors;
+  cv::calibrateCamera(board, at, pictures, lens.matrix, lens.distortion, turns, places, sigmas,
+                      pose_sigmas, errors);
+  return sigmas.at<double>(0) / lens.matrix.at<double>(0, 0);
+}
+
+/// The right camera's pose and the residuals of each view.
+struct Pair {
+  cv::Mat rotation, translation, residuals;
+  double rms = 0;
+};
+
+Pair calibrate_both(const std::vector<CommonCorners>& views, cv::Size pictures,
+                    std::array<Lens, 2>& lenses, bool lenses_given) {
+  std::vector<std::vector<cv::Point3f>> board;
+  std::array<std::vector<std::vector<cv::Point2f>>, 2> at;
+  for (const CommonCorners& one : views) {
+    board.push_back(one.board);
+    for (std::size_t i = 0; i < 2; ++i) at[i].push_back(one.at[i]);
+  }
+  Pair out;
+  cv::Mat essential, fundamental;
+  out.rms = cv::stereoCalibrate(
+      board, at[0], at[1], lenses[0].matrix, lenses[0].distortion, lenses[1].matrix,
+      lenses[1].distortion, pictures, out.rotation, out.translation, essential, fundamental,
+      out.residuals, lenses_given ? cv::CALIB_FIX_INTRINSIC : cv::CALIB_USE_INTRINSIC_GUESS,
+      {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-7});
+  return out;
+}
+
+/// Returns the angle between a board and the plane of a picture.
+double tilt_of(const CommonCorners& view, const Lens& lens) {
+  cv::Mat turn, place, rotation;
+  cv::solvePnP(view.board, view.at[0], lens.matrix, lens.distortion, turn, place);
+  cv::Rodrigues(turn, rotation);
+  return std::acos(std::min(1.0, std::abs(rotation.at<double>(2, 2))));
+}
+
+Camera camera_of(const Lens& lens, cv::Size pictures) {
+  Camera out;
+  out.width = pictures.width;
+  out.height = pictures.height;
+  out.fx = lens.matrix.at<double>(0, 0);
+  out.fy = lens.matrix.at<double>(1, 1);
+  out.cx = lens.matrix.at<double>(0, 2);
+  out.cy = lens.matrix.at<double>(1, 2);
+  out.distortion_model = lens.distortion.empty() ? DistortionModel::none : DistortionModel::brown;
+  for (int i = 0; i < static_cast<int>(lens.distortion.total()); ++i)
+    out.distortion.push_back(lens.distortion.at<double>(i));
+  return out;
+}
+
+/// Moves views whose residual is far above the median out of `views`. Returns whether there were
+/// any.
+bool drop_outliers(std::vector<CommonCorners>& views, const cv::Mat& residuals,
+                   std::vector<PairResidual>& pairs) {
+  constexpr double kFar = 2.5;    // medians
+  constexpr double kLeast = 0.5;  // pixels: less is no outlier
+  constexpr double kMost = 0.3;   // share of the pairs
+  std::vector<double> worst;
+  for (int i = 0; i < residuals.rows; ++i)
+    worst.push_back(std::max(residuals.at<double>(i, 0), residuals.at<double>(i, 1)));
+  const double limit = std::max(kLeast, kFar * upper_median(worst));
+  const auto dropped = std::ranges::count_if(pairs, &PairResidual::dropped);
+  const auto left =
+      static_cast<std::ptrdiff_t>(kMost * static_cast<double>(pairs.size())) - dropped;
+  const auto above = std::ranges::count_if(worst, [&](double r) { return r > limit; });
+  if (above == 0 || above > left || views.size() - static_cast<std::size_t>(above) < kLeastPairs)
+    return false;
+  std::vector<CommonCorners> kept;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (worst[i] > limit)
+      pairs[views[i].pair].dropped = true;
+    else
+      kept.push_back(std::move(views[i]));
+  }
+  views = std::move(kept);
+  return true;
+}
+
+}  // namespace
+
+StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
+                                   const std::vector<BoardPair>& pairs,
+                                   const std::optional<std::array<Camera, 2>>& given) {
+  std::vector<CommonCorners> views = common_corners(board, pairs);
+  if (views.size() < kLeastPairs) {
+    throw DataError(fmt::format(
+        "{} of {} pairs show the board in both pictures; expected at least {}. Are --board and its "
+        "kind right, and is the whole board in view?",
+        views.size(), pairs.size(), kLeastPairs));
+  }
+  StereoCalibration out;
+  for (const BoardPair& pair : pairs) out.pairs.push_back({.name = pair.name});
+  std::array<Lens, 2> lenses;
+  Pair found;
+  do {
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (given)
+        lenses[i] = lens_of((*given)[i]);
+      else
+        out.focal_sigma[i] = calibrate_one(views, i, pictures, lenses[i]);
+    }
+    found = calibrate_both(views, pictures, lenses, given.has_value());
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      PairResidual& pair = out.pairs[views[i].pair];
+      for (int k = 0; k < 2; ++k)
+        pair.rms[static_cast<std::size_t>(k)] = found.residuals.at<double>(static_cast<int>(i), k);
+      pair.tilt = tilt_of(views[i], lenses[0]);
+      pair.too_few = false;
+    }
+  } while (drop_outliers(views, found.residuals, out.pairs));
+  out.rms = found.rms;
+  for (std::size_t i = 0; i < 2; ++i) out.cameras[i] = camera_of(lenses[i], pictures);
+  Eigen::Isometry3d& pose = out.cameras[1].camera_from_world;
+  for (int row = 0; row < 3; ++row) {
+    pose.translation()[row] = found.translation.at<double>(row);
+    for (int column = 0; column < 3; ++column)
+      pose.linear()(row, column) = found.rotation.at<double>(row, column);
+  }
+  return out;
+}
+
+}  // namespace hypotrack::calibrate

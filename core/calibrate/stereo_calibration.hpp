@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/board.hpp"
+#include "hypotrack/camera.hpp"
+
+namespace hypotrack::calibrate {
+
+/// The board in both pictures of a pair.
+struct BoardPair {
+  std::string name;
+  std::array<BoardCorners, 2> corners;
+};
+
+/// How well a pair agrees with a calibration.
+struct PairResidual {
+  std::string name;
+  std::array<double, 2> rms{};  ///< pixels, left and right
+  double tilt = 0;              ///< of the board to the left picture, radians
+  bool too_few = true;          ///< corners that both pictures show
+  bool dropped = false;         ///< an outlier
+  /// Returns whether the calibration comes from this pair, too.
+  bool counts() const { return !too_few && !dropped; }
+};
+
+/// Two cameras, and how well they are known.
+struct StereoCalibration {
+  std::array<Camera, 2> cameras;  ///< the left one is the world
+  double rms = 0;                 ///< pixels, over all corners of the pairs that count
+  std::vector<PairResidual> pairs;
+  /// Standard deviations of the focal lengths, as shares of them; 0 if lenses were given.
+  std::array<double, 2> focal_sigma{};
+};
+
+/// Calibrates two cameras from pictures of a board: Zhang's method (2000) as OpenCV has it, for
+/// each camera and then for both. A pair that is far worse than most is dropped, and all is
+/// calibrated again. With `lenses`, only the pose of the right camera is found. Throws DataError if
+/// fewer than three pairs show the board.
+StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
+                                   const std::vector<BoardPair>& pairs,
+                                   const std::optional<std::array<Camera, 2>>& lenses = {});
+
+}  // namespace hypotrack::calibrate

@@ -1,0 +1,64 @@
+#include "calibrate/verdict.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "calibrate/coverage.hpp"
+
+namespace hypotrack::calibrate {
+namespace {
+
+constexpr double kGood = 0.35, kUsable = 1.0;  // pixels
+constexpr double kSureFocal = 0.01;            // standard deviation, share of the focal length
+constexpr double kUnsureFocal = 0.03;
+constexpr std::ptrdiff_t kFewPairs = 10;
+constexpr double kTilted = 15 * std::numbers::pi / 180;
+constexpr double kTiltedShare = 0.3;
+constexpr double kCovered = 0.6;
+
+}  // namespace
+
+Verdict verdict_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration) {
+  Verdict out;
+  const auto counted =
+      std::ranges::count_if(calibration.pairs, [](const auto& pair) { return pair.counts(); });
+  const auto tilted = std::ranges::count_if(
+      calibration.pairs, [](const auto& pair) { return pair.counts() && pair.tilt > kTilted; });
+  const double focal = std::max(calibration.focal_sigma[0], calibration.focal_sigma[1]);
+  const bool lenses_found = focal > 0;
+  out.usable = calibration.rms < kUsable && focal < kUnsureFocal;
+  const bool good = calibration.rms < kGood && focal < kSureFocal;
+  out.summary = fmt::format("{}: {:.3f} px RMS over {} pairs",
+                            good         ? "good"
+                            : out.usable ? "usable"
+                                         : "not usable",
+                            calibration.rms, counted);
+  if (lenses_found) out.summary += fmt::format(", focal lengths known to {:.1f} %", 100 * focal);
+  if (calibration.rms >= kGood)
+    out.advice.push_back(
+        "corners are off: hold the board still and flat, with more light; are both pictures of a "
+        "pair taken at the same time?");
+  if (counted < kFewPairs)
+    out.advice.push_back(fmt::format("take more pairs: {} count, 15 to 30 are usual", counted));
+  if (!lenses_found) return out;
+  if (static_cast<double>(tilted) < kTiltedShare * static_cast<double>(counted))
+    out.advice.push_back(
+        "tilt the board more, by 20 to 45 degrees in all directions: the focal length is seen from "
+        "that only");
+  for (std::size_t view = 0; view < 2; ++view) {
+    const Coverage coverage = coverage_of(pairs, calibration, view);
+    if (coverage.share >= kCovered && coverage.empty.empty()) continue;
+    std::string where = "more of the picture";
+    if (!coverage.empty.empty()) where = fmt::format("{}", fmt::join(coverage.empty, ", "));
+    out.advice.push_back(
+        fmt::format("hold the board into the {} of the {} picture ({:.0f} % of it "
+                    "is covered)",
+                    where, view == 0 ? "left" : "right", 100 * coverage.share));
+  }
+  return out;
+}
+
+}  // namespace hypotrack::calibrate

@@ -1,0 +1,155 @@
+#include "calibrate/stereo_calibration.hpp"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+#include "calibrate/coverage.hpp"
+#include "calibrate/picture_pairs.hpp"
+#include "calibrate/verdict.hpp"
+#include "hypotrack/error.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack::calibrate {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Two cameras, and pairs of a board in front of them.
+class StereoCalibrationTest : public testing::Test {
+ protected:
+  StereoCalibrationTest() {
+    cameras_[0] = {640, 480, 530, 531, 325, 238, DistortionModel::brown, {-0.25, 0.1, 0.001, 0, 0},
+                   {}};
+    cameras_[0].camera_from_world.setIdentity();
+    cameras_[1] = cameras_[0];
+    cameras_[1].fx = 545;
+    cameras_[1].camera_from_world.linear() =
+        Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY()).matrix();
+    cameras_[1].camera_from_world.translation() << -0.09, 0.002, 0.001;
+  }
+
+  /// Returns pairs in which corners are off by noise of `sigma` pixels.
+  std::vector<BoardPair> pairs(int count, double sigma, double tilt = 0.5) {
+    std::vector<BoardPair> out;
+    while (static_cast<int>(out.size()) < count) {
+      Eigen::Isometry3d pose(Eigen::AngleAxisd(tilt * normal_(random_), Eigen::Vector3d::UnitX()) *
+                             Eigen::AngleAxisd(tilt * normal_(random_), Eigen::Vector3d::UnitY()));
+      pose.pretranslate(Eigen::Vector3d(-0.1 + 0.08 * normal_(random_),
+                                        -0.06 + 0.06 * normal_(random_),
+                                        0.45 + 0.05 * normal_(random_)));
+      BoardPair pair{"pair " + std::to_string(out.size()), {}};
+      bool visible = true;
+      for (std::size_t view = 0; view < 2; ++view)
+        for (int id = 0; id < 54; ++id) {
+          const cv::Point3f place = finder_.place(id);
+          const Eigen::Vector2d at =
+              project(cameras_[view], pose * Eigen::Vector3d(place.x, place.y, place.z));
+          visible = visible && at.x() > 0 && at.y() > 0 && at.x() < 640 && at.y() < 480;
+          pair.corners[view].ids.push_back(id);
+          pair.corners[view].at.emplace_back(static_cast<float>(at.x() + sigma * normal_(random_)),
+                                             static_cast<float>(at.y() + sigma * normal_(random_)));
+        }
+      if (visible) out.push_back(std::move(pair));
+    }
+    return out;
+  }
+
+  StereoCalibration calibrated(const std::vector<BoardPair>& pairs) {
+    return calibrate_stereo(finder_, {640, 480}, pairs);
+  }
+
+  BoardFinder finder_{parse_board("9x6", "25mm")};
+  std::array<Camera, 2> cameras_;
+  std::mt19937 random_{7};
+  std::normal_distribution<double> normal_;
+};
+
+TEST_F(StereoCalibrationTest, FindsTheCamerasThatTookThePictures) {
+  const StereoCalibration found = calibrated(pairs(15, 0.05));
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(found.cameras[i].fx, cameras_[i].fx, 1.5);
+    EXPECT_NEAR(found.cameras[i].cx, cameras_[i].cx, 1.5);
+    EXPECT_NEAR(found.cameras[i].distortion[0], -0.25, 0.02);
+  }
+  const Eigen::Isometry3d apart =
+      found.cameras[1].camera_from_world * cameras_[1].camera_from_world.inverse();
+  EXPECT_LT(apart.translation().norm(), 0.0005);
+  EXPECT_LT(Eigen::AngleAxisd(apart.linear()).angle(), 0.003);
+  EXPECT_NEAR(found.rms, 0.05 * std::sqrt(2), 0.02);
+  EXPECT_LT(found.focal_sigma[0], 0.005);
+}
+
+TEST_F(StereoCalibrationTest, DropsPairsWhosePicturesDoNotBelongTogether) {
+  std::vector<BoardPair> given = pairs(15, 0.1);
+  for (cv::Point2f& at : given[4].corners[1].at) at += cv::Point2f(3, 12);
+  const StereoCalibration found = calibrated(given);
+  for (std::size_t i = 0; i < given.size(); ++i)
+    EXPECT_EQ(found.pairs[i].dropped, i == 4) << found.pairs[i].name;
+  EXPECT_NEAR(found.cameras[1].camera_from_world.translation().norm(), 0.09, 0.001);
+}
+
+TEST_F(StereoCalibrationTest, TakesGivenLensesAsTheyAre) {
+  const StereoCalibration found = calibrate_stereo(finder_, {640, 480}, pairs(4, 0.1), cameras_);
+  EXPECT_EQ(found.cameras[0].fx, 530);
+  EXPECT_EQ(found.cameras[1].distortion, cameras_[1].distortion);
+  EXPECT_NEAR(found.cameras[1].camera_from_world.translation().norm(), 0.09, 0.001);
+  EXPECT_EQ(found.focal_sigma[0], 0);
+}
+
+TEST_F(StereoCalibrationTest, NeedsThreePairs) {
+  EXPECT_THAT([&] { calibrated(pairs(2, 0.1)); },
+              ThrowsMessage<DataError>(HasSubstr("2 of 2 pairs show the board")));
+}
+
+TEST_F(StereoCalibrationTest, PairsWithTooFewCommonCornersDoNotCount) {
+  std::vector<BoardPair> given = pairs(6, 0.1);
+  given[2].corners[0].ids.resize(5);
+  given[2].corners[0].at.resize(5);
+  const StereoCalibration found = calibrated(given);
+  EXPECT_FALSE(found.pairs[2].counts());
+  EXPECT_TRUE(found.pairs[3].counts());
+}
+
+TEST_F(StereoCalibrationTest, TheVerdictAsksForTiltWhereTheBoardFacedTheCameras) {
+  const std::vector<BoardPair> flat = pairs(12, 0.1, 0.02), tilted = pairs(20, 0.1);
+  const auto advice = [&](const std::vector<BoardPair>& of) {
+    std::string out;
+    for (const std::string& one : verdict_of(of, calibrated(of)).advice) out += one;
+    return out;
+  };
+  EXPECT_THAT(advice(flat), HasSubstr("tilt the board more"));
+  EXPECT_THAT(advice(tilted), testing::Not(HasSubstr("tilt the board more")));
+}
+
+TEST_F(StereoCalibrationTest, TheVerdictSaysWhichPartsOfPicturesSawNoBoard) {
+  std::vector<BoardPair> given = pairs(12, 0.1);
+  const StereoCalibration found = calibrated(given);
+  for (BoardPair& pair : given)
+    for (cv::Point2f& at : pair.corners[0].at) at.x /= 2;
+  const Coverage left = coverage_of(given, found, 0);
+  EXPECT_LT(left.share, 0.6);
+  EXPECT_THAT(left.empty, testing::Contains("right"));
+  EXPECT_EQ(draw_coverage(given, found).size(), cv::Size(1280, 480));
+}
+
+TEST(RealChessboards, AreCalibratedAsWellAsByOpenCv) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  const BoardFinder finder(parse_board("9x6", "25mm"));
+  const std::string folder = (test::shared_data() / "calib/chessboard").string();
+  std::vector<BoardPair> pairs;
+  read_pairs(folder + "/left*.jpg", folder + "/right*.jpg", 1, [&](const PicturePair& pair) {
+    BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
+    number_alike(board.corners[0], board.corners[1]);
+    pairs.push_back(std::move(board));
+  });
+  ASSERT_EQ(pairs.size(), 13u);
+  const StereoCalibration found = calibrate_stereo(finder, {640, 480}, pairs);
+  EXPECT_LT(found.rms, 0.22);
+  for (const PairResidual& pair : found.pairs) EXPECT_TRUE(pair.counts()) << pair.name;
+  EXPECT_NEAR(found.cameras[1].camera_from_world.translation().norm(), 0.0832, 0.0002);
+}
+
+}  // namespace
+}  // namespace hypotrack::calibrate

@@ -1,0 +1,104 @@
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "app_test.hpp"
+#include "test_paths.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr const char* kCameras = R"(%YAML:1.0
+---
+units: m
+cameras:
+  - {image_width: 640, image_height: 480, model: none, K: [500, 0, 320, 0, 500, 240, 0, 0, 1]}
+  - {image_width: 640, image_height: 480, model: none, K: [500, 0, 320, 0, 500, 240, 0, 0, 1],
+     R: [1, 0, 0, 0, 1, 0, 0, 0, 1], T: [-0.06, 0, 0]}
+)";
+
+class CalibrationCommandsTest : public AppTest {
+ protected:
+  std::string cameras() const {
+    write_text(path("cameras.yaml"), kCameras);
+    return path("cameras.yaml").string();
+  }
+};
+
+TEST_F(CalibrationCommandsTest, InfoPrintsCamerasAndHowTheyStand) {
+  const Outcome outcome = run_program({"calibration", "info", cameras()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("hypotrack, 2 cameras"));
+  EXPECT_THAT(outcome.out, HasSubstr("640 x 480 px, focal lengths 500.00 500.00 px"));
+  EXPECT_THAT(outcome.out, HasSubstr("baseline 60.00 mm"));
+}
+
+TEST_F(CalibrationCommandsTest, ConvertWritesWhatItReads) {
+  const std::string file = cameras(), out = path("converted.yaml").string();
+  EXPECT_EQ(run_program({"calibration", "convert", file, "--out", out}).exit_code, 0);
+  const Outcome again = run_program({"calibration", "info", out});
+  EXPECT_THAT(again.out, HasSubstr("baseline 60.00 mm"));
+  expect_refusal(run_program({"calibration", "convert", file, "--out", out}), {out, "--force"});
+  EXPECT_EQ(run_program({"calibration", "convert", file, "--out", out, "--force"}).exit_code, 0);
+  expect_refusal(
+      run_program({"calibration", "convert", file, "--out", path("no/folder.yaml").string()}),
+      {"no/folder.yaml"});
+}
+
+TEST_F(CalibrationCommandsTest, CheckTellsExchangedPictures) {
+  cv::RNG random(3);
+  cv::Mat3b wall(480, 800, cv::Vec3b(120, 130, 140));
+  for (int i = 0; i < 400; ++i)
+    cv::circle(wall, {random.uniform(0, 800), random.uniform(0, 480)}, random.uniform(3, 14),
+               cv::Scalar(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255)),
+               cv::FILLED);
+  const std::string left = path("left.png").string(), right = path("right.png").string();
+  cv::imwrite(left, wall(cv::Rect(60, 0, 640, 480)));
+  cv::imwrite(right, wall(cv::Rect(120, 0, 640, 480)));
+  const std::string file = cameras();
+  const Outcome good =
+      run_program({"calibration", "check", file, "--left", left, "--right", right});
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  EXPECT_THAT(good.out, HasSubstr("calibration and pictures agree"));
+  const Outcome exchanged =
+      run_program({"calibration", "check", file, "--left", right, "--right", left});
+  EXPECT_EQ(exchanged.exit_code, 1);
+  EXPECT_THAT(exchanged.out, HasSubstr("left and right are exchanged"));
+}
+
+TEST_F(CalibrationCommandsTest, CalibrateRefusesWhatShowsNoBoard) {
+  const std::string left = path("left.png").string(), right = path("right.png").string();
+  cv::imwrite(left, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
+  cv::imwrite(right, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
+  const std::string out = path("out").string();
+  const auto calibrate = [&](const std::string& of, std::vector<std::string> more) {
+    more.insert(more.begin(), {"calibrate", "--left", of, "--right", right, "--out", out});
+    return run_program(more);
+  };
+  expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25mm"}),
+                 {"0 of 0 pairs show the board"});
+  expect_refusal(calibrate(left, {"--board", "9", "--square", "25mm"}), {"--board is '9'"});
+  expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25"}), {"--square is '25'"});
+  expect_refusal(calibrate(path("none*.jpg").string(), {"--board", "9x6", "--square", "25mm"}),
+                 {"none*.jpg: no such picture"});
+  cv::imwrite(left, cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
+  expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25mm"}), {"320 x 240", "640"});
+}
+
+TEST_F(CalibrationCommandsTest, RealPicturesAreCalibrated) {
+  HYPOTRACK_NEEDS_SHARED_DATA();
+  const std::string folder = (shared_data() / "calib/chessboard").string();
+  const std::string out = path("calibration.yaml").string();
+  const Outcome outcome = run_program({"calibrate", "--left", folder + "/left*.jpg", "--right",
+                                       folder + "/right*.jpg", "--board", "9x6", "--square", "25mm",
+                                       "--out", out, "--coverage", path("coverage.png").string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("good: 0.2"));
+  EXPECT_EQ(cv::imread(path("coverage.png").string()).size(), cv::Size(1280, 480));
+  const Outcome info = run_program({"calibration", "info", out});
+  EXPECT_THAT(info.out, HasSubstr("baseline 83.18 mm"));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
