@@ -30,7 +30,9 @@ class OutputRun final : public OutputContext {
   const std::vector<Camera>& cameras() const override { return cameras_; }
   double frame_rate() const override { return 30; }
   bool fixed_lag() const override { return false; }
-  std::filesystem::path file(const std::string& name) override { return folder_.path() / name; }
+  std::filesystem::path file(const std::string& name) override {
+    return full_disk ? std::filesystem::path("/dev/full") : folder_.path() / name;
+  }
   Renderer& renderer() override { throw DeviceError("this run has no renderer"); }
 
   /// Makes an output from its YAML.
@@ -44,6 +46,8 @@ class OutputRun final : public OutputContext {
   std::string text(const std::string& name) const;
   /// Returns the lines of a file without those that begin with a #.
   std::vector<std::string> lines(const std::string& name) const;
+
+  bool full_disk = false;  ///< files cannot be written
 
  private:
   std::unique_ptr<Output> begin(const std::string& yaml, const std::vector<Solution>& solutions);
