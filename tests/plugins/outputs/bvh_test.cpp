@@ -154,6 +154,31 @@ TEST_F(BvhBoxTest, AModelThatIsNotSeenKeepsItsLastPose) {
   EXPECT_NE(numbers(4), numbers(1));
 }
 
+TEST_F(BvhBoxTest, FramesAreOnTheLinesOfTheirTimes) {
+  const std::vector<double> times = {2.0, 2.04, 2.045, 2.16};  // lines 0, 1, 1 and 5
+  std::vector<Solution> solutions;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    solutions.push_back(turned_about_y(static_cast<int>(i), 20.0 * static_cast<double>(i)));
+    solutions.back().time = times[i];
+  }
+  run_.play("type: bvh", solutions);
+  EXPECT_THAT(run_.text("box.bvh"), ::testing::HasSubstr("\nFrames:          6\n"));
+  const auto turn_of_line = [&](std::size_t line) {
+    const ImportedMotion motion(run_.file("box.bvh"));
+    const auto nodes = motion.nodes_at(static_cast<double>(line));
+    const Eigen::Matrix3d upside_down = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    return Eigen::AngleAxisd(upside_down *
+                             nodes.at(scene_.items()[0].model->data().bones[0].name).linear())
+               .angle() /
+           kDegree;
+  };
+  constexpr double kTolerance = 1e-3;
+  EXPECT_NEAR(turn_of_line(0), 0, 0.1);
+  EXPECT_NEAR(turn_of_line(1), 20, kTolerance);
+  for (const std::size_t line : {2U, 3U, 4U}) EXPECT_NEAR(turn_of_line(line), 40, kTolerance);
+  EXPECT_NEAR(turn_of_line(5), 60, kTolerance);
+}
+
 TEST_F(BvhBoxTest, AnInterruptedOrKilledRunLeavesAWholeFile) {
   std::vector<Solution> solutions;
   for (int i = 0; i < 3; ++i) solutions.push_back(turned_about_y(i, 20 * i));
