@@ -40,7 +40,8 @@ class Gltf final : public Output {
 void Gltf::begin(OutputContext& run) {
   path_ = run.file("track.glb");
   scene_ = &run.scene();
-  const std::size_t world = file_.add("nodes", {{"name", "world"}, {"rotation", {1, 0, 0, 0}}});
+  const std::size_t world =
+      file_.add("nodes", {{"name", "world.axes"}, {"rotation", {1, 0, 0, 0}}});
   file_.json()["scene"] = file_.add("scenes", {{"nodes", {world}}});
   for (const Scene::Item& item : scene_->items()) {
     models_.emplace_back(file_, item);
