@@ -168,8 +168,8 @@ void check_names(const std::vector<std::string>& names) {
 }
 
 bool is_text(const std::string& name) {
-  static constexpr std::array<std::string_view, 5> kExtensions = {".csv", ".json", ".txt", ".yaml",
-                                                                  ".yml"};
+  static constexpr std::array<std::string_view, 8> kExtensions = {".csv", ".json",  ".txt", ".yaml",
+                                                                  ".yml", ".jsonl", ".tum", ".bvh"};
   return std::ranges::any_of(kExtensions,
                              [&](std::string_view extension) { return name.ends_with(extension); });
 }

@@ -1,0 +1,156 @@
+#include "model_node.hpp"
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+#include <set>
+
+#include "drawn_mesh.hpp"
+#include "hypotrack/kinematics.hpp"
+
+namespace hypotrack::gltf {
+namespace {
+
+Eigen::Vector4f quaternion(const Eigen::Matrix3d& rotation) {
+  return Eigen::Quaterniond(rotation).normalized().coeffs().cast<float>();
+}
+
+Json list(const Eigen::Ref<const Eigen::VectorXf>& values) {
+  return std::vector<float>(values.begin(), values.end());
+}
+
+Eigen::MatrixXf columns(const auto& vectors, Eigen::Index rows) {
+  Eigen::MatrixXf out(rows, static_cast<Eigen::Index>(vectors.size()));
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    out.col(static_cast<Eigen::Index>(i)) = vectors[i];
+  return out;
+}
+
+/// Decodes a share of sRGB's range (IEC 61966-2-1): glTF wants factors that are linear in light.
+float linear(float srgb) {
+  return srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
+}
+
+std::size_t add_material(GlbFile& file, const Mesh& mesh) {
+  constexpr double kSkinRoughness = 0.8;
+  Json surface = {{"metallicFactor", 0}, {"roughnessFactor", kSkinRoughness}};
+  if (!mesh.texture.empty() && mesh.uv_triangles.cols() > 0) {
+    std::vector<unsigned char> png;
+    cv::imencode(".png", mesh.texture, png);
+    const std::size_t image =
+        file.add("images", {{"mimeType", "image/png"},
+                            {"bufferView", file.add_bytes(png.data(), png.size(), Use::other)}});
+    surface["baseColorTexture"]["index"] = file.add("textures", {{"source", image}});
+  } else {
+    surface["baseColorFactor"] = {linear(mesh.color.x()), linear(mesh.color.y()),
+                                  linear(mesh.color.z()), 1};
+  }
+  return file.add("materials", {{"pbrMetallicRoughness", surface}, {"doubleSided", true}});
+}
+
+/// Appends a channel and its sampler.
+void add_channel(GlbFile& file, Json& animation, std::size_t times, std::size_t node,
+                 const char* path, const Eigen::MatrixXf& values) {
+  const std::size_t sampler = animation["samplers"].size();
+  animation["channels"].push_back(
+      {{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
+  animation["samplers"].push_back({{"input", times},
+                                   {"output", file.add_floats(values, Use::other)},
+                                   {"interpolation", "LINEAR"}});
+}
+
+}  // namespace
+
+/// Takes the one of a rotation's two quaternions that is nearer to the last.
+void ModelNode::Turning::add(const Eigen::Matrix3d& rotation) {
+  Eigen::Vector4f q = quaternion(rotation);
+  if (!rotations.empty() && q.dot(rotations.back()) < 0) q = -q;
+  rotations.push_back(q);
+}
+
+ModelNode::ModelNode(GlbFile& file, const Scene::Item& item)
+    : item_(&item), root_(file.add("nodes", {{"name", item.name}})), pose_{root_, {}} {
+  const bool jointed = !item.model->data().rotations.empty();
+  if (jointed) add_bones(file);
+  add_mesh(file, jointed);
+}
+
+void ModelNode::add_bones(GlbFile& file) {
+  const ModelData& data = item_->model->data();
+  for (const Bone& bone : data.bones) {
+    const Eigen::Isometry3d& at = bone.parent_from_bone;
+    bones_.push_back(file.add("nodes", {{"name", item_->name + "." + bone.name},
+                                        {"translation", list(at.translation().cast<float>())},
+                                        {"rotation", list(quaternion(at.linear()))}}));
+    const std::size_t above =
+        bone.parent < 0 ? root_ : bones_[static_cast<std::size_t>(bone.parent)];
+    file.at("nodes", above)["children"].push_back(bones_.back());
+  }
+  std::set<int> jointed;
+  for (const BoneRotation& rotation : data.rotations) jointed.insert(rotation.bone);
+  for (const int bone : jointed) {
+    jointed_.push_back(bone);
+    turnings_.push_back({bones_[static_cast<std::size_t>(bone)], {}});
+  }
+}
+
+void ModelNode::add_mesh(GlbFile& file, bool skinned) {
+  const Mesh& mesh = item_->model->data().mesh;
+  const DrawnMesh drawn = drawn_mesh(mesh);
+  const auto of_model = [&](const auto& by_vertex) {
+    return by_vertex(Eigen::all, drawn.vertices).eval();
+  };
+  Json attributes = {{"POSITION", file.add_floats(of_model(mesh.vertices), Use::vertices, true)},
+                     {"NORMAL", file.add_floats(drawn.normals, Use::vertices)}};
+  if (drawn.uv.cols() > 0) attributes["TEXCOORD_0"] = file.add_floats(drawn.uv, Use::vertices);
+  if (skinned) {
+    attributes["JOINTS_0"] =
+        file.add_joints(of_model(mesh.bone_indices).template cast<std::uint16_t>());
+    attributes["WEIGHTS_0"] = file.add_floats(of_model(mesh.bone_weights), Use::vertices);
+  }
+  const std::size_t index = file.add("meshes", {{"name", item_->name},
+                                                {"primitives",
+                                                 {{{"attributes", attributes},
+                                                   {"indices", file.add_indices(drawn.triangles)},
+                                                   {"material", add_material(file, mesh)}}}}});
+  if (!skinned) {
+    file.at("nodes", root_)["mesh"] = index;
+    return;
+  }
+  // A skin places its mesh, whatever is above the mesh's node: it belongs to the scene itself.
+  const std::size_t surface = file.add(
+      "nodes", {{"name", item_->name + ".surface"}, {"mesh", index}, {"skin", add_skin(file)}});
+  file.at("scenes", 0)["nodes"].push_back(surface);
+}
+
+std::size_t ModelNode::add_skin(GlbFile& file) const {
+  std::vector<Eigen::Matrix<float, 16, 1>> bone_from_bind;
+  for (const Eigen::Isometry3d& bind : bind_transforms(item_->model->data()))
+    bone_from_bind.emplace_back(bind.inverse().matrix().cast<float>().reshaped());
+  return file.add(
+      "skins", {{"joints", bones_},
+                {"skeleton", root_},
+                {"inverseBindMatrices", file.add_floats(columns(bone_from_bind, 16), Use::other)}});
+}
+
+void ModelNode::add(std::span<const double> parameters) {
+  const ModelData& data = item_->model->data();
+  const Eigen::Isometry3d pose = world_from_model(parameters);
+  positions_.emplace_back(pose.translation().cast<float>());
+  pose_.add(pose.linear());
+  const std::vector<Eigen::Isometry3d> world = world_from_bones(data, parameters);
+  for (std::size_t i = 0; i < jointed_.size(); ++i) {
+    const auto bone = static_cast<std::size_t>(jointed_[i]);
+    const int parent = data.bones[bone].parent;
+    const Eigen::Isometry3d& above = parent < 0 ? pose : world[static_cast<std::size_t>(parent)];
+    turnings_[i].add(above.linear().transpose() * world[bone].linear());
+  }
+}
+
+void ModelNode::animate(GlbFile& file, Json& animation, std::size_t times) const {
+  add_channel(file, animation, times, root_, "translation", columns(positions_, 3));
+  add_channel(file, animation, times, root_, "rotation", columns(pose_.rotations, 4));
+  for (const Turning& turning : turnings_)
+    add_channel(file, animation, times, turning.node, "rotation", columns(turning.rotations, 4));
+}
+
+}  // namespace hypotrack::gltf

@@ -1,0 +1,44 @@
+#include <optional>
+
+#include "hypotrack/plugin.hpp"
+#include "hypotrack/solution_json.hpp"
+#include "hypotrack/text_file.hpp"
+
+namespace hypotrack {
+namespace {
+
+class Jsonl final : public Output {
+ public:
+  struct Params {
+    bool online = false;
+    void visit(ParamVisitor& v) {
+      v("online", online,
+        {.help = "write solutions before fixed-lag smoothing, as soon as they are there"});
+    }
+  };
+  explicit Jsonl(const Params& params) : params_(params) {}
+
+  std::vector<std::string> file_names() const override { return {"track.jsonl"}; }
+  void begin(OutputContext& run) override {
+    scene_ = &run.scene();
+    file_.emplace(run.file("track.jsonl"));
+  }
+  void online(const Frame& /*frame*/, const Solution& solution) override {
+    if (params_.online) write(solution);
+  }
+  void frame(const Frame& /*frame*/, const Solution& solution) override {
+    if (!params_.online) write(solution);
+  }
+
+ private:
+  void write(const Solution& solution) { file_->write(solution_json(*scene_, solution) + "\n"); }
+
+  Params params_;
+  const Scene* scene_ = nullptr;
+  std::optional<TextFile> file_;
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Jsonl, "solutions as JSON, a line per frame: track.jsonl", "")
