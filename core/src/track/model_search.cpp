@@ -23,6 +23,7 @@ constexpr double kRecent = 0.15;
 // Distance (mean over landmarks, metres) up to which a start sees a model where a pose has it, and
 // beyond which it contradicts a tracked pose.
 constexpr double kHere = 0.025, kElsewhere = 0.04;
+constexpr std::size_t kAllPlaces = std::numeric_limits<std::size_t>::max();
 
 /// Lends a tracker's global search to its starts.
 class LentSearch final : public GlobalSearch {
@@ -128,9 +129,9 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
 
 template <class Take>
 void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& effort,
-                                                 const Take& take) {
+                                                 std::size_t most, const Take& take) {
   for (const PoseGuess& guess : task_.guesses) {
-    if (enough()) return;
+    if (enough() || most-- == 0) return;
     const Candidates places = finder_.recovery_.find(task_, guess, effort, finder_.settings_.motion,
                                                      seed_of_part(seed_, part_++));
     best_.found.evaluations += places.evaluations;
@@ -161,8 +162,10 @@ bool CandidateFinder::ModelSearch::is_known(const Eigen::VectorXd& state) const 
 CandidateFinder::ModelSearch::Proposals CandidateFinder::ModelSearch::ask(Start& start, bool denied,
                                                                           bool may_search) {
   LentSearch lent([&](GlobalSearchSettings effort, const TakePose& offer) {
-    if (denied) effort = with_defaults(effort, finder_.settings_.recovery);
-    search_places(effort, [&](const Eigen::VectorXd& state) {
+    const RecoverySettings& usual = finder_.settings_.recovery;
+    if (denied) effort = with_defaults(effort, usual);
+    const std::size_t most = denied ? static_cast<std::size_t>(usual.places) : kAllPlaces;
+    search_places(effort, most, [&](const Eigen::VectorXd& state) {
       offer(state.segment(item_.offset, item_.model->dimension()));
     });
   });
@@ -228,7 +231,8 @@ void CandidateFinder::ModelSearch::ask_starts() {
 
 void CandidateFinder::ModelSearch::run() {
   if (finder_.starts_.empty() || has_held_ || request_.near_only)
-    search_places(GlobalSearchSettings(), [&](const Eigen::VectorXd& state) { add(state); });
+    search_places(GlobalSearchSettings(), kAllPlaces,
+                  [&](const Eigen::VectorXd& state) { add(state); });
   else
     ask_starts();
 }

@@ -33,9 +33,9 @@ class CandidateFinder::ModelSearch {
   bool enough() const;
   /// Searches from a state of the scene and adds what was found.
   void add(const Eigen::VectorXd& state);
-  /// Searches the places of the guesses. Calls `take` with states of the scene.
+  /// Searches the first places of the guesses. Calls `take` with states of the scene.
   template <class Take>
-  void search_places(const GlobalSearchSettings& effort, const Take& take);
+  void search_places(const GlobalSearchSettings& effort, std::size_t most, const Take& take);
   /// States of the scene that a start proposes.
   struct Proposals {
     std::vector<Eigen::VectorXd> taken;

@@ -41,12 +41,16 @@ class Bvh final : public Output {
 
 /// Writes a frame to the line of its time, because lines have no time of their own. Lines without a
 /// frame, and models that are not seen, keep the last pose. Of two frames on a line, the first
-/// stays.
+/// stays. A longer gap than a minute becomes a minute.
 void Bvh::frame(const Frame& /*frame*/, const Solution& solution) {
   if (lines_ == 0) {
     shown_ = solution.state;
     first_time_ = solution.time;
   }
+  constexpr double kLongestGap = 60;  // seconds
+  const double written = static_cast<double>(lines_) / frame_rate_;
+  const double gap = solution.time - first_time_ - written;
+  if (gap > kLongestGap) first_time_ += gap - kLongestGap;
   const std::int64_t line = std::llround((solution.time - first_time_) * frame_rate_);
   while (lines_ < line) write_line();
   for (std::size_t m = 0; m < files_.size(); ++m) {

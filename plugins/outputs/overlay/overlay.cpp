@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
@@ -55,12 +56,22 @@ void draw_sigmas(cv::Mat& image, const Camera& camera, const Eigen::Matrix3Xd& l
   }
 }
 
+enum class Views { first, both };
+[[maybe_unused]] std::span<const std::string_view> enum_names(Views) {
+  static constexpr std::array<std::string_view, 2> kNames = {"first", "both"};
+  return kNames;
+}
+
 class Overlay final : public Output {
  public:
   struct Params {
-    void visit(ParamVisitor&) {}
+    Views views = Views::first;
+    void visit(ParamVisitor& v) {
+      v("views", views,
+        {.help = "what is drawn on: the first view, or the first two side by side"});
+    }
   };
-  explicit Overlay(const Params&) {}
+  explicit Overlay(const Params& params) : params_(params) {}
 
   std::vector<std::string> file_names() const override { return {"overlay.mp4"}; }
   void begin(OutputContext& run) override;
@@ -69,9 +80,14 @@ class Overlay final : public Output {
   void finish(bool /*complete*/) override { writer_.release(); }
 
  private:
+  /// Draws the solution on the picture of one view.
+  void draw(const Frame& frame, const Solution& solution, std::size_t view, cv::Mat image);
+
+  Params params_;
   OutputContext* run_ = nullptr;
   Renderer* renderer_ = nullptr;
-  Camera camera_;
+  std::vector<Camera> cameras_;  ///< of the views that are drawn
+  cv::Size size_;                ///< of the video
   cv::VideoWriter writer_;
 };
 
@@ -79,12 +95,17 @@ void Overlay::begin(OutputContext& run) {
   const std::filesystem::path file = run.file("overlay.mp4");
   run_ = &run;
   renderer_ = &run.renderer();
-  camera_ = run.cameras().front();
+  cameras_ = run.cameras();
+  cameras_.resize(std::min<std::size_t>(cameras_.size(), params_.views == Views::both ? 2 : 1));
+  for (const Camera& camera : cameras_) {
+    size_.width += camera.width;
+    size_.height = std::max(size_.height, camera.height);
+  }
   // Browsers play H.264, which not every FFmpeg can write, and not MPEG-4 Part 2.
   for (const char* codec : {"avc1", "mp4v"})
     if (!writer_.isOpened())
       writer_.open(file.string(), cv::VideoWriter::fourcc(codec[0], codec[1], codec[2], codec[3]),
-                   run.frame_rate(), {camera_.width, camera_.height});
+                   run.frame_rate(), size_);
   if (!writer_.isOpened())
     throw OutputError(fmt::format(
         "{}: this OpenCV cannot write an .mp4 video there (it needs its FFmpeg backend); run with "
@@ -92,18 +113,28 @@ void Overlay::begin(OutputContext& run) {
         file.string()));
 }
 
-void Overlay::online(const Frame& frame, const Solution& solution) {
+void Overlay::draw(const Frame& frame, const Solution& solution, std::size_t view, cv::Mat image) {
   const Scene& scene = run_->scene();
-  cv::Mat image;
-  std::string caption = fmt::format("frame {}  {}", solution.frame, status_text(scene, solution));
-  if (frame.views.empty()) {
-    image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(40, 40, 40));
+  draw_overlay(*renderer_, scene, picture_of(frame.views[view]), cameras_[view], solution.state,
+               {.hidden = unknown_models(solution)})
+      .copyTo(image);
+  draw_sigmas(image, cameras_[view], scene.landmarks(solution.state), solution.sigma);
+}
+
+void Overlay::online(const Frame& frame, const Solution& solution) {
+  constexpr int kGrey = 40;
+  cv::Mat image(size_, CV_8UC3, cv::Scalar::all(kGrey));
+  std::string caption =
+      fmt::format("frame {}  {}", solution.frame, status_text(run_->scene(), solution));
+  if (frame.views.empty())
     caption += ": " + frame.problem;
-  } else {
-    image = draw_overlay(*renderer_, scene, picture_of(frame.views.front()), camera_,
-                         solution.state, {.hidden = unknown_models(solution)});
+  else
     caption += fmt::format("  cost {:.4g}", solution.cost);
-    draw_sigmas(image, camera_, scene.landmarks(solution.state), solution.sigma);
+  int left = 0;
+  for (std::size_t view = 0; view < std::min(cameras_.size(), frame.views.size()); ++view) {
+    const Camera& camera = cameras_[view];
+    draw(frame, solution, view, image(cv::Rect(left, 0, camera.width, camera.height)));
+    left += camera.width;
   }
   write_caption(image, caption);
   writer_.write(image);
@@ -112,4 +143,4 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
 }  // namespace
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::Overlay, "the solution drawn on the first view, overlay.mp4", "")
+HYPOTRACK_PLUGIN(hypotrack::Overlay, "the solution drawn on one view or two, overlay.mp4", "")

@@ -179,6 +179,13 @@ TEST_F(BvhBoxTest, FramesAreOnTheLinesOfTheirTimes) {
   EXPECT_NEAR(turn_of_line(5), 60, kTolerance);
 }
 
+TEST_F(BvhBoxTest, ALongerGapThanAMinuteBecomesAMinute) {
+  std::vector<Solution> solutions{turned_about_y(0, 0), turned_about_y(1, 20)};
+  solutions[1].time = 1e9;
+  run_.play("type: bvh", solutions);
+  EXPECT_THAT(run_.text("box.bvh"), ::testing::HasSubstr("\nFrames:       1802\n"));
+}
+
 TEST_F(BvhBoxTest, AnInterruptedOrKilledRunLeavesAWholeFile) {
   std::vector<Solution> solutions;
   for (int i = 0; i < 3; ++i) solutions.push_back(turned_about_y(i, 20 * i));

@@ -21,9 +21,9 @@ constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
 constexpr double kHintTurn = 0.5;  // radians
 constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
-// Factors where a model was never seen: of the poses that are scored and refined, and of those
-// searched.
-constexpr int kUnknownEffort = 6, kUnknownSearched = 3;
+// Factors where a model was never seen: of the poses that are scored and refined, of those
+// searched, and of the places.
+constexpr int kUnknownEffort = 6, kUnknownSearched = 3, kUnknownPlaces = 2;
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
@@ -131,8 +131,9 @@ Places Recovery::places(const Task& task) {
         depths_->weights({finder.reduced(views[0].color, 0), finder.reduced(views[1].color, 1)});
     for (std::size_t i = 0; i < 2; ++i) weights[i] = weights[i].mul(near[i]);
   }
+  const int count = settings_.places * (std::isfinite(task.last.seconds) ? 1 : kUnknownPlaces);
   return finder.find(task.frame, colors_of(task), task.search.second_view_colors(),
-                     static_cast<std::size_t>(settings_.places), weights);
+                     static_cast<std::size_t>(count), weights);
 }
 
 std::vector<PoseGuess> Recovery::guesses(const Task& task, const Places& places,
