@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/machine.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "lab/bench/bench_plan.hpp"
 #include "lab/bench/bench_table.hpp"
 #include "lab/bench/frames.hpp"
-#include "lab/bench/machine.hpp"
 #include "lab/bench/measure.hpp"
 #include "progress.hpp"
 #include "tell.hpp"
