@@ -32,6 +32,7 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
 void add_bench_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_report_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
 
 }  // namespace hypotrack::app

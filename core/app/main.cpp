@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
   add_bench_command(root, common, exit_code);
   add_report_command(root, common, exit_code);
   add_plugins_command(root, common, exit_code);
+  add_new_command(root, common, exit_code);
   add_doctor_command(root, common, exit_code);
   try {
     if (const int mistake = line.run(argc, argv); mistake != 0) return mistake;

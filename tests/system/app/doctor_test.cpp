@@ -7,9 +7,7 @@ namespace hypotrack::test {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
 using testing::HasSubstr;
-using testing::Not;
 
 /// What `hypotrack doctor --json` says.
 struct Report {
