@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,10 +17,12 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
+#include "interrupt.hpp"
 #include "new_scene/box_size.hpp"
 #include "new_scene/find_recording.hpp"
 #include "new_scene/questions.hpp"
 #include "new_scene/scene_request.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -45,6 +48,13 @@ void expect_one_of(const std::vector<std::string>& words, const std::string& wor
   const std::string hint = did_you_mean(word, words);
   throw ConfigError(
       fmt::format("found '{}', expected one of {}{}", word, fmt::join(words, ", "), hint));
+}
+
+/// Returns a path as typed, with a leading ~/ replaced as a shell would.
+std::filesystem::path typed_path(const std::string& text) {
+  const char* home = std::getenv("HOME");
+  if (!home || !text.starts_with("~/")) return text;
+  return std::filesystem::path(home) / text.substr(2);
 }
 
 /// Finds the views in a folder, two videos, or one video with both side by side.
@@ -87,7 +97,7 @@ RecordingFiles recording_of(const NewSceneOptions& options) {
   } else {
     ask({.option = "--recording",
          .text = "a folder with pictures or videos of both views, or a video of them side by side"},
-        [&](const std::string& answer) { files = recording_at({answer}); });
+        [&](const std::string& answer) { files = recording_at({typed_path(answer)}); });
   }
   if (!options.calibration.empty()) {
     files.calibration = options.calibration;
@@ -97,9 +107,9 @@ RecordingFiles recording_of(const NewSceneOptions& options) {
   if (files.calibration.empty())
     ask({.option = "--calibration", .text = "the calibration file of the cameras"},
         [&](const std::string& answer) {
-          if (!std::filesystem::is_regular_file(answer))
+          if (!std::filesystem::is_regular_file(typed_path(answer)))
             throw DataError(answer + ": there is no such file");
-          files.calibration = answer;
+          files.calibration = typed_path(answer);
           add_extrinsics(files);
         });
   return files;
@@ -145,7 +155,11 @@ class PartialFile {
  public:
   PartialFile(const std::filesystem::path& file, const std::string& text)
       : file_(file), partial_(file.string() + fmt::format(".{}.new.yaml", ::getpid())) {
-    write_whole(partial_, text);
+    try {
+      write_whole(partial_, text);
+    } catch (const OutputError&) {
+      fail("check that its folder is writable and has space");
+    }
   }
   ~PartialFile() {
     std::error_code ignored;
@@ -159,11 +173,14 @@ class PartialFile {
   void finish() {
     std::error_code error;
     std::filesystem::rename(partial_, file_, error);
-    if (error)
-      throw OutputError(fmt::format("{}: cannot be written ({})", file_.string(), error.message()));
+    if (error) fail(error.message());
   }
 
  private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw OutputError(fmt::format("{}: cannot be written; {}", file_.string(), reason));
+  }
+
   std::filesystem::path file_, partial_;
 };
 
@@ -199,19 +216,32 @@ std::string shell_word(const std::string& text) {
   return out + "'";
 }
 
-int new_scene(const NewSceneOptions& options, const CommonOptions& common) {
-  const std::filesystem::path& file = options.file;
+/// Throws OutputError if the file cannot or may not be written.
+void expect_free(const std::filesystem::path& file, bool force) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::is_directory(folder))
+    throw OutputError(
+        fmt::format("{}: there is no such folder for {}; make it, or name another file",
+                    folder.string(), file.filename().string()));
   if (std::filesystem::is_directory(file))
     throw OutputError(
         fmt::format("{}: is a folder; expected the name of a new scene file", file.string()));
-  if (std::filesystem::exists(file) && !options.force)
-    throw OutputError(
-        fmt::format("{}: is there already; give --force to replace it, or another "
-                    "name",
-                    file.string()));
+  if (std::filesystem::exists(file) && !force)
+    throw OutputError(fmt::format(
+        "{}: is there already; give --force to replace it, or another name", file.string()));
+}
+
+int new_scene(const NewSceneOptions& options, const CommonOptions& common) {
+  const std::filesystem::path& file = options.file;
+  expect_free(file, options.force);
   const SceneRequest request = request_of(options);
+  const InterruptGuard interrupt;
   PartialFile partial(file, scene_text(request, file.parent_path()));
   const CheckedScene scene = check_new(partial.path(), file, common);
+  if (interrupt.interrupted()) {
+    tell("hypotrack: interrupted; nothing was written\n");
+    return kInterruptedExitCode;
+  }
   partial.finish();
   fmt::print(
       "{}: {} model{}, {} parameters, {}{}\n", file.string(), scene.models,

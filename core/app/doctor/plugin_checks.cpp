@@ -94,13 +94,15 @@ std::vector<Check> check_plugins(std::span<const std::filesystem::path> extra_fo
     else if (!row.usable())
       out.push_back(unusable_plugin(row));
   }
+  std::vector<std::string_view> absent;
   for (const std::string_view id : needed_plugins())
-    if (std::ranges::find(rows, id, id_of) == rows.end())
-      out.push_back({.name = fmt::format("plugin {}", id),
-                     .state = State::missing,
-                     .needed = true,
-                     .found = "in none of the plugin folders",
-                     .fix = kInstallCompletely});
+    if (std::ranges::find(rows, id, id_of) == rows.end()) absent.push_back(id);
+  if (!absent.empty())
+    out.push_back({.name = "needed plugins",
+                   .state = State::missing,
+                   .needed = true,
+                   .found = fmt::format("in no plugin folder: {}", fmt::join(absent, ", ")),
+                   .fix = kInstallCompletely});
   return out;
 } catch (const PluginError& e) {  // of the search path, or the probe program is missing
   return {{.name = "plugins",

@@ -15,7 +15,7 @@ struct Probe {
   std::string name;  ///< of the check
   std::string word;  ///< argument of the probe program
   bool needed = false;
-  std::string if_it_crashes;  ///< the remedy then
+  std::string if_it_crashes;  ///< the remedy then, or where the check knows none
   std::chrono::milliseconds limit{60'000};
 };
 

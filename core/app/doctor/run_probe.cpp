@@ -38,6 +38,7 @@ Check run_probe(const Probe& probe) {
       check.state = state_of(report);
       check.found = report.value("found", "");
       check.fix = report.value("fix", "");
+      if (check.fix.empty()) check.fix = probe.if_it_crashes;
     } else {
       check.found = describe_end(captured, probe);
       check.fix = probe.if_it_crashes;

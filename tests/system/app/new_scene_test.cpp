@@ -174,6 +174,8 @@ TEST_F(NewSceneTest, MistakesSayWhatIsExpected) {
                      {"there is no such file or folder"});
   expect_nothing_new(new_scene({"--left", "left_%04d.png"}), {"--right is not given"});
   EXPECT_EQ(with({"--model", "foot"}).exit_code, 2);
+  expect_nothing_new(run_program({"new", "scene", path("none/new.yaml").string()}),
+                     {"none: there is no such folder for new.yaml"});
 }
 
 TEST_F(NewSceneTest, ATerminalIsAskedForWhatIsNotGiven) {
