@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "base/machine.hpp"
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "lab/bench/bench_plan.hpp"
 #include "lab/bench/bench_table.hpp"
 #include "lab/bench/frames.hpp"
-#include "lab/bench/machine.hpp"
 #include "lab/bench/measure.hpp"
 #include "progress.hpp"
 #include "tell.hpp"
@@ -167,7 +167,8 @@ void add_bench_command(const Command& root, CommonOptions& common, int& exit_cod
   const Command command =
       root.add_command("bench", "Measure how fast scenes are tracked, backend beside backend");
   command.add("scene", &options->request.scenes,
-              "Scene files, or names of the table's scenes (default: all of those)");
+              "Scene files, or names of the table's scenes (default: all of those)",
+              {.value_name = "PATH"});
   command.add("--table", &options->request.table,
               "Study file with scenes and, as the axis 'backend' of its grid, the ways to track "
               "them (default: configs/studies/bench.yaml of the installation)");

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <type_traits>
 #include <utility>
 
@@ -17,6 +18,15 @@ template <class T>
 constexpr bool kIsList = false;
 template <class T>
 constexpr bool kIsList<std::vector<T>> = true;
+template <class T>
+constexpr bool kIsPath = std::is_same_v<T, std::filesystem::path> ||
+                         std::is_same_v<T, std::optional<std::filesystem::path>> ||
+                         std::is_same_v<T, std::vector<std::filesystem::path>>;
+constexpr const char* kPathName = "PATH";  // of a value, in the help
+
+std::vector<const CLI::App*> shown_commands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
 
 /// Returns a message about a wrong command line, with the valid commands if a word is not one.
 std::string mistake(const CLI::App* app, const CLI::Error& error) {
@@ -25,7 +35,7 @@ std::string mistake(const CLI::App* app, const CLI::Error& error) {
   if (!app->get_subcommands().empty() || left.empty() || left.front().starts_with('-'))
     return error.what() + way_out;
   std::vector<std::string> commands;
-  for (const CLI::App* command : app->get_subcommands({})) commands.push_back(command->get_name());
+  for (const CLI::App* command : shown_commands(*app)) commands.push_back(command->get_name());
   const std::string hint = did_you_mean(left.front(), commands);
   return fmt::format("there is no command '{}'{} There are: {}{}", left.front(),
                      hint.empty() ? "." : hint, fmt::join(commands, ", "), way_out);
@@ -40,12 +50,54 @@ CLI::Option* add_to(CLI::App& app, const std::string& name, OptionTarget target,
           return app.add_flag(name, *value, help);
         } else {
           CLI::Option* option = app.add_option(name, *value, help);
+          if constexpr (kIsPath<T>) option->type_name(kPathName);
           if constexpr (kIsList<T>)
             if (name.starts_with('-')) option->allow_extra_args(false)->take_all();
           return option;
         }
       },
       target);
+}
+
+/// Returns the words of a list {a,b,c}; nothing if the text is no such list.
+std::vector<std::string> listed_words(std::string_view text) {
+  std::vector<std::string> words;
+  if (!text.starts_with('{') || !text.ends_with('}')) return words;
+  text = text.substr(1, text.size() - 2);
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(','), text.size());
+    words.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return words;
+}
+
+OptionInfo info_of(const CLI::Option& option) {
+  OptionInfo info;
+  const bool argument = option.get_lnames().empty();
+  info.name = argument ? option.get_name(true) : "--" + option.get_lnames().front();
+  if (!option.get_snames().empty()) info.short_name = "-" + option.get_snames().front();
+  info.help = option.get_description();
+  info.default_value = option.get_default_str();
+  info.required = option.get_required();
+  if (option.get_items_expected_max() == 0) return info;  // a flag
+  const std::string type =
+      option.get_type_name();  // and what OptionCheck::hint says, after a colon
+  const std::size_t colon = std::min(type.find(':'), type.size());
+  info.value = type.substr(0, colon);
+  info.words = listed_words(std::string_view(type).substr(std::min(colon + 1, type.size())));
+  info.is_path = info.value == kPathName;
+  info.repeats = option.get_items_expected_max() > 1;
+  return info;
+}
+
+CommandInfo info_of(const CLI::App& app, const std::string& name) {
+  CommandInfo info{name, app.get_description(), {}, {}};
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) info.options.push_back(info_of(*option));
+  for (const CLI::App* command : shown_commands(app))
+    info.commands.push_back(info_of(*command, name + " " + command->get_name()));
+  return info;
 }
 
 }  // namespace
@@ -71,6 +123,8 @@ void Command::add(const std::string& name, OptionTarget target, const std::strin
   if (rules.commas) option->delimiter(',');
 }
 
+void Command::hide() const { app_->group(""); }
+
 void Command::need_command() const { app_->require_subcommand(1); }
 
 void Command::ignore_others() const {
@@ -91,6 +145,8 @@ CommandLine::CommandLine(const std::string& description, const std::string& vers
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::root() const { return Command(*app_); }
+
+CommandInfo CommandLine::info() const { return info_of(*app_, app_->get_name()); }
 
 int CommandLine::run(int argc, char** argv) {
   try {

@@ -11,6 +11,8 @@
 #include <variant>
 #include <vector>
 
+#include "command_info.hpp"
+
 namespace CLI {
 class App;
 }
@@ -56,6 +58,8 @@ class Command {
   /// parsing.
   void add(const std::string& name, OptionTarget target, const std::string& help,
            const OptionRules& rules = {}) const;
+  /// Leaves the command out of the help, completions and manual pages.
+  void hide() const;
   /// Demands one of the commands below this one.
   void need_command() const;
   /// Accepts any further arguments and ignores them.
@@ -73,6 +77,8 @@ class CommandLine {
   ~CommandLine();
 
   Command root() const;
+  /// Describes all commands that are not hidden.
+  CommandInfo info() const;
   /// Parses and calls the command's action. Prints the help or a mistake. Returns the exit code of
   /// a mistake, 0 otherwise. Lets exceptions of the action through.
   int run(int argc, char** argv);

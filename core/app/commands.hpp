@@ -34,5 +34,9 @@ void add_report_command(const Command& root, CommonOptions& common, int& exit_co
 void add_calibrate_command(const Command& root, int& exit_code);
 void add_calibration_command(const Command& root, int& exit_code);
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
+/// Adds a hidden command that writes completions and manual pages of all commands.
+void add_shell_files_command(const CommandLine& line);
 
 }  // namespace hypotrack::app

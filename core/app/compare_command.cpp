@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/machine.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
-#include "lab/bench/machine.hpp"
 #include "lab/study/check_cells.hpp"
 #include "lab/study/execute.hpp"
 #include "lab/study/plan.hpp"

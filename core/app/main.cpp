@@ -62,6 +62,9 @@ int main(int argc, char** argv) {
   add_calibrate_command(root, exit_code);
   add_calibration_command(root, exit_code);
   add_plugins_command(root, common, exit_code);
+  add_new_command(root, common, exit_code);
+  add_doctor_command(root, common, exit_code);
+  add_shell_files_command(line);
   try {
     if (const int mistake = line.run(argc, argv); mistake != 0) return mistake;
     return close_output() ? exit_code : 1;

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "base/csv.hpp"
+#include "base/machine.hpp"
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/bench/bench_numbers.hpp"
 #include "lab/bench/bench_table.hpp"
-#include "lab/bench/machine.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack::bench {

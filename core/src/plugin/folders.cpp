@@ -43,9 +43,11 @@ void add_from_environment(std::vector<std::filesystem::path>& folders) {
 
 }  // namespace
 
-std::filesystem::path probe_program() {
-  return prefix_folder() / HYPOTRACK_PROBE_DIR / "hypotrack_plugin_probe";
+std::filesystem::path libexec_program(const std::string& name) {
+  return prefix_folder() / HYPOTRACK_PROBE_DIR / name;
 }
+
+std::filesystem::path probe_program() { return libexec_program("hypotrack_plugin_probe"); }
 
 std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra) {

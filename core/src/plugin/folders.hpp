@@ -1,9 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace hypotrack::detail {
+
+/// Returns the path of a program that hypotrack starts by itself, in libexec/hypotrack.
+std::filesystem::path libexec_program(const std::string& name);
 
 /// Returns the path of the program that opens plugins in a separate process.
 std::filesystem::path probe_program();

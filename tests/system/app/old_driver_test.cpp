@@ -31,5 +31,14 @@ TEST_F(OldDriverTest, AutomaticTakesTheCpuAndSaysWhy) {
   EXPECT_THAT(outcome.err, HasSubstr(std::string("not on a GPU: ") + kReason));
 }
 
+TEST_F(OldDriverTest, DoctorSaysThatTheDriverIsBroken) {
+  Start start;
+  start.arguments = {"doctor"};
+  start.environment = {"LD_LIBRARY_PATH=" +
+                       (build_dir() / "tests/plugin_fixtures/old_driver").string()};
+  EXPECT_THAT(run_program(start).out,
+              testing::ContainsRegex(std::string("broken +CUDA +") + kReason));
+}
+
 }  // namespace
 }  // namespace hypotrack::test

@@ -22,6 +22,12 @@ TEST_F(LabAbsentTest, TheHelpSaysThatTheyAreNotInTheBuild) {
   EXPECT_THAT(help.out, testing::ContainsRegex("compare .*\\(not in this build\\)"));
 }
 
+TEST_F(LabAbsentTest, DoctorSaysWhatIsMissingAndWhatToInstall) {
+  EXPECT_THAT(run_program({"doctor"}).out,
+              testing::ContainsRegex("missing +lab commands .*not in this build: [^\n]*\n"
+                                     " +fix: sudo apt-get install libboost-dev"));
+}
+
 TEST_F(LabAbsentTest, ScenesAreValidatedAndTracked) {
   const std::string file = scene(box_scene());
   const Outcome validated = run_program({"validate", file});

@@ -1,4 +1,4 @@
-#include "lab/bench/machine.hpp"
+#include "base/machine.hpp"
 
 #include <sched.h>
 

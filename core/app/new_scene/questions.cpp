@@ -1,0 +1,47 @@
+#include "new_scene/questions.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <iostream>
+
+#include "hypotrack/error.hpp"
+#include "tell.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+/// Returns a text without the spaces around it.
+std::string trimmed(const std::string& text) {
+  constexpr const char* kSpaces = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kSpaces);
+  if (begin == std::string::npos) return {};
+  return text.substr(begin, text.find_last_not_of(kSpaces) - begin + 1);
+}
+
+}  // namespace
+
+void ask(const Question& question, const std::function<void(const std::string&)>& take) {
+  if (isatty(STDIN_FILENO) != 1)
+    throw ConfigError(
+        fmt::format("{} is not given, and standard input is no terminal to ask on; expected {}",
+                    question.option, question.text));
+  for (;;) {
+    tell("{}{}: ", question.text,
+         question.usual.empty() ? "" : fmt::format(" [{}]", question.usual));
+    std::string line;
+    if (!std::getline(std::cin, line))
+      throw ConfigError(fmt::format("{} is not given, and the answers have ended; expected {}",
+                                    question.option, question.text));
+    std::string answer = trimmed(line);
+    if (answer.empty()) answer = question.usual;
+    if (answer.empty()) continue;
+    try {
+      return take(answer);
+    } catch (const Error& e) {
+      tell("{}\n", e.what());
+    }
+  }
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace hypotrack::app {
+
+/// Pictures or videos of a pair of cameras, and their calibration.
+struct RecordingFiles {
+  std::filesystem::path left, right;   ///< patterns of pictures, single pictures, or videos
+  std::filesystem::path side_by_side;  ///< one video of both views, instead of those
+  std::filesystem::path calibration;   ///< empty: not found
+  std::filesystem::path extrinsics;    ///< second file of the calibration; may be empty
+};
+
+/// Everything that a new scene is made of.
+struct SceneRequest {
+  RecordingFiles recording;
+  std::string units;            ///< of the calibration; empty: what its file says
+  std::optional<double> scale;  ///< of the calibration
+  std::string model;            ///< hand, left_hand, two_hands or hand_and_box
+  Eigen::Vector3d box_mm{0, 0, 0};
+  std::string tracker;  ///< real, recommended or real_time
+};
+
+/// Returns true if a file's name is that of a video.
+bool is_video(const std::filesystem::path& file);
+
+/// Returns the scene as YAML. Paths are relative to `folder`, the scene's, if they lie near it.
+/// Throws ConfigError if the tracker cannot track the models.
+std::string scene_text(const SceneRequest& request, const std::filesystem::path& folder);
+
+}  // namespace hypotrack::app

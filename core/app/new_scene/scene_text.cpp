@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "config/yaml.hpp"
+#include "hypotrack/error.hpp"
+#include "new_scene/scene_request.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+using detail::YamlDocument;
+
+/// Writes a path relative to a folder if it lies at most two folders up from there.
+std::string near_path(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  constexpr int kMostUp = 2;
+  const std::filesystem::path absolute = std::filesystem::absolute(path).lexically_normal();
+  const std::filesystem::path base =
+      std::filesystem::absolute(folder.empty() ? "." : folder).lexically_normal() / "";
+  std::filesystem::path above = base.parent_path();
+  for (int up = 0; up <= kMostUp && above != above.root_path(); ++up, above = above.parent_path()) {
+    const std::filesystem::path below = absolute.lexically_relative(above);
+    if (!below.empty() && *below.begin() != "..") return absolute.lexically_relative(base).string();
+  }
+  return absolute.string();
+}
+
+YamlDocument model(const std::string& name, const std::string& type) {
+  YamlDocument out;
+  out.set_string("name", name);
+  out.set_string("type", type);
+  return out;
+}
+
+std::vector<YamlDocument> models(const SceneRequest& request) {
+  std::vector<YamlDocument> out;
+  if (request.model == "two_hands") {
+    out.push_back(model("right", "hand"));
+    out.push_back(model("left", "mirrored_hand"));
+    return out;
+  }
+  out.push_back(model("hand", request.model == "left_hand" ? "mirrored_hand" : "hand"));
+  if (request.model == "hand_and_box") {
+    const Eigen::Vector3d& size = request.box_mm;
+    out.emplace_back(fmt::format("{{name: box, type: rigid_box, size_mm: [{}, {}, {}]}}", size.x(),
+                                 size.y(), size.z()));
+  }
+  return out;
+}
+
+YamlDocument source(const SceneRequest& request, const std::filesystem::path& folder) {
+  const RecordingFiles& files = request.recording;
+  YamlDocument out, calibration;
+  const bool one = !files.side_by_side.empty();
+  out.set_string("type", one || is_video(files.left) ? "video" : "image_sequence");
+  if (one) out.set_string("side_by_side", near_path(files.side_by_side, folder));
+  if (!one) out.set_string("left", near_path(files.left, folder));
+  if (!one) out.set_string("right", near_path(files.right, folder));
+  calibration.set_string("file", near_path(files.calibration, folder));
+  if (!files.extrinsics.empty())
+    calibration.set_string("extrinsics", near_path(files.extrinsics, folder));
+  if (!request.units.empty()) calibration.set_string("units", request.units);
+  if (request.scale) calibration.set_plain("scale", fmt::format("{}", *request.scale));
+  out.set("calibration", calibration);
+  return out;
+}
+
+std::string tracker(const SceneRequest& request) {
+  const bool two_hands = request.model == "two_hands";
+  if (request.tracker == "real_time" && (two_hands || request.model == "hand_and_box"))
+    throw ConfigError(
+        fmt::format("--tracker real_time tracks one hand, found --model {}; expected --tracker "
+                    "real or recommended",
+                    request.model));
+  if (!two_hands) return "@trackers/" + request.tracker;
+  return request.tracker == "real" ? "@trackers/real_two_hands" : "@trackers/two_hands";
+}
+
+}  // namespace
+
+bool is_video(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 9> kEndings = {".mp4", ".avi", ".mkv",  ".mov", ".webm",
+                                                        ".m4v", ".mpg", ".mpeg", ".wmv"};
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::ranges::count(kEndings, ending) > 0;
+}
+
+std::string scene_text(const SceneRequest& request, const std::filesystem::path& folder) {
+  YamlDocument scene;
+  scene.set_list("models", models(request));
+  scene.set("source", source(request, folder));
+  scene.set_string("tracker", tracker(request));
+  YamlDocument init;
+  init.set_string("from", "auto");
+  scene.set("init", init);
+  if (request.tracker == "real") {  // which has the hand detector, as this needs
+    YamlDocument shape;
+    shape.set_plain("estimate_s", "2");
+    shape.set_string("from", "starts");
+    scene.set("shape", shape);
+  }
+  return scene.text();
+}
+
+}  // namespace hypotrack::app
