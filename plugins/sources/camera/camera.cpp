@@ -108,7 +108,8 @@ class LiveCamera final : public Source {
   }
 
   std::vector<std::string> statistics() const override {
-    std::string text = fmt::format("camera: {} pairs at {:.1f} per second", pairs_, pair_rate());
+    std::string text = fmt::format("camera: {} pairs", pairs_);
+    if (pairs_ > 1) text += fmt::format(" at {:.1f} per second", pair_rate());
     if (!offsets_.empty()) {
       text += fmt::format("; offset of their pictures: median {:.1f} ms, largest {:.1f} ms",
                           1e-6 * static_cast<double>(upper_median(offsets_)),
@@ -189,8 +190,8 @@ class LiveCamera final : public Source {
     }
   }
 
+  /// Returns pairs per second, of at least two.
   double pair_rate() const {
-    if (pairs_ < 2) return 0;
     return 1e9 * (pairs_ - 1) / static_cast<double>(newest_pair_ - *first_pair_);
   }
 

@@ -85,6 +85,8 @@ std::string PictureQueues::wait_for_first(int count, std::int64_t deadline) {
   });
   for (const Device& d : devices_) {
     if (failed(d)) return d.problem;
+  }
+  for (const Device& d : devices_) {
     if (d.arrived == 0) return fmt::format("{}: no whole picture arrives", d.label);
   }
   return {};
