@@ -78,7 +78,11 @@ bool DeviceSettings::is_pipeline() const {
   return !is_stream() && name.find('!') != std::string::npos;
 }
 
-std::string DeviceSettings::label() const { return fmt::format("{} ({})", role, name); }
+std::string DeviceSettings::label() const {
+  constexpr std::size_t kLongest = 60;
+  const bool fits = name.size() <= kLongest;
+  return fmt::format("{} ({}{})", role, name.substr(0, kLongest), fits ? "" : "...");
+}
 
 std::string Device::open() {
   try {

@@ -23,7 +23,7 @@ struct DeviceSettings {
   bool is_stream() const;    ///< URL
   bool is_pipeline() const;  ///< of GStreamer
   bool is_v4l2() const { return !is_stream() && !is_pipeline(); }
-  /// Returns role and name for messages.
+  /// Returns role and name for messages; a long name is cut.
   std::string label() const;
 };
 
