@@ -25,7 +25,7 @@ void read_device(Device& device, const DeviceSettings& settings, PictureQueues& 
       pictures.add_damaged(index);
       continue;
     }
-    if (may_be_old > 0 && static_cast<double>(picture.stamp - begin) < usual_wait) {
+    if (may_be_old > 0 && static_cast<double>(picture.arrival - begin) < usual_wait) {
       --may_be_old;
       continue;
     }
@@ -56,9 +56,10 @@ void capture_device(const DeviceSettings& settings, PictureQueues& pictures, std
 
 }  // namespace
 
-Capture::Capture(const std::vector<DeviceSettings>& devices)
-    : pictures_(std::make_shared<PictureQueues>(devices.size())) {
-  for (std::size_t i = 0; i < devices.size(); ++i) pictures_->name(i, devices[i].label());
+Capture::Capture(const std::vector<DeviceSettings>& devices) {
+  std::vector<std::string> names;
+  for (const DeviceSettings& device : devices) names.push_back(device.label());
+  pictures_ = std::make_shared<PictureQueues>(names);
   for (std::size_t i = 0; i < devices.size(); ++i) {
     threads_.emplace_back([pictures = pictures_, settings = devices[i], i] {
       capture_device(settings, *pictures, i);

@@ -53,10 +53,6 @@ std::string problem_of_file(const std::filesystem::path& file) {
   return {};
 }
 
-bool same(double found, double wanted, double tolerance) {
-  return std::abs(found - wanted) <= tolerance * std::abs(wanted);
-}
-
 /// True if a JPEG file ends with its end marker; a cut one decodes to a picture all the same.
 bool ends_whole(const cv::Mat& file) {
   const std::size_t size = file.total();
@@ -80,8 +76,12 @@ bool DeviceSettings::is_pipeline() const {
 
 std::string DeviceSettings::label() const {
   constexpr std::size_t kLongest = 60;
-  const bool fits = name.size() <= kLongest;
-  return fmt::format("{} ({}{})", role, name.substr(0, kLongest), fits ? "" : "...");
+  std::string shown = name;
+  const std::size_t host = name.find("://") + 3;
+  const std::size_t at = name.find('@');
+  if (is_stream() && at < name.find('/', host)) shown.replace(host, at - host, "...");
+  if (shown.size() > kLongest) shown.replace(kLongest, std::string::npos, "...");
+  return fmt::format("{} ({})", role, shown);
 }
 
 std::string Device::open() {
@@ -136,46 +136,61 @@ std::string Device::open_pipeline() {
       settings_.label());
 }
 
-void Device::set(int property, double value, double tolerance, const std::string& what) {
-  const bool accepted = capture_.set(property, value);
+/// Notes that the device refused a setting if it does not have the value.
+void Device::expect(int property, double value, double tolerance, const std::string& what) {
   const double found = capture_.get(property);
-  if (accepted && same(found, value, tolerance)) return;
+  if (std::abs(found - value) <= tolerance * value) return;
   refused_.push_back(fmt::format("{}: the device does not take {} {:g}; it says {:g}",
                                  settings_.label(), what, value, found));
 }
 
-void Device::apply_settings() {
+void Device::set(int property, double value, double tolerance, const std::string& what) {
+  capture_.set(property, value);
+  expect(property, value, tolerance, what);
+}
+
+void Device::set_pixel_format(const std::string& letters) {
+  const int code = cv::VideoWriter::fourcc(letters[0], letters[1], letters[2], letters[3]);
+  if (capture_.set(cv::CAP_PROP_FOURCC, code) &&
+      static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC)) == code)
+    return;
+  refused_.push_back(
+      fmt::format("{}: the device does not take pixel_format {}", settings_.label(), letters));
+}
+
+void Device::set_size() {
   const DeviceParams& p = settings_.params;
-  if (!p.pixel_format.empty()) {
-    const int code = cv::VideoWriter::fourcc(p.pixel_format[0], p.pixel_format[1],
-                                             p.pixel_format[2], p.pixel_format[3]);
-    if (!capture_.set(cv::CAP_PROP_FOURCC, code) ||
-        static_cast<int>(capture_.get(cv::CAP_PROP_FOURCC)) != code) {
-      refused_.push_back(fmt::format("{}: the device does not take pixel_format {}",
-                                     settings_.label(), p.pixel_format));
-    }
-  }
-  if (p.width) set(cv::CAP_PROP_FRAME_WIDTH, *p.width, 0, "width");
-  if (p.height) set(cv::CAP_PROP_FRAME_HEIGHT, *p.height, 0, "height");
-  if (p.fps) set(cv::CAP_PROP_FPS, *p.fps, 0.02, "fps");
+  if (!p.width && !p.height) return;
+  const double width = p.width ? *p.width : capture_.get(cv::CAP_PROP_FRAME_WIDTH);
+  const double height = p.height ? *p.height : capture_.get(cv::CAP_PROP_FRAME_HEIGHT);
+  capture_.set(cv::CAP_PROP_FRAME_WIDTH, width);  // waits for the height
+  capture_.set(cv::CAP_PROP_FRAME_HEIGHT, height);
+  expect(cv::CAP_PROP_FRAME_WIDTH, width, 0, "width");
+  expect(cv::CAP_PROP_FRAME_HEIGHT, height, 0, "height");
+}
+
+void Device::apply_settings() {
+  constexpr double kRounded = 0.02;
+  const DeviceParams& p = settings_.params;
+  if (!p.pixel_format.empty()) set_pixel_format(p.pixel_format);
+  set_size();
+  if (p.fps) set(cv::CAP_PROP_FPS, *p.fps, kRounded, "fps");
   if (p.exposure) {
     constexpr double kManual = 1;   // V4L2_EXPOSURE_MANUAL
     constexpr double kUnit = 1e-4;  // seconds, of V4L2_CID_EXPOSURE_ABSOLUTE
-    constexpr double kRoundedToTenth = 0.1;
+    constexpr double kStep = 0.1;
     capture_.set(cv::CAP_PROP_AUTO_EXPOSURE, kManual);
-    set(cv::CAP_PROP_EXPOSURE, std::round(*p.exposure / kUnit), kRoundedToTenth,
-        "exposure (0.1 ms)");
+    set(cv::CAP_PROP_EXPOSURE, std::round(*p.exposure / kUnit), kStep, "exposure (of 0.1 ms)");
   }
   if (p.white_balance) {
     capture_.set(cv::CAP_PROP_AUTO_WB, 0);
-    set(cv::CAP_PROP_WB_TEMPERATURE, *p.white_balance, 0.02, "white_balance");
+    set(cv::CAP_PROP_WB_TEMPERATURE, *p.white_balance, kRounded, "white_balance");
   }
 }
 
 /// V4L2 says when the picture began, usually on the monotonic clock; others say nothing.
-std::int64_t Device::time_of_grab() const {
+std::int64_t Device::stamp_of(std::int64_t arrival) const {
   constexpr std::int64_t kOldest = 1'000'000'000;
-  const std::int64_t arrival = now();
   if (!settings_.is_v4l2()) return arrival;
   const auto driver = static_cast<std::int64_t>(capture_.get(cv::CAP_PROP_POS_MSEC) * 1e6);
   return driver > arrival - kOldest && driver <= arrival ? driver : arrival;
@@ -199,7 +214,8 @@ Device::Result Device::read(Picture& picture) {
   } catch (const cv::Exception&) {
     return Result::end;
   }
-  picture.stamp = time_of_grab();
+  picture.arrival = now();
+  picture.stamp = stamp_of(picture.arrival);
   try {
     picture.image = decoded();
   } catch (const cv::Exception&) {

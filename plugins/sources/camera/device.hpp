@@ -23,14 +23,15 @@ struct DeviceSettings {
   bool is_stream() const;    ///< URL
   bool is_pipeline() const;  ///< of GStreamer
   bool is_v4l2() const { return !is_stream() && !is_pipeline(); }
-  /// Returns role and name for messages; a long name is cut.
+  /// Returns role and name for messages, without the password of a URL. A long name is cut.
   std::string label() const;
 };
 
-/// A picture and when it was taken.
+/// A picture and its times, in nanoseconds of now().
 struct Picture {
-  cv::Mat image;           ///< 8-bit BGR
-  std::int64_t stamp = 0;  ///< nanoseconds of now()
+  cv::Mat image;             ///< 8-bit BGR
+  std::int64_t stamp = 0;    ///< when it was taken; when it arrived if the device does not say
+  std::int64_t arrival = 0;  ///< when it arrived, before it was decoded
 };
 
 /// An open camera or stream.
@@ -51,9 +52,12 @@ class Device {
   std::string open_v4l2();
   std::string open_stream();
   std::string open_pipeline();
+  void expect(int property, double value, double tolerance, const std::string& what);
   void set(int property, double value, double tolerance, const std::string& what);
+  void set_pixel_format(const std::string& letters);
+  void set_size();
   void apply_settings();
-  std::int64_t time_of_grab() const;
+  std::int64_t stamp_of(std::int64_t arrival) const;
   cv::Mat decoded();
 
   DeviceSettings settings_;

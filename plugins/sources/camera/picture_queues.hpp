@@ -24,7 +24,8 @@ struct DeviceCounts {
 /// may be called from any thread.
 class PictureQueues {
  public:
-  explicit PictureQueues(std::size_t devices) : devices_(devices) {}
+  /// Makes a queue for each device, named for messages.
+  explicit PictureQueues(const std::vector<std::string>& names);
 
   // For the capture thread of a device.
   void opened(std::size_t device, std::vector<std::string> refused);
@@ -55,11 +56,9 @@ class PictureQueues {
   /// Tells the capture threads to end and waits for them until the deadline. Returns which ended.
   std::vector<bool> stop(std::int64_t deadline);
 
-  void name(std::size_t device, std::string label) { devices_[device].label = std::move(label); }
-
  private:
-  struct Device {
-    std::string label;
+  struct Queue {
+    std::string name;
     std::deque<Picture> waiting;
     cv::Size size;
     std::int64_t first = 0, last = 0;  ///< stamps
@@ -72,11 +71,11 @@ class PictureQueues {
   };
 
   std::optional<std::vector<std::size_t>> places(std::int64_t tolerance) const;
-  void forget(Device& device, std::int64_t until);
+  static void forget(Queue& device, std::int64_t until);
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<Device> devices_;  ///< and all below: guarded by the mutex
+  std::vector<Queue> queues_;  ///< and all below: guarded by the mutex
   bool any_pair_ = false;
   bool stopped_ = false;
 };

@@ -7,7 +7,7 @@ namespace {
 
 std::deque<Picture> taken_at(const std::vector<std::int64_t>& stamps) {
   std::deque<Picture> pictures;
-  for (const std::int64_t stamp : stamps) pictures.push_back({{}, stamp});
+  for (const std::int64_t stamp : stamps) pictures.push_back({.image = {}, .stamp = stamp});
   return pictures;
 }
 

@@ -54,6 +54,13 @@ TEST_F(RefusedDevices, AStreamThatNobodyServesCannotBeOpened) {
                                              HasSubstr("the stream cannot be opened"))));
 }
 
+TEST_F(RefusedDevices, ThePasswordOfAStreamIsNotShown) {
+  const std::string message =
+      test::message_of<DataError>(making("device: \"http://me:secret@127.0.0.1:1/stream@home\"\n"));
+  EXPECT_THAT(message, AllOf(HasSubstr("device (http://...@127.0.0.1:1/stream@home)"),
+                             testing::Not(HasSubstr("secret"))));
+}
+
 TEST_F(RefusedDevices, APipelineWithoutASinkCannotBeOpened) {
   EXPECT_THAT(making("device: \"fakesrc ! fakesink\"\n"),
               ThrowsMessage<DataError>(HasSubstr("GStreamer cannot open the pipeline")));
