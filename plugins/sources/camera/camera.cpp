@@ -68,7 +68,7 @@ class LiveCamera final : public Source {
     }
     capture_.emplace(devices_);
     wait_for_pictures();
-    take_image_sizes();
+    check_pictures();
     tolerance_ = nanoseconds(params.tolerance.value_or(0.6 / rate_));
     last_pair_ = now();
   }
@@ -137,6 +137,17 @@ class LiveCamera final : public Source {
     if (!problem.empty()) throw DataError(problem);
     const double measured = std::round(100 * pictures().rate(0)) / 100;
     rate_ = params_.settings.fps.value_or(measured > 0 ? measured : 30);
+  }
+
+  /// Takes the sizes of the pictures. An error also says what the devices refused.
+  void check_pictures() {
+    try {
+      take_image_sizes();
+    } catch (const DataError& e) {
+      std::string text = e.what();
+      for (const std::string& refused : notes()) text += "; " + refused;
+      throw DataError(text);
+    }
   }
 
   void take_image_sizes() {
