@@ -164,10 +164,9 @@ TEST_F(RecordTest, ARenderedSourceIsRecordedUntilASecond) {
 }
 
 TEST_F(RecordTest, ASourceWithoutUsableFramesLeavesNothing) {
-  const Outcome outcome =
-      record(replaced(box_scene(), "type: synthetic",
-                      "type: synthetic\n  faults: [{frames: [0, 4], kind: missing}]"),
-             {});
+  const MjpegServer left(pictures("left")), right(pictures("right"));
+  const std::string never = "  tolerance_ms: 0\n  timeout_s: 0.2\n";
+  const Outcome outcome = record(live_scene(two_devices(left, right) + never), {"--frames", "2"});
   expect_refusal(outcome, {"the source gave no usable frame"});
 }
 
