@@ -11,11 +11,12 @@ namespace {
 constexpr double kUsualRate = 30;
 
 /// Reads pictures until the device gives no more. The first ones waited in buffers for an unknown
-/// time, which is seen by how fast they come; they are left out.
+/// time, which is seen by how fast they come; they are left out. A stream's are many: FFmpeg looks
+/// at seconds of it before the first picture.
 void read_device(Device& device, const DeviceSettings& settings, PictureQueues& pictures,
                  std::size_t index) {
   const double usual_wait = 0.5e9 / settings.params.fps.value_or(kUsualRate);
-  int may_be_old = 8;
+  int may_be_old = settings.is_stream() ? 100 : 8;
   while (!pictures.stopped()) {
     const std::int64_t begin = now();
     Picture picture;
