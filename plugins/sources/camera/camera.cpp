@@ -128,7 +128,7 @@ class LiveCamera final : public Source {
  private:
   PictureQueues& pictures() const { return capture_->pictures(); }
 
-  /// Waits for the first pictures and measures their rate.
+  /// Waits for the first pictures, to know their rate.
   void wait_for_pictures() {
     constexpr int kMeasured = 10;
     constexpr double kPatience = 15;  // seconds; opening takes 10 at most

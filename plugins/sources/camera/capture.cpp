@@ -43,7 +43,7 @@ void capture_device(const DeviceSettings& settings, PictureQueues& pictures, std
       Device device(settings);
       std::string problem = device.open();
       if (problem.empty()) {
-        pictures.opened(index, device.refused());
+        pictures.opened(index, device.stated_rate(), device.refused());
         read_device(device, settings, pictures, index);
         problem = fmt::format("{}: the pictures stopped", settings.label());
       }

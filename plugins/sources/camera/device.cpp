@@ -188,6 +188,12 @@ void Device::apply_settings() {
   }
 }
 
+double Device::stated_rate() const {
+  if (jpeg_) return 0;  // HTTP does not say, and FFmpeg then says 25
+  const double rate = capture_.get(cv::CAP_PROP_FPS);
+  return rate >= 0.1 && rate <= 2000 ? rate : 0;
+}
+
 /// V4L2 says when the picture began, usually on the monotonic clock; others say nothing.
 std::int64_t Device::stamp_of(std::int64_t arrival) const {
   constexpr std::int64_t kOldest = 1'000'000'000;

@@ -44,6 +44,9 @@ class Device {
   /// Returns what the device refused of its settings.
   const std::vector<std::string>& refused() const { return refused_; }
 
+  /// Returns the pictures per second that the device states; 0 if it does not.
+  double stated_rate() const;
+
   enum class Result { picture, damaged, end };
   /// Waits for the next picture. `end`: there is none within the time-out, or the stream ended.
   Result read(Picture& picture);

@@ -26,7 +26,8 @@ struct DeviceParams {
     v("height", height,
       {.help = "height of a device's picture", .min = 1, .max = 65536, .unit = "px"});
     v("fps", fps,
-      {.help = "pictures per second; a V4L2 device is set to it (default: as measured)",
+      {.help = "pictures per second; a V4L2 device is set to it (default: what the device says, or "
+               "as measured)",
        .min = 0.1,
        .max = 2000,
        .unit = "1/s"});

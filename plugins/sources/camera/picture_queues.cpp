@@ -21,10 +21,12 @@ PictureQueues::PictureQueues(const std::vector<std::string>& names) : queues_(na
   for (std::size_t i = 0; i < names.size(); ++i) queues_[i].name = names[i];
 }
 
-void PictureQueues::opened(std::size_t device, std::vector<std::string> refused) {
+void PictureQueues::opened(std::size_t device, double stated_rate,
+                           std::vector<std::string> refused) {
   const std::lock_guard lock(mutex_);
   Queue& d = queues_[device];
   if (d.times_opened++ > 0) ++d.counts.reconnects;
+  d.stated_rate = stated_rate;
   d.refused = std::move(refused);
 }
 
@@ -99,6 +101,7 @@ std::string PictureQueues::wait_for_first(int count, std::int64_t deadline) {
 double PictureQueues::rate(std::size_t device) {
   const std::lock_guard lock(mutex_);
   const Queue& d = queues_[device];
+  if (d.stated_rate > 0) return d.stated_rate;
   return d.arrived < 2 ? 0 : 1e9 * (d.arrived - 1) / static_cast<double>(d.last - d.first);
 }
 

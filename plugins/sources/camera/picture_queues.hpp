@@ -28,7 +28,7 @@ class PictureQueues {
   explicit PictureQueues(const std::vector<std::string>& names);
 
   // For the capture thread of a device.
-  void opened(std::size_t device, std::vector<std::string> refused);
+  void opened(std::size_t device, double stated_rate, std::vector<std::string> refused);
   void add(std::size_t device, Picture picture);
   void add_damaged(std::size_t device);
   /// Notes why a device gives no pictures.
@@ -42,7 +42,8 @@ class PictureQueues {
   /// Waits until `count` pictures of every device arrived, a device has a problem before its first,
   /// or the deadline (of now()) passed. Returns the problem.
   std::string wait_for_first(int count, std::int64_t deadline);
-  /// Returns the pictures per second of the device so far; 0 if there are less than two.
+  /// Returns the pictures per second that the device states, or those so far; 0 if there are less
+  /// than two.
   double rate(std::size_t device);
   /// Returns the size of a device's pictures; empty if there are none.
   cv::Size size(std::size_t device);
@@ -62,6 +63,7 @@ class PictureQueues {
     std::deque<Picture> waiting;
     cv::Size size;
     std::int64_t first = 0, last = 0;  ///< stamps
+    double stated_rate = 0;            ///< 0: unknown
     int arrived = 0;
     int times_opened = 0;
     DeviceCounts counts;
