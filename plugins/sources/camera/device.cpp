@@ -53,7 +53,8 @@ std::string problem_of_file(const std::filesystem::path& file) {
   return {};
 }
 
-/// True if a JPEG file ends with its end marker; a cut one decodes to a picture all the same.
+/// Returns true if a JPEG file ends with its end marker. A file that was cut off decodes to a
+/// picture all the same.
 bool ends_whole(const cv::Mat& file) {
   const std::size_t size = file.total();
   if (!file.isContinuous() || file.elemSize() != 1) return false;
@@ -194,7 +195,8 @@ double Device::stated_rate() const {
   return rate >= 0.1 && rate <= 2000 ? rate : 0;
 }
 
-/// V4L2 says when the picture began, usually on the monotonic clock; others say nothing.
+/// Returns the time at which the V4L2 driver says that the picture began. Other devices say none,
+/// and some drivers use another clock: their pictures have the time of their arrival.
 std::int64_t Device::stamp_of(std::int64_t arrival) const {
   constexpr std::int64_t kOldest = 1'000'000'000;
   if (!settings_.is_v4l2()) return arrival;

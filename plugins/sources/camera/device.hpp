@@ -13,7 +13,7 @@ namespace hypotrack::live {
 /// Returns the time of the system's monotonic clock in nanoseconds.
 std::int64_t now();
 
-/// What a device is, and how to open it.
+/// A device and how to open it.
 struct DeviceSettings {
   std::string role;  ///< device, left or right
   std::string name;  ///< as the scene gives it
