@@ -25,6 +25,7 @@ void add_set_option(const Command& command, std::vector<std::string>& set);
 void add_run_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_validate_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_fit_shape_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_record_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_synth_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_evaluate_command(const Command& root, int& exit_code);
 void add_reliability_command(const Command& root, int& exit_code);

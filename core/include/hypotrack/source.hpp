@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
@@ -26,6 +27,11 @@ class HYPOTRACK_API Source {
   /// Returns the next frame, or nothing at the end. A damaged or missing frame has `problem` set
   /// and no views; it does not throw.
   virtual std::optional<Frame> next() = 0;
+  /// Returns lines for the user about what was opened, such as a setting that a camera refused.
+  virtual std::vector<std::string> notes() const { return {}; }
+  /// Returns lines for the user about the frames so far, such as the number of dropped ones. A run
+  /// shows them when it ends.
+  virtual std::vector<std::string> statistics() const { return {}; }
 };
 
 }  // namespace hypotrack

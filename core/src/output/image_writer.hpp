@@ -6,8 +6,8 @@
 
 namespace hypotrack {
 
-/// Writes PNG files on all cores while the caller goes on. The files do not depend on the threads'
-/// timing.
+/// Writes PNG or JPEG files on all cores while the caller goes on. The files do not depend on the
+/// threads' timing.
 class ImageWriter {
  public:
   ImageWriter();
@@ -16,9 +16,9 @@ class ImageWriter {
   ImageWriter(const ImageWriter&) = delete;
   ImageWriter& operator=(const ImageWriter&) = delete;
 
-  /// Queues an image (any that PNG can hold) for a file; the image must not change afterwards. If
-  /// many images wait, it writes this one itself. Throws OutputError if an earlier image could not
-  /// be written; it writes nothing more then.
+  /// Queues an image (any that the format of the file's name can hold); the image must not change
+  /// afterwards. If many images wait, it writes this one itself. Throws OutputError if an earlier
+  /// image could not be written; it writes nothing more then.
   void write(std::filesystem::path file, cv::Mat image);
 
   /// Waits until all files are complete. Throws like write().

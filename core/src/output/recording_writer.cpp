@@ -30,12 +30,14 @@ cv::Mat stored_depth(const cv::Mat& depth) {
 }  // namespace
 
 RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
-                                 std::string scene_yaml, std::filesystem::path directory)
+                                 std::string scene_yaml, std::filesystem::path directory,
+                                 PictureFormat format)
     : scene_(&scene),
       cameras_(std::move(cameras)),
       frame_rate_(frame_rate),
       scene_yaml_(std::move(scene_yaml)),
-      directory_(std::filesystem::absolute(std::move(directory)).lexically_normal()) {
+      directory_(std::filesystem::absolute(std::move(directory)).lexically_normal()),
+      format_(format) {
   if (!directory_.has_filename()) directory_ = directory_.parent_path();
   if (cameras_.empty() || cameras_.size() > 2)
     throw DataError(
@@ -60,11 +62,12 @@ RecordingWriter::~RecordingWriter() {
   if (!part_.empty()) std::filesystem::remove_all(part_, ignored);
 }
 
-void RecordingWriter::write_image(const std::string& name, int index, cv::Mat image) {
-  names_.insert(name);
+void RecordingWriter::write_image(const std::string& name, int index, cv::Mat image,
+                                  const char* extension) {
+  extensions_[name] = extension;
   if (first_image_ < 0) first_image_ = index;
   last_image_ = index;
-  images_->write(part_ / fmt::format("{}_{:06}.png", name, index), std::move(image));
+  images_->write(part_ / fmt::format("{}_{:06}{}", name, index, extension), std::move(image));
 }
 
 /// Spreads frames whose numbers are left out evenly.
@@ -102,7 +105,8 @@ void RecordingWriter::add(const Frame& frame) {
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
     const std::string side = i == 0 ? "left" : "right";
-    if (!view.color.empty()) write_image(side, frame.index, view.color);
+    const char* const extension = format_ == PictureFormat::jpeg ? ".jpg" : ".png";
+    if (!view.color.empty()) write_image(side, frame.index, view.color, extension);
     if (!view.mask.empty()) write_image(side + "_mask", frame.index, view.mask);
     if (!view.depth.empty()) {
       write_image(side + "_depth", frame.index, stored_depth(view.depth));
@@ -137,8 +141,9 @@ void RecordingWriter::write_scene() const {
   calibration.set_string("file", "calibration.yaml");
   detail::YamlDocument source;
   source.set_string("type", "image_sequence");
-  for (const std::string& name : names_) source.set_string(name, name + "_%06d.png");
-  if (names_.contains("left_depth")) {
+  for (const auto& [name, extension] : extensions_)
+    source.set_string(name, name + "_%06d" + extension);
+  if (extensions_.contains("left_depth")) {
     source.set_plain("depth_units_mm", fmt::format("{}", kDepthUnitMm));
   }
   if (evenly_spaced() || first_image_ < 0) {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -15,9 +15,12 @@
 
 namespace hypotrack {
 
+/// Format of a recording's colour pictures: lossless, or JPEG of quality 95.
+enum class PictureFormat { png, jpeg };
+
 /// Writes the frames of one or two cameras as a folder that the `image_sequence` source reads.
 ///
-/// Images: left_000000.png, right_000000.png, masks (left_mask_000000.png) and depths
+/// Images: left_000000.png, right_000000.png (or .jpg), masks (left_mask_000000.png) and depths
 /// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
 /// Also times.csv if frames are not evenly spaced in time; calibration.yaml; scene.yaml, which
 /// tracks the recording; source.yaml, the recorded scene. If the truth is known: truth_states.csv,
@@ -29,7 +32,8 @@ class RecordingWriter {
   /// OutputError if the folder exists and is not empty or cannot be made, DataError unless there
   /// are one or two cameras.
   RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
-                  std::string scene_yaml, std::filesystem::path directory);
+                  std::string scene_yaml, std::filesystem::path directory,
+                  PictureFormat format = PictureFormat::png);
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -45,7 +49,8 @@ class RecordingWriter {
   std::vector<ModelSpeeds> motion() const;
 
  private:
-  void write_image(const std::string& name, int index, cv::Mat image);
+  void write_image(const std::string& name, int index, cv::Mat image,
+                   const char* extension = ".png");
   void note_time(const Frame& frame);
   bool evenly_spaced() const;
   void write_times() const;
@@ -57,11 +62,12 @@ class RecordingWriter {
   double frame_rate_;
   std::string scene_yaml_;
   std::filesystem::path directory_;
+  PictureFormat format_;
   std::filesystem::path part_;  ///< folder under construction; removed if never finished
   std::vector<StateRow> states_;
   std::vector<StateRow> seen_;  ///< the states in which no model is absent
   std::vector<LandmarkRow> landmarks_;
-  std::set<std::string> names_;  ///< kinds of images: left, left_mask, ...
+  std::map<std::string, std::string> extensions_;  ///< of kinds of images: left, left_mask, ...
   int first_ = -1;
   int last_ = -1;
   int first_image_ = -1;

@@ -185,6 +185,10 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
   return true;
 }
 
+void say_statistics(const Source& source, RunWatcher& watcher) {
+  for (const std::string& line : source.statistics()) watcher.say(line);
+}
+
 /// Throws OutputError if the run's protocol would replace the scene, where no run wrote that.
 void spare_scene(const std::filesystem::path& scene, const std::filesystem::path& folder) {
   std::error_code error;
@@ -215,6 +219,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
                                         watcher);
   watcher.say(fmt::format("tracking with {}", tracker.backend()));
   for (const std::string& note : opened.notes) watcher.say("note: " + note);
+  for (const std::string& note : opened.source->notes()) watcher.say("note: " + note);
   for (const std::string& problem : {problem_of_pair(opened.source->cameras(), first.back()),
                                      tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
@@ -223,11 +228,13 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
                                 options.frames, latch);
     if (results) results->settle();
+    say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
     if (results) results->tell_of_parts();
     throw;
   } catch (...) {
     if (results) results->finish_after_error();
+    say_statistics(*opened.source, watcher);
     throw;
   }
   if (results) result.summary = results->finish(result.complete);

@@ -24,6 +24,8 @@ class CheckedSource final : public Source {
   std::optional<int> frame_count() const override { return source_->frame_count(); }
   /// Returns the next frame. Throws DataError, naming the plugin and the frame.
   std::optional<Frame> next() override;
+  std::vector<std::string> notes() const override { return source_->notes(); }
+  std::vector<std::string> statistics() const override { return source_->statistics(); }
 
  private:
   void check_order(const Frame& frame);

@@ -27,6 +27,14 @@ std::optional<Frame> ReplaySource::next() {
   return rest_ ? rest_->next() : std::nullopt;
 }
 
+std::vector<std::string> ReplaySource::notes() const {
+  return rest_ ? rest_->notes() : std::vector<std::string>{};
+}
+
+std::vector<std::string> ReplaySource::statistics() const {
+  return rest_ ? rest_->statistics() : std::vector<std::string>{};
+}
+
 std::vector<Frame> first_seconds(Source& source, double seconds) {
   const auto count = static_cast<std::size_t>(std::ceil(seconds * source.frame_rate()));
   std::vector<Frame> frames;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hypotrack/source.hpp"
@@ -19,6 +20,8 @@ class ReplaySource final : public Source {
   double frame_rate() const override { return frame_rate_; }
   std::optional<int> frame_count() const override { return count_; }
   std::optional<Frame> next() override;
+  std::vector<std::string> notes() const override;
+  std::vector<std::string> statistics() const override;
 
  private:
   std::vector<Camera> cameras_;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hypotrack/plugin.hpp"
@@ -28,6 +29,8 @@ class DepthFromStereo final : public Source {
   const std::vector<Camera>& cameras() const override { return cameras_; }
   double frame_rate() const override { return source_->frame_rate(); }
   std::optional<int> frame_count() const override { return source_->frame_count(); }
+  std::vector<std::string> notes() const override { return source_->notes(); }
+  std::vector<std::string> statistics() const override { return source_->statistics(); }
 
   std::optional<Frame> next() override {
     std::optional<Frame> frame = source_->next();

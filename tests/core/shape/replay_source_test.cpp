@@ -18,6 +18,10 @@ class Counting final : public Source {
     frame.time = frame.index / 5.0 + (frame.index > 0 ? gap : 0);
     return frame;
   }
+  std::vector<std::string> notes() const override { return {"a setting was refused"}; }
+  std::vector<std::string> statistics() const override {
+    return {std::to_string(next_) + " frames"};
+  }
   double gap = 0;  ///< s
 
  private:
@@ -49,6 +53,15 @@ TEST(ReplaySource, TakesTheFirstSecondsByTimeWhereThereIsAGap) {
   Counting source;
   source.gap = 0.4;
   EXPECT_EQ(first_seconds(source, 0.6).size(), 2u) << "at 0 and 0.6 s";
+}
+
+TEST(ReplaySource, SaysWhatItsSourceSays) {
+  auto source = std::make_unique<Counting>();
+  const std::vector<Frame> first = first_seconds(*source, 0.6);
+  ReplaySource all(std::move(source), first);
+  EXPECT_EQ(all.notes(), std::vector<std::string>{"a setting was refused"});
+  indices_of(all);
+  EXPECT_EQ(all.statistics(), std::vector<std::string>{"10 frames"});
 }
 
 TEST(ReplaySource, TakesAShortSourceAsItIs) {
