@@ -60,14 +60,19 @@ class LiveCamera final : public Source {
 
   LiveCamera(const Params& params, PluginContext& context)
       : params_(params),
-        devices_(devices_of(params, context.config())),
-        cameras_(load_calibration(params.calibration)) {
-    if (cameras_.size() != 2) {
-      throw DataError(fmt::format("{}: holds {} cameras; expected two, one for each view",
-                                  params.calibration.file.string(), cameras_.size()));
-    }
+        devices_(devices_of(params, context.config())) {
     capture_.emplace(devices_);
     wait_for_pictures();
+    const cv::Size picture = pictures().size(0);
+    cameras_ = load_calibration(
+        params.calibration,
+        {devices_.size() == 1 ? picture.width / 2 : picture.width, picture.height});
+    if (cameras_.size() != 2) {
+      throw DataError(
+          fmt::format("{}: holds {} cameras; expected two, one for each view, which `cameras` "
+                      "(calibration) chooses",
+                      params.calibration.file.string(), cameras_.size()));
+    }
     check_pictures();
     tolerance_ = nanoseconds(params.tolerance.value_or(0.6 / rate_));
     last_pair_ = now();

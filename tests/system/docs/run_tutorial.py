@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""Runs a tutorial in a new folder: what its hidden comment prepares, the files that it tells to write and its commands.
+
+run_tutorial.py PAGE SOURCE_DIR BUILD_DIR. Exit code 77: a `needs:` line of the comment names a folder that is missing.
+"""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import textwrap
+from pathlib import Path
+
+BLOCK = re.compile(r"^( *)```(\w+)\n(.*?)^\1```$|<!-- test\n(.*?)-->", re.M | re.S)
+WRITE = re.compile(r"Write `([\w.]+)`")
+
+
+def steps(page):
+    """Yields a shell command, or a file's name and content, in the order of the page."""
+    for found in BLOCK.finditer(page):
+        indent, language, text, prepare = found.groups()
+        if prepare is not None:
+            yield prepare, None
+        elif language == "sh":
+            yield textwrap.dedent(text), None
+        elif language == "yaml":
+            names = WRITE.findall(page[: found.start()].rsplit("```", 1)[-1])
+            if names:
+                yield textwrap.dedent(text), names[-1]
+
+
+def main():
+    page, source, build = (Path(a).resolve() for a in sys.argv[1:])
+    text = page.read_text()
+    for needed in re.findall(r"^needs: (.*)$", text, re.M):
+        if not os.path.exists(os.path.expandvars(needed)):
+            print(f"{needed} is missing: the tutorial cannot be tried here")
+            return 77
+    environment = dict(os.environ, PATH=f"{build / 'bin'}:{os.environ['PATH']}")
+    commands = 0
+    with tempfile.TemporaryDirectory() as folder:
+        os.symlink(source / "configs", Path(folder) / "configs")
+        for content, name in steps(text):
+            if name:
+                (Path(folder) / name).write_text(content)
+                continue
+            commands += 1
+            print(content, flush=True)
+            done = subprocess.run(["bash", "-euo", "pipefail", "-c", content], cwd=folder, env=environment)
+            if done.returncode != 0:
+                print(f"{page.name}: a command ended with {done.returncode}")
+                return 1
+    if commands == 0:
+        print(f"{page.name}: has no command")
+        return 1
+    return 0
+
+
+sys.exit(main())
