@@ -116,7 +116,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
   RunAdditions additions;
   if (web) {
     additions.outputs.push_back({"live view", web->output()});
-    additions.looks_again = [&web] { return web->take_restart(); };
+    additions.searches_anew = [&web] { return web->take_restart(); };
   }
   Console console(web.get());
   const RunResult result = run_scene(command.scene.scene, overrides, plugins, command.options,

@@ -170,14 +170,14 @@ class WatchedFrames {
 /// frames. Returns false if the watcher ended it.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
                const std::vector<Frame>& first, std::optional<int> limit, Latch& latch,
-               const std::function<bool()>& looks_again) {
+               const std::function<bool()>& searches_anew) {
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
   for (int done = 0; !limit || done < *limit; ++done) {
     if (latch.stopped()) return false;
-    if (looks_again && looks_again()) tracker.look_again();
+    if (searches_anew && searches_anew()) tracker.search_anew();
     const auto index = static_cast<std::size_t>(done);
     const std::optional<Frame> frame = index < first.size() ? first[index] : source.next();
     if (!frame) break;
@@ -227,7 +227,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   RunResult result;
   try {
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options.frames, latch, additions.looks_again);
+                                options.frames, latch, additions.searches_anew);
     if (results) results->settle();
   } catch (const OutputError&) {  // the files cannot be finished either
     if (results) results->tell_of_parts();

@@ -23,7 +23,7 @@ struct RunResult {
 /// What a program adds to a run. Everything may be left as it is.
 struct RunAdditions {
   std::vector<NamedOutput> outputs = {};  ///< after the scene's
-  std::function<bool()> looks_again =
+  std::function<bool()> searches_anew =
       nullptr;  ///< returns true before a frame to forget the models
 };
 

@@ -457,7 +457,7 @@ Eigen::VectorXd SceneTracker::smoothed(const Solution& solution) {
   return output_;
 }
 
-void SceneTracker::look_again() {
+void SceneTracker::search_anew() {
   if (job_.valid()) job_.get();
   for (std::size_t m = 0; m < models_.size(); ++m) {
     ModelTrack& model = models_[m];
