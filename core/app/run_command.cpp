@@ -100,6 +100,9 @@ class Console final : public RunWatcher {
 
 /// Opens the live view if it is wanted, and says where it is.
 std::unique_ptr<LiveView> open_web(const RunCommand& command) {
+  const bool has_rules = !command.web.token.empty() || command.web.host != LiveViewOptions().host;
+  if (!command.web_port && has_rules)
+    throw ConfigError("--web-host and --web-token belong to a live view; give --web PORT, too");
   if (!command.web_port) return nullptr;
   LiveViewOptions options = command.web;
   options.port = *command.web_port;
@@ -144,7 +147,7 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
   command.add("--seed", &given->seed, "Seed of all random numbers",
               {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
   command.add("--web", &given->web_port, "Show the run as a web page on this port; 0: any free one",
-              {.check = whole_number(0, 65535)});
+              {.check = whole_number(0, 65535), .if_bare = "8080"});
   command.add("--web-host", &given->web.host, "Address at which others reach the page",
               {.show_default = true, .check = file_name()});
   command.add("--web-token", &given->web.token, "Secret word that the page's address needs");

@@ -8,7 +8,7 @@ namespace hypotrack {
 /// Who may use the live view.
 struct AccessRules {
   std::string host = "127.0.0.1";  ///< at which the server listens
-  std::string token;               ///< empty: none is needed
+  std::string token = {};          ///< empty: none is needed
 };
 
 /// What a request says about its sender.

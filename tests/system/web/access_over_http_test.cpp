@@ -56,6 +56,10 @@ TEST_F(WebAccessTest, OtherHostsThanLoopbackNeedAToken) {
                  {"--web", "0", "--web-host", "0.0.0.0"});
 }
 
+TEST_F(WebAccessTest, RulesWithoutAPageAreRefused) {
+  expect_refused(box_scene(), {"give --web PORT"}, {"--web-token", "a-secret-word"});
+}
+
 TEST_F(WebAccessTest, APortInUseIsRefused) {
   start();
   const std::string used = std::to_string(port());
