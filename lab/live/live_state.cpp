@@ -33,8 +33,8 @@ Json motion_of(const Model& model, std::span<const double> parameters) {
   Json rotations = Json::array(), translations = Json::array();
   for (std::size_t b = 0; b < bind.size(); ++b) {
     const Eigen::Isometry3d moved = posed[b] * bind[b].inverse();
-    for (const double x : Eigen::Quaterniond(moved.linear()).normalized().coeffs())
-      rotations.push_back(rounded(x, kStep));
+    const Eigen::Quaterniond q = Eigen::Quaterniond(moved.linear()).normalized();
+    for (const double x : q.coeffs()) rotations.push_back(rounded(x, kStep));
     for (const double x : moved.translation()) translations.push_back(rounded(x, kStep));
   }
   return {{"bones", bind.size()}, {"q", std::move(rotations)}, {"t", std::move(translations)}};

@@ -68,6 +68,9 @@ TEST_F(LivePageTest, StatesOfNewFramesAreStreamed) {
       frames.push_back(state["frame"]);
       EXPECT_EQ(state["models"][0]["name"], "box");
       EXPECT_EQ(state["models"][0]["motion"]["t"].size(), 3u);
+      double norm = 0;
+      for (const double q : state["models"][0]["motion"]["q"]) norm += q * q;
+      EXPECT_NEAR(norm, 1, 1e-4);
     }
   ASSERT_GE(frames.size(), 3u);
   EXPECT_LT(frames[0], frames[1]);
