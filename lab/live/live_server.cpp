@@ -208,12 +208,16 @@ void LiveServer::Impl::route() {
 }
 
 void LiveServer::Impl::route_streams() {
-  server.Get("/events", [this](const Request&, Response& response) {
-    stream(response, "text/event-stream", [this](DataSink& sink) {
-      send_values(parts.state.states(), sink, ended,
-                  [](const std::string& state) { return "data: " + state + "\n\n"; });
+  const auto events = [this](const char* address, const Latest<std::string>& values) {
+    server.Get(address, [this, &values](const Request&, Response& response) {
+      stream(response, "text/event-stream", [this, &values](DataSink& sink) {
+        send_values(values, sink, ended,
+                    [](const std::string& value) { return "data: " + value + "\n\n"; });
+      });
     });
-  });
+  };
+  events("/events", parts.state.states());
+  events("/solutions", parts.state.solutions());
   for (const ViewLayout layout : {ViewLayout::row, ViewLayout::column}) {
     PictureChannel& channel = parts.pictures.channel(layout);
     const bool row = layout == ViewLayout::row;

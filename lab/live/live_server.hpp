@@ -14,6 +14,7 @@ namespace hypotrack {
 ///
 ///   GET /, /live.js, ...        the page and its files
 ///   GET /state, /events         the newest state; all states as Server-Sent Events
+///   GET /solutions              solution_json() of the frames as Server-Sent Events
 ///   GET /scene, /history        shapes of the models; numbers of the last minutes
 ///   GET /pictures/row, /column  all views, as multipart/x-mixed-replace
 ///   POST /pause, /resume, /step, /restart, /snapshot

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/solution_json.hpp"
 #include "lab/report/replay_shape.hpp"
 
 namespace hypotrack {
@@ -94,6 +95,7 @@ void LiveState::begin(const Scene& scene, std::optional<int> frames) {
 void LiveState::add(const Scene& scene, const Solution& solution, double error) {
   constexpr std::chrono::milliseconds kSampled{100};
   constexpr std::size_t kSamples = 3000, kTimes = 30;
+  solutions_.put(solution_json(scene, solution));
   Json models = models_of(scene, solution);
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
@@ -141,6 +143,8 @@ void LiveState::end() {
   const std::lock_guard lock(mutex_);
   ended_ = true;
   publish();
+  states_.close();
+  solutions_.close();
 }
 
 void LiveState::publish() {

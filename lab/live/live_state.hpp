@@ -26,13 +26,16 @@ class LiveState {
   void set_paused(bool paused);
   /// Shows a line of text.
   void say(const std::string& text);
+  /// Publishes that the run has ended; nothing more comes.
   void end();
 
   /// Returns the states as one line of JSON each: run, frame, time, status, fps, milliseconds,
   /// error_mm, text and models; by model name, status, probability, sigma_mm and motion. `run` is
   /// waits, runs, paused or ended. Unknown numbers are null.
   const Latest<std::string>& states() const { return states_; }
-  Latest<std::string>& states() { return states_; }
+
+  /// Returns the solutions as solution_json() writes them.
+  const Latest<std::string>& solutions() const { return solutions_; }
 
   /// Returns number of frames and models: name, shape (replay_shape()), motion at rest. It has no
   /// models before begin().
@@ -56,7 +59,7 @@ class LiveState {
   Clock::time_point begun_ = Clock::now();
   bool runs_ = false, paused_ = false, ended_ = false;
   std::string text_;
-  Latest<std::string> states_;
+  Latest<std::string> states_, solutions_;
 };
 
 }  // namespace hypotrack

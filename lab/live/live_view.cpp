@@ -25,7 +25,6 @@ class HttpLiveView final : public LiveView {
   }
   ~HttpLiveView() override {
     state_.end();
-    state_.states().close();
     pictures_.close();
   }
 

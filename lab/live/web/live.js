@@ -35,6 +35,7 @@
       return element;
     };
     var svg = make('svg', {viewBox: '0 0 ' + kWidth + ' 22', role: 'img',
+                           preserveAspectRatio: 'xMinYMid',
                            'aria-label': 'Expected error ' + numberText(sigma, 1, ' mm')});
     svg.appendChild(make('path', {d: 'M4 8H' + x(kMost)}));
     [0, 5, 10, 15, 20].forEach(function (mm) {
@@ -88,7 +89,8 @@
         return {name: each.name + ' expected', color: each.color, value: each.value};
       }).concat(truth)),
       hypotrack.runningPlot('Milliseconds per frame', [
-        {name: '', color: 1, value: function (sample) { return sample.milliseconds; }}]),
+        {name: '', color: 1, value: function (sample) { return sample.milliseconds; }}],
+        undefined, 0.98),
     ];
     plots.forEach(function (plot) { byId('plots').appendChild(plot.element); });
   }
@@ -131,9 +133,9 @@
     var facts = hypotrack.facts([
       ['Frame', state.frame + (frames ? ' of ' + frames : '')],
       ['Status', state.status],
-      ['Frames per second', numberText(state.fps, 1)],
+      ['Speed', numberText(state.fps, 1, ' fps')],
       ['Time per frame', numberText(state.milliseconds, 0, ' ms')],
-      ['Time of recording', numberText(state.time, 2, ' s')],
+      ['Recording', numberText(state.time, 2, ' s')],
       ['True error', numberText(state.error_mm, 1, ' mm')],
     ]);
     facts.id = 'facts';

@@ -9,14 +9,24 @@ hypotrack.roundStep = function (least) {
 };
 
 /** A plot of series over time: {element, draw(samples, now)}. A series has a name, a number of a
-    colour and value(sample); null is a gap. `top`: the highest value of the axis, if fixed. */
-hypotrack.runningPlot = function (title, series, top) {
+    colour and value(sample); null is a gap. The axis ends at `top` if given, else above this `share`
+    of the values. */
+hypotrack.runningPlot = function (title, series, top, share) {
   var kSeconds = 120, kLeft = 38, kBottom = 20, kTop = 8;
   var canvas = hypotrack.element('canvas', {role: 'img', 'aria-label': title});
-  var key = series.length > 1 ? series.map(function (each) { return each.name; }).join(', ') : '';
+  var key = series.length < 2 ? [] : series.map(function (each) {
+    return hypotrack.element('span', {class: 'key color-' + each.color % 4, text: each.name});
+  });
   var element = hypotrack.element('section', {class: 'card'}, [
-    hypotrack.element('h2', {text: title}, [hypotrack.element('span', {class: 'key', text: key})]),
-    canvas]);
+    hypotrack.element('h2', {text: title}, [hypotrack.element('span', {}, key)]), canvas]);
+  function highestOf(shown) {
+    if (top) return top;
+    var values = [].concat.apply([], shown.map(function (sample) {
+      return series.map(function (each) { return each.value(sample) || 0; });
+    })).sort(function (a, b) { return a - b; });
+    var at = Math.floor((share || 1) * (values.length - 1));
+    return hypotrack.roundStep(1.05 * Math.max(1e-3, values.length ? values[at] : 0));
+  }
   function drawAxes(pen, width, height, highest, style) {
     pen.font = '11px sans-serif';
     pen.fillStyle = style.getPropertyValue('--muted');
@@ -44,10 +54,7 @@ hypotrack.runningPlot = function (title, series, top) {
     var pen = canvas.getContext('2d'), style = getComputedStyle(document.documentElement);
     pen.scale(ratio, ratio);
     var shown = samples.filter(function (sample) { return sample.seconds > now - kSeconds; });
-    var highest = top || hypotrack.roundStep(1.05 * Math.max(1e-3, Math.max.apply(null,
-        shown.map(function (sample) {
-          return Math.max.apply(null, series.map(function (each) { return each.value(sample) || 0; }));
-        }).concat(0))));
+    var highest = highestOf(shown);
     drawAxes(pen, width, height, highest, style);
     series.forEach(function (each) {
       pen.strokeStyle = style.getPropertyValue('--plot-' + each.color % 4);

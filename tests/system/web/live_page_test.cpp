@@ -77,6 +77,17 @@ TEST_F(LivePageTest, StatesOfNewFramesAreStreamed) {
   EXPECT_LT(frames[1], frames[2]);
 }
 
+TEST_F(LivePageTest, SolutionsAreStreamed) {
+  start();
+  const std::string text = read_stream("/solutions", [](const std::string& so_far) {
+    return so_far.find("\n\n") != std::string::npos;
+  });
+  ASSERT_THAT(text, StartsWith("data: "));
+  const auto solution = nlohmann::json::parse(lines_of(text).front().substr(6));
+  EXPECT_EQ(solution["models"]["box"]["parameters"].size(), 7u);
+  EXPECT_EQ(solution["models"]["box"]["landmarks"].size(), 3u);
+}
+
 TEST_F(LivePageTest, ShapesAndTheLastMinutesAreServed) {
   start();
   const auto shapes = nlohmann::json::parse(get("/scene")->body);
