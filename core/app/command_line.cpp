@@ -120,6 +120,7 @@ void Command::add(const std::string& name, OptionTarget target, const std::strin
   if (rules.show_default) option->capture_default_str();
   if (!rules.value_name.empty()) option->type_name(rules.value_name);
   if (!rules.excludes.empty()) option->excludes(app_->get_option(rules.excludes));
+  if (!rules.if_bare.empty()) option->expected(0, 1)->default_str(rules.if_bare);
   if (rules.commas) option->delimiter(',');
 }
 

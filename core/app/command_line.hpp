@@ -46,6 +46,7 @@ struct OptionRules {
   std::string value_name = {};  ///< shown in the help; default: the name of the type
   std::string excludes = {};    ///< an option that may not be given with this one
   bool commas = false;          ///< one value may be a list with commas
+  std::string if_bare = {};     ///< value of the option where it is given without one
 };
 
 /// One command of the program: its options and what it does. A handle that may be copied.

@@ -5,6 +5,26 @@
 
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
+#include "lab/live/live_view.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Returns the message about a command that is not there.
+std::string absent(const std::string& command) {
+  return fmt::format(
+      "`hypotrack {}` is not in this program, because {}; install libboost-dev, libjs-three, "
+      "libjs-vega and libcpp-httplib-dev, and configure with -DHYPOTRACK_LAB=ON",
+      command, HYPOTRACK_WHY_NO_LAB);
+}
+
+}  // namespace
+
+std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& /*options*/) {
+  throw ConfigError(absent("run --web"));
+}
+
+}  // namespace hypotrack
 
 namespace hypotrack::app {
 namespace {
@@ -13,12 +33,7 @@ namespace {
 void add_absent(const Command& root, const std::string& name, const std::string& summary) {
   const Command command = root.add_command(name, summary + " (not in this build)");
   command.ignore_others();
-  command.on_call([name] {
-    throw ConfigError(
-        fmt::format("`hypotrack {}` is not in this program, because {}; install libboost-dev, "
-                    "libjs-three and libjs-vega, and configure with -DHYPOTRACK_LAB=ON",
-                    name, HYPOTRACK_WHY_NO_LAB));
-  });
+  command.on_call([name] { throw ConfigError(absent(name)); });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/session.hpp"
 #include "interrupt.hpp"
+#include "lab/live/live_view.hpp"
 #include "progress.hpp"
 #include "run/run_scene.hpp"
 #include "tell.hpp"
@@ -23,6 +24,8 @@ struct RunCommand {
   SceneOptions scene;
   RunOptions options{.out = "out", .frames = {}};
   std::optional<std::int64_t> seed;
+  std::optional<int> web_port;
+  LiveViewOptions web;
 };
 
 /// Prints how right the statuses were and how models were recovered, if known.
@@ -63,34 +66,64 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
 /// Shows the progress of a run and ends it on Ctrl-C.
 class Console final : public RunWatcher {
  public:
-  bool stop() override { return interrupt_.interrupted(); }
+  /// `web`: a live view that shows the run as well; may be null.
+  explicit Console(LiveView* web) : web_(web) {}
+
+  bool stop() override {
+    if (web_) web_->wait_while_paused([this] { return interrupt_.interrupted(); });
+    return interrupt_.interrupted();
+  }
   void say(const std::string& text) override {
     if (progress_)
       progress_->say(text);
     else
       tell("{}\n", text);
   }
-  void begin(std::optional<int> frames) override { progress_.emplace(frames); }
+  void begin(std::optional<int> frames) override {
+    progress_.emplace(frames);
+    if (web_) web_->begin(frames);
+  }
   void frame(const Frame& frame, const Solution& solution, double error) override {
     if (!frame.problem.empty()) say(fmt::format("frame {}: {}", frame.index, frame.problem));
     std::string note(to_string(solution.status));
     if (!std::isnan(error)) note += fmt::format(", {:.1f} mm", 1000 * error);
     progress_->advance(note);
+    if (web_) web_->frame(frame, solution, error);
   }
   void end() override { progress_.reset(); }
 
  private:
   InterruptGuard interrupt_;
   std::optional<Progress> progress_;
+  LiveView* web_;
 };
+
+/// Opens the live view if it is wanted, and says where it is.
+std::unique_ptr<LiveView> open_web(const RunCommand& command) {
+  const bool has_rules = !command.web.token.empty() || command.web.host != LiveViewOptions().host;
+  if (!command.web_port && has_rules)
+    throw ConfigError("--web-host and --web-token belong to a live view; give --web PORT, too");
+  if (!command.web_port) return nullptr;
+  LiveViewOptions options = command.web;
+  options.port = *command.web_port;
+  std::unique_ptr<LiveView> web = open_live_view(options);
+  tell("live view: {}\n", web->address());
+  return web;
+}
 
 int run(const RunCommand& command, const CommonOptions& common) {
   std::vector<std::string> overrides = command.scene.set;
   if (command.seed) overrides.push_back(fmt::format("seed={}", *command.seed));
   PluginLoader plugins(common.plugin_path);
-  Console console;
-  const RunResult result =
-      run_scene(command.scene.scene, overrides, plugins, command.options, console);
+  const std::unique_ptr<LiveView> web = open_web(command);
+  RunAdditions additions;
+  if (web) {
+    additions.outputs.push_back({"live view", web->output()});
+    additions.searches_anew = [&web] { return web->take_restart(); };
+  }
+  Console console(web.get());
+  const RunResult result = run_scene(command.scene.scene, overrides, plugins, command.options,
+                                     console, std::move(additions));
   if (!result.summary) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
@@ -113,6 +146,11 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
               {.check = whole_number(1)});
   command.add("--seed", &given->seed, "Seed of all random numbers",
               {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
+  command.add("--web", &given->web_port, "Show the run as a web page on this port; 0: any free one",
+              {.check = whole_number(0, 65535), .if_bare = "8080"});
+  command.add("--web-host", &given->web.host, "Address at which others reach the page",
+              {.show_default = true, .check = file_name()});
+  command.add("--web-token", &given->web.token, "Secret word that the page's address needs");
   command.on_call([=, &common, &exit_code] { exit_code = run(*given, common); });
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -167,13 +169,15 @@ class WatchedFrames {
 /// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
 /// frames. Returns false if the watcher ended it.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
-               const std::vector<Frame>& first, std::optional<int> limit, Latch& latch) {
+               const std::vector<Frame>& first, std::optional<int> limit, Latch& latch,
+               const std::function<bool()>& searches_anew) {
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
   for (int done = 0; !limit || done < *limit; ++done) {
     if (latch.stopped()) return false;
+    if (searches_anew && searches_anew()) tracker.search_anew();
     const auto index = static_cast<std::size_t>(done);
     const std::optional<Frame> frame = index < first.size() ? first[index] : source.next();
     if (!frame) break;
@@ -202,12 +206,14 @@ void spare_scene(const std::filesystem::path& scene, const std::filesystem::path
 }  // namespace
 
 RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
-                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher) {
+                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher,
+                    RunAdditions additions) {
   spare_scene(scene, options.out);
   Latch latch(watcher);
   EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
   if (latch.stopped()) return {};
   OpenedScene& opened = estimated.scene;
+  std::ranges::move(additions.outputs, std::back_inserter(opened.outputs));
   const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
   if (options.out.empty()) opened.parts.fixed_lag.enabled = false;
   std::unique_ptr<FixedLagSmoother> smoother = make_fixed_lag_smoother(opened);
@@ -226,7 +232,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   RunResult result;
   try {
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options.frames, latch);
+                                options.frames, latch, additions.searches_anew);
     if (results) results->settle();
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/session.hpp"
 #include "output/summary.hpp"
+#include "session/opened_scene.hpp"
 
 namespace hypotrack {
 
@@ -17,10 +20,18 @@ struct RunResult {
   std::optional<Summary> summary;  ///< nothing if no files were written
 };
 
+/// What a program adds to a run. Everything may be left as it is.
+struct RunAdditions {
+  std::vector<NamedOutput> outputs = {};  ///< after the scene's
+  std::function<bool()> searches_anew =
+      nullptr;  ///< returns true before a frame to forget the models
+};
+
 /// Opens a scene, tracks the frames of its source and writes the results. Estimates the shape from
 /// the first seconds before that, if the scene asks for it. After an error the results of the
 /// frames so far are kept, and the error is thrown.
 RunResult run_scene(const std::filesystem::path& scene, std::span<const std::string> overrides,
-                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher);
+                    PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher,
+                    RunAdditions additions = {});
 
 }  // namespace hypotrack

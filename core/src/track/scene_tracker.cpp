@@ -457,6 +457,23 @@ Eigen::VectorXd SceneTracker::smoothed(const Solution& solution) {
   return output_;
 }
 
+void SceneTracker::search_anew() {
+  if (job_.valid()) job_.get();
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    ModelTrack& model = models_[m];
+    model.status = Status::lost;
+    model.sought = 0;
+    model.confirmations = kConfirmations;
+    model.contradictions = 0;
+    model.velocity.resize(0);
+    if (begins_by_looking_) finder_.forget(m);
+  }
+  if (!recovers()) found_any_ = false;
+  looked_ = doubts_ = 0;
+  predictor_.begin_anew();
+  smoother_.begin_anew();
+}
+
 void SceneTracker::check(const Frame& frame) {
   finder_.search().take_in(finder_.search().tiles(), frame,
                            finder_.search().tiles().plan(frame, state_));

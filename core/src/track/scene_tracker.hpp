@@ -38,6 +38,10 @@ class SceneTracker {
 
   Solution track(const Frame& frame);
 
+  /// Forgets where the models are: the next frame looks for them again. Without recovery the search
+  /// begins anew from the start.
+  void search_anew();
+
   /// Prepares the frame as track() does, without a search. Throws if the cameras do not see the
   /// start or an objective cannot work with the frame.
   void check(const Frame& frame);

@@ -18,6 +18,7 @@ hypotrack.decodeShape = function (shape) {
 };
 
 hypotrack.decodeMotion = function (motion) {
+  if (motion.live) return motion;  // changes while it is shown
   if (motion.points !== undefined) return {points: motion.points, p: hypotrack.numbers(motion.p)};
   return {bones: motion.bones, q: new Int16Array(hypotrack.words(motion.q).buffer),
           t: hypotrack.numbers(motion.t)};

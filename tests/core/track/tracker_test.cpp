@@ -178,6 +178,18 @@ TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {
   }
 }
 
+TEST(Tracker, SearchesAnewFromTheStartWhenAskedTo) {
+  Fixture fixture;
+  SceneTracker tracker = fixture.make(1);
+  for (int i = 0; i < 5; ++i) tracker.track(grey_frame(i));
+  EXPECT_NE(fixture.optimizer->starts.back(), fixture.start());
+  tracker.search_anew();
+  tracker.track(grey_frame(5));
+  EXPECT_EQ(fixture.optimizer->starts.back(), fixture.start());
+  tracker.track(grey_frame(6));
+  EXPECT_NE(fixture.optimizer->starts.back(), fixture.start());
+}
+
 TEST(Tracker, SearchesFromWhereTheMotionLeads) {
   Fixture fixture;
   fixture.search.prediction.velocity = Prediction::constant;

@@ -11,7 +11,7 @@ TEST_F(LabAbsentTest, CommandsOfTheLabSayWhatIsMissingAndWhatToInstall) {
   for (const std::string command : {"compare", "bench", "reliability", "report"}) {
     const Outcome outcome = run_program({command, "study.yaml", "--out", path("out").string()});
     expect_refusal(outcome, {"`hypotrack " + command + "` is not in this program, because ",
-                             "install libboost-dev, libjs-three and libjs-vega",
+                             "install libboost-dev, libjs-three, libjs-vega and libcpp-httplib-dev",
                              "configure with -DHYPOTRACK_LAB=ON"});
   }
 }

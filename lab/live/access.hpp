@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hypotrack {
+
+/// Who may use the live view.
+struct AccessRules {
+  std::string host = "127.0.0.1";  ///< at which the server listens
+  std::string token = {};          ///< empty: none is needed
+};
+
+/// What a request says about its sender.
+struct Caller {
+  std::string host;        ///< header Host
+  std::string origin;      ///< header Origin; empty: none
+  std::string fetch_site;  ///< header Sec-Fetch-Site; empty: none
+  bool navigates = false;  ///< opens a page, as a link does
+  std::string token;
+};
+
+/// Returns whether a host is this machine's loopback: localhost, 127.x.x.x or ::1.
+bool is_loopback(std::string_view host);
+
+/// Throws ConfigError if a host other than loopback has no token, or if the token is short or has
+/// characters that addresses would escape.
+void check(const AccessRules& rules);
+
+/// Returns why a request is refused; empty if it is allowed. The header Host must be an address or
+/// one of this machine's names, so that no foreign name can be made to lead here (DNS rebinding).
+/// Pages of other origins may only link here.
+std::string refusal(const AccessRules& rules, const Caller& caller);
+
+}  // namespace hypotrack
