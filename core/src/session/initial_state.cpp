@@ -82,7 +82,7 @@ std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Fra
                                   frame->index));
   if (!state) return state;
   scene.check(*state, who);
-  if (init.pose.defined()) state = read_pose(init.pose, scene, *std::move(state));
+  if (init.pose.defined()) state = read_pose(init.pose, scene, *std::move(state), cameras);
   if (init.away == 0 && init.away_turn == 0 && init.away_angles == 0) return state;
   return displaced(scene, *std::move(state), {init.away, init.away_turn, init.away_angles},
                    session.seed);
