@@ -28,13 +28,37 @@ struct StartOptions {
   std::filesystem::path out;
 };
 
+bool is_set(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value && *value;
+}
+
+/// Returns false if the X display of DISPLAY surely cannot be reached. Qt would abort the program.
+bool can_reach_display() {
+  using Open = void* (*)(const char*);
+  using Close = int (*)(void*);
+  void* library = dlopen("libX11.so.6", RTLD_NOW | RTLD_LOCAL);
+  if (!library) return true;
+  const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
+  const auto close = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
+  if (!open || !close) return true;
+  void* display = open(nullptr);
+  if (display) close(display);
+  return display != nullptr;
+}
+
+/// Throws DeviceError if no window can be shown.
 void check_display() {
-  for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"})
-    if (const char* value = std::getenv(name); value && *value) return;
-  throw DeviceError(
-      "there is no display for the window (neither DISPLAY nor WAYLAND_DISPLAY is set); run this "
-      "where there is one, or write the clicks by hand and start with `init: {from: clicks, file: "
-      "FILE.yaml}`");
+  if (is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM")) return;
+  const bool has_display = is_set("DISPLAY");
+  if (has_display && can_reach_display()) return;
+  const std::string what =
+      has_display ? fmt::format("the display {} cannot be reached", std::getenv("DISPLAY"))
+                  : "neither DISPLAY nor WAYLAND_DISPLAY is set";
+  throw DeviceError(fmt::format(
+      "there is no display for the window: {}; run this where there is one, or write the clicks by "
+      "hand and start with `init: {{from: clicks, file: FILE.yaml}}`",
+      what));
 }
 
 /// Loads the module that shows windows.

@@ -19,7 +19,8 @@ cv::Mat draw_clicks(Renderer& renderer, const Scene& scene, const std::vector<Ca
     Pen pen(views[i]);
     pen.line(drawing.lines[i], kLine);
     for (const Mark& mark : drawing.marks)
-      if (mark.view == i) pen.cross(mark.at, mark.asked ? kAsked : kMarked, mark.name);
+      if (mark.view == i)
+        pen.cross(mark.at, mark.asked ? kAsked : kMarked, mark.asked ? mark.name : "");
   }
   return side_by_side(views, drawing.text);
 }

@@ -37,6 +37,19 @@ std::string meaning(const std::string& name) {
   return " (x, y, z of the box: 0 = low end, 1 = high end)";
 }
 
+/// Says in few words how far the clicks are from the fit.
+std::string summary_of(const ClickFit& fit) {
+  double sum = 0;
+  const ClickResidual* worst = &fit.residuals.front();
+  for (const ClickResidual& r : fit.residuals) {
+    sum += r.distance;
+    if (r.distance > worst->distance) worst = &r;
+  }
+  return fmt::format("fit of {} clicks: {:.1f} mm on average, at most {:.1f} mm and {:.1f} px ({})",
+                     fit.residuals.size(), 1000 * sum / static_cast<double>(fit.residuals.size()),
+                     1000 * worst->distance, worst->pixels, worst->landmark);
+}
+
 }  // namespace
 
 Clicker::Clicker(const Scene& scene, std::vector<Camera> cameras, double tolerance)
@@ -148,7 +161,7 @@ ClickDrawing Clicker::drawing() const {
                                      : "n: next";
   out.text.push_back(fmt::format("{}{}, {} of {}: {}", asked(), meaning(asked()), now_.asked + 1,
                                  landmarks_.size(), what));
-  out.text.push_back(fit_ ? describe(*fit_) : problem_);
+  out.text.push_back(fit_ ? summary_of(*fit_) : problem_);
   out.text.emplace_back("u: undo   x: skip   n: next   p: previous   s: save   q: quit");
   return out;
 }

@@ -15,12 +15,13 @@ class StartCommands : public AppTest {
     return run_program({"validate", scene(text), "--draw", path(picture).string()});
   }
   /// The start command without a display.
-  Outcome start_without_display(const std::vector<std::string>& more) const {
+  Outcome start_without_display(const std::vector<std::string>& more,
+                                const std::string& display = "") const {
     std::vector<std::string> arguments{"start", scene(box_scene())};
     arguments.insert(arguments.end(), more.begin(), more.end());
     Start start;
     start.arguments = arguments;
-    start.environment = {"DISPLAY=", "WAYLAND_DISPLAY=", "QT_QPA_PLATFORM="};
+    start.environment = {"DISPLAY=" + display, "WAYLAND_DISPLAY=", "QT_QPA_PLATFORM="};
     return run_program(start);
   }
 };
@@ -82,10 +83,12 @@ TEST_F(StartCommands, SayWhatToDoWithoutADisplay) {
   const Outcome outcome = start_without_display({"--out", path("pose.yaml").string()});
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("there is no display"), HasSubstr("from: clicks"),
-                                 Not(HasSubstr("qt"))));
+                                 HasSubstr("neither DISPLAY nor")));
   EXPECT_FALSE(std::filesystem::exists(path("pose.yaml")));
   EXPECT_THAT(start_without_display({"--out", path("pose.txt").string()}).err,
               HasSubstr("ends in .yaml"));
+  EXPECT_THAT(start_without_display({"--out", path("pose.yaml").string()}, ":4711").err,
+              AllOf(HasSubstr("the display :4711 cannot be reached"), Not(HasSubstr("qt"))));
   EXPECT_EQ(start_without_display({}).exit_code, 2) << "--out is required";
 }
 
