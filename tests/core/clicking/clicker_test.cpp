@@ -97,6 +97,27 @@ TEST_F(ClickerTest, SaysWhichClicksDoNotMeetAndSavesNothing) {
   EXPECT_EQ(clicker_.press('q'), Clicker::Answer::quit);
 }
 
+TEST(ClickerOfTwoModels, FitsTheOneThatHasEnoughClicks) {
+  const test::ClickedScene world;
+  const Scene scene({{"box", std::make_shared<Model>(test::make_test_box())},
+                     {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  Clicker clicker(scene, world.cameras, 8);
+  EXPECT_TRUE(clicker.asked().starts_with("box."));
+  clicker.click(0, {300, 200});
+  clicker.click(1, {200, 200});
+  while (clicker.asked() != "hand.wrist") clicker.press('n');
+  for (int i = 0; i < 4; ++i) {
+    const std::string name = clicker.asked().substr(std::string("hand.").size());
+    for (const std::size_t view : {0, 1}) clicker.click(view, world.pixel(name, view));
+    clicker.press('n');
+  }
+  ASSERT_TRUE(clicker.fit()) << clicker.drawing().text[1];
+  EXPECT_EQ(clicker.complete_models(), (std::vector<bool>{false, true}));
+  EXPECT_EQ(clicker.drawing().hidden, (std::vector<bool>{true, false}));
+  ASSERT_EQ(clicker.clicks().size(), 4) << "one click does not place the box";
+  EXPECT_EQ(clicker.clicks()[0].landmark, "hand.wrist");
+}
+
 TEST(ClickerOfOneView, IsRefused) {
   test::ClickedScene world;
   world.cameras.pop_back();
