@@ -6,33 +6,58 @@
 #include "notes.hpp"
 #include "output/run_output.hpp"
 #include "session/opened_scene.hpp"
+#include "start_drawing.hpp"
 #include "tell.hpp"
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack::app {
+namespace {
+
+/// Reads the first frame; if it is to be drawn, the first usable one.
+Frame first_frame(Source& source, bool draw) {
+  std::optional<Frame> frame = source.next();
+  if (!frame) throw DataError("the source has no frame");
+  while (!frame->problem.empty()) {
+    tell("frame {} cannot be used: {}\n", frame->index, frame->problem);
+    if (!draw) break;
+    frame = source.next();
+    if (!frame) throw DataError("no frame of the source can be used, so there is none to draw");
+  }
+  return std::move(*frame);
+}
+
+}  // namespace
 
 CheckedScene check_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
-                         PluginLoader& plugins) {
+                         PluginLoader& plugins, const std::optional<std::filesystem::path>& draw) {
+  if (draw) check_picture_file(*draw);
   OpenedScene session = open_scene(file, overrides, plugins);
   check_outputs(session.outputs);
-  const auto first = session.source->next();
-  if (!first) throw DataError("the source has no frame");
+  const Frame first = first_frame(*session.source, draw.has_value());
   CheckedScene checked;
-  checked.problem = first->problem;
-  const bool usable = first->problem.empty();
-  if (!usable) tell("frame {} cannot be used: {}\n", first->index, first->problem);
+  checked.problem = first.problem;
+  const bool usable = first.problem.empty();
   checked.parameters = session.scene->dimension();
   checked.models = session.scene->items().size();
   checked.cameras = session.parts.cameras.size();
   checked.frames = session.source->frame_count();
   (void)make_fixed_lag_smoother(session);
-  SceneTracker tracker(*session.scene, std::move(session.parts),
-                       usable ? initial_state(session, *first) : session.scene->rest_state(),
-                       session.seed);
+  const Eigen::VectorXd start =
+      usable ? initial_state(session, first, &session.notes) : session.scene->rest_state();
+  const bool looks = session.parts.begins_by_looking;
+  const TileSettings tile = session.parts.tile;
+  const auto draw_on_first = [&](const StartToDraw& drawn) {
+    write_picture(*draw, draw_start(*session.scene, session.source->cameras(), tile, first, drawn));
+    tell("{}: {}\n", draw->string(), drawn.caption.front());
+  };
+  // Before anything can fail because of the start: the picture shows why.
+  if (draw && !looks) draw_on_first(given_start(session, start, first));
+  SceneTracker tracker(*session.scene, std::move(session.parts), start, session.seed);
   if (usable) {
-    tracker.check(*first);
+    tracker.check(first);
+    if (draw && looks) draw_on_first(found_start(session, tracker, first));
     for (const std::string& note : session.notes) tell("note: {}\n", note);
-    tell_notes(*session.source, tracker, *first);
+    tell_notes(*session.source, tracker, first);
   }
   checked.backend = tracker.backend();
   checked.resolved = std::move(session.resolved);

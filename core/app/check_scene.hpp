@@ -22,8 +22,10 @@ struct CheckedScene {
 };
 
 /// Opens everything that a run would open and checks the first frame. Prints notes on what looks
-/// mistaken. Throws the error of the part that fails.
+/// mistaken. Draws the start on the first usable frame if `draw` names a picture to write. Throws
+/// the error of the part that fails.
 CheckedScene check_scene(const std::filesystem::path& file, std::span<const std::string> overrides,
-                         PluginLoader& plugins);
+                         PluginLoader& plugins,
+                         const std::optional<std::filesystem::path>& draw = std::nullopt);
 
 }  // namespace hypotrack::app

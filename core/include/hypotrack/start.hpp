@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
@@ -45,6 +46,8 @@ struct StartContext {
   GlobalSearch* search = nullptr;  ///< for find(); null: not in this frame, where
                                    ///< find() has to be quick
   bool sure_only = false;  ///< find() proposes only what is surely this model, of several alike
+  /// Takes messages to the user; null: nobody reads them.
+  std::vector<std::string>* notes = nullptr;
 };
 
 /// Says where a search begins. Some starts know a state of the scene before they see pictures.

@@ -217,8 +217,8 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
   if (options.out.empty()) opened.parts.fixed_lag.enabled = false;
   std::unique_ptr<FixedLagSmoother> smoother = make_fixed_lag_smoother(opened);
-  SceneTracker tracker(*opened.scene, std::move(opened.parts), initial_state(opened, first.back()),
-                       opened.seed);
+  SceneTracker tracker(*opened.scene, std::move(opened.parts),
+                       initial_state(opened, first.back(), &opened.notes), opened.seed);
   std::unique_ptr<Results> results;
   if (!options.out.empty())
     results = std::make_unique<Results>(opened, std::move(smoother), tracker.backend(), options.out,

@@ -67,13 +67,15 @@ std::optional<double> Start::size(const StartContext& /*context*/, std::size_t /
 void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
 }
 
-std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame) {
+std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame,
+                                           std::vector<std::string>* notes) {
   const Scene& scene = *session.scene;
   // A tracker may have taken the parts already.
   const std::vector<Camera>& cameras =
       session.source ? session.source->cameras() : session.parts.cameras;
   if (!session.start) return state_in_view(scene, cameras);
-  std::optional<Eigen::VectorXd> state = session.start->state({scene, cameras, frame});
+  std::optional<Eigen::VectorXd> state =
+      session.start->state({.scene = scene, .cameras = cameras, .frame = frame, .notes = notes});
   const InitSettings& init = session.init;
   const std::string who = fmt::format(
       "the start '{}'", init.from.is_map() ? init.from.get("type").scalar() : init.from.scalar());
@@ -82,14 +84,15 @@ std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Fra
                                   frame->index));
   if (!state) return state;
   scene.check(*state, who);
-  if (init.pose.defined()) state = read_pose(init.pose, scene, *std::move(state));
+  if (init.pose.defined()) state = read_pose(init.pose, scene, *std::move(state), cameras);
   if (init.away == 0 && init.away_turn == 0 && init.away_angles == 0) return state;
   return displaced(scene, *std::move(state), {init.away, init.away_turn, init.away_angles},
                    session.seed);
 }
 
-Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first) {
-  return *start_state(session, &first);
+Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first,
+                              std::vector<std::string>* notes) {
+  return *start_state(session, &first, notes);
 }
 
 }  // namespace hypotrack

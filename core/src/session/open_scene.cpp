@@ -205,10 +205,10 @@ void Opening::start() {
   else
     session_.start = std::move(all.front());
   const std::string& word = file_.init.from.scalar();  // empty if it is a map or a list
-  // The record has a word already, and the parameters of `file` beside it.
+  // The record has a word already, and the parameters of `file` and `clicks` beside it.
   const bool has_word =
-      records.size() == 1 &&
-      (word == kStartFromFile || records.front().text() == fmt::format("type: {}\n", word));
+      records.size() == 1 && (word == kStartFromFile || word == kStartFromClicks ||
+                              records.front().text() == fmt::format("type: {}\n", word));
   if (!has_word) {
     YamlDocument resolved(dump_params(init));
     if (records.size() == 1)

@@ -69,11 +69,14 @@ std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& ses
 
 /// Returns the state from which the search of a frame starts: that of the scene's start, changed as
 /// `init` says. Where starts look for the models, it is any state in view. Returns nothing if there
-/// is no frame (null) and the start needs one. Throws ConfigError or DataError, for example if the
-/// scene asks for a ground truth that does not exist.
-std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame);
+/// is no frame (null) and the start needs one. `notes`, if given, receives what the start has to
+/// say. Throws ConfigError or DataError, for example if the scene asks for a ground truth that does
+/// not exist.
+std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame,
+                                           std::vector<std::string>* notes = nullptr);
 
 /// Returns start_state() of the first usable frame of the source.
-Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first);
+Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first,
+                              std::vector<std::string>* notes = nullptr);
 
 }  // namespace hypotrack

@@ -22,6 +22,11 @@ void refuse_old_keys(const ConfigNode& root) {
       root.where_key(kOld), kOld));
 }
 
+/// Returns whether a word names a start that takes its file from `init.file`.
+bool takes_file(const ConfigNode& from) {
+  return from.scalar() == kStartFromFile || from.scalar() == kStartFromClicks;
+}
+
 }  // namespace
 
 std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& written) {
@@ -30,10 +35,8 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
     if (node.is_map()) return all.push_back(node);
     std::array<std::pair<std::string, ConfigNode>, 3> entries;
     entries[0] = {"type", node};
-    if (node.scalar() == kStartFromFile) {
-      entries[1] = {"file", written.get("file")};
-      entries[2] = {"frame", written.get("frame")};
-    }
+    if (takes_file(node)) entries[1] = {"file", written.get("file")};
+    if (node.scalar() == kStartFromFile) entries[2] = {"frame", written.get("frame")};
     all.push_back(ConfigNode::map_of(entries));
   };
   if (from.is_list()) {
@@ -65,9 +68,9 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
     throw ConfigError(fmt::format(
         "{}: init.file and init.frame belong to `from: file`; give them within the map init.from",
         scene.root.get("init").where()));
-  if (init.from.scalar() == kStartFromFile && init.file.empty())
-    throw ConfigError(fmt::format("{}: init.from is 'file' but init.file names none",
-                                  scene.root.get("init").where()));
+  if (takes_file(init.from) && init.file.empty())
+    throw ConfigError(fmt::format("{}: init.from is '{}' but init.file names none",
+                                  scene.root.get("init").where(), init.from.scalar()));
   return scene;
 }
 

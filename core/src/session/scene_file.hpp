@@ -23,6 +23,9 @@ namespace hypotrack {
 /// The start that takes its parameters from `init.file` and `init.frame`.
 inline constexpr std::string_view kStartFromFile = "file";
 
+/// The start that takes its file from `init.file`.
+inline constexpr std::string_view kStartFromClicks = "clicks";
+
 /// The word in `init.from` for all starts that look for models and can.
 inline constexpr std::string_view kStartAuto = "auto";
 
@@ -37,16 +40,17 @@ struct InitSettings {
   double away_angles = 0;  ///< rad
   void visit(ParamVisitor& v) {
     v("from", from,
-      {.help = "start of the first search: the name of a start (rest, truth, file, global_search, "
-               "hand_landmarks) or {type, ...}; a list of starts that look for the models, tried "
+      {.help = "start of the first search: the name of a start (rest, truth, file, clicks, "
+               "global_search, hand_landmarks) or {type, ...}; a list of starts that look for the "
+               "models, tried "
                "in this order; or auto: all of these that can"});
     v("file", file,
       {.help = "for from: file: a pose (YAML, written like init.pose) or a state table (CSV, a "
-               "track.csv for example)"});
+               "track.csv for example); for from: clicks: landmarks marked in both views (YAML)"});
     v("frame", frame, {.help = "which frame of the table", .min = 0});
     v("pose", pose,
-      {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg or quaternion, "
-               "angles_deg: {NAME: VALUE}}}"});
+      {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg, quaternion or "
+               "rotation, angles_deg: {NAME: VALUE}}}"});
     v("away_mm", away,
       {.help =
            "moves every model of that state this far, in a direction that the seed decides: how "

@@ -22,7 +22,8 @@ struct KeyframeParams {
     v("time", time, {.help = "moment of the keyframe", .min = 0, .max = 1e6, .unit = "s"});
     v("frame", frame, {.help = "instead of time: number of the frame", .min = 0});
     v("gesture", gesture, {.help = "name of a gesture, or a map of models to gestures"});
-    v("pose", pose, {.help = "map of models to position_mm, rotation_deg, quaternion, angles_deg"});
+    v("pose", pose,
+      {.help = "map of models to position_mm, rotation_deg, quaternion, rotation, angles_deg"});
     v("hold", hold, {.help = "map of models to the model that holds them from now on"});
     v("release", release, {.help = "models that are no longer held"});
   }

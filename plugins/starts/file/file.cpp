@@ -37,7 +37,7 @@ class File final : public Start {
     const std::string suffix = params_.file.extension().string();
     const Eigen::VectorXd state =
         suffix == ".yaml" || suffix == ".yml"
-            ? read_pose(ConfigNode::load(params_.file), scene, scene.rest_state())
+            ? read_pose(ConfigNode::load(params_.file), scene, scene.rest_state(), context.cameras)
             : state_of_frame(params_.file, scene, params_.frame);
     scene.check(state, params_.file.string());
     return state;

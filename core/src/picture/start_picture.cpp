@@ -1,0 +1,137 @@
+#include "picture/start_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "camera/epipolar_line.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/overlay.hpp"
+#include "hypotrack/picture.hpp"
+#include "picture/pen.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Returns the border of a tile in the image of its camera, 2xN.
+Eigen::Matrix2Xd outline_of(const TileCamera& tile, const Camera& camera) {
+  constexpr int kPerSide = 48;
+  const std::array<Eigen::Vector2d, 5> corners{
+      Eigen::Vector2d(-0.5, -0.5), Eigen::Vector2d(tile.width - 0.5, -0.5),
+      Eigen::Vector2d(tile.width - 0.5, tile.height - 0.5),
+      Eigen::Vector2d(-0.5, tile.height - 0.5), Eigen::Vector2d(-0.5, -0.5)};
+  const Eigen::Isometry3d world_from_tile = tile.camera_from_world.inverse();
+  Eigen::Matrix2Xd out(2, 4 * kPerSide + 1);
+  for (Eigen::Index i = 0; i < out.cols(); ++i) {
+    const auto side = static_cast<std::size_t>(std::min<Eigen::Index>(i / kPerSide, 3));
+    const double share =
+        static_cast<double>(i - static_cast<Eigen::Index>(side) * kPerSide) / kPerSide;
+    const Eigen::Vector2d at = (1 - share) * corners[side] + share * corners[side + 1];
+    out.col(i) = project_uniquely(
+        camera, world_from_tile * Eigen::Vector3d((at.x() - tile.cx) / tile.fx,
+                                                  (at.y() - tile.cy) / tile.fy, 1.0));
+  }
+  return out;
+}
+
+/// Returns the indices of up to `count` landmarks far from each other, the first one first.
+std::vector<Eigen::Index> spread_out(const Eigen::Matrix3Xd& landmarks, std::size_t count) {
+  std::vector<Eigen::Index> out;
+  if (landmarks.cols() == 0) return out;
+  Eigen::VectorXd away = Eigen::VectorXd::Constant(landmarks.cols(), 1e9);
+  Eigen::Index next = 0;
+  while (out.size() < std::min(count, static_cast<std::size_t>(landmarks.cols()))) {
+    out.push_back(next);
+    const Eigen::VectorXd from_next =
+        (landmarks.colwise() - landmarks.col(next)).colwise().norm().transpose();
+    away = away.cwiseMin(from_next);
+    away.maxCoeff(&next);
+  }
+  return out;
+}
+
+/// Draws landmarks of one model and their epipolar lines.
+void draw_landmarks(const Scene::Item& item, const Eigen::Matrix3Xd& landmarks,
+                    const std::vector<Camera>& cameras, std::vector<cv::Mat>& views) {
+  constexpr std::size_t kLandmarks = 4;
+  const std::array<cv::Scalar, kLandmarks> colors{
+      cv::Scalar(80, 230, 255), cv::Scalar(255, 170, 120), cv::Scalar(150, 255, 130),
+      cv::Scalar(235, 140, 255)};
+  Pen first(views[0]), second(views[1]);
+  std::size_t color = 0;
+  for (const Eigen::Index i : spread_out(landmarks, kLandmarks)) {
+    const Eigen::Vector2d at = project_uniquely(cameras[0], landmarks.col(i));
+    if (at.allFinite()) {
+      second.line(epipolar_line(cameras[0], at, cameras[1]), colors[color]);
+      const auto& name = item.model->data().landmarks[static_cast<std::size_t>(i)].name;
+      first.dot(at, colors[color], name);
+      second.dot(project_uniquely(cameras[1], landmarks.col(i)), colors[color], "");
+    }
+    ++color;
+  }
+}
+
+/// Returns which share of each drawn model all views show, in words.
+std::string shares_in_view(const Scene& scene, TileMaker& tiles, const StartToDraw& start,
+                           std::size_t views) {
+  std::string out;
+  const std::size_t models = scene.items().size();
+  for (std::size_t m = 0; m < models; ++m) {
+    if (!start.hidden.empty() && start.hidden[m]) continue;
+    std::vector<bool> others(models, true);
+    others[m] = false;
+    tiles.leave_out(others);
+    out += fmt::format("{}{} {:.0f} %", out.empty() ? "" : ", ", scene.items()[m].name,
+                       100 * tiles.visible_share(start.state));
+  }
+  tiles.leave_out(start.hidden.empty() ? std::vector<bool>(models, false) : start.hidden);
+  return fmt::format("in view{}: {}", views == 1 ? "" : views == 2 ? " of both" : " of all", out);
+}
+
+/// Draws models, tiles and epipolar lines over the views; adds to the caption.
+void draw_models(const Scene& scene, const std::vector<Camera>& cameras,
+                 const TileSettings& settings, const Frame& frame, const StartToDraw& start,
+                 std::vector<cv::Mat>& views, std::vector<std::string>& caption) {
+  TileMaker tiles(scene, cameras, settings);
+  caption.push_back(shares_in_view(scene, tiles, start, views.size()));
+  TilePlan plan;
+  try {
+    plan = tiles.plan(frame, start.state);
+  } catch (const DataError& e) {
+    caption.emplace_back(e.what());
+    return;
+  }
+  Renderer renderer(scene);
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i] =
+        draw_overlay(renderer, scene, views[i], cameras[i], start.state, {.hidden = start.hidden});
+    Pen(views[i]).line(outline_of(plan.header.views[i].camera, cameras[i]), {235, 235, 235});
+  }
+  if (views.size() < 2) return;
+  const Eigen::Matrix3Xd landmarks = scene.landmarks(start.state);
+  Eigen::Index first = 0;
+  for (std::size_t m = 0; m < scene.items().size(); ++m) {
+    const Scene::Item& item = scene.items()[m];
+    const auto count = static_cast<Eigen::Index>(item.model->data().landmarks.size());
+    if (start.hidden.empty() || !start.hidden[m])
+      draw_landmarks(item, landmarks.middleCols(first, count), cameras, views);
+    first += count;
+  }
+  caption.emplace_back(
+      "white: the tile that is searched; coloured: epipolar lines of the left view's dots");
+}
+
+}  // namespace
+
+cv::Mat draw_start(const Scene& scene, const std::vector<Camera>& cameras, const TileSettings& tile,
+                   const Frame& frame, const StartToDraw& start) {
+  std::vector<cv::Mat> views;
+  for (const View& view : frame.views) views.push_back(picture_of(view).clone());
+  std::vector<std::string> caption = start.caption;
+  if (start.state.size() > 0) draw_models(scene, cameras, tile, frame, start, views, caption);
+  return side_by_side(views, caption);
+}
+
+}  // namespace hypotrack
