@@ -39,14 +39,16 @@ Eigen::Matrix2Xd outline_of(const TileCamera& tile, const Camera& camera) {
   return out;
 }
 
-/// Returns the indices of up to `count` points (2xN, NaN: none) far from each other, from `first`
-/// on.
+/// Returns the indices of up to `count` points (2xN, NaN: none) far from each other; `first` comes
+/// first if it is a point.
 std::vector<Eigen::Index> spread_out(const Eigen::Matrix2Xd& points, Eigen::Index first,
                                      std::size_t count) {
   std::vector<Eigen::Index> out;
   Eigen::VectorXd away(points.cols());
   for (Eigen::Index i = 0; i < points.cols(); ++i) away[i] = points.col(i).allFinite() ? 1e9 : 0;
-  for (Eigen::Index next = first; out.size() < count && away[next] > 0;) {
+  Eigen::Index next = first;
+  if (away[first] <= 0) away.maxCoeff(&next);
+  while (out.size() < count && away[next] > 0) {
     out.push_back(next);
     for (Eigen::Index i = 0; i < points.cols(); ++i)
       if (away[i] > 0) away[i] = std::min(away[i], (points.col(i) - points.col(next)).norm());
