@@ -65,7 +65,8 @@ TEST_F(StartCommands, RefuseAPictureThatCannotBeWritten) {
   EXPECT_THAT(draw(box_scene(), "start.jpg").err, HasSubstr("ends in .png"));
   const Outcome outcome = draw(box_scene(), "none/start.png");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("check that the folder exists"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("check that the folder exists"),
+                                 HasSubstr("another file with --draw")));
 }
 
 TEST_F(StartCommands, StartFromClicksAndRepeatTheRun) {
