@@ -31,7 +31,7 @@ void check_picture_file(const std::filesystem::path& file) {
         fmt::format("--draw {}: pictures are written as PNG; expected a name that "
                     "ends in .png",
                     file.string()));
-  expect_writable(file);
+  expect_writable(file, "--draw");
 }
 
 void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {

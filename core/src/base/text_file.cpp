@@ -28,16 +28,16 @@ void TextFile::write(std::string_view text) {
         path_.string(), errno != 0 ? std::strerror(errno) : "unknown reason"));
 }
 
-void expect_writable(const std::filesystem::path& file) {
+void expect_writable(const std::filesystem::path& file, std::string_view option) {
   if (std::filesystem::is_directory(file))
-    throw OutputError(fmt::format("{}: is a folder; name a file with --out", file.string()));
+    throw OutputError(fmt::format("{}: is a folder; name a file with {}", file.string(), option));
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (file.empty() || !std::filesystem::is_directory(folder) ||
       access(folder.c_str(), W_OK | X_OK) != 0)
     throw OutputError(fmt::format(
         "{}: cannot be written; check that the folder exists and is writable, or name another file "
-        "with --out",
-        file.string()));
+        "with {}",
+        file.string(), option));
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {

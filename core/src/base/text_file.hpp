@@ -8,8 +8,8 @@
 namespace hypotrack {
 
 /// Checks early that write_whole() can work for a file, for results of long work. Throws
-/// OutputError if it cannot.
-void expect_writable(const std::filesystem::path& file);
+/// OutputError if it cannot, which says that `option` names another file.
+void expect_writable(const std::filesystem::path& file, std::string_view option = "--out");
 
 /// Writes a file beside its place and moves it there, so that it is never seen incomplete. Throws
 /// OutputError.

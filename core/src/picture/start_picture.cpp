@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <memory>
+#include <span>
 
 #include "camera/epipolar_line.hpp"
+#include "hypotrack/clicks.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/kinematics.hpp"
 #include "hypotrack/overlay.hpp"
 #include "hypotrack/picture.hpp"
 #include "picture/pen.hpp"
@@ -36,39 +39,67 @@ Eigen::Matrix2Xd outline_of(const TileCamera& tile, const Camera& camera) {
   return out;
 }
 
-/// Returns the indices of up to `count` landmarks far from each other, the first one first.
-std::vector<Eigen::Index> spread_out(const Eigen::Matrix3Xd& landmarks, std::size_t count) {
+/// Returns the indices of up to `count` points (2xN, NaN: none) far from each other; `first` comes
+/// first if it is a point.
+std::vector<Eigen::Index> spread_out(const Eigen::Matrix2Xd& points, Eigen::Index first,
+                                     std::size_t count) {
   std::vector<Eigen::Index> out;
-  if (landmarks.cols() == 0) return out;
-  Eigen::VectorXd away = Eigen::VectorXd::Constant(landmarks.cols(), 1e9);
-  Eigen::Index next = 0;
-  while (out.size() < std::min(count, static_cast<std::size_t>(landmarks.cols()))) {
+  Eigen::VectorXd away(points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i) away[i] = points.col(i).allFinite() ? 1e9 : 0;
+  Eigen::Index next = first;
+  if (away[first] <= 0) away.maxCoeff(&next);
+  while (out.size() < count && away[next] > 0) {
     out.push_back(next);
-    const Eigen::VectorXd from_next =
-        (landmarks.colwise() - landmarks.col(next)).colwise().norm().transpose();
-    away = away.cwiseMin(from_next);
+    for (Eigen::Index i = 0; i < points.cols(); ++i)
+      if (away[i] > 0) away[i] = std::min(away[i], (points.col(i) - points.col(next)).norm());
     away.maxCoeff(&next);
   }
   return out;
 }
 
-/// Draws landmarks of one model and their epipolar lines.
-void draw_landmarks(const Scene::Item& item, const Eigen::Matrix3Xd& landmarks,
+/// Points of a model to draw, in the first view.
+struct DrawnPoints {
+  std::vector<std::string> names;
+  Eigen::Matrix3Xd in_world;
+  Eigen::Matrix2Xd pixels;  ///< NaN: not seen
+  Eigen::Index first = 0;   ///< the one to begin with
+};
+
+/// Returns the landmarks of a model, or the corners of a box.
+DrawnPoints points_of(const Scene::Item& item, std::span<const double> parameters,
+                      const Camera& camera) {
+  const std::shared_ptr<const Model> model = clickable(item.model);
+  const auto& landmarks = model->data().landmarks;
+  const bool has_corners = model != item.model;
+  const std::size_t left_out = has_corners ? item.model->data().landmarks.size() : 0;
+  DrawnPoints out;
+  for (std::size_t i = left_out; i < landmarks.size(); ++i) out.names.push_back(landmarks[i].name);
+  out.in_world = posed_landmarks(*model, parameters).rightCols(std::ssize(out.names));
+  out.pixels.resize(2, out.in_world.cols());
+  for (Eigen::Index i = 0; i < out.in_world.cols(); ++i)
+    out.pixels.col(i) = project_uniquely(camera, out.in_world.col(i));
+  // Corners far from the middle are on the outline and not hidden.
+  const Eigen::Vector2d middle = out.pixels.rowwise().mean();
+  if (has_corners && middle.allFinite())
+    (out.pixels.colwise() - middle).colwise().norm().maxCoeff(&out.first);
+  return out;
+}
+
+/// Draws some points of one model and their epipolar lines.
+void draw_landmarks(const Scene::Item& item, std::span<const double> parameters,
                     const std::vector<Camera>& cameras, std::vector<cv::Mat>& views) {
   constexpr std::size_t kLandmarks = 4;
   const std::array<cv::Scalar, kLandmarks> colors{
       cv::Scalar(80, 230, 255), cv::Scalar(255, 170, 120), cv::Scalar(150, 255, 130),
       cv::Scalar(235, 140, 255)};
+  const DrawnPoints points = points_of(item, parameters, cameras[0]);
+  if (points.names.empty()) return;
   Pen first(views[0]), second(views[1]);
   std::size_t color = 0;
-  for (const Eigen::Index i : spread_out(landmarks, kLandmarks)) {
-    const Eigen::Vector2d at = project_uniquely(cameras[0], landmarks.col(i));
-    if (at.allFinite()) {
-      second.line(epipolar_line(cameras[0], at, cameras[1]), colors[color]);
-      const auto& name = item.model->data().landmarks[static_cast<std::size_t>(i)].name;
-      first.dot(at, colors[color], name);
-      second.dot(project_uniquely(cameras[1], landmarks.col(i)), colors[color], "");
-    }
+  for (const Eigen::Index i : spread_out(points.pixels, points.first, kLandmarks)) {
+    second.line(epipolar_line(cameras[0], points.pixels.col(i), cameras[1]), colors[color]);
+    first.dot(points.pixels.col(i), colors[color], points.names[static_cast<std::size_t>(i)]);
+    second.dot(project_uniquely(cameras[1], points.in_world.col(i)), colors[color], "");
     ++color;
   }
 }
@@ -110,14 +141,10 @@ void draw_models(const Scene& scene, const std::vector<Camera>& cameras,
     Pen(views[i]).line(outline_of(plan.header.views[i].camera, cameras[i]), {235, 235, 235});
   }
   if (views.size() < 2) return;
-  const Eigen::Matrix3Xd landmarks = scene.landmarks(start.state);
-  Eigen::Index first = 0;
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     const Scene::Item& item = scene.items()[m];
-    const auto count = static_cast<Eigen::Index>(item.model->data().landmarks.size());
     if (start.hidden.empty() || !start.hidden[m])
-      draw_landmarks(item, landmarks.middleCols(first, count), cameras, views);
-    first += count;
+      draw_landmarks(item, scene.part(item, start.state), cameras, views);
   }
   caption.emplace_back(
       "white: the tile that is searched; coloured: epipolar lines of the left view's dots");

@@ -45,11 +45,28 @@ TEST_F(StartCommands, DrawAStartThatIsRefusedBecauseItIsBehindTheCamera) {
   EXPECT_EQ(cv::imread(path("start.png").string()).cols, 320);
 }
 
+TEST_F(StartCommands, DrawWhatIsFoundOrSayThatNothingIs) {
+  const std::string text =
+      replaced(box_scene(), "init: {from: truth}", "init: {from: global_search}");
+  const Outcome found = draw(text);
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("start: global_search; box found"));
+  const Outcome nothing = draw(
+      replaced(replaced(text, "[0, 0, 400]", "[3000, 0, 400]"), "[20, 10, 420]", "[3000, 0, 400]"),
+      "nothing.png");
+  EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
+  EXPECT_THAT(nothing.err, HasSubstr("start: global_search; box not found"));
+  const cv::Mat with = cv::imread(path("start.png").string());
+  const cv::Mat without = cv::imread(path("nothing.png").string());
+  EXPECT_GT(with.rows, without.rows) << "the share in view and the legend of what is drawn";
+}
+
 TEST_F(StartCommands, RefuseAPictureThatCannotBeWritten) {
   EXPECT_THAT(draw(box_scene(), "start.jpg").err, HasSubstr("ends in .png"));
   const Outcome outcome = draw(box_scene(), "none/start.png");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("check that the folder exists"));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("check that the folder exists"),
+                                 HasSubstr("another file with --draw")));
 }
 
 TEST_F(StartCommands, StartFromClicksAndRepeatTheRun) {
