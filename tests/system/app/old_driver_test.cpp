@@ -16,19 +16,19 @@ class OldDriverTest : public AppTest {
                          (build_dir() / "tests/plugin_fixtures/old_driver").string()};
     return run_program(start);
   }
-  static constexpr const char* kReason =
+  const std::string kReason =
       "the NVIDIA driver is too old: it supports CUDA 11.4, hypotrack was built with ";
 };
 
 TEST_F(OldDriverTest, ARunSaysBothVersionsAndWhatToWrite) {
   expect_refusal(run_with_old_driver("cuda"),
-                 {std::string("evaluate.backend: cuda: ") + kReason, "Write `backend: cpu`"});
+                 {"evaluate.backend: cuda: " + kReason, "Write `backend: cpu`"});
 }
 
 TEST_F(OldDriverTest, AutomaticTakesTheCpuAndSaysWhy) {
   const Outcome outcome = run_with_old_driver("auto");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr(std::string("not on a GPU: ") + kReason));
+  EXPECT_THAT(outcome.err, HasSubstr("not on a GPU: " + kReason));
 }
 
 TEST_F(OldDriverTest, DoctorSaysThatTheDriverIsBroken) {
@@ -37,7 +37,7 @@ TEST_F(OldDriverTest, DoctorSaysThatTheDriverIsBroken) {
   start.environment = {"LD_LIBRARY_PATH=" +
                        (build_dir() / "tests/plugin_fixtures/old_driver").string()};
   EXPECT_THAT(run_program(start).out,
-              testing::ContainsRegex(std::string("broken +CUDA +") + kReason));
+              testing::ContainsRegex("broken +CUDA +" + kReason));
 }
 
 }  // namespace
