@@ -59,8 +59,7 @@ class LiveCamera final : public Source {
   using Params = live::Params;
 
   LiveCamera(const Params& params, PluginContext& context)
-      : params_(params),
-        devices_(devices_of(params, context.config())) {
+      : params_(params), devices_(devices_of(params, context.config())) {
     capture_.emplace(devices_);
     wait_for_pictures();
     const cv::Size picture = pictures().size(0);

@@ -36,8 +36,7 @@ TEST_F(OldDriverTest, DoctorSaysThatTheDriverIsBroken) {
   start.arguments = {"doctor"};
   start.environment = {"LD_LIBRARY_PATH=" +
                        (build_dir() / "tests/plugin_fixtures/old_driver").string()};
-  EXPECT_THAT(run_program(start).out,
-              testing::ContainsRegex("broken +CUDA +" + kReason));
+  EXPECT_THAT(run_program(start).out, testing::ContainsRegex("broken +CUDA +" + kReason));
 }
 
 }  // namespace
