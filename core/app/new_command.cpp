@@ -32,6 +32,7 @@ struct NewSceneOptions {
   std::filesystem::path file;
   std::vector<std::filesystem::path> recording;
   std::filesystem::path left, right, calibration, extrinsics;
+  std::vector<std::string> cameras;
   std::string units, model, box, tracker;
   std::optional<std::string> scale;
   bool force = false;
@@ -132,6 +133,7 @@ std::string word_of(const Question& question, const std::string& given,
 SceneRequest request_of(const NewSceneOptions& options) {
   SceneRequest request;
   request.recording = recording_of(options);
+  request.cameras = options.cameras;
   request.units = options.units;
   if (options.scale) request.scale = std::stod(*options.scale);
   request.model = word_of({"--model", "what to track", "hand"}, options.model, model_words());
@@ -268,6 +270,9 @@ void add_recording_options(const Command& command, NewSceneOptions& options) {
   command.add("--extrinsics", &options.extrinsics,
               "Second file of the calibration (default: extrinsics beside intrinsics)",
               {.check = file_name()});
+  command.add("--cameras", &options.cameras,
+              "Names of the left and the right camera in a calibration of more",
+              {.value_name = "LEFT,RIGHT", .commas = true});
   command.add("--units", &options.units, "Unit of the calibration's translations",
               {.check = one_of({"m", "cm", "mm"})});
   command.add("--scale", &options.scale,

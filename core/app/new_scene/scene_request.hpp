@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace hypotrack::app {
 
@@ -18,9 +19,10 @@ struct RecordingFiles {
 /// Everything that a new scene is made of.
 struct SceneRequest {
   RecordingFiles recording;
-  std::string units;            ///< of the calibration; empty: what its file says
-  std::optional<double> scale;  ///< of the calibration
-  std::string model;            ///< hand, left_hand, two_hands or hand_and_box
+  std::vector<std::string> cameras;  ///< of the calibration; empty: all
+  std::string units;                 ///< of the calibration; empty: what its file says
+  std::optional<double> scale;       ///< of the calibration
+  std::string model;                 ///< hand, left_hand, two_hands or hand_and_box
   Eigen::Vector3d box_mm{0, 0, 0};
   std::string tracker;  ///< real, recommended or real_time
 };

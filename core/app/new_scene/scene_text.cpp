@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -63,6 +64,8 @@ YamlDocument source(const SceneRequest& request, const std::filesystem::path& fo
   calibration.set_string("file", near_path(files.calibration, folder));
   if (!files.extrinsics.empty())
     calibration.set_string("extrinsics", near_path(files.extrinsics, folder));
+  if (!request.cameras.empty())
+    calibration.set_plain("cameras", fmt::format("[\"{}\"]", fmt::join(request.cameras, "\", \"")));
   if (!request.units.empty()) calibration.set_string("units", request.units);
   if (request.scale) calibration.set_plain("scale", fmt::format("{}", *request.scale));
   out.set("calibration", calibration);

@@ -87,6 +87,14 @@ TEST_F(NewSceneTest, EveryModelHasATracker) {
               AllOf(HasSubstr("size_mm: [60, 120, 30]"), HasSubstr("@trackers/recommended")));
 }
 
+TEST_F(NewSceneTest, CamerasOfTheCalibrationAreChosenByName) {
+  const std::vector<std::string> options{"--recording", recording(), "--model",   "hand",
+                                         "--tracker",   "real_time", "--cameras", "0,1"};
+  const Outcome outcome = new_scene(options);
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(read_text(file()), HasSubstr("cameras: [\"0\", \"1\"]"));
+}
+
 TEST_F(NewSceneTest, VideosAreTakenAsTwoOrSideBySide) {
   const std::string calibration = path("recording/calibration.yaml").string();
   const std::vector<std::string> rest{"--calibration", calibration, "--model", "hand",
