@@ -59,6 +59,8 @@
     var bar = errorBar(model.sigma_mm);
     row.bar.replaceWith(bar);
     row.bar = bar;
+    row.sigma.hidden = model.sigma_mm === null;
+    if (model.sigma_mm === null) bar.setAttribute('hidden', '');
   }
 
   function makeModelRow(name) {
@@ -107,11 +109,23 @@
     stage.resize();
   }
 
+  /** A motion without a known place. */
+  function unknown(motion) {
+    return motion.p ? {p: motion.p.map(function () { return NaN; })} : {t: []};
+  }
+
+  /** Leaves out lost models; if all are, the last poses stay. */
   function showMotions(models) {
-    models.forEach(function (model, i) { Object.assign(motions[i], model.motion); });
+    var lost = models.map(function (model) {
+      return model.status === 'lost' || model.status === 'absent';
+    });
+    if (drawn && lost.every(Boolean)) return;
+    models.forEach(function (model, i) {
+      Object.assign(motions[i], lost[i] ? unknown(model.motion) : model.motion);
+    });
     stage.show(0);
     if (!drawn) stage.reset(0);
-    drawn = true;
+    drawn = !lost.every(Boolean);
   }
 
   function makeScene(scene) {
