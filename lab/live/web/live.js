@@ -30,7 +30,9 @@
     var x = function (mm) { return 4 + (kWidth - 30) * Math.min(mm / kMost, 1); };
     var make = function (name, attributes, text) {
       var element = document.createElementNS('http://www.w3.org/2000/svg', name);
-      Object.keys(attributes).forEach(function (key) { element.setAttribute(key, attributes[key]); });
+      Object.keys(attributes).forEach(function (key) {
+        element.setAttribute(key, attributes[key]);
+      });
       if (text) element.textContent = text;
       return element;
     };
@@ -44,7 +46,8 @@
                            mm === kMost ? mm + ' mm' : String(mm)));
     });
     if (sigma !== null) {
-      svg.appendChild(make('path', {class: 'bar', d: 'M4 8H' + x(sigma) + 'M' + x(sigma) + ' 4V12'}));
+      var end = x(sigma);
+      svg.appendChild(make('path', {class: 'bar', d: 'M4 8H' + end + 'M' + end + ' 4V12'}));
       svg.appendChild(make('circle', {cx: 4, cy: 8, r: 3}));
     }
     return svg;
@@ -59,6 +62,8 @@
     var bar = errorBar(model.sigma_mm);
     row.bar.replaceWith(bar);
     row.bar = bar;
+    row.sigma.hidden = model.sigma_mm === null;
+    if (model.sigma_mm === null) bar.setAttribute('hidden', '');
   }
 
   function makeModelRow(name) {
@@ -82,7 +87,7 @@
         return {name: name, color: i, value: function (sample) { return sample[key][i]; }};
       });
     };
-    var truth = {name: 'true error', color: 3, value: function (sample) { return sample.error_mm; }};
+    var truth = {name: 'true', color: 3, value: function (sample) { return sample.error_mm; }};
     plots = [
       hypotrack.runningPlot('Probability of being right', ofModels('probability'), 1),
       hypotrack.runningPlot('Error, mm', ofModels('sigma_mm').map(function (each) {
@@ -107,11 +112,23 @@
     stage.resize();
   }
 
+  /** A motion without a known place. */
+  function unknown(motion) {
+    return motion.p ? {p: motion.p.map(function () { return NaN; })} : {t: []};
+  }
+
+  /** Leaves out lost models; if all are, the last poses stay. */
   function showMotions(models) {
-    models.forEach(function (model, i) { Object.assign(motions[i], model.motion); });
+    var lost = models.map(function (model) {
+      return model.status === 'lost' || model.status === 'absent';
+    });
+    if (drawn && lost.every(Boolean)) return;
+    models.forEach(function (model, i) {
+      Object.assign(motions[i], lost[i] ? unknown(model.motion) : model.motion);
+    });
     stage.show(0);
     if (!drawn) stage.reset(0);
-    drawn = true;
+    drawn = !lost.every(Boolean);
   }
 
   function makeScene(scene) {
@@ -125,7 +142,8 @@
     if (last && state.seconds - last.seconds < kSampled) return;
     var of = function (key) { return state.models.map(function (model) { return model[key]; }); };
     samples.push({seconds: state.seconds, milliseconds: state.milliseconds,
-                  error_mm: state.error_mm, probability: of('probability'), sigma_mm: of('sigma_mm')});
+                  error_mm: state.error_mm, probability: of('probability'),
+                  sigma_mm: of('sigma_mm')});
     if (samples.length > kMostSamples) samples.shift();
   }
 

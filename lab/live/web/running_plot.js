@@ -9,8 +9,8 @@ hypotrack.roundStep = function (least) {
 };
 
 /** A plot of series over time: {element, draw(samples, now)}. A series has a name, a number of a
-    colour and value(sample); null is a gap. The axis ends at `top` if given, else above this `share`
-    of the values. */
+    colour and value(sample); null is a gap. The axis ends at `top` if given, else above this
+    `share` of the values. */
 hypotrack.runningPlot = function (title, series, top, share) {
   var kSeconds = 120, kLeft = 38, kBottom = 20, kTop = 8;
   var canvas = hypotrack.element('canvas', {role: 'img', 'aria-label': title});

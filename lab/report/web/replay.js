@@ -34,17 +34,18 @@ hypotrack.boneMatrix = function (motion, frame, bone, matrix) {
   return true;
 };
 
-/** World positions of a model's landmarks in a frame; NaN where not known. */
+/** World positions of a model's landmarks in a frame; NaN where not known, of which the
+    constructor of Vector3 would make 0. */
 hypotrack.landmarksAt = function (shape, motion, frame) {
   var matrix = new THREE.Matrix4();
   return shape.landmarks.map(function (landmark, k) {
     if (motion.points !== undefined) {
       var at = 3 * (frame * motion.points + k);
-      return new THREE.Vector3(motion.p[at], motion.p[at + 1], motion.p[at + 2]);
+      return new THREE.Vector3().set(motion.p[at], motion.p[at + 1], motion.p[at + 2]);
     }
     var known = hypotrack.boneMatrix(motion, frame, landmark.bone, matrix);
     return known ? new THREE.Vector3().fromArray(landmark.p).applyMatrix4(matrix)
-                 : new THREE.Vector3(NaN, NaN, NaN);
+                 : new THREE.Vector3().set(NaN, NaN, NaN);
   });
 };
 
@@ -139,7 +140,7 @@ hypotrack.truthPoints = function (page, replay, colors) {
   return hypotrack.skeletonBody(count, edges, function (frame) {
     return Array.from({length: count}, function (unused, i) {
       var at = 3 * (frame * count + i);
-      return new THREE.Vector3(p[at], p[at + 1], p[at + 2]);
+      return new THREE.Vector3().set(p[at], p[at + 1], p[at + 2]);
     });
   }, colors.truth);
 };
