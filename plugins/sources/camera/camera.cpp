@@ -59,19 +59,17 @@ class LiveCamera final : public Source {
   using Params = live::Params;
 
   LiveCamera(const Params& params, PluginContext& context)
-      : params_(params), devices_(devices_of(params, context.config())) {
-    capture_.emplace(devices_);
-    wait_for_pictures();
-    const cv::Size picture = pictures().size(0);
-    cameras_ = load_calibration(
-        params.calibration,
-        {devices_.size() == 1 ? picture.width / 2 : picture.width, picture.height});
+      : params_(params),
+        devices_(devices_of(params, context.config())),
+        cameras_(load_calibration(params.calibration, wanted_size())) {
     if (cameras_.size() != 2) {
       throw DataError(
           fmt::format("{}: holds {} cameras; expected two, one for each view, which `cameras` "
                       "(calibration) chooses",
                       params.calibration.file.string(), cameras_.size()));
     }
+    capture_.emplace(devices_);
+    wait_for_pictures();
     check_pictures();
     tolerance_ = nanoseconds(params.tolerance.value_or(0.6 / rate_));
     last_pair_ = now();
@@ -131,6 +129,13 @@ class LiveCamera final : public Source {
 
  private:
   PictureQueues& pictures() const { return capture_->pictures(); }
+
+  /// Returns the size of a view's pictures that the scene asks for; zeros if it does not.
+  ImageSize wanted_size() const {
+    const live::DeviceParams& wanted = params_.settings;
+    if (!wanted.width || !wanted.height) return {};
+    return {devices_.size() == 1 ? *wanted.width / 2 : *wanted.width, *wanted.height};
+  }
 
   /// Waits for the first pictures, to know their rate.
   void wait_for_pictures() {
