@@ -53,9 +53,15 @@ std::vector<YamlDocument> models(const SceneRequest& request) {
   return out;
 }
 
+/// Returns the line of YAML that chooses cameras; empty if all are taken.
+std::string cameras_line(const SceneRequest& request) {
+  if (request.cameras.empty()) return {};
+  return fmt::format("cameras: [\"{}\"]", fmt::join(request.cameras, "\", \""));
+}
+
 YamlDocument source(const SceneRequest& request, const std::filesystem::path& folder) {
   const RecordingFiles& files = request.recording;
-  YamlDocument out, calibration;
+  YamlDocument out, calibration(cameras_line(request));
   const bool one = !files.side_by_side.empty();
   out.set_string("type", one || is_video(files.left) ? "video" : "image_sequence");
   if (one) out.set_string("side_by_side", near_path(files.side_by_side, folder));
@@ -64,8 +70,6 @@ YamlDocument source(const SceneRequest& request, const std::filesystem::path& fo
   calibration.set_string("file", near_path(files.calibration, folder));
   if (!files.extrinsics.empty())
     calibration.set_string("extrinsics", near_path(files.extrinsics, folder));
-  if (!request.cameras.empty())
-    calibration.set_plain("cameras", fmt::format("[\"{}\"]", fmt::join(request.cameras, "\", \"")));
   if (!request.units.empty()) calibration.set_string("units", request.units);
   if (request.scale) calibration.set_plain("scale", fmt::format("{}", *request.scale));
   out.set("calibration", calibration);
