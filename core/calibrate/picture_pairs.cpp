@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
@@ -30,9 +31,10 @@ std::vector<std::string> files_of(const std::string& pattern) {
 }
 
 bool is_video(const std::string& file) {
-  constexpr std::array<std::string_view, 6> kVideos = {".mp4", ".avi",  ".mkv",
-                                                       ".mov", ".webm", ".svo"};
-  const std::string extension = std::filesystem::path(file).extension().string();
+  constexpr std::array<std::string_view, 5> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm"};
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return std::ranges::find(kVideos, extension) != kVideos.end();
 }
 

@@ -140,11 +140,9 @@ bool drop_outliers(std::vector<CommonCorners>& views, const cv::Mat& residuals,
   return true;
 }
 
-}  // namespace
-
-StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
-                                   const std::vector<BoardPair>& pairs,
-                                   const std::optional<std::array<Camera, 2>>& given) {
+StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
+                             const std::vector<BoardPair>& pairs,
+                             const std::optional<std::array<Camera, 2>>& given) {
   std::vector<CommonCorners> views = common_corners(board, pairs);
   if (views.size() < kLeastPairs) {
     throw DataError(fmt::format(
@@ -180,7 +178,23 @@ StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
     for (int column = 0; column < 3; ++column)
       pose.linear()(row, column) = found.rotation.at<double>(row, column);
   }
+  for (const Camera& camera : out.cameras) validate(camera, "these pairs do not tell the cameras");
   return out;
+}
+
+}  // namespace
+
+StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
+                                   const std::vector<BoardPair>& pairs,
+                                   const std::optional<std::array<Camera, 2>>& lenses) {
+  try {
+    return calibrated(board, pictures, pairs, lenses);
+  } catch (const cv::Exception& e) {
+    throw DataError(
+        fmt::format("these pairs do not tell the cameras; expected the board tilted by 20 to 45 "
+                    "degrees in several directions. OpenCV says: {}",
+                    e.err));
+  }
 }
 
 }  // namespace hypotrack::calibrate

@@ -103,6 +103,14 @@ TEST_F(StereoCalibrationTest, NeedsThreePairs) {
               ThrowsMessage<DataError>(HasSubstr("2 of 2 pairs show the board")));
 }
 
+TEST_F(StereoCalibrationTest, RefusesBoardsWithoutExtent) {
+  std::vector<BoardPair> given = pairs(4, 0.1);
+  for (BoardPair& pair : given)
+    for (BoardCorners& corners : pair.corners) std::ranges::fill(corners.at, cv::Point2f(100, 100));
+  EXPECT_THAT([&] { calibrated(given); },
+              ThrowsMessage<DataError>(HasSubstr("these pairs do not tell the cameras")));
+}
+
 TEST_F(StereoCalibrationTest, PairsWithTooFewCommonCornersDoNotCount) {
   std::vector<BoardPair> given = pairs(6, 0.1);
   given[2].corners[0].ids.resize(5);
