@@ -12,7 +12,7 @@ hypotrack.roundStep = function (least) {
     colour and value(sample); null is a gap. The axis ends at `top` if given, else above this
     `share` of the values. */
 hypotrack.runningPlot = function (title, series, top, share) {
-  var kSeconds = 120, kLeft = 38, kBottom = 20, kTop = 8;
+  var kSeconds = 120, kLeft = 54, kBottom = 20, kTop = 8;
   var canvas = hypotrack.element('canvas', {role: 'img', 'aria-label': title});
   var key = series.length < 2 ? [] : series.map(function (each) {
     return hypotrack.element('span', {class: 'key color-' + each.color % 4, text: each.name});
@@ -25,7 +25,7 @@ hypotrack.runningPlot = function (title, series, top, share) {
       return series.map(function (each) { return each.value(sample) || 0; });
     })).sort(function (a, b) { return a - b; });
     var at = Math.floor((share || 1) * (values.length - 1));
-    return hypotrack.roundStep(1.05 * Math.max(1e-3, values.length ? values[at] : 0));
+    return values.length ? hypotrack.roundStep(1.05 * Math.max(1e-3, values[at])) : 1;
   }
   function drawAxes(pen, width, height, highest, style) {
     pen.font = '11px sans-serif';
