@@ -47,6 +47,7 @@ SurfacePoints spread_points(const Mesh& mesh, Eigen::Index count) {
   }
   SurfacePoints out;
   if (!(area > 0)) return out;
+  out.area = area / 2;
   out.corners.resize(3, count);
   out.weights.resize(3, count);
   out.triangles.resize(count);

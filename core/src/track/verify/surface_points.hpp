@@ -13,6 +13,7 @@ struct SurfacePoints {
   Eigen::Matrix3Xi corners;   ///< vertex indices
   Eigen::Matrix3Xf weights;   ///< barycentric coordinates
   Eigen::VectorXi triangles;  ///< the triangle of each point
+  double area = 0;            ///< of the mesh, square metres
 
   Eigen::Index count() const { return corners.cols(); }
 };

@@ -25,17 +25,6 @@ std::vector<Eigen::Matrix3d> turns_of_a_cube() {
   return out;
 }
 
-double area_of(const Mesh& mesh) {
-  double sum = 0;
-  for (const auto& triangle : mesh.triangles.colwise()) {
-    const Eigen::Vector3f a = mesh.vertices.col(triangle[0]);
-    const Eigen::Vector3f ab = mesh.vertices.col(triangle[1]) - a;
-    const Eigen::Vector3f ac = mesh.vertices.col(triangle[2]) - a;
-    sum += double{ab.cross(ac).norm()} / 2;
-  }
-  return sum;
-}
-
 /// Returns the mean distance of some points, turned, from the nearest of all of them.
 double mean_distance(const Eigen::Matrix3Xf& points, const Eigen::Matrix3f& turn) {
   constexpr Eigen::Index kTried = 200;
@@ -68,7 +57,7 @@ std::vector<Eigen::Isometry3d> symmetries(const Mesh& mesh) {
   // Turned points do not fall onto others, even of a surface that stays the same.
   constexpr double kSpacing = 0.5;
   const double most =
-      kSame * size + kSpacing * std::sqrt(area_of(mesh) / static_cast<double>(kPoints));
+      kSame * size + kSpacing * std::sqrt(spread.area / static_cast<double>(kPoints));
   std::vector<Eigen::Matrix3d> found{Eigen::Matrix3d::Identity()};
   for (const Eigen::Matrix3d& axes : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), inertia})
     for (const Eigen::Matrix3d& of_cube : turns_of_a_cube()) {
