@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Runs a tutorial in a new folder: what its hidden comment prepares, the files that it tells to write and its commands.
 
-run_tutorial.py PAGE SOURCE_DIR BUILD_DIR. Exit code 77: a `needs:` line of the comment names a folder that is missing.
+run_tutorial.py PAGE SOURCE_DIR BUILD_DIR. Exit code 77: a comment `needs: FOLDER` names a folder that is missing,
+for example $HAND_DETECTOR. Commands find the scenes to record in $RECORDINGS and the programs of the tests in $SUPPORT.
 """
 
 import os
@@ -32,12 +33,18 @@ def steps(page):
 
 def main():
     page, source, build = (Path(a).resolve() for a in sys.argv[1:])
+    data_home = os.environ.get("XDG_DATA_HOME") or str(Path.home() / ".local/share")
+    os.environ.update(
+        PATH=f"{build / 'bin'}:{os.environ['PATH']}",
+        HAND_DETECTOR=f"{data_home}/hypotrack/hand_detector",
+        RECORDINGS=str(source / "tests/system/docs/recordings"),
+        SUPPORT=str(source / "tests/support"),
+    )
     text = page.read_text()
-    for needed in re.findall(r"^needs: (.*)$", text, re.M):
+    for needed in re.findall(r"^<!-- needs: (.*) -->$", text, re.M):
         if not os.path.exists(os.path.expandvars(needed)):
             print(f"{needed} is missing: the tutorial cannot be tried here")
             return 77
-    environment = dict(os.environ, PATH=f"{build / 'bin'}:{os.environ['PATH']}")
     commands = 0
     with tempfile.TemporaryDirectory() as folder:
         os.symlink(source / "configs", Path(folder) / "configs")
@@ -47,7 +54,7 @@ def main():
                 continue
             commands += 1
             print(content, flush=True)
-            done = subprocess.run(["bash", "-euo", "pipefail", "-c", content], cwd=folder, env=environment)
+            done = subprocess.run(["bash", "-euo", "pipefail", "-c", content], cwd=folder)
             if done.returncode != 0:
                 print(f"{page.name}: a command ended with {done.returncode}")
                 return 1
