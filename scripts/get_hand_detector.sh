@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
 # get_hand_detector.sh [FOLDER]: puts the networks of the hand detector into FOLDER, by default
 # hypotrack/hand_detector in $XDG_DATA_HOME or ~/.local/share. They are those of MediaPipe (Apache-2.0), from
-# the npm package @mediapipe/hands, converted to ONNX. Does nothing if they are there.
+# the npm package @mediapipe/hands, converted to ONNX. Installs the Debian packages that this needs. Does nothing
+# if they are there.
 set -euo pipefail
-tools=$(cd "$(dirname "${BASH_SOURCE[0]}")/../tools/hand_detector" && pwd)
-licence=$(cd "$tools/../.." && pwd)/LICENSE
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+tools=$(cd "$scripts/../tools/hand_detector" && pwd)
+licence=$(cd "$scripts/.." && pwd)/LICENSE
 package=@mediapipe/hands
 version=0.4.1675469240
 archive=hands-$version.tgz
@@ -63,11 +65,13 @@ if [ -f "$folder/LICENSE" ] && holds "$folder" "$onnx_sums"; then
   exit 0
 fi
 
-missing=()
+if command -v apt-get >/dev/null; then
+  source "$scripts/install_missing_packages.sh"
+  install_missing_packages packages-detector.txt
+fi
 for module in onnx numpy; do
-  "$python" -c "import $module" 2>/dev/null || missing+=("python3-$module")
+  "$python" -c "import $module" 2>/dev/null || fail "needs the module $module of $python; install python3-$module"
 done
-[ ${#missing[@]} -eq 0 ] || fail "needs ${missing[*]}; run: apt-get install ${missing[*]}"
 
 parent=$(dirname "$folder")
 mkdir -p "$parent" 2>/dev/null || fail "cannot make the folder $parent"
