@@ -44,10 +44,12 @@ void print_status(const StatusMetrics& s) {
 void print_summary(const Summary& s, const std::filesystem::path& out) {
   const Metrics& m = s.metrics;
   fmt::print(
-      "{} frames ({} tracked, {} uncertain, {} lost, {} absent, {} missing) at {:.1f} fps, {:.0f} "
-      "evaluations/s, {}\n",
+      "{} frames ({} tracked, {} uncertain, {} lost, {} absent, {} missing) at {:.1f} fps ({:.1f} "
+      "by "
+      "the clock), {:.0f} evaluations/s, {}\n",
       m.frames, m.status.tracked_frames, m.status.uncertain_frames, m.status.said_lost_frames,
-      m.status.absent_frames, m.missing_frames, s.fps, s.evaluations_per_second, s.backend);
+      m.status.absent_frames, m.missing_frames, s.fps, clock_fps(s), s.evaluations_per_second,
+      s.backend);
   if (m.evaluated_frames > 0)
     fmt::print(
         "joint error: mean {:.2f} mm, median {:.2f} mm, 95 % below {:.2f} mm, {:.1f} % of the "

@@ -39,6 +39,8 @@ class HYPOTRACK_API OutputContext {
 ///
 /// A run calls begin(), then online() and frame() for every frame, then finish(). An output that is
 /// destroyed without finish() leaves its files as they are.
+/// Calls come one after the other, and not all from one thread: frames are written while the next
+/// are tracked.
 class HYPOTRACK_API Output {
  public:
   Output() = default;

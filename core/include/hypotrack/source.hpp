@@ -27,6 +27,9 @@ class HYPOTRACK_API Source {
   /// Returns the next frame, or nothing at the end. A damaged or missing frame has `problem` set
   /// and no views; it does not throw.
   virtual std::optional<Frame> next() = 0;
+  /// Returns true if frames that nobody takes are lost, as those of a camera. A run reads other
+  /// sources ahead, in a thread of its own.
+  virtual bool live() const { return false; }
   /// Returns lines for the user about what was opened, such as a setting that a camera refused.
   virtual std::vector<std::string> notes() const { return {}; }
   /// Returns lines for the user about the frames so far, such as the number of dropped ones. A run

@@ -1,13 +1,15 @@
 #include "output/fixed_lag_output.hpp"
 
-#include <limits>
 #include <utility>
 
 namespace hypotrack {
 
-double FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
-                           const Solution& solution) {
-  if (!smoother_) return output_->add(frame, solution);
+void FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
+                         const Solution& solution) {
+  if (!smoother_) {
+    output_->add(frame, solution);
+    return;
+  }
   output_->add_online(frame, solution);
   Frame kept = frame;
   kept.views.clear();
@@ -16,7 +18,6 @@ double FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
   smoother_->add(seen ? FrameTiles(tracker.seen(frame)) : FrameTiles(),
                  {frame.time, solution.state});
   write(smoother_->take());
-  return std::numeric_limits<double>::quiet_NaN();
 }
 
 void FixedLagOutput::write(const std::vector<FixedLagSmoother::Settled>& settled) {
@@ -24,9 +25,9 @@ void FixedLagOutput::write(const std::vector<FixedLagSmoother::Settled>& settled
     Waiting frame = std::move(waiting_.front());
     waiting_.pop_front();  // an output that throws does not get the frame again
     frame.solution.state = one.state;
-    frame.solution.landmarks = output_->scene().landmarks(one.state);
+    frame.solution.landmarks = scene_->landmarks(one.state);
     frame.solution.evaluations += one.evaluations;
-    output_->add(frame.frame, frame.solution);
+    output_->add(std::move(frame.frame), std::move(frame.solution));
   }
 }
 
@@ -36,9 +37,9 @@ void FixedLagOutput::finish() {
 
 void FixedLagOutput::finish_unchanged() {
   while (!waiting_.empty()) {
-    const Waiting frame = std::move(waiting_.front());
+    Waiting frame = std::move(waiting_.front());
     waiting_.pop_front();
-    output_->add(frame.frame, frame.solution);
+    output_->add(std::move(frame.frame), std::move(frame.solution));
   }
 }
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/run_output.hpp"
+#include "output/output_queue.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
@@ -15,14 +15,14 @@ namespace hypotrack {
 /// settled.
 class FixedLagOutput {
  public:
-  /// The output must outlive the object. Without a smoother (null) frames are written as they
+  /// Scene and output must outlive the object. Without a smoother (null) frames are written as they
   /// come.
-  FixedLagOutput(std::unique_ptr<FixedLagSmoother> smoother, RunOutput& output)
-      : smoother_(std::move(smoother)), output_(&output) {}
+  FixedLagOutput(const Scene& scene, std::unique_ptr<FixedLagSmoother> smoother,
+                 OutputQueue& output)
+      : scene_(&scene), smoother_(std::move(smoother)), output_(&output) {}
 
-  /// Adds the frame that `tracker` has just solved. Returns the solution's error in metres, NaN
-  /// where it is unknown, also while it waits.
-  double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution);
+  /// Adds the frame that `tracker` has just solved.
+  void add(const SceneTracker& tracker, const Frame& frame, const Solution& solution);
 
   /// Smooths and writes the frames that still wait.
   void finish();
@@ -36,8 +36,9 @@ class FixedLagOutput {
   };
   void write(const std::vector<FixedLagSmoother::Settled>& settled);
 
+  const Scene* scene_;
   std::unique_ptr<FixedLagSmoother> smoother_;
-  RunOutput* output_;
+  OutputQueue* output_;
   std::deque<Waiting> waiting_;
 };
 

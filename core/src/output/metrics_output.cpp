@@ -37,7 +37,6 @@ void MetricsOutput::frame(const Frame& frame, const Solution& solution) {
   }
   uncertainty_->add(solution, error.landmarks);
 
-  last_error_ = error.mean;
   ++frames_;
   seconds_ += solution.seconds;
   if (solution.status != Status::tracked && solution.status != Status::missing) {
@@ -62,6 +61,7 @@ Summary MetricsOutput::summarize(bool complete) const {
   Summary summary;
   summary.complete = complete;
   summary.backend = backend_;
+  summary.clock = clock_;
   summary.metrics = metrics_->metrics();
   summary.mean_sigma = uncertainty_->mean_sigma();
   summary.reliability = uncertainty_->reliability();

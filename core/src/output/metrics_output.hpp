@@ -28,8 +28,9 @@ class MetricsOutput final : public Output {
   void frame(const Frame& frame, const Solution& solution) override;
   void finish(bool complete) override;
 
-  /// Returns the last frame's error in metres; NaN without ground truth or a solution.
-  double last_error() const { return last_error_; }
+  /// Takes how long the run took. Call it before finish().
+  void set_clock(const ClockTimes& clock) { clock_ = clock; }
+
   /// Returns the summary of a finished run.
   const Summary& summary() const { return summary_; }
 
@@ -45,7 +46,7 @@ class MetricsOutput final : public Output {
   std::optional<UncertaintyOutput> uncertainty_;
   WorstFrames worst_;
   Summary summary_;
-  double last_error_ = 0;
+  ClockTimes clock_;
   int frames_ = 0;
   double seconds_ = 0;
   double search_seconds_ = 0;  ///< of frames that are not tracked

@@ -127,7 +127,7 @@ void RunOutput::add_online(const Frame& frame, const Solution& solution) {
   for (const NamedOutput& output : outputs_) output.output->online(frame, solution);
 }
 
-double RunOutput::add(const Frame& frame, const Solution& solution) {
+void RunOutput::add(const Frame& frame, const Solution& solution) {
   if (options_.worst_frames > 0 && !options_.fixed_lag && true_landmarks(*scene_, frame))
     renderer();  // without OpenGL, fail now and not at the end
   directory_.keep();
@@ -136,10 +136,10 @@ double RunOutput::add(const Frame& frame, const Solution& solution) {
     output.output->frame(frame, solution);
   }
   ++frames_;
-  return metrics_->last_error();
 }
 
-Summary RunOutput::finish(bool complete) {
+Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
+  metrics_->set_clock(clock);
   std::exception_ptr first_error;
   for (const NamedOutput& output : outputs_) {
     try {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -44,16 +45,14 @@ class RunOutput {
   /// Adds the unsmoothed solution of a frame. Call it with fixed-lag smoothing only.
   void add_online(const Frame& frame, const Solution& solution);
 
-  /// Adds a frame and returns its error in metres (NaN without ground truth or a solution). With
-  /// fixed-lag smoothing its pictures may be gone.
-  double add(const Frame& frame, const Solution& solution);
+  /// Adds a frame. With fixed-lag smoothing its pictures may be gone.
+  void add(const Frame& frame, const Solution& solution);
 
   /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
   /// frame was added.
-  Summary finish(bool complete);
+  Summary finish(bool complete, const ClockTimes& clock = {});
 
   bool empty() const { return frames_ == 0; }
-  const Scene& scene() const { return *scene_; }
 
  private:
   class Context;
@@ -68,7 +67,7 @@ class RunOutput {
   RunDirectory directory_;
   std::unique_ptr<Renderer> renderer_;              ///< made when there is something to draw
   std::vector<std::unique_ptr<Context>> contexts_;  ///< of the outputs
-  int frames_ = 0;
+  std::atomic<int> frames_ = 0;
 };
 
 }  // namespace hypotrack

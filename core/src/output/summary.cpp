@@ -7,6 +7,10 @@
 
 namespace hypotrack {
 
+double clock_fps(const Summary& s) {
+  return s.clock.total > 0 ? s.metrics.frames / s.clock.total : 0;
+}
+
 std::string to_json(const Summary& s) {
   nlohmann::ordered_json json;
   json["complete"] = s.complete;
@@ -14,6 +18,11 @@ std::string to_json(const Summary& s) {
   json["fps"] = s.fps;
   if (s.search_fps) json["search_fps"] = *s.search_fps;
   json["evaluations_per_second"] = s.evaluations_per_second;
+  json["clock"] = {{"fps", clock_fps(s)},
+                   {"seconds", s.clock.total},
+                   {"reading_s", s.clock.reading},
+                   {"tracking_s", s.clock.tracking},
+                   {"writing_s", s.clock.writing}};
   const StatusMetrics& status = s.metrics.status;
   json["lost_frames"] = s.metrics.lost_frames;
   json["tracked_frames"] = status.tracked_frames;

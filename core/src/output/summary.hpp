@@ -8,6 +8,14 @@
 
 namespace hypotrack {
 
+/// How long a run took by the clock, and how long its parts worked beside each other, in seconds.
+struct ClockTimes {
+  double total = 0;     ///< from the first frame to the last one written
+  double reading = 0;   ///< the source
+  double tracking = 0;  ///< images in, state out
+  double writing = 0;   ///< the outputs
+};
+
 /// Summary of a run: summary.json.
 struct Summary {
   bool complete = false;  ///< false if the run was interrupted or ended by an error
@@ -16,11 +24,15 @@ struct Summary {
   /// Nothing if there are none.
   std::optional<double> search_fps;
   double evaluations_per_second = 0;
+  ClockTimes clock;
   std::string backend;
   Metrics metrics;
   std::optional<double> mean_sigma;  ///< metres; nothing if uncertainty is off
   Reliability reliability;
 };
+
+/// Returns the frames per second by the clock; 0: unknown.
+double clock_fps(const Summary& summary);
 
 /// Returns the text of summary.json. Leaves out error statistics where no frame has an error, and
 /// those of sigma where there is none.

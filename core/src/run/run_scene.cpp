@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -12,8 +13,10 @@
 #include "camera/pair_check.hpp"
 #include "hypotrack/error.hpp"
 #include "output/fixed_lag_output.hpp"
+#include "output/output_queue.hpp"
 #include "output/run_output.hpp"
 #include "output/true_landmarks.hpp"
+#include "run/read_ahead.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/estimated_scene.hpp"
 #include "track/scene_tracker.hpp"
@@ -91,28 +94,38 @@ class Results {
           const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
       : watcher_(watcher),
         folder_(folder),
+        smooths_(smoother != nullptr),
         output_(*scene.scene, scene.source->cameras(),
                 {.directory = folder,
                  .worst_frames = scene.output.worst_frames,
                  .frame_rate = scene.source->frame_rate(),
                  .resolved = scene.resolved,
                  .backend = backend,
-                 .fixed_lag = smoother != nullptr},
+                 .fixed_lag = smooths_},
                 std::move(scene.outputs)),
-        frames_(std::move(smoother), output_) {}
+        queue_(output_),
+        frames_(*scene.scene, std::move(smoother), queue_) {}
 
-  double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
-    return frames_.add(tracker, frame, solution);
+  void add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
+    frames_.add(tracker, frame, solution);
   }
 
   /// Smooths and writes the frames that still wait.
-  void settle() { frames_.finish(); }
+  void settle() {
+    frames_.finish();
+    queue_.settle();
+  }
+
+  /// Returns true if frames are smoothed before they are written.
+  bool smooths() const { return smooths_; }
+  /// Returns how long the outputs have worked, in seconds.
+  double writing_seconds() const { return queue_.seconds(); }
 
   /// Closes the files. Returns nothing if there is no frame.
-  std::optional<Summary> finish(bool complete) {
+  std::optional<Summary> finish(bool complete, const ClockTimes& clock) {
     if (output_.empty()) return std::nullopt;
     try {
-      return output_.finish(complete);
+      return output_.finish(complete, clock);
     } catch (...) {
       tell_of_parts();
       throw;
@@ -127,11 +140,12 @@ class Results {
   }
 
   /// Keeps the frames tracked so far after an exception, which is being handled.
-  void finish_after_error() {
+  void finish_after_error(const ClockTimes& clock) {
     try {
       frames_.finish_unchanged();
+      queue_.settle();
       if (output_.empty()) return;
-      output_.finish(false);
+      output_.finish(false, clock);
       watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder_.string()));
     } catch (const std::exception& e) {
       watcher_.say(e.what());
@@ -141,7 +155,9 @@ class Results {
  private:
   RunWatcher& watcher_;
   std::filesystem::path folder_;
+  bool smooths_;
   RunOutput output_;
+  OutputQueue queue_;
   FixedLagOutput frames_;
 };
 
@@ -166,25 +182,39 @@ class WatchedFrames {
   RunWatcher& watcher_;
 };
 
+using SteadyClock = std::chrono::steady_clock;
+
+double seconds_since(SteadyClock::time_point begin) {
+  return std::chrono::duration<double>(SteadyClock::now() - begin).count();
+}
+
 /// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
-/// frames. Returns false if the watcher ended it.
+/// frames. Returns false if the watcher ended it. Adds to `clock` how long reading and tracking
+/// took.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
                const std::vector<Frame>& first, std::optional<int> limit, Latch& latch,
-               const std::function<bool()>& searches_anew) {
+               const std::function<bool()>& searches_anew, ClockTimes& clock) {
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
+  const int read = static_cast<int>(first.size());
+  ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt);
   for (int done = 0; !limit || done < *limit; ++done) {
     if (latch.stopped()) return false;
     if (searches_anew && searches_anew()) tracker.search_anew();
-    const auto index = static_cast<std::size_t>(done);
-    const std::optional<Frame> frame = index < first.size() ? first[index] : source.next();
+    const std::optional<Frame> frame =
+        done < read ? first[static_cast<std::size_t>(done)] : rest.next();
+    clock.reading = rest.seconds();
     if (!frame) break;
+    const auto begin = SteadyClock::now();
     const Solution solution = tracker.track(*frame);
-    const double error =
-        results ? results->add(tracker, *frame, solution) : error_of(scene, *frame, solution);
-    watcher.frame(*frame, solution, error);
+    clock.tracking += seconds_since(begin);
+    if (results) results->add(tracker, *frame, solution);
+    const bool smooths = results && results->smooths();
+    watcher.frame(
+        *frame, solution,
+        smooths ? std::numeric_limits<double>::quiet_NaN() : error_of(scene, *frame, solution));
   }
   return true;
 }
@@ -230,20 +260,27 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
                                      tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
   RunResult result;
+  ClockTimes clock;
+  const auto begin = SteadyClock::now();
+  const auto times = [&] {
+    clock.total = seconds_since(begin);
+    clock.writing = results->writing_seconds();
+    return clock;
+  };
   try {
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options.frames, latch, additions.searches_anew);
+                                options.frames, latch, additions.searches_anew, clock);
     if (results) results->settle();
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
     if (results) results->tell_of_parts();
     throw;
   } catch (...) {
-    if (results) results->finish_after_error();
+    if (results) results->finish_after_error(times());
     say_statistics(*opened.source, watcher);
     throw;
   }
-  if (results) result.summary = results->finish(result.complete);
+  if (results) result.summary = results->finish(result.complete, times());
   return result;
 }
 

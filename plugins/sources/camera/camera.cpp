@@ -77,6 +77,7 @@ class LiveCamera final : public Source {
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
   double frame_rate() const override { return rate_; }
+  bool live() const override { return true; }
 
   std::optional<Frame> next() override {
     const std::int64_t give_up = last_pair_ + nanoseconds(params_.give_up);

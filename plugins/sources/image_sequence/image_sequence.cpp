@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -167,13 +168,16 @@ class ImageSequence : public Source {
     frame.time = times_.empty() ? frame.index / rate_ : times_[index];
     frame.truth = truth_.at(first_ + frame.index * params_.step);
     frame.views.resize(views_);
+    std::vector<ReadImage> pictures(layers_.size());
+    tbb::parallel_for(std::size_t{0}, layers_.size(), [&](std::size_t i) {
+      pictures[i] = read_layer(i, index);
+      if (pictures[i].problem.empty())
+        pictures[i].problem =
+            size_problem(lists_[i][index], pictures[i].image, cameras_[layers_[i].view]);
+    });
     for (std::size_t i = 0; i < layers_.size() && frame.problem.empty(); ++i) {
-      ReadImage picture = read_layer(i, index);
-      if (picture.problem.empty()) {
-        picture.problem = size_problem(lists_[i][index], picture.image, cameras_[layers_[i].view]);
-      }
-      frame.problem = picture.problem;
-      image_of(frame.views[layers_[i].view], layers_[i].content) = picture.image;
+      frame.problem = pictures[i].problem;
+      image_of(frame.views[layers_[i].view], layers_[i].content) = pictures[i].image;
     }
     if (!frame.problem.empty()) frame.views.clear();
     return frame;

@@ -1,5 +1,6 @@
 #include "output/run_output.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
+#include "output/output_queue.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 
@@ -34,6 +36,7 @@ class Diary final : public Output {
     file_->write(" online " + std::to_string(frame.index));
   }
   void frame(const Frame& frame, const Solution&) override {
+    if (frame.index == fails_at) throw OutputError("the diary is full");
     file_->write(" frame " + std::to_string(frame.index));
   }
   void finish(bool complete) override {
@@ -43,6 +46,7 @@ class Diary final : public Output {
 
   std::string asks_for;
   bool fails = false;
+  int fails_at = -1;
 
  private:
   std::vector<std::string> names_;
@@ -173,6 +177,32 @@ TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
   output->add(frame(0), solution(0));
   output->finish(true);
   EXPECT_THAT(names(), UnorderedElementsAre("page_7.txt", "run.yaml", "summary.json"));
+}
+
+TEST_F(RunOutputTest, AQueueWritesAllFramesInOrder) {
+  const auto output = open("diary.txt");
+  OutputQueue queue(*output);
+  std::string expected = "begin";
+  for (int i = 0; i < 40; ++i) {
+    queue.add(frame(i), solution(i));
+    expected += fmt::format(" online {0} frame {0}", i);
+  }
+  queue.settle();
+  output->finish(true);
+  EXPECT_EQ(text("diary.txt"), expected + " finish");
+}
+
+TEST_F(RunOutputTest, AQueueTellsAnErrorOnceAndWritesNothingAfterIt) {
+  auto diary = std::make_unique<Diary>("diary.txt");
+  diary->fails_at = 1;
+  const auto output = open(one(std::move(diary)));
+  OutputQueue queue(*output);
+  queue.add(frame(0), solution(0));
+  queue.add(frame(1), solution(1));
+  EXPECT_EQ(message_of<OutputError>([&] { queue.settle(); }), "the diary is full");
+  queue.add(frame(2), solution(2));
+  EXPECT_NO_THROW(queue.settle());
+  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0 online 1");
 }
 
 }  // namespace

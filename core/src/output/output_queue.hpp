@@ -1,0 +1,52 @@
+#pragma once
+
+#include <atomic>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "base/bounded_queue.hpp"
+#include "output/run_output.hpp"
+
+namespace hypotrack {
+
+/// Gives the frames of a run to its output in a thread of its own, in order. While many wait, the
+/// caller waits.
+class OutputQueue {
+ public:
+  /// The output must outlive the object, and is used by nobody else until settle() returns.
+  explicit OutputQueue(RunOutput& output);
+  /// Drops what waits.
+  ~OutputQueue() = default;
+  OutputQueue(const OutputQueue&) = delete;
+  OutputQueue& operator=(const OutputQueue&) = delete;
+
+  /// As those of RunOutput. Each throws what the output threw for an earlier frame, once; nothing
+  /// is written after that.
+  void add_online(Frame frame, Solution solution);
+  void add(Frame frame, Solution solution);
+
+  /// Waits until all that was added is written. Throws like add().
+  void settle();
+
+  /// Returns how long the output has worked, in seconds.
+  double seconds() const { return seconds_; }
+
+ private:
+  using Job = std::function<void()>;
+
+  /// Is called in the thread.
+  void write(const std::function<void(RunOutput&)>& what);
+  void rethrow();
+
+  RunOutput* output_;
+  std::atomic<double> seconds_ = 0;
+  std::mutex mutex_;
+  std::exception_ptr error_;  ///< guarded by the mutex; null after it was thrown
+  bool failed_ = false;       ///< of the thread
+  BoundedQueue<Job> jobs_;
+  std::jthread thread_;  ///< ends before what it uses
+};
+
+}  // namespace hypotrack

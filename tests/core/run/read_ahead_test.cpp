@@ -1,0 +1,95 @@
+#include "run/read_ahead.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Counts, and remembers how far it was read and by whom.
+class Numbers final : public Source {
+ public:
+  explicit Numbers(int count) : count_(count) {}
+
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+  double frame_rate() const override { return 30; }
+  bool live() const override { return is_live; }
+  std::optional<Frame> next() override {
+    thread = std::this_thread::get_id();
+    const int index = read++;
+    if (index == fails_at) throw DataError("the disk is gone");
+    if (index == count_) return std::nullopt;
+    Frame frame;
+    frame.index = index;
+    return frame;
+  }
+
+  std::atomic<int> read = 0;
+  std::atomic<std::thread::id> thread;
+  int fails_at = -1;
+  bool is_live = false;
+
+ private:
+  int count_;
+  std::vector<Camera> cameras_;
+};
+
+std::vector<int> rest_of(ReadAhead& frames) {
+  std::vector<int> out;
+  while (const auto frame = frames.next()) out.push_back(frame->index);
+  return out;
+}
+
+TEST(ReadAhead, GivesAllFramesInOrder) {
+  Numbers source(20);
+  ReadAhead frames(source, std::nullopt);
+  std::vector<int> expected(20);
+  for (int i = 0; i < 20; ++i) expected[static_cast<std::size_t>(i)] = i;
+  EXPECT_EQ(rest_of(frames), expected);
+}
+
+TEST(ReadAhead, ReadsNoFrameBeyondTheLimit) {
+  Numbers source(20);
+  ReadAhead frames(source, 3);
+  EXPECT_THAT(rest_of(frames), ::testing::ElementsAre(0, 1, 2));
+  EXPECT_EQ(source.read, 3);
+}
+
+TEST(ReadAhead, ReadsAFewFramesWhileNobodyAsks) {
+  Numbers source(1000);
+  {
+    const ReadAhead frames(source, std::nullopt);
+    while (source.read < 3) std::this_thread::yield();
+  }
+  EXPECT_LT(source.read, 10);
+}
+
+TEST(ReadAhead, ThrowsAnErrorInThePlaceOfItsFrame) {
+  Numbers source(20);
+  source.fails_at = 2;
+  ReadAhead frames(source, std::nullopt);
+  EXPECT_EQ(frames.next()->index, 0);
+  EXPECT_EQ(frames.next()->index, 1);
+  EXPECT_EQ(test::message_of<DataError>([&] { frames.next(); }), "the disk is gone");
+}
+
+TEST(ReadAhead, AsksALiveSourceWhenAFrameIsNeeded) {
+  Numbers source(20);
+  source.is_live = true;
+  ReadAhead frames(source, std::nullopt);
+  EXPECT_EQ(source.read, 0);
+  EXPECT_EQ(frames.next()->index, 0);
+  EXPECT_EQ(source.read, 1);
+  EXPECT_EQ(source.thread, std::this_thread::get_id());
+}
+
+}  // namespace
+}  // namespace hypotrack
