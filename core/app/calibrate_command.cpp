@@ -41,7 +41,14 @@ struct CalibrateOptions {
   std::optional<std::filesystem::path> pairs;
   std::optional<std::string> seconds;
 
-  bool live() const { return names_cameras(views); }
+  /// Returns whether live cameras are given. Throws ConfigError if none and no pictures are.
+  bool live() const {
+    const bool found = names_cameras(views);
+    if (!found && (views.left.empty() || views.right.empty()))
+      throw ConfigError(
+          "there is nothing to calibrate from; expected --left and --right, or --device");
+    return found;
+  }
 };
 
 calibrate::Board board_of(const CalibrateOptions& options) {
@@ -109,6 +116,7 @@ FoundBoards take_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
                         const CommonOptions& common) {
   detail::YamlDocument yaml = camera_source(options.views);
   yaml.set_plain("uncalibrated", "true");
+  yaml.set_plain("timeout_s", "1");  // what Ctrl-C and Enter may wait
   PluginLoader plugins(common.plugin_path);
   const auto source =
       plugins.make<Source>(ConfigNode::parse(yaml.text(), "the cameras of the command line"));
@@ -170,9 +178,10 @@ void print_without(const std::vector<std::string>& names) {
 
 int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common) {
   check_new_file(options.out, options.force);
+  const bool live = options.live();
   const calibrate::BoardFinder finder(board_of(options));
   const FoundBoards boards =
-      options.live() ? take_boards(finder, options, common) : find_boards(finder, options);
+      live ? take_boards(finder, options, common) : find_boards(finder, options);
   if (boards.interrupted) {
     tell("hypotrack: interrupted before there were enough pairs; nothing was written\n");
     return kInterruptedExitCode;

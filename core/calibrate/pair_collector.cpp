@@ -15,7 +15,7 @@ namespace {
 
 /// Returns the side of a picture that a board nearly touches; empty if none.
 std::string near_side(const BoardCorners& corners, cv::Size picture) {
-  constexpr float kGap = 0.08f;  // of the picture
+  constexpr float kGap = 0.12f;  // of the picture
   const cv::Rect box = cv::boundingRect(corners.at);
   const auto width = static_cast<float>(picture.width);
   const auto height = static_cast<float>(picture.height);
