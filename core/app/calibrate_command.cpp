@@ -20,19 +20,35 @@
 #include "commands.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/plugin.hpp"
+#include "interrupt.hpp"
+#include "live_pairs/camera_options.hpp"
+#include "live_pairs/take_pairs.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
 
 struct CalibrateOptions {
-  std::string left, right, board, square, dictionary = "4X4_50";
+  CameraOptions views;
+  std::string board, square, dictionary = "4X4_50";
   std::optional<std::string> marker;
   bool inverted = false, force = false;
   int step = 1;
   std::optional<std::filesystem::path> lenses, coverage;
   std::vector<std::string> cameras;
   std::filesystem::path out = "calibration.yaml";
+  std::optional<std::filesystem::path> pairs;
+  std::optional<std::string> seconds;
+
+  /// Returns whether live cameras are given. Throws ConfigError if none and no pictures are.
+  bool live() const {
+    const bool found = names_cameras(views);
+    if (!found && (views.left.empty() || views.right.empty()))
+      throw ConfigError(
+          "there is nothing to calibrate from; expected --left and --right, or --device");
+    return found;
+  }
 };
 
 calibrate::Board board_of(const CalibrateOptions& options) {
@@ -51,13 +67,15 @@ calibrate::Board board_of(const CalibrateOptions& options) {
 struct FoundBoards {
   std::vector<calibrate::BoardPair> pairs;
   std::vector<std::string> without;
-  cv::Size size;  ///< of the pictures
+  cv::Size size;             ///< of the pictures
+  bool interrupted = false;  ///< before there were enough pairs
 };
 
 FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOptions& options) {
   FoundBoards out;
   calibrate::read_pairs(
-      options.left, options.right, options.step, [&](const calibrate::PicturePair& pair) {
+      options.views.left, options.views.right, options.step,
+      [&](const calibrate::PicturePair& pair) {
         for (const cv::Mat& picture : {pair.left, pair.right}) {
           if (out.size.empty()) out.size = picture.size();
           if (picture.size() == out.size) continue;
@@ -76,6 +94,44 @@ FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
   return out;
 }
 
+/// Returns the folder for pairs of live cameras: calibration_pairs beside calibration.yaml.
+std::filesystem::path pairs_folder(const CalibrateOptions& options) {
+  if (options.pairs) return *options.pairs;
+  return options.out.parent_path() / (options.out.stem().string() + "_pairs");
+}
+
+/// Returns the command that calibrates again from pairs that were taken.
+std::string repeating_command(const CalibrateOptions& options, const PairFolder& folder) {
+  std::string out =
+      fmt::format("hypotrack calibrate --left '{}' --right '{}' --board {} --square {}",
+                  folder.pattern("left"), folder.pattern("right"), options.board, options.square);
+  if (options.board.starts_with("charuco")) out += " --dictionary " + options.dictionary;
+  if (options.marker) out += " --marker " + *options.marker;
+  if (options.inverted) out += " --inverted";
+  return out;
+}
+
+/// Takes pairs of live cameras.
+FoundBoards take_boards(const calibrate::BoardFinder& finder, const CalibrateOptions& options,
+                        const CommonOptions& common) {
+  detail::YamlDocument yaml = camera_source(options.views);
+  yaml.set_plain("uncalibrated", "true");
+  yaml.set_plain("timeout_s", "1");  // what Ctrl-C and Enter may wait
+  PluginLoader plugins(common.plugin_path);
+  const auto source =
+      plugins.make<Source>(ConfigNode::parse(yaml.text(), "the cameras of the command line"));
+  for (const std::string& note : source->notes()) tell("note: {}\n", note);
+  const InterruptGuard interrupt;
+  PairFolder folder(pairs_folder(options));
+  std::optional<double> seconds;
+  if (options.seconds) seconds = std::stod(*options.seconds);
+  TakenPairs taken = take_pairs(finder, *source, folder, seconds, interrupt);
+  if (!folder.empty())
+    tell("{} pairs are in {}; to calibrate from them again:\n  {}\n", taken.pairs.size(),
+         folder.path().string(), repeating_command(options, folder));
+  return {std::move(taken.pairs), {}, taken.picture, taken.interrupted && folder.empty()};
+}
+
 /// Reads the lenses of both cameras.
 std::optional<std::array<Camera, 2>> lenses_of(const CalibrateOptions& options, cv::Size size) {
   if (!options.lenses) return std::nullopt;
@@ -90,7 +146,7 @@ std::optional<std::array<Camera, 2>> lenses_of(const CalibrateOptions& options, 
                     options.lenses->string(), cameras.size()));
   }
   for (Camera& camera : cameras) {
-    fit_image_size(camera, size.width, size.height, options.left);
+    fit_image_size(camera, size.width, size.height, "the pictures");
     if (camera.distortion_model != DistortionModel::fisheye) continue;
     throw DataError(
         fmt::format("{}: has a fisheye lens; expected the model brown", options.lenses->string()));
@@ -120,10 +176,16 @@ void print_without(const std::vector<std::string>& names) {
              shown < std::ssize(names) ? ", ..." : "");
 }
 
-int calibrate_pair(const CalibrateOptions& options) {
+int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common) {
   check_new_file(options.out, options.force);
+  const bool live = options.live();
   const calibrate::BoardFinder finder(board_of(options));
-  const FoundBoards boards = find_boards(finder, options);
+  const FoundBoards boards =
+      live ? take_boards(finder, options, common) : find_boards(finder, options);
+  if (boards.interrupted) {
+    tell("hypotrack: interrupted before there were enough pairs; nothing was written\n");
+    return kInterruptedExitCode;
+  }
   const calibrate::StereoCalibration found = calibrate::calibrate_stereo(
       finder, boards.size, boards.pairs, lenses_of(options, boards.size));
   print_pairs(found);
@@ -145,15 +207,18 @@ int calibrate_pair(const CalibrateOptions& options) {
 
 }  // namespace
 
-void add_calibrate_command(const Command& root, int& exit_code) {
+void add_calibrate_command(const Command& root, CommonOptions& common, int& exit_code) {
   auto options = std::make_shared<CalibrateOptions>();
   const Command command =
-      root.add_command("calibrate", "Calibrate two cameras from pictures of a board");
-  command.add("--left", &options->left,
-              "Pictures of the left camera: a pattern in quotes or a video",
-              {.required = true, .value_name = "'left*.jpg'"});
-  command.add("--right", &options->right, "Pictures of the right camera, in the same order",
-              {.required = true, .value_name = "'right*.jpg'"});
+      root.add_command("calibrate", "Calibrate two cameras from pictures of a board, or live");
+  command.add("--left", &options->views.left,
+              "Pictures of the left camera: a pattern in quotes or a video. Or the live camera: a "
+              "number, /dev/..., a URL or a GStreamer pipeline",
+              {.value_name = "'left*.jpg'"});
+  command.add("--right", &options->views.right,
+              "Pictures of the right camera, in the same order, or the live camera",
+              {.value_name = "'right*.jpg'"});
+  add_camera_options(command, options->views);
   command.add("--board", &options->board,
               "Inner corners of a chessboard (9x6) or squares of a ChArUco board (charuco:5x7)",
               {.required = true, .value_name = "9x6"});
@@ -175,7 +240,13 @@ void add_calibrate_command(const Command& root, int& exit_code) {
   command.add("--coverage", &options->coverage, "Picture to write of where corners were seen",
               {.value_name = "FILE.png"});
   command.add("--force", &options->force, "Replace the calibration file");
-  command.on_call([=, &exit_code] { exit_code = calibrate_pair(*options); });
+  command.add(
+      "--pairs", &options->pairs,
+      "Folder for pairs of live cameras (default: --out with _pairs in place of its ending)",
+      {.check = file_name()});
+  command.add("--seconds", &options->seconds, "End taking pairs after this time",
+              {.check = positive_number()});
+  command.on_call([=, &common, &exit_code] { exit_code = calibrate_pair(*options, common); });
 }
 
 }  // namespace hypotrack::app

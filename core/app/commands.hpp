@@ -33,7 +33,7 @@ void add_reliability_command(const Command& root, int& exit_code);
 void add_compare_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_bench_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_report_command(const Command& root, CommonOptions& common, int& exit_code);
-void add_calibrate_command(const Command& root, int& exit_code);
+void add_calibrate_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_calibration_command(const Command& root, int& exit_code);
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_new_command(const Command& root, CommonOptions& common, int& exit_code);

@@ -67,10 +67,11 @@ cv::Size parse_size(std::string_view text, std::string_view whole) {
 }
 
 cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
-  cv::Mat gray = picture;
+  cv::Mat gray = picture, inverse;
   if (picture.channels() == 3) cv::cvtColor(picture, gray, cv::COLOR_BGR2GRAY);
-  if (inverted) cv::bitwise_not(gray, gray);
-  return gray;
+  if (!inverted) return gray;
+  cv::bitwise_not(gray, inverse);
+  return inverse;
 }
 
 /// Returns the corners of a whole chessboard.
@@ -172,6 +173,21 @@ BoardCorners BoardFinder::find(const cv::Mat& picture) const {
   if (ids.empty()) return out;
   cv::aruco::interpolateCornersCharuco(markers, ids, gray, markers_->layout, out.at, out.ids);
   return out;
+}
+
+bool BoardFinder::sees_part(const cv::Mat& picture) const {
+  const cv::Mat gray = gray_of(picture, board_.inverted);
+  if (!markers_) return cv::checkChessboard(gray, board_.size);
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(gray, markers_->dictionary, markers, ids, markers_->parameters);
+  return !ids.empty();
+}
+
+double BoardFinder::edge_width(const cv::Mat& picture, const BoardCorners& found) const {
+  if (markers_) return 0;
+  return cv::estimateChessboardSharpness(gray_of(picture, board_.inverted), board_.size,
+                                         found.at)[0];
 }
 
 cv::Point3f BoardFinder::place(int id) const {

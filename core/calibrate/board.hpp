@@ -46,6 +46,11 @@ class BoardFinder {
   /// Returns the corners in an 8-bit colour or grey picture; none if the board is not
   /// seen.
   BoardCorners find(const cv::Mat& picture) const;
+  /// Returns whether a picture has a part of a board in it, or something like it.
+  bool sees_part(const cv::Mat& picture) const;
+  /// Returns how many pixels the edges of a found chessboard are wide (OpenCV's
+  /// estimateChessboardSharpness); 0 for ChArUco.
+  double edge_width(const cv::Mat& picture, const BoardCorners& found) const;
   /// Returns whether the board is found only as a whole.
   bool whole_only() const { return board_.kind == Board::Kind::chessboard; }
   /// Returns where a corner is on the board, in metres.

@@ -12,22 +12,19 @@ int third_of(int cell) { return 3 * cell / kCells; }
 
 }  // namespace
 
-Coverage coverage_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration,
-                     std::size_t view) {
+Coverage coverage_of(std::span<const BoardCorners* const> boards, cv::Size picture) {
   static constexpr std::array<std::array<const char*, 3>, 3> kNames = {
       {{"top left", "top", "top right"},
        {"left", "middle", "right"},
        {"bottom left", "bottom", "bottom right"}}};
-  const Camera& camera = calibration.cameras[view];
   std::array<std::array<bool, kCells>, kCells> seen{};
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (!calibration.pairs[i].counts()) continue;
-    for (const cv::Point2f& at : pairs[i].corners[view].at) {
+  for (const BoardCorners* board : boards) {
+    for (const cv::Point2f& at : board->at) {
       const auto cell = [](float x, int size) {
         return std::clamp(static_cast<int>(kCells * x / static_cast<float>(size)), 0, kCells - 1);
       };
-      seen[static_cast<std::size_t>(cell(at.y, camera.height))]
-          [static_cast<std::size_t>(cell(at.x, camera.width))] = true;
+      seen[static_cast<std::size_t>(cell(at.y, picture.height))]
+          [static_cast<std::size_t>(cell(at.x, picture.width))] = true;
     }
   }
   Coverage out;
@@ -42,6 +39,15 @@ Coverage coverage_of(const std::vector<BoardPair>& pairs, const StereoCalibratio
     for (std::size_t column = 0; column < 3; ++column)
       if (count[row][column] == 0) out.empty.emplace_back(kNames[row][column]);
   return out;
+}
+
+Coverage coverage_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration,
+                     std::size_t view) {
+  const Camera& camera = calibration.cameras[view];
+  std::vector<const BoardCorners*> boards;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (calibration.pairs[i].counts()) boards.push_back(&pairs[i].corners[view]);
+  return coverage_of(boards, {camera.width, camera.height});
 }
 
 cv::Mat draw_coverage(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct Coverage {
   double share = 0;
   std::vector<std::string> empty;  ///< `top left`, `right`, ...
 };
+
+/// Returns the coverage of pictures of one size by the corners of boards.
+Coverage coverage_of(std::span<const BoardCorners* const> boards, cv::Size picture);
 
 /// Returns the coverage of the left (0) or right (1) pictures by pairs that count.
 Coverage coverage_of(const std::vector<BoardPair>& pairs, const StereoCalibration& calibration,

@@ -61,7 +61,8 @@ class LiveCamera final : public Source {
   LiveCamera(const Params& params, PluginContext& context)
       : params_(params),
         devices_(devices_of(params, context.config())),
-        cameras_(load_calibration(params.calibration, wanted_size())) {
+        cameras_(params.uncalibrated ? std::vector<Camera>(2)
+                                     : load_calibration(params.calibration, wanted_size())) {
     if (cameras_.size() != 2) {
       throw DataError(
           fmt::format("{}: holds {} cameras; expected two, one for each view, which `cameras` "

@@ -54,6 +54,7 @@ struct Params {
   std::string left;
   std::string right;
   DeviceParams settings;
+  bool uncalibrated = false;
   CalibrationSettings calibration;
   std::optional<double> tolerance;  ///< seconds
   double timeout = 2;               ///< seconds
@@ -66,7 +67,10 @@ struct Params {
     v("left", left, {.help = "device of the first camera, instead of `device`"});
     v("right", right, {.help = "device of the second camera"});
     settings.visit(v);
-    v("calibration", calibration, {.help = "the cameras", .required = true});
+    v("uncalibrated", uncalibrated,
+      {.help = "give pictures without a calibration, from which nothing can be tracked; for "
+               "`hypotrack calibrate`"});
+    v("calibration", calibration, {.help = "the cameras", .required = !uncalibrated});
     v("tolerance_ms", tolerance,
       {.help = "largest time between the two pictures of a pair; default: 0.6 of the time between "
                "pictures",
