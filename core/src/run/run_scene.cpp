@@ -101,6 +101,11 @@ class Results {
                 std::move(scene.outputs)),
         frames_(std::move(smoother), output_) {}
 
+  bool want_search(const Frame& frame) const { return output_.want_search(frame); }
+  void add_search(const Frame& frame, const Solution& solution, const SearchRecord& record) {
+    output_.add_search(frame, solution, record);
+  }
+
   double add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
     return frames_.add(tracker, frame, solution);
   }
@@ -181,7 +186,10 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     const auto index = static_cast<std::size_t>(done);
     const std::optional<Frame> frame = index < first.size() ? first[index] : source.next();
     if (!frame) break;
-    const Solution solution = tracker.track(*frame);
+    std::optional<SearchRecord> record;
+    if (results && results->want_search(*frame)) record.emplace();
+    const Solution solution = tracker.track(*frame, record ? &*record : nullptr);
+    if (record) results->add_search(*frame, solution, *record);
     const double error =
         results ? results->add(tracker, *frame, solution) : error_of(scene, *frame, solution);
     watcher.frame(*frame, solution, error);
