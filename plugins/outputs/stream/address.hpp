@@ -10,6 +10,7 @@ struct Address {
   std::filesystem::path socket;
   std::string host;
   int port = 0;
+  std::string where = {};  ///< place of the parameters, for messages
 
   /// Returns the address for messages.
   std::string text() const {

@@ -19,26 +19,28 @@ using Error = boost::system::error_code;
 
 /// Makes room for a socket file: removes one that a crashed program has left. Throws OutputError if
 /// something else is there.
-void make_room(asio::io_context& io, const Endpoint& endpoint, const std::filesystem::path& file) {
+void make_room(asio::io_context& io, const Endpoint& endpoint, const Address& address) {
+  const std::filesystem::path& file = address.socket;
   std::error_code ignored;
   const std::filesystem::file_status status = std::filesystem::symlink_status(file, ignored);
   if (!std::filesystem::exists(status)) return;
   if (status.type() != std::filesystem::file_type::socket)
     throw OutputError(
-        fmt::format("stream: {} is there already and is no socket; expected a free name, or the "
+        fmt::format("{}: {} is there already and is no socket; expected a free name, or the "
                     "socket of an earlier run. Name another file, or remove this one",
-                    file.string()));
+                    address.where, file.string()));
   Socket probe(io, endpoint.protocol());
   probe.native_non_blocking(true);
   const int connected =
       ::connect(probe.native_handle(), endpoint.data(), static_cast<socklen_t>(endpoint.size()));
   if (connected == 0 || errno == EAGAIN)
     throw OutputError(fmt::format(
-        "stream: another program, perhaps a run, listens at {}; end it, or name another file",
-        file.string()));
+        "{}: another program, perhaps a run, listens at {}; end it, or name another file",
+        address.where, file.string()));
   if (errno != ECONNREFUSED)
-    throw OutputError(fmt::format("stream: {} is a socket that cannot be replaced: {}",
-                                  file.string(), std::generic_category().message(errno)));
+    throw OutputError(
+        fmt::format("{}: {} is a socket that cannot be replaced: {}; name another file",
+                    address.where, file.string(), std::generic_category().message(errno)));
   std::filesystem::remove(file, ignored);  // bind() says why, if it is still there
 }
 
@@ -50,9 +52,9 @@ Endpoint resolved(asio::io_context& io, const Address& address) {
       asio::ip::resolver_base::passive | asio::ip::resolver_base::numeric_service, error);
   if (error || found.empty())
     throw OutputError(
-        fmt::format("stream: the host {} is not known ({}); expected an address of this machine, "
+        fmt::format("{}: the host {} is not known ({}); expected an address of this machine, "
                     "such as 127.0.0.1, or 0.0.0.0 for all of them",
-                    address.host, error.message()));
+                    address.where, address.host, error.message()));
   return found.begin()->endpoint();
 }
 
@@ -73,7 +75,7 @@ Listener::Listener(asio::io_context& io, const Address& address) : acceptor_(io)
   const Endpoint endpoint =
       local ? Endpoint(asio::local::stream_protocol::endpoint(address.socket.string()))
             : resolved(io, address);
-  if (local) make_room(io, endpoint, address.socket);
+  if (local) make_room(io, endpoint, address);
   Error error;
   acceptor_.open(endpoint.protocol(), error);
   if (!error && !local) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
@@ -81,7 +83,7 @@ Listener::Listener(asio::io_context& io, const Address& address) : acceptor_(io)
   if (!error && local) file_ = address.socket;
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
   if (error)
-    throw OutputError(fmt::format("stream: cannot listen at {}: {}; {}", address.text(),
+    throw OutputError(fmt::format("{}: cannot listen at {}: {}; {}", address.where, address.text(),
                                   error.message(), advice(address, error)));
 }
 

@@ -4,7 +4,6 @@
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/write.hpp>
 #include <utility>
 
 namespace hypotrack::stream {
@@ -46,12 +45,12 @@ void Reader::add(const Line& line) {
     ++dropped_;
   }
   waiting_.push_back(line);
-  if (sent_.empty()) send_next();
+  if (unsent_.empty()) send_next();
 }
 
 void Reader::finish() {
   finishing_ = true;
-  if (sent_.empty()) send_next();
+  if (unsent_.empty()) send_next();
 }
 
 void Reader::send_next() {
@@ -66,17 +65,22 @@ void Reader::send_next() {
 }
 
 void Reader::send(std::string text) {
-  sent_ = std::move(text);
+  unsent_ = std::move(text);
+  send_rest();
+}
+
+void Reader::send_rest() {
   const auto self = shared_from_this();
   timer_.expires_after(patience_.hangs);
   timer_.async_wait([self](const Error& ended) {
     if (!ended && self->timer_.expiry() <= Clock::now()) self->close();
   });
-  asio::async_write(socket_, asio::buffer(sent_), [self](const Error& error, std::size_t) {
+  socket_.async_write_some(asio::buffer(unsent_), [self](const Error& error, std::size_t sent) {
     self->timer_.expires_at(Clock::time_point::max());
-    self->sent_.clear();
+    self->unsent_.erase(0, sent);
     if (error) return self->close();
-    self->send_next();
+    if (self->unsent_.empty()) return self->send_next();
+    self->send_rest();
   });
 }
 

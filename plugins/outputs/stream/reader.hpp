@@ -37,6 +37,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
 
  private:
   void send(std::string text);
+  void send_rest();
   void send_next();
   void receive();
   void close();
@@ -46,7 +47,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
   std::function<void()> closed_;
   boost::asio::steady_timer timer_;
   std::deque<Line> waiting_;
-  std::string sent_;  ///< the line that is being sent; empty: none
+  std::string unsent_;  ///< rest of the line that is being sent; empty: none
   std::size_t dropped_ = 0;
   std::array<char, 256> received_{};
   bool finishing_ = false;

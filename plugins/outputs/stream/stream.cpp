@@ -70,7 +70,7 @@ Address Stream::checked(const Params& params, const ConfigNode& config) {
     throw ConfigError(fmt::format("{}: stream has {}; expected one of port and socket",
                                   config.where(),
                                   params.port ? "a port and a socket" : "no port and no socket"));
-  if (params.port) return {{}, params.host.value_or("127.0.0.1"), *params.port};
+  if (params.port) return {{}, params.host.value_or("127.0.0.1"), *params.port, config.where()};
   if (params.host)
     throw ConfigError(
         fmt::format("{}: host is given, but a socket file is of this machine; leave "
@@ -83,7 +83,7 @@ Address Stream::checked(const Params& params, const ConfigNode& config) {
         "a shorter folder, such as /tmp",
         config.where_key("socket"), params.socket->string(), params.socket->string().size(),
         kLongest));
-  return {*params.socket, {}, 0};
+  return {*params.socket, {}, 0, config.where()};
 }
 
 void Stream::send(const Frame& frame, const Solution& solution) {

@@ -168,13 +168,13 @@ TEST_F(StreamTest, AReaderThatHangsIsDropped) {
   const stream::Address address{socket_file(), "", 0};
   stream::LineServer server(address, R"({"stream":"hypotrack"})",
                             {.lines = 2, .hangs = std::chrono::milliseconds(20)});
-  test::LocalReader hangs = connected(), reads = connected();
-  constexpr std::size_t kMuch = 1 << 20;
+  test::LocalReader hangs = connected();
+  constexpr std::size_t kMuch = 1 << 20;  // more than what the kernel's queue takes
   server.send("{\"" + std::string(kMuch, 'a') + "\":1}");
-  EXPECT_EQ(reads.line()->size(), kMuch + 6);
   hangs.wait_for_end();
+  test::LocalReader another = connected();
   server.send("{}");
-  EXPECT_EQ(reads.line(), "{}");
+  EXPECT_EQ(another.line(), "{}");
 }
 
 TEST_F(StreamTest, AReaderThatHangsDoesNotHoldUpTheEnd) {
