@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -34,6 +35,8 @@ struct Frame {
   std::vector<View> views;  ///< one per camera of the source; empty if the frame is unusable
   std::optional<GroundTruth> truth;
   std::string problem;  ///< why `views` is empty (missing file, damaged image), else empty
+  /// When a live source took the pictures, on the clock of this machine; empty for recordings.
+  std::optional<std::chrono::steady_clock::time_point> taken{};
 };
 
 }  // namespace hypotrack

@@ -3,7 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "hypotrack/export.hpp"
 #include "hypotrack/observation.hpp"
@@ -68,6 +71,15 @@ class HYPOTRACK_API ResidualTerm {
                             std::span<float> residuals, std::span<float> slopes) const;
 };
 
+/// A number for every pixel of one view's tile, for pictures that explain a cost.
+struct PixelMap {
+  std::string name;  ///< a few words: `distinctiveness`
+  int view = 0;
+  cv::Mat values;     ///< 32-bit float of the tile's size; NaN where there is none
+  float lowest = 0;   ///< shown as the darkest colour
+  float highest = 1;  ///< shown as the brightest colour
+};
+
 /// The images that an objective reads besides colour.
 struct ImageUse {
   bool mask = true;
@@ -108,6 +120,13 @@ class HYPOTRACK_API Objective {
   /// Requires a residual_term(). Override it if one pass over the pixels gives both.
   virtual double cost_and_residuals(const RenderedHypothesis& hypothesis,
                                     std::span<float> residuals) const;
+
+  /// Returns true if maps() gives some. `prepare` may then be called again with the same frame, and
+  /// must not learn from it.
+  virtual bool has_maps() const { return false; }
+
+  /// Returns what cost() reads and finds at every pixel, for a hypothesis of the prepared frame.
+  virtual std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const;
 
   /// Returns the GPU implementation (hypotrack/cuda/device_objective.hpp), or null without one or
   /// without CUDA. With null, the scene is evaluated on the CPU. The objective outlives the result.

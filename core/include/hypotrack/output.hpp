@@ -9,6 +9,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
+#include "hypotrack/search_record.hpp"
 #include "hypotrack/solution.hpp"
 
 namespace hypotrack {
@@ -37,10 +38,11 @@ class HYPOTRACK_API OutputContext {
 
 /// Writes something of every solution of a run.
 ///
-/// A run calls begin(), then online() and frame() for every frame, then finish(). An output that is
-/// destroyed without finish() leaves its files as they are.
+/// A run calls begin(), then wants_search(), search() if it is wanted, online() and frame() for
+/// every frame, then finish(). An output that is destroyed without finish() leaves its files as
+/// they are.
 /// Calls come one after the other, and not all from one thread: frames are written while the next
-/// are tracked.
+/// are tracked. wants_search() alone may come during another call.
 class HYPOTRACK_API Output {
  public:
   Output() = default;
@@ -56,6 +58,14 @@ class HYPOTRACK_API Output {
   /// Is called before the first frame. `run` lives until the output is destroyed. Throws
   /// OutputError or DeviceError.
   virtual void begin(OutputContext& run) = 0;
+
+  /// Returns true to receive how the search of this frame goes. Recording costs time and memory.
+  virtual bool wants_search(const Frame& /*frame*/) const { return false; }
+
+  /// Receives how a frame was searched, with its solution before fixed-lag smoothing. Is called for
+  /// frames that were wanted and have views.
+  virtual void search(const Frame& /*frame*/, const Solution& /*solution*/,
+                      const SearchRecord& /*record*/) {}
 
   /// Receives every frame, with its pictures, and its solution before fixed-lag smoothing.
   virtual void online(const Frame& /*frame*/, const Solution& /*solution*/) {}

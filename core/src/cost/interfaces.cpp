@@ -25,6 +25,7 @@ double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
   residual_term()->write_residuals(hypothesis, residuals);
   return cost(hypothesis);
 }
+std::vector<PixelMap> Objective::maps(const RenderedHypothesis&) const { return {}; }
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
 bool cuda::DeviceObjective::enqueue_search(const SceneLayout&, const BatchLayout&,

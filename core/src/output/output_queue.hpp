@@ -24,6 +24,7 @@ class OutputQueue {
 
   /// As those of RunOutput. Each throws what the output threw for an earlier frame, once; nothing
   /// is written after that.
+  void add_search(Frame frame, Solution solution, SearchRecord record);
   void add_online(Frame frame, Solution solution);
   void add(Frame frame, Solution solution);
 

@@ -122,6 +122,19 @@ Renderer& RunOutput::renderer() {
   return *renderer_;
 }
 
+bool RunOutput::want_search(const Frame& frame) const {
+  return !frame.views.empty() && std::ranges::any_of(outputs_, [&](const NamedOutput& output) {
+    return output.output->wants_search(frame);
+  });
+}
+
+void RunOutput::add_search(const Frame& frame, const Solution& solution,
+                           const SearchRecord& record) {
+  directory_.keep();
+  for (const NamedOutput& output : outputs_)
+    if (output.output->wants_search(frame)) output.output->search(frame, solution, record);
+}
+
 void RunOutput::add_online(const Frame& frame, const Solution& solution) {
   directory_.keep();
   for (const NamedOutput& output : outputs_) output.output->online(frame, solution);

@@ -42,6 +42,11 @@ class RunOutput {
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
+  /// Returns true if an output wants to see how this frame is searched.
+  bool want_search(const Frame& frame) const;
+  /// Passes on how a frame was searched, before its solution, to the outputs that want it.
+  void add_search(const Frame& frame, const Solution& solution, const SearchRecord& record);
+
   /// Adds the unsmoothed solution of a frame. Call it with fixed-lag smoothing only.
   void add_online(const Frame& frame, const Solution& solution);
 

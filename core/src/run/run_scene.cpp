@@ -106,6 +106,11 @@ class Results {
         queue_(output_),
         frames_(*scene.scene, std::move(smoother), queue_) {}
 
+  bool want_search(const Frame& frame) const { return output_.want_search(frame); }
+  void add_search(const Frame& frame, const Solution& solution, SearchRecord record) {
+    queue_.add_search(frame, solution, std::move(record));
+  }
+
   void add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
     frames_.add(tracker, frame, solution);
   }
@@ -207,9 +212,12 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
         done < read ? first[static_cast<std::size_t>(done)] : rest.next();
     clock.reading = rest.seconds();
     if (!frame) break;
+    std::optional<SearchRecord> record;
+    if (results && results->want_search(*frame)) record.emplace();
     const auto begin = SteadyClock::now();
-    const Solution solution = tracker.track(*frame);
+    const Solution solution = tracker.track(*frame, record ? &*record : nullptr);
     clock.tracking += seconds_since(begin);
+    if (record) results->add_search(*frame, solution, *std::move(record));
     if (results) results->add(tracker, *frame, solution);
     const bool smooths = results && results->smooths();
     watcher.frame(

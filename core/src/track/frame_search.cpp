@@ -97,7 +97,8 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
 Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
   const Eigen::VectorXd posed = drawn(prior);
-  SearchCost cost(*cost_, space_, posed);
+  RecordedSearch* record = record_ ? &record_->emplace_back() : nullptr;
+  SearchCost cost(*cost_, space_, posed, record);
   const OptimizerResult result =
       optimizer_->minimize(cost, space_.region(posed, reach), budget, seed);
   if (!result.point.allFinite() || std::isnan(result.cost))
@@ -106,6 +107,10 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                     "the optimizer",
                     result.cost));
   Found found{space_.states(result.point, posed), result.cost, result.evaluations};
+  if (record) {
+    record->state = found.state;
+    record->cost = found.cost;
+  }
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) {
       const Eigen::Index offset = scene_.items()[m].offset;

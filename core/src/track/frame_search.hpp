@@ -9,6 +9,7 @@
 #include "cost/cost.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/search_record.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"
@@ -52,6 +53,9 @@ class FrameSearch {
   /// Returns the cheapest of states (DxN) in the prepared frame.
   Eigen::VectorXd cheapest(const Eigen::MatrixXd& states);
 
+  /// Lets searches add themselves to `record`, which must outlive them; null: no more.
+  void record(std::vector<RecordedSearch>* record) { record_ = record; }
+
   /// Searches the prepared frame once, from `prior`.
   Found from(const Eigen::VectorXd& prior, const Budget& budget, const std::optional<Reach>& reach,
              std::uint64_t seed);
@@ -71,6 +75,8 @@ class FrameSearch {
 
   /// Returns the tiles of the frame prepared last, with highlights.
   Observation seen(const Frame& frame) const;
+  /// Returns the tiles of the frame prepared last as the terms got them.
+  Observation prepared(const Frame& frame) const { return tiles_.resample(frame, plan_); }
 
   std::int64_t default_evaluations() const { return optimizer_->default_evaluations(); }
   const TileMaker& tiles() const { return tiles_; }
@@ -93,7 +99,8 @@ class FrameSearch {
   std::optional<StillBackground> background_;  ///< if any term reads it
   std::unique_ptr<Cost> cost_;
   std::unique_ptr<Optimizer> optimizer_;
-  TilePlan plan_;  ///< of the last frame
+  TilePlan plan_;                                  ///< of the last frame
+  std::vector<RecordedSearch>* record_ = nullptr;  ///< receives searches; null: nothing does
 };
 
 }  // namespace hypotrack

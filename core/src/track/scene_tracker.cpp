@@ -12,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "track/tangent.hpp"
+#include "track/term_maps.hpp"
 
 namespace hypotrack {
 namespace {
@@ -93,6 +94,7 @@ void reserve_for(const PoseUncertainty& uncertainty, Budget& budget) {
 SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::VectorXd start,
                            std::uint64_t seed)
     : scene_(scene),
+      terms_(parts.objective),
       settings_(of_pictures(parts.status, parts.objective)),
       first_(std::move(start)),
       begins_by_looking_(parts.begins_by_looking),
@@ -132,7 +134,7 @@ std::string SceneTracker::backend() const { return finder_.search().cost().backe
 
 Observation SceneTracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
 
-Solution SceneTracker::track(const Frame& frame) {
+Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
   Solution solution;
   solution.frame = frame.index;
   solution.time = frame.time;
@@ -142,7 +144,7 @@ Solution SceneTracker::track(const Frame& frame) {
   if (uncertainty_) solution.sigma.setConstant(std::ssize(scene_.landmark_names()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    find(frame, solution);
+    find(frame, solution, record);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
@@ -151,11 +153,24 @@ Solution SceneTracker::track(const Frame& frame) {
   return solution;
 }
 
-void SceneTracker::find(const Frame& frame, Solution& solution) {
+void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record) {
   if (job_.valid()) return wait_for_job(frame, solution);
+  if (record) finder_.search().record(&record->searches);
   Candidate best = follow(frame);
-  if (!complete(frame, best)) return stay_lost(frame, solution);
+  const bool answered = complete(frame, best);
+  if (!job_.valid()) finder_.search().record(nullptr);
+  if (!answered) return stay_lost(frame, solution);
   conclude(frame, best, solution);
+  if (record && best.answers()) describe(frame, best, *record);
+}
+
+void SceneTracker::describe(const Frame& frame, const Candidate& best, SearchRecord& record) {
+  FrameSearch& search = finder_.search();
+  search.show(best.shown);
+  record.state = search.drawn(best.found.state);
+  record.observation = search.prepared(frame);
+  record.observation.scene = &scene_;
+  draw_maps(scene_, terms_, record);
 }
 
 Candidate SceneTracker::follow(const Frame& frame) {
@@ -281,6 +296,7 @@ void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
     view.mask = view.mask.clone();
     view.depth = view.depth.clone();
   }
+  finder_.search().record(nullptr);
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
   job_ = std::async(std::launch::async,
                     [this, copy = std::move(copy), request, seed, from = best]() mutable {

@@ -11,6 +11,7 @@
 
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/search_record.hpp"
 #include "hypotrack/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
@@ -36,7 +37,9 @@ class SceneTracker {
   SceneTracker(const SceneTracker&) = delete;
   SceneTracker& operator=(const SceneTracker&) = delete;
 
-  Solution track(const Frame& frame);
+  /// Finds the scene in the next frame. `record`, if given, receives how. It stays empty while a
+  /// search runs in the background.
+  Solution track(const Frame& frame, SearchRecord* record = nullptr);
 
   /// Forgets where the models are: the next frame looks for them again. Without recovery the search
   /// begins anew from the start.
@@ -81,7 +84,9 @@ class SceneTracker {
     }
   };
 
-  void find(const Frame& frame, Solution& solution);
+  void find(const Frame& frame, Solution& solution, SearchRecord* record);
+  /// Records the tiles, the answer drawn in them and the terms' maps of it.
+  void describe(const Frame& frame, const Candidate& best, SearchRecord& record);
   /// Searches from the last state. Returns no pose while all models are lost.
   Candidate follow(const Frame& frame);
   /// Searches for what a candidate lacks or has in doubtful poses. Starts a background job instead
@@ -121,6 +126,7 @@ class SceneTracker {
   Eigen::VectorXd smoothed(const Solution& solution);
 
   const Scene& scene_;
+  std::vector<ObjectiveTerm> terms_;  ///< for records
   StatusSettings settings_;
   Eigen::VectorXd first_;   ///< start of the first search
   bool begins_by_looking_;  ///< `first_` is any state in view: the models are looked for

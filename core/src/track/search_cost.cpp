@@ -5,16 +5,22 @@
 namespace hypotrack {
 namespace {
 
+void add_to(RecordedSearch* record, const Eigen::MatrixXd& states, const Eigen::VectorXd& costs) {
+  if (record) record->batches.push_back({states, costs});
+}
+
 /// Residual differences of search points; the residuals stay where the cost of states has them.
 class SearchDifferences final : public ResidualDifferences {
  public:
   SearchDifferences(std::unique_ptr<ResidualDifferences> of_states, const SearchSpace& space,
-                    const Eigen::VectorXd& prior)
-      : of_states_(std::move(of_states)), space_(space), prior_(prior) {}
+                    const Eigen::VectorXd& prior, RecordedSearch* record)
+      : of_states_(std::move(of_states)), space_(space), prior_(prior), record_(record) {}
 
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::VectorXd> costs) override {
-    of_states_->evaluate(space_.states(points, prior_), costs);
+    const Eigen::MatrixXd states = space_.states(points, prior_);
+    of_states_->evaluate(states, costs);
+    add_to(record_, states, costs);
   }
   void move_to(Eigen::Index i) override { of_states_->move_to(i); }
   NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
@@ -27,27 +33,35 @@ class SearchDifferences final : public ResidualDifferences {
   std::unique_ptr<ResidualDifferences> of_states_;
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
+  RecordedSearch* record_;
 };
 
 }  // namespace
 
 void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::VectorXd> costs) {
-  cost_.evaluate(space_.states(points, prior_), costs);
+  const Eigen::MatrixXd states = space_.states(points, prior_);
+  cost_.evaluate(states, costs);
+  add_to(record_, states, costs);
 }
 
 cuda::DeviceCost* SearchCost::device() {
-  return cost_.device(space_.rotation_vectors() ? &prior_ : nullptr);
+  cuda::DeviceCost* device = cost_.device(space_.rotation_vectors() ? &prior_ : nullptr);
+  if (record_ && device) record_->on_device = true;
+  return device;
 }
 
 void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::MatrixXf> residuals,
                           Eigen::Ref<Eigen::VectorXd> costs) {
-  cost_.least_squares()->evaluate(space_.states(points, prior_), residuals, costs);
+  const Eigen::MatrixXd states = space_.states(points, prior_);
+  cost_.least_squares()->evaluate(states, residuals, costs);
+  add_to(record_, states, costs);
 }
 
 std::unique_ptr<ResidualDifferences> SearchCost::differences() {
-  return std::make_unique<SearchDifferences>(cost_.least_squares()->differences(), space_, prior_);
+  return std::make_unique<SearchDifferences>(cost_.least_squares()->differences(), space_, prior_,
+                                             record_);
 }
 
 NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,

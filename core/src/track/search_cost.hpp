@@ -5,6 +5,7 @@
 
 #include "cost/cost.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/search_record.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
@@ -12,9 +13,11 @@ namespace hypotrack {
 /// The cost that optimizers minimise: converts search points to states, whose costs it returns.
 class SearchCost final : public CostFunction, public ResidualCost {
  public:
-  /// Points are those around `prior`. All arguments must outlive the search cost.
-  SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior)
-      : cost_(cost), space_(space), prior_(prior) {}
+  /// Points are those around `prior`. `record`, if given, receives what is evaluated.
+  /// All arguments must outlive the search cost.
+  SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior,
+             RecordedSearch* record = nullptr)
+      : cost_(cost), space_(space), prior_(prior), record_(record) {}
 
   // CostFunction
   int dimension() const override { return space_.dimension(); }
@@ -36,6 +39,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
   Cost& cost_;
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
+  RecordedSearch* record_;
 };
 
 }  // namespace hypotrack

@@ -25,6 +25,16 @@ struct SimilarityCurve {
   bool gaussian;
 };
 
+/// Computes the squared distance of two colours.
+template <class F>
+HYPOTRACK_PIXEL F squared_difference(const ColorSample<F>& left, const ColorSample<F>& right) {
+  using pixel::mul_add;
+  const F d0 = left.channel_0 - right.channel_0;
+  const F d1 = left.channel_1 - right.channel_1;
+  const F d2 = left.channel_2 - right.channel_2;
+  return mul_add(d0, d0, mul_add(d1, d1, d2 * d2));
+}
+
 /// Computes the colour consistency of a surface point seen in both views: s = min(C_l, C_r)
 /// (exp(-x) - charge), x = beta ||I_l - I_r|| or its square.
 template <class F>
@@ -32,12 +42,8 @@ HYPOTRACK_PIXEL F color_consistency(const ColorSample<F>& left, const ColorSampl
                                     const SimilarityCurve<F>& curve) {
   using pixel::exp;
   using pixel::min;
-  using pixel::mul_add;
   using pixel::quick_sqrt;
-  const F d0 = left.channel_0 - right.channel_0;
-  const F d1 = left.channel_1 - right.channel_1;
-  const F d2 = left.channel_2 - right.channel_2;
-  const F square = mul_add(d0, d0, mul_add(d1, d1, d2 * d2));
+  const F square = squared_difference(left, right);
   const F beta = curve.beta;
   const F x = curve.gaussian ? beta * beta * square : beta * quick_sqrt(square);
   return min(left.weight, right.weight) * (exp(F(0.0f) - x) - curve.charge);

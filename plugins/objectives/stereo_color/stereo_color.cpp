@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "aggregation-inl.hpp"
@@ -13,6 +14,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/observation_checks.hpp"
 #include "on_device.hpp"
+#include "score_maps.hpp"
 #include "slopes.hpp"
 
 namespace hypotrack::stereo_color {
@@ -87,6 +89,26 @@ double StereoColor::cost(const RenderedHypothesis& hypothesis) const {
 
 std::unique_ptr<cuda::DeviceObjective> StereoColor::on_device() const {
   return make_device_objective(params_);
+}
+
+std::vector<PixelMap> StereoColor::maps(const RenderedHypothesis& hypothesis) const {
+  check_tiles(hypothesis);
+  constexpr float kFallen = 3;  // x at which exp(-x) is 5 %
+  const auto beta = static_cast<float>(of_frame_.beta);
+  const bool gaussian = params_.falloff == Falloff::gaussian;
+  const float farthest = (gaussian ? std::sqrt(kFallen) : kFallen) / beta;
+  std::vector<PixelMap> maps;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int view = static_cast<int>(i);
+    if (params_.distinctiveness != Distinctiveness::none)
+      maps.push_back({"distinctiveness", view, weight_map(features_[i])});
+    if (!uses(i)) continue;
+    ScoreMaps found = score_maps({features_[i], hypothesis.views[i]},
+                                 {features_[1 - i], hypothesis.views[1 - i]}, maps_[i], of_frame_);
+    maps.push_back({"colour difference", view, std::move(found.difference), 0, farthest});
+    maps.push_back({"consistency", view, std::move(found.consistency)});
+  }
+  return maps;
 }
 
 bool StereoColor::uses(std::size_t from) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "features.hpp"
 #include "hypotrack/objective.hpp"
@@ -58,6 +59,10 @@ class StereoColor : public Objective, public ResidualTerm {
   /// Throws DataError if the drawn tiles are not those of the prepared frame.
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+  bool has_maps() const override { return true; }
+  /// Returns distinctiveness C, colour difference and consistency s. Throws DataError as cost()
+  /// does.
+  std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const override;
 
   /// Returns this, or null if the aggregation divides the sum.
   const ResidualTerm* residual_term() const override;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -96,10 +97,12 @@ class LiveCamera final : public Source {
     if (!start_) start_ = time;
     last_stamp_ = time;
     frame.time = static_cast<double>(1e-9L * static_cast<long double>(time - *start_));
-    if (pair.empty())
+    if (pair.empty()) {
       frame.problem = pictures().problem(tolerance_);
-    else
+    } else {
+      frame.taken = std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time));
       add_views(frame, pair);
+    }
     return frame;
   }
 

@@ -25,7 +25,7 @@ def steps(page):
             yield prepare, None
         elif language == "sh":
             yield textwrap.dedent(text), None
-        elif language == "yaml":
+        elif language in ("yaml", "python"):
             names = WRITE.findall(page[: found.start()].rsplit("```", 1)[-1])
             if names:
                 yield textwrap.dedent(text), names[-1]
@@ -46,7 +46,7 @@ def main():
             print(f"{needed} is missing: the tutorial cannot be tried here")
             return 77
     commands = 0
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:  # a run may still end
         os.symlink(source / "configs", Path(folder) / "configs")
         for content, name in steps(text):
             if name:
