@@ -20,7 +20,8 @@ std::string absent(const std::string& command) {
 
 }  // namespace
 
-std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& /*options*/) {
+std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& /*options*/,
+                                         RunControls& /*controls*/) {
   throw ConfigError(absent("run --web"));
 }
 

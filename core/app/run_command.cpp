@@ -2,20 +2,21 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "commands.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/session.hpp"
 #include "interrupt.hpp"
-#include "lab/live/live_view.hpp"
 #include "progress.hpp"
 #include "run/run_scene.hpp"
+#include "run_viewers.hpp"
 #include "tell.hpp"
+#include "viewing/live_run.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -24,8 +25,7 @@ struct RunCommand {
   SceneOptions scene;
   RunOptions options{.out = "out", .frames = {}};
   std::optional<std::int64_t> seed;
-  std::optional<int> web_port;
-  LiveViewOptions web;
+  ViewerOptions viewers;
 };
 
 /// Prints how right the statuses were and how models were recovered, if known.
@@ -65,15 +65,18 @@ void print_summary(const Summary& s, const std::filesystem::path& out) {
   fmt::print("results in {}\n", out.string());
 }
 
-/// Shows the progress of a run and ends it on Ctrl-C.
+/// Shows the progress of a run and ends it on Ctrl-C, or when a viewer asks for it.
 class Console final : public RunWatcher {
  public:
-  /// `web`: a live view that shows the run as well; may be null.
-  explicit Console(LiveView* web) : web_(web) {}
+  /// `folder`: that of the results.
+  explicit Console(const std::filesystem::path& folder)
+      : live_(folder, [this](const std::string& text) { say(text); }) {}
+
+  LiveRun& live() { return live_; }
 
   bool stop() override {
-    if (web_) web_->wait_while_paused([this] { return interrupt_.interrupted(); });
-    return interrupt_.interrupted();
+    const bool ended = live_.wait_while_paused([this] { return interrupt_.interrupted(); });
+    return ended || interrupt_.interrupted();
   }
   void say(const std::string& text) override {
     if (progress_)
@@ -83,49 +86,34 @@ class Console final : public RunWatcher {
   }
   void begin(std::optional<int> frames) override {
     progress_.emplace(frames);
-    if (web_) web_->begin(frames);
+    live_.begin(frames);
   }
   void frame(const Frame& frame, const Solution& solution, double error) override {
     if (!frame.problem.empty()) say(fmt::format("frame {}: {}", frame.index, frame.problem));
     std::string note(to_string(solution.status));
     if (!std::isnan(error)) note += fmt::format(", {:.1f} mm", 1000 * error);
     progress_->advance(note);
-    if (web_) web_->frame(frame, solution, error);
+    live_.frame(frame, solution, error);
   }
-  void end() override { progress_.reset(); }
+  void end() override {
+    progress_.reset();
+    live_.end();
+  }
 
  private:
   InterruptGuard interrupt_;
   std::optional<Progress> progress_;
-  LiveView* web_;
+  LiveRun live_;
 };
-
-/// Opens the live view if it is wanted, and says where it is.
-std::unique_ptr<LiveView> open_web(const RunCommand& command) {
-  const bool has_rules = !command.web.token.empty() || command.web.host != LiveViewOptions().host;
-  if (!command.web_port && has_rules)
-    throw ConfigError("--web-host and --web-token belong to a live view; give --web PORT, too");
-  if (!command.web_port) return nullptr;
-  LiveViewOptions options = command.web;
-  options.port = *command.web_port;
-  std::unique_ptr<LiveView> web = open_live_view(options);
-  tell("live view: {}\n", web->address());
-  return web;
-}
 
 int run(const RunCommand& command, const CommonOptions& common) {
   std::vector<std::string> overrides = command.scene.set;
   if (command.seed) overrides.push_back(fmt::format("seed={}", *command.seed));
   PluginLoader plugins(common.plugin_path);
-  const std::unique_ptr<LiveView> web = open_web(command);
-  RunAdditions additions;
-  if (web) {
-    additions.outputs.push_back({"live view", web->output()});
-    additions.searches_anew = [&web] { return web->take_restart(); };
-  }
-  Console console(web.get());
+  Console console(command.options.out);
+  open_viewers(command.viewers, console.live());
   const RunResult result = run_scene(command.scene.scene, overrides, plugins, command.options,
-                                     console, std::move(additions));
+                                     console, console.live().additions());
   if (!result.summary) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
@@ -148,11 +136,7 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
               {.check = whole_number(1)});
   command.add("--seed", &given->seed, "Seed of all random numbers",
               {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
-  command.add("--web", &given->web_port, "Show the run as a web page on this port; 0: any free one",
-              {.check = whole_number(0, 65535), .if_bare = "8080"});
-  command.add("--web-host", &given->web.host, "Address at which others reach the page",
-              {.show_default = true, .check = file_name()});
-  command.add("--web-token", &given->web.token, "Secret word that the page's address needs");
+  add_viewer_options(command, given->viewers);
   command.on_call([=, &common, &exit_code] { exit_code = run(*given, common); });
 }
 

@@ -1,22 +1,20 @@
-#include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "base/installation.hpp"
 #include "base/text_file.hpp"
 #include "clicking/click_picture.hpp"
 #include "clicking/clicker.hpp"
-#include "clicking/window.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
 #include "session/opened_scene.hpp"
 #include "tell.hpp"
+#include "window/display.hpp"
+#include "window/load_window.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -27,55 +25,6 @@ struct StartOptions {
   double tolerance = 8;
   std::filesystem::path out;
 };
-
-bool is_set(const char* variable) {
-  const char* value = std::getenv(variable);
-  return value && *value;
-}
-
-/// Returns false if the X display of DISPLAY surely cannot be reached. Qt would abort the program.
-bool can_reach_display() {
-  using Open = void* (*)(const char*);
-  using Close = int (*)(void*);
-  void* library = dlopen("libX11.so.6", RTLD_NOW | RTLD_LOCAL);
-  if (!library) return true;
-  const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-  const auto close = reinterpret_cast<Close>(dlsym(library, "XCloseDisplay"));
-  if (!open || !close) return true;
-  void* display = open(nullptr);
-  if (display) close(display);
-  return display != nullptr;
-}
-
-/// Throws DeviceError if no window can be shown.
-void check_display() {
-  if (is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM")) return;
-  const bool has_display = is_set("DISPLAY");
-  if (has_display && can_reach_display()) return;
-  const std::string what =
-      has_display ? fmt::format("the display {} cannot be reached", std::getenv("DISPLAY"))
-                  : "neither DISPLAY nor WAYLAND_DISPLAY is set";
-  throw DeviceError(fmt::format(
-      "there is no display for the window: {}; run this where there is one, or write the clicks by "
-      "hand and start with `init: {{from: clicks, file: FILE.yaml}}`",
-      what));
-}
-
-/// Loads the module that shows windows.
-clicking::ShowWindow load_window() {
-  const std::filesystem::path file =
-      detail::prefix_folder() / HYPOTRACK_LIBDIR / "hypotrack" / "libhypotrack_window.so";
-  void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* function = module ? dlsym(module, clicking::kShowWindow) : nullptr;
-  if (!function) {
-    const char* why = dlerror();
-    throw DeviceError(
-        fmt::format("windows need {}, which cannot be loaded: {}; install OpenCV's "
-                    "highgui (libopencv-highgui)",
-                    file.string(), why ? why : "unknown reason"));
-  }
-  return reinterpret_cast<clicking::ShowWindow>(function);
-}
 
 /// Reads a source up to a frame, which must be usable.
 Frame frame_at(Source& source, int index) {
@@ -99,13 +48,13 @@ std::filesystem::path clicks_file(const std::filesystem::path& pose) {
 
 /// Shows the views until the user saves or quits. Returns whether there is something to save.
 bool let_click(clicking::Clicker& clicker, const OpenedScene& session, const Frame& frame) {
-  const clicking::ShowWindow show_window = load_window();
+  const ShowWindow show_window = load_window();
   const int left_width = session.source->cameras()[0].width;
   Renderer renderer(*session.scene);
   bool save = false;
-  clicking::WindowContent content;
+  WindowContent content;
   content.title = "hypotrack start";
-  content.picture = [&] {
+  content.picture = [&](cv::Size /*area*/) {
     return draw_clicks(renderer, *session.scene, session.source->cameras(), frame,
                        clicker.drawing());
   };
@@ -118,7 +67,7 @@ bool let_click(clicking::Clicker& clicker, const OpenedScene& session, const Fra
   content.on_key = [&](char key) {
     const clicking::Clicker::Answer answer = clicker.press(key);
     save = answer == clicking::Clicker::Answer::save;
-    return answer == clicking::Clicker::Answer::go_on;
+    return answer == clicking::Clicker::Answer::go_on ? WindowStep::redraw : WindowStep::close;
   };
   show_window(content);
   return save;
@@ -131,7 +80,7 @@ int click_start(const StartOptions& options, const CommonOptions& common) {
                     "in .yaml",
                     options.out.string()));
   expect_writable(options.out);
-  check_display();
+  check_display("write the clicks by hand and start with `init: {from: clicks, file: FILE.yaml}`");
   PluginLoader plugins(common.plugin_path);
   OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
   const Frame frame = frame_at(*session.source, options.frame);

@@ -1,7 +1,6 @@
 #include "lab/live/live_server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include <thread>
 
 #include "hypotrack/error.hpp"
+#include "lab/live/http_server.hpp"
 #include "lab/live/page_files.hpp"
 
 namespace hypotrack {
@@ -42,11 +42,11 @@ class Counted {
   std::atomic<int>& count_;
 };
 
-/// Sends to a reader until it hangs or `ended`. Returns false then.
-bool send(DataSink& sink, std::string_view text, const std::atomic<bool>& ended) {
+/// Sends to a reader until it hangs or the server ends. Returns false then.
+bool send(DataSink& sink, std::string_view text, const HttpServer& server) {
   int waits = 0;
   while (!text.empty()) {
-    if (ended && waits > 0) return false;
+    if (server.ended() && waits > 0) return false;
     if (!sink.is_writable()) {
       if (++waits > kWaits) return false;
       continue;
@@ -60,7 +60,7 @@ bool send(DataSink& sink, std::string_view text, const std::atomic<bool>& ended)
 
 /// Sends every value that a reader has time for, as `part` writes it, until no more come.
 template <class Part>
-void send_values(const Latest<std::string>& values, DataSink& sink, const std::atomic<bool>& ended,
+void send_values(const Latest<std::string>& values, DataSink& sink, const HttpServer& server,
                  const Part& part) {
   std::uint64_t seen = 0;
   while (true) {
@@ -68,8 +68,8 @@ void send_values(const Latest<std::string>& values, DataSink& sink, const std::a
     const auto entry = values.wait_after(seen, kPatience);
     if (entry.number > seen) {
       seen = entry.number;
-      if (!send(sink, part(*entry.value), ended)) return;
-    } else if (last || ended || !sink.is_writable()) {
+      if (!send(sink, part(*entry.value), server)) return;
+    } else if (last || server.ended() || !sink.is_writable()) {
       return;
     }
   }
@@ -122,9 +122,8 @@ struct LiveServer::Impl {
   Parts parts;
   std::map<std::string, PageFile> files = live_page_files();
   int port = 0;
-  std::atomic<bool> ended = false;
   std::atomic<int> streams = 0;
-  httplib::Server server;
+  HttpServer server;
   std::thread thread;
 };
 
@@ -138,10 +137,6 @@ void LiveServer::Impl::listen(int wanted) {
     setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
   });
   server.set_tcp_nodelay(true);
-  server.set_keep_alive_max_count(1);
-  server.set_keep_alive_timeout(1);
-  server.set_read_timeout(std::chrono::milliseconds(500));
-  server.set_write_timeout(kPatience);
   server.set_payload_max_length(4096);
   errno = 0;
   port = wanted == 0                               ? server.bind_to_any_port(rules.host)
@@ -211,7 +206,7 @@ void LiveServer::Impl::route_streams() {
   const auto events = [this](const char* address, const Latest<std::string>& values) {
     server.Get(address, [this, &values](const Request&, Response& response) {
       stream(response, "text/event-stream", [this, &values](DataSink& sink) {
-        send_values(values, sink, ended,
+        send_values(values, sink, server,
                     [](const std::string& value) { return "data: " + value + "\n\n"; });
       });
     });
@@ -227,8 +222,8 @@ void LiveServer::Impl::route_streams() {
                         [this, &channel](DataSink& sink) {
                           const Counted watched(channel.watchers);
                           // Browsers show a part when the next one begins.
-                          if (!send(sink, "--picture\r\n", ended)) return;
-                          send_values(channel.pictures, sink, ended, [](const std::string& jpeg) {
+                          if (!send(sink, "--picture\r\n", server)) return;
+                          send_values(channel.pictures, sink, server, [](const std::string& jpeg) {
                             return fmt::format(
                                 "Content-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n{}\r\n"
                                 "--picture\r\n",
@@ -265,7 +260,7 @@ LiveServer::LiveServer(const AccessRules& rules, int port, Parts parts)
 }
 
 LiveServer::~LiveServer() {
-  impl_->ended = true;
+  impl_->server.end();
   impl_->server.stop();
   impl_->thread.join();
 }

@@ -5,8 +5,8 @@
 
 #include "lab/live/access.hpp"
 #include "lab/live/live_state.hpp"
-#include "lab/live/run_controls.hpp"
 #include "lab/live/view_pictures.hpp"
+#include "viewing/run_controls.hpp"
 
 namespace hypotrack {
 

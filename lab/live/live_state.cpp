@@ -41,24 +41,16 @@ Json motion_of(const Model& model, std::span<const double> parameters) {
   return {{"bones", bind.size()}, {"q", std::move(rotations)}, {"t", std::move(translations)}};
 }
 
-/// Returns the mean sigma of the model's landmarks, in metres; NaN: unknown.
-double sigma_of(const Solution& solution, Eigen::Index first, Eigen::Index count) {
-  if (count == 0 || solution.sigma.size() < first + count) return std::nan("");
-  return solution.sigma.segment(first, count).mean();
-}
-
-Json models_of(const Scene& scene, const Solution& solution) {
+Json models_of(const Scene& scene, const LiveFrame& frame) {
+  const Solution& solution = frame.solution;
   Json models = Json::array();
-  Eigen::Index first = 0;
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     const Scene::Item& item = scene.items()[m];
-    const std::ptrdiff_t landmarks = std::ssize(item.model->data().landmarks);
     models.push_back({{"name", item.name},
                       {"status", to_string(solution.models[m])},
                       {"probability", rounded(solution.probabilities[m], 1e-4)},
-                      {"sigma_mm", millimetres(sigma_of(solution, first, landmarks))},
+                      {"sigma_mm", millimetres(frame.sigmas[m])},
                       {"motion", motion_of(*item.model, scene.part(item, solution.state))}});
-    first += landmarks;
   }
   return models;
 }
@@ -92,24 +84,22 @@ void LiveState::begin(const Scene& scene, std::optional<int> frames) {
   publish();
 }
 
-void LiveState::add(const Scene& scene, const Solution& solution, double error) {
+void LiveState::add(const Scene& scene, const LiveFrame& frame) {
   constexpr std::chrono::milliseconds kSampled{100};
-  constexpr std::size_t kSamples = 3000, kTimes = 30;
+  constexpr std::size_t kSamples = 3000;
+  const Solution& solution = frame.solution;
   solutions_.put(solution_json(scene, solution));
-  Json models = models_of(scene, solution);
+  Json models = models_of(scene, frame);
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();
-  if (paused_) times_.clear();
-  times_.push_back(now);
-  if (times_.size() > kTimes) times_.pop_front();
   const double seconds = std::chrono::duration<double>(now - begun_).count();
   newest_ = {{"frame", solution.frame},
              {"time", rounded(solution.time, 1e-6)},
              {"status", to_string(solution.status)},
              {"seconds", rounded(seconds, 0.001)},
-             {"fps", rounded(frames_per_second(), 0.01)},
+             {"fps", rounded(frame.fps, 0.01)},
              {"milliseconds", rounded(1000 * solution.seconds, 0.01)},
-             {"error_mm", millimetres(error)},
+             {"error_mm", millimetres(frame.error)},
              {"models", std::move(models)}};
   if (history_.empty() || now - sampled_ >= kSampled) {
     history_.push_back(sample_of(newest_, seconds));
@@ -119,17 +109,10 @@ void LiveState::add(const Scene& scene, const Solution& solution, double error) 
   publish();
 }
 
-double LiveState::frames_per_second() const {
-  if (times_.size() < 2) return std::nan("");
-  const std::chrono::duration<double> elapsed = times_.back() - times_.front();
-  return static_cast<double>(times_.size() - 1) / elapsed.count();
-}
-
 void LiveState::set_paused(bool paused) {
   const std::lock_guard lock(mutex_);
   if (paused_ == paused) return;
   paused_ = paused;
-  times_.clear();
   publish();
 }
 

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "hypotrack/scene.hpp"
-#include "hypotrack/solution.hpp"
 #include "lab/json_file.hpp"
-#include "lab/live/latest.hpp"
+#include "viewing/latest.hpp"
+#include "viewing/live_frame.hpp"
 
 namespace hypotrack {
 
@@ -21,8 +21,7 @@ class LiveState {
 
   /// Sets the scene's models. `frames`: number of frames of the run, if known.
   void begin(const Scene& scene, std::optional<int> frames);
-  /// Takes a solution. `error`: mean distance from the ground truth, metres; NaN: unknown.
-  void add(const Scene& scene, const Solution& solution, double error);
+  void add(const Scene& scene, const LiveFrame& frame);
   void set_paused(bool paused);
   /// Shows a line of text.
   void say(const std::string& text);
@@ -48,14 +47,12 @@ class LiveState {
   using Clock = std::chrono::steady_clock;
 
   void publish();
-  double frames_per_second() const;
 
   mutable std::mutex mutex_;
   Json scene_ = Json::object();
   Json newest_ = Json::object();
   std::deque<Json> history_;
   Clock::time_point sampled_;
-  std::deque<Clock::time_point> times_;  ///< of the last frames
   Clock::time_point begun_ = Clock::now();
   bool runs_ = false, paused_ = false, ended_ = false;
   std::string text_;

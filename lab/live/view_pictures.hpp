@@ -2,26 +2,21 @@
 
 #include <array>
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <opencv2/core/mat.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
-#include "hypotrack/solution.hpp"
-#include "lab/live/latest.hpp"
+#include "viewing/latest.hpp"
+#include "viewing/live_frame.hpp"
+#include "viewing/view_drawing.hpp"
 
 namespace hypotrack {
-
-/// How the views are put together.
-enum class ViewLayout { row, column };
 
 /// JPEG pictures of one layout for those who watch.
 struct PictureChannel {
@@ -40,12 +35,9 @@ class ViewPictures {
   ViewPictures& operator=(const ViewPictures&) = delete;
 
   /// Starts to draw. The scene must live until end(). Throws DeviceError without OpenGL.
-  void begin(const Scene& scene, std::vector<Camera> cameras);
-  /// Takes the newest frame; copies its images.
-  void show(const Frame& frame, const Solution& solution);
-  /// Writes the newest frame with its solution in full size as PNG. Returns false if that fails or
-  /// there is no frame yet.
-  bool write(const std::filesystem::path& file);
+  void begin(const Scene& scene, const std::vector<Camera>& cameras);
+  /// Takes the newest views.
+  void show(std::shared_ptr<const ShownViews> views) { newest_.put(std::move(views)); }
   /// Stops drawing. The last pictures stay.
   void end();
   /// Ends drawing and what watches the channels.
@@ -54,22 +46,13 @@ class ViewPictures {
   PictureChannel& channel(ViewLayout layout) { return channels_[static_cast<std::size_t>(layout)]; }
 
  private:
-  struct Shown {
-    std::vector<cv::Mat> images;  ///< of all views, 8-bit BGR
-    Eigen::VectorXd state;
-    std::vector<bool> hidden;
-  };
-
   void draw_all();
-  /// Draws the views, each at most `width` pixels wide.
-  std::vector<cv::Mat> drawn(const Shown& shown, int width);
 
   std::function<void(const std::string&)> say_;
   const Scene* scene_ = nullptr;
-  std::vector<Camera> cameras_;
-  Latest<Shown> newest_;
+  std::vector<Camera> cameras_;  ///< of the pictures
+  Latest<std::shared_ptr<const ShownViews>> newest_;
   std::array<PictureChannel, 2> channels_;
-  std::mutex drawing_;
   std::unique_ptr<Renderer> renderer_;
   std::atomic<bool> ending_ = false;
   std::thread thread_;

@@ -25,7 +25,7 @@ class HYPOTRACK_API Source {
   /// Returns the number of frames, if known in advance.
   virtual std::optional<int> frame_count() const { return std::nullopt; }
   /// Returns the next frame, or nothing at the end. A damaged or missing frame has `problem` set
-  /// and no views; it does not throw.
+  /// and no views; it does not throw. The source does not write into its images afterwards.
   virtual std::optional<Frame> next() = 0;
   /// Returns true if frames that nobody takes are lost, as those of a camera. A run reads other
   /// sources ahead, in a thread of its own.

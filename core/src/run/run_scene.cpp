@@ -251,6 +251,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
   if (latch.stopped()) return {};
   OpenedScene& opened = estimated.scene;
+  if (additions.opened) additions.opened(opened);
   std::ranges::move(additions.outputs, std::back_inserter(opened.outputs));
   const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
   if (options.out.empty()) opened.parts.fixed_lag.enabled = false;

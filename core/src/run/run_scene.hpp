@@ -25,6 +25,8 @@ struct RunAdditions {
   std::vector<NamedOutput> outputs = {};  ///< after the scene's
   std::function<bool()> searches_anew =
       nullptr;  ///< returns true before a frame to forget the models
+  /// Receives the scene before the outputs begin. It lives until they are destroyed.
+  std::function<void(const OpenedScene&)> opened = nullptr;
 };
 
 /// Opens a scene, tracks the frames of its source and writes the results. Estimates the shape from

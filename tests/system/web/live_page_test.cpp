@@ -2,8 +2,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
+#include <thread>
 
 #include "served_run.hpp"
 
@@ -24,6 +26,19 @@ class LivePageTest : public ServedRun {
       return !enough(text);
     });
     return text;
+  }
+
+  /// Returns a socket that is connected to the server. `buffer`: bytes that it takes unread; 0: as
+  /// usual.
+  int connected(int buffer = 0) const {
+    const int out = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    if (buffer > 0) setsockopt(out, SOL_SOCKET, SO_RCVBUF, &buffer, sizeof buffer);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port()));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    EXPECT_EQ(connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    return out;
   }
 
   /// Returns the first picture of a stream.
@@ -113,14 +128,8 @@ TEST_F(LivePageTest, APausedRunShowsItsFrame) {
 
 TEST_F(LivePageTest, AReaderThatNeverReadsDoesNotStopTheRun) {
   start();
-  const int reader = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const int small = 4096;
-  setsockopt(reader, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port()));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(connect(reader, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  constexpr int kSmall = 4096;
+  const int reader = connected(kSmall);
   const std::string request = "GET /events HTTP/1.1\r\nHost: localhost\r\n\r\n";
   ASSERT_EQ(send(reader, request.data(), request.size(), 0), static_cast<ssize_t>(request.size()));
   // More states than the buffers between server and reader hold.
@@ -128,6 +137,22 @@ TEST_F(LivePageTest, AReaderThatNeverReadsDoesNotStopTheRun) {
   wait_for([&](const auto& now) { return now["frame"] > before + 500; });
   EXPECT_THAT(picture("/pictures/row").size(), cv::Size(320, 120)) << "others are served";
   close(reader);
+}
+
+TEST_F(LivePageTest, AClientThatNeverEndsItsRequestDoesNotHoldUpTheEnd) {
+  start();
+  const int idle = connected(), slow = connected();
+  const std::string request = "GET /state HTTP/1.1\r\nX: ";
+  ASSERT_EQ(send(slow, request.data(), request.size(), MSG_NOSIGNAL),
+            static_cast<ssize_t>(request.size()));
+  program().signal(SIGINT);
+  while (program().running()) {
+    send(slow, "a", 1, MSG_NOSIGNAL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_EQ(program().wait().exit_code, 130);
+  close(idle);
+  close(slow);
 }
 
 TEST_F(LivePageTest, CtrlCEndsTheStreamsAndTheRun) {

@@ -42,6 +42,8 @@ TEST_F(SteeringTest, SnapshotsAreWrittenWithTheResults) {
   program().wait();
   const std::string name = path("out/" + fmt::format("snapshot_{:06}.png", frame)).string();
   EXPECT_EQ(cv::imread(name).size(), cv::Size(320, 120));
+  EXPECT_THAT(read_text(path("out/" + fmt::format("snapshot_{:06}.yaml", frame))),
+              HasSubstr("position_mm"));
 }
 
 TEST_F(SteeringTest, ARestartedRunFindsTheModelsAgain) {

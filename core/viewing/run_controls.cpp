@@ -1,4 +1,4 @@
-#include "lab/live/run_controls.hpp"
+#include "viewing/run_controls.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +15,13 @@ void RunControls::pause() {
 void RunControls::resume() {
   const std::lock_guard lock(mutex_);
   paused_ = false;
+  steps_ = 0;
+  changed_.notify_all();
+}
+
+void RunControls::toggle_pause() {
+  const std::lock_guard lock(mutex_);
+  paused_ = !paused_;
   steps_ = 0;
   changed_.notify_all();
 }
@@ -38,15 +45,36 @@ void RunControls::ask_for_snapshot() {
   changed_.notify_all();
 }
 
+void RunControls::toggle_recording() {
+  const std::lock_guard lock(mutex_);
+  recording_ = !recording_;
+}
+
+void RunControls::ask_for_end() {
+  const std::lock_guard lock(mutex_);
+  end_ = true;
+  changed_.notify_all();
+}
+
 bool RunControls::paused() const {
   const std::lock_guard lock(mutex_);
   return paused_;
 }
 
+bool RunControls::recording_wanted() const {
+  const std::lock_guard lock(mutex_);
+  return recording_;
+}
+
+bool RunControls::end_wanted() const {
+  const std::lock_guard lock(mutex_);
+  return end_;
+}
+
 void RunControls::wait_while_paused(const std::function<bool()>& meanwhile) {
   constexpr std::chrono::milliseconds kPeriod{20};
   std::unique_lock lock(mutex_);
-  while (paused_) {
+  while (paused_ && !end_) {
     if (steps_ > 0) {
       --steps_;
       return;
@@ -55,7 +83,7 @@ void RunControls::wait_while_paused(const std::function<bool()>& meanwhile) {
     const bool go_on = meanwhile();
     lock.lock();
     if (!go_on) return;
-    changed_.wait_for(lock, kPeriod, [&] { return !paused_ || steps_ > 0 || snapshot_; });
+    changed_.wait_for(lock, kPeriod, [&] { return !paused_ || steps_ > 0 || snapshot_ || end_; });
   }
 }
 
@@ -67,6 +95,11 @@ bool RunControls::take_restart() {
 bool RunControls::take_snapshot() {
   const std::lock_guard lock(mutex_);
   return std::exchange(snapshot_, false);
+}
+
+void RunControls::cancel_recording() {
+  const std::lock_guard lock(mutex_);
+  recording_ = false;
 }
 
 }  // namespace hypotrack

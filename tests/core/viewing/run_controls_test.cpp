@@ -1,4 +1,4 @@
-#include "lab/live/run_controls.hpp"
+#include "viewing/run_controls.hpp"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +53,29 @@ TEST(RunControls, WishesAreTakenOnce) {
   EXPECT_TRUE(controls.take_snapshot());
   EXPECT_FALSE(controls.take_restart());
   EXPECT_FALSE(controls.take_snapshot());
+}
+
+TEST(RunControls, ARunThatShallEndDoesNotWait) {
+  RunControls controls;
+  controls.pause();
+  int waits = 0;
+  controls.wait_while_paused([&] {
+    if (++waits == 2) controls.ask_for_end();
+    return true;
+  });
+  EXPECT_EQ(waits, 2);
+  EXPECT_TRUE(controls.end_wanted());
+}
+
+TEST(RunControls, ARecordingIsWantedUntilToggledOrCancelled) {
+  RunControls controls;
+  controls.toggle_recording();
+  EXPECT_TRUE(controls.recording_wanted());
+  controls.toggle_recording();
+  EXPECT_FALSE(controls.recording_wanted());
+  controls.toggle_recording();
+  controls.cancel_recording();
+  EXPECT_FALSE(controls.recording_wanted());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "lab/live/latest.hpp"
+#include "viewing/latest.hpp"
 
 #include <gtest/gtest.h>
 

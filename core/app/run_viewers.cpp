@@ -1,0 +1,50 @@
+#include "run_viewers.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "tell.hpp"
+#include "viewing/preview.hpp"
+#include "window/display.hpp"
+#include "window/load_window.hpp"
+
+namespace hypotrack::app {
+namespace {
+
+void open_web(const ViewerOptions& options, LiveRun& live) {
+  const bool has_rules = !options.web.token.empty() || options.web.host != LiveViewOptions().host;
+  if (!options.web_port && has_rules)
+    throw ConfigError("--web-host and --web-token belong to a live view; give --web PORT, too");
+  if (!options.web_port) return;
+  LiveViewOptions web = options.web;
+  web.port = *options.web_port;
+  std::unique_ptr<LiveView> page = open_live_view(web, live.controls());
+  tell("live view: {}\n", page->address());
+  live.add(std::move(page));
+}
+
+}  // namespace
+
+void add_viewer_options(const Command& command, ViewerOptions& options) {
+  command.add("--preview", &options.preview,
+              "Show and steer the run in a window; h lists the keys");
+  command.add("--web", &options.web_port,
+              "Show the run as a web page on this port; 0: any free one",
+              {.check = whole_number(0, 65535), .if_bare = "8080"});
+  command.add("--web-host", &options.web.host, "Address at which others reach the page",
+              {.show_default = true, .check = file_name()});
+  command.add("--web-token", &options.web.token, "Secret word that the page's address needs");
+}
+
+void open_viewers(const ViewerOptions& options, LiveRun& live) {
+  if (options.preview) {
+    check_display("watch it in a browser: --web in place of --preview");
+    live.add(make_preview(live.controls(), load_window(),
+                          [](const std::string& text) { tell("{}\n", text); }));
+  }
+  open_web(options, live);
+}
+
+}  // namespace hypotrack::app

@@ -1,0 +1,134 @@
+#include "viewing/live_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <opencv2/imgcodecs.hpp>
+#include <utility>
+
+#include "base/text_file.hpp"
+#include "hypotrack/pose.hpp"
+#include "viewing/view_drawing.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Returns a picture as the content of a PNG file.
+std::string png(const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(".png", picture, bytes);
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+/// Connects the viewers with a run's scene, cameras and folder.
+class LiveRun::SnapshotOutput final : public Output {
+ public:
+  explicit SnapshotOutput(LiveRun& live) : live_(live) {}
+  ~SnapshotOutput() override { live_.close(); }
+
+  std::vector<std::string> file_names() const override {
+    return {"snapshot_#.png", "snapshot_#.yaml"};
+  }
+  void begin(OutputContext& run) override { live_.open(run); }
+  void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
+
+ private:
+  LiveRun& live_;
+};
+
+LiveRun::LiveRun(std::filesystem::path folder, std::function<void(const std::string&)> tell)
+    : tell_(std::move(tell)),
+      recorder_(std::move(folder), [this](const std::string& text) { say(text); }) {}
+
+LiveRun::~LiveRun() = default;
+
+RunAdditions LiveRun::additions() {
+  RunAdditions out;
+  if (viewers_.empty()) return out;
+  out.outputs.push_back({"live view", std::make_unique<SnapshotOutput>(*this)});
+  out.searches_anew = [this] { return controls_.take_restart(); };
+  out.opened = [this](const OpenedScene& opened) { recorder_.open(opened); };
+  return out;
+}
+
+void LiveRun::open(OutputContext& run) {
+  run_ = &run;
+  for (const auto& viewer : viewers_) viewer->open(run.scene(), run.cameras());
+}
+
+void LiveRun::close() {
+  end();
+  for (const auto& viewer : viewers_) viewer->end();
+  run_ = nullptr;
+}
+
+void LiveRun::begin(std::optional<int> frames) {
+  tracking_ = true;
+  for (const auto& viewer : viewers_) viewer->begin(frames);
+}
+
+void LiveRun::end() {
+  if (!std::exchange(tracking_, false)) return;
+  recorder_.stop();
+  set_status();
+}
+
+void LiveRun::frame(const Frame& frame, const Solution& solution, double error) {
+  if (viewers_.empty()) return;
+  if (!frame.views.empty())
+    shown_ = std::make_shared<const ShownViews>(shown_views(frame, solution));
+  rate_.add(FrameRate::Clock::now());
+  const LiveFrame live{.solution = solution,
+                       .sigmas = model_sigmas(run_->scene(), solution),
+                       .error = error,
+                       .fps = rate_.per_second(),
+                       .views = shown_};
+  for (const auto& viewer : viewers_) viewer->frame(live);
+  if (controls_.recording_wanted() && !recorder_.add(frame)) controls_.cancel_recording();
+  do_what_is_asked();
+}
+
+bool LiveRun::wait_while_paused(const std::function<bool()>& interrupted) {
+  if (tracking_ && !viewers_.empty()) {
+    controls_.wait_while_paused([&] {
+      rate_.clear();
+      do_what_is_asked();
+      return !interrupted();
+    });
+    do_what_is_asked();
+  }
+  return controls_.end_wanted();
+}
+
+void LiveRun::do_what_is_asked() {
+  if (!controls_.recording_wanted()) recorder_.stop();
+  set_status();
+  if (shown_ && controls_.take_snapshot()) write_snapshot();
+}
+
+void LiveRun::set_status() {
+  const LiveStatus now{.paused = controls_.paused(), .recorded = recorder_.recorded()};
+  if (now == std::exchange(status_, now)) return;
+  for (const auto& viewer : viewers_) viewer->set_status(now);
+}
+
+void LiveRun::write_snapshot() {
+  const std::string name = fmt::format("snapshot_{:06}", shown_->frame);
+  const std::vector<cv::Mat> views =
+      draw_views(run_->renderer(), run_->scene(), *shown_, run_->cameras());
+  TextFile(run_->file(name + ".png")).write(png(joined(views, ViewLayout::row)));
+  std::vector<bool> known = shown_->hidden;
+  known.flip();
+  if (std::ranges::find(known, true) != known.end())
+    TextFile(run_->file(name + ".yaml")).write(pose_yaml(run_->scene(), shown_->state, known));
+  say(fmt::format("{}.png and its pose will be with the results when the run ends", name));
+}
+
+void LiveRun::say(const std::string& text) {
+  tell_(text);
+  for (const auto& viewer : viewers_) viewer->say(text);
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <atomic>
+
+namespace hypotrack {
+
+/// An HTTP server that takes one request of each connection, within some seconds, and that no
+/// client can keep from ending.
+class HttpServer final : public httplib::Server {
+ public:
+  /// Ends what waits for clients. Streams may still send what they have.
+  void end() { ended_ = true; }
+  bool ended() const { return ended_; }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override;
+
+  std::atomic<bool> ended_ = false;
+};
+
+}  // namespace hypotrack

@@ -1,0 +1,250 @@
+#!/usr/bin/env python3
+"""Steers a run by the keys of its window, on a virtual display.
+
+usage: keys_and_window_test.py HYPOTRACK
+Exits with 77 (skipped), saying why, where there is no virtual display or nothing that presses keys.
+"""
+import ctypes
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+SKIPPED = 77
+PROGRAM = sys.argv[1]
+INTERRUPTED = 130
+
+SCENE = """models: [{name: box, type: rigid_box, size_mm: [90, 60, 40]}]
+source:
+  type: synthetic
+  frames: 1000000
+  cameras: {width: 160, height: 120, focal_px: 160, baseline_mm: 80}
+  keyframes:
+    - {frame: 0, pose: {box: {position_mm: [0, 0, 400], rotation_deg: [20, 30, 0]}}}
+    - {frame: 4, pose: {box: {position_mm: [20, 10, 420], rotation_deg: [20, 40, 10]}}}
+objective: {type: stereo_color}
+optimizer: {type: pso, particles: 8, generations: 4}
+tile: {size: 32}
+init: {from: truth}
+output: {overlay: false, worst_frames: 0}
+"""
+
+
+def xdotool(*words):
+    return subprocess.run(("xdotool", *words), capture_output=True, text=True, check=False).stdout
+
+
+def close_by_mouse(window):
+    """Tells a window's program what a click on the window's cross tells it."""
+    class Message(ctypes.Structure):
+        _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
+                    ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("message", ctypes.c_ulong),
+                    ("format", ctypes.c_int), ("data", ctypes.c_long * 5), ("room", ctypes.c_long * 24)]
+    client_message = 33
+    x = ctypes.CDLL("libX11.so.6")
+    x.XOpenDisplay.restype = ctypes.c_void_p
+    x.XInternAtom.restype = ctypes.c_ulong
+    display = ctypes.c_void_p(x.XOpenDisplay(None))
+    message = Message(type=client_message, window=window, format=32,
+                      message=x.XInternAtom(display, b"WM_PROTOCOLS", 0))
+    message.data[0] = x.XInternAtom(display, b"WM_DELETE_WINDOW", 0)
+    x.XSendEvent(display, ctypes.c_ulong(window), 0, ctypes.c_long(0), ctypes.byref(message))
+    x.XCloseDisplay(display)
+
+
+class PreviewTest(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="hypotrack_preview_")
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.out = self.folder / "out"
+        (self.folder / "scene.yaml").write_text(SCENE)
+
+    def start(self, *more):
+        """Starts a run and waits for its window and some frames."""
+        with open(self.folder / "err", "w") as err:
+            self.run_ = subprocess.Popen((PROGRAM, "run", self.folder / "scene.yaml", "--out", self.out,
+                                          "--preview", *more), stdout=subprocess.DEVNULL, stderr=err)
+        self.addCleanup(self.run_.wait)
+        self.addCleanup(self.run_.kill)
+        found = self.until(lambda: xdotool("search", "--onlyvisible", "--name", "^hypotrack run$").split())
+        self.window = found[-1]
+        self.until(lambda: self.frames() > 2)
+        xdotool("windowfocus", "--sync", self.window)
+
+    def until(self, found):
+        """Waits until something is true, and returns it."""
+        for _ in range(600):
+            value = found()
+            if value:
+                return value
+            self.assertIsNone(self.run_.poll(), self.said())
+            time.sleep(0.05)
+        self.fail("waited for 30 s: " + self.said())
+
+    def said(self):
+        return (self.folder / "err").read_text()
+
+    def press(self, key):
+        xdotool("key", key)
+
+    def frames(self):
+        """Returns the number of frames whose results are written."""
+        part = self.out / ".part.track.csv"
+        table = part if part.exists() else self.out / "track.csv"
+        return len(table.read_text().splitlines()) - 1 if table.exists() else 0
+
+    def pause(self):
+        """Pauses and returns the number of frames then."""
+        self.press("space")
+        before = -1
+        while before != self.frames():
+            before = self.frames()
+            time.sleep(0.5)
+        return before
+
+    def expect_end(self, frames=None):
+        """Waits for the end; the files must hold the frames."""
+        self.assertEqual(self.run_.wait(30), INTERRUPTED, self.said())
+        self.assertIn("the files hold the frames so far", self.said())
+        self.assertTrue((self.out / "track.csv").exists())
+        if frames is not None:
+            self.assertEqual(self.frames(), frames)
+
+    def test_space_pauses_and_n_steps(self):
+        self.start()
+        frames = self.pause()
+        self.press("n")
+        self.until(lambda: self.frames() == frames + 1)
+        self.press("period")
+        self.until(lambda: self.frames() == frames + 2)
+        time.sleep(0.3)
+        self.assertEqual(self.frames(), frames + 2)
+        self.press("space")
+        self.until(lambda: self.frames() > frames + 5)
+        self.press("q")
+        self.expect_end()
+
+    def test_escape_ends_a_paused_run(self):
+        self.start()
+        frames = self.pause()
+        self.press("Escape")
+        self.expect_end(frames)
+
+    def test_a_window_closed_by_the_mouse_ends_the_run(self):
+        self.start()
+        frames = self.pause()
+        close_by_mouse(int(self.window))
+        self.expect_end(frames)
+
+    def test_ctrl_c_ends_a_paused_run(self):
+        self.start()
+        frames = self.pause()
+        self.run_.send_signal(signal.SIGINT)
+        self.expect_end(frames)
+
+    def test_a_snapshot_has_views_and_pose(self):
+        self.start()
+        frames = self.pause()
+        self.press("s")
+        name = f"snapshot_{frames - 1:06}"
+        self.until(lambda: name in self.said())
+        self.press("q")
+        self.expect_end(frames)
+        self.assertEqual((self.out / f"{name}.png").read_bytes()[1:4], b"PNG")
+        init = f"init={{from: file, file: {self.out / (name + '.yaml')}}}"
+        subprocess.run((PROGRAM, "validate", self.folder / "scene.yaml", "--set", init), check=True,
+                       capture_output=True)
+
+    def test_a_restarted_run_searches_anew(self):
+        self.start()
+        frames = self.pause()
+        self.press("r")
+        self.press("n")
+        self.until(lambda: self.frames() == frames + 1)
+        evaluations = [int(line.split(",")[4]) for line in
+                       (self.out / ".part.track.csv").read_text().splitlines()[1:]]
+        self.assertGreater(evaluations[-1], 10 * min(evaluations[1:-1]))
+        self.press("q")
+        self.expect_end(frames + 1)
+
+    def test_recorded_pictures_can_be_tracked(self):
+        self.start()
+        frames = self.pause()
+        self.press("v")
+        for i in range(3):
+            self.press("n")
+            self.until(lambda: self.frames() == frames + 1 + i)
+        self.press("v")
+        self.until(lambda: "3 frames are recorded" in self.said())
+        self.press("n")
+        self.until(lambda: self.frames() == frames + 4)
+        self.press("v")
+        self.press("n")
+        self.until(lambda: self.frames() == frames + 5)
+        self.press("q")  # ends the second recording, too
+        self.expect_end(frames + 5)
+        for first, count in ((frames, 3), (frames + 4, 1)):
+            recording = self.out / f"recording_{first:06}"
+            again = self.folder / f"again_{first}"
+            subprocess.run((PROGRAM, "run", recording / "scene.yaml", "--out", again), check=True,
+                           capture_output=True)
+            lines = (again / "track.csv").read_text().splitlines()[1:]
+            self.assertEqual([int(line.split(",")[0]) for line in lines], list(range(count)))
+
+    def test_window_and_page_steer_the_same_run(self):
+        if "not in this build" in subprocess.run((PROGRAM, "--help"), capture_output=True, text=True,
+                                                 check=True).stdout:
+            self.skipTest("the page is part of the lab, which is not in this build")
+        self.start("--web", "0")
+        page = re.search(r"live view: (http://\S+)\n", self.said()).group(1)
+
+        def post(command):
+            urllib.request.urlopen(urllib.request.Request(page + command, method="POST")).close()
+
+        def run():
+            return re.search(r'"run":"(\w+)"', urllib.request.urlopen(page + "state").read().decode()).group(1)
+
+        post("pause")
+        self.until(lambda: run() == "paused")
+        self.press("space")
+        self.until(lambda: run() == "runs")
+        self.press("space")
+        self.until(lambda: run() == "paused")
+        frames = self.frames()
+        post("step")
+        self.until(lambda: self.frames() == frames + 1)
+        self.press("q")
+        self.expect_end(frames + 1)
+
+    def test_without_a_display_nothing_is_written(self):
+        for display, found in (("", "neither DISPLAY nor WAYLAND_DISPLAY is set"),
+                               (":98765", "the display :98765 cannot be reached")):
+            environment = {**os.environ, "DISPLAY": display}
+            ended = subprocess.run((PROGRAM, "run", self.folder / "scene.yaml", "--out", self.out, "--preview"),
+                                   capture_output=True, text=True, check=False, env=environment)
+            self.assertEqual(ended.returncode, 1)
+            self.assertEqual(len(ended.stderr.splitlines()), 1, ended.stderr)
+            self.assertIn(found, ended.stderr)
+            self.assertIn("--web", ended.stderr)
+            self.assertFalse(self.out.exists())
+
+
+if __name__ == "__main__":
+    for needed, package in (("Xvfb", "xvfb"), ("xvfb-run", "xvfb"), ("xdotool", "xdotool")):
+        if not shutil.which(needed):
+            print(f"skipped: {needed} is not installed (package {package})")
+            sys.exit(SKIPPED)
+    if "HYPOTRACK_ON_VIRTUAL_DISPLAY" in os.environ:
+        unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
+    own = {k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
+    own["HYPOTRACK_ON_VIRTUAL_DISPLAY"] = "1"
+    sys.exit(subprocess.run(("xvfb-run", "-a", sys.executable, __file__, *sys.argv[1:]), env=own,
+                            check=False).returncode)
