@@ -51,12 +51,12 @@ Verdict verdict_of(const std::vector<BoardPair>& pairs, const StereoCalibration&
   for (std::size_t view = 0; view < 2; ++view) {
     const Coverage coverage = coverage_of(pairs, calibration, view);
     if (coverage.share >= kCovered && coverage.empty.empty()) continue;
-    std::string where = "more of the picture";
-    if (!coverage.empty.empty()) where = fmt::format("{}", fmt::join(coverage.empty, ", "));
+    const std::string where =
+        coverage.empty.empty() ? "at new places"
+                               : fmt::format("into the {}", fmt::join(coverage.empty, " and the "));
     out.advice.push_back(
-        fmt::format("hold the board into the {} of the {} picture ({:.0f} % of it "
-                    "is covered)",
-                    where, view == 0 ? "left" : "right", 100 * coverage.share));
+        fmt::format("hold the board {} of the {} picture ({:.0f} % of it is covered)", where,
+                    view == 0 ? "left" : "right", 100 * coverage.share));
   }
   return out;
 }
