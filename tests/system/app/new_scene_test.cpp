@@ -95,6 +95,12 @@ TEST_F(NewSceneTest, CamerasOfTheCalibrationAreChosenByName) {
   EXPECT_THAT(read_text(file()), HasSubstr("cameras: [\"0\", \"1\"]"));
 }
 
+TEST_F(NewSceneTest, NamesOfCamerasMayHaveQuotes) {
+  expect_nothing_new(new_scene({"--recording", recording(), "--model", "hand", "--tracker",
+                                "real_time", "--cameras", "my \"left\",0"}),
+                     {"my \"left\"", "expected"});
+}
+
 TEST_F(NewSceneTest, VideosAreTakenAsTwoOrSideBySide) {
   const std::string calibration = path("recording/calibration.yaml").string();
   const std::vector<std::string> rest{"--calibration", calibration, "--model", "hand",
