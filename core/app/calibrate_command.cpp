@@ -17,12 +17,12 @@
 #include "calibrate/stereo_calibration.hpp"
 #include "calibrate/verdict.hpp"
 #include "calibration_output.hpp"
+#include "camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "interrupt.hpp"
-#include "live_pairs/camera_options.hpp"
 #include "live_pairs/take_pairs.hpp"
 #include "tell.hpp"
 

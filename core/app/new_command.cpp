@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text_file.hpp"
+#include "camera_options.hpp"
 #include "check_scene.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
@@ -31,7 +32,8 @@ namespace {
 struct NewSceneOptions {
   std::filesystem::path file;
   std::vector<std::filesystem::path> recording;
-  std::filesystem::path left, right, calibration, extrinsics;
+  CameraOptions views;
+  std::filesystem::path calibration, extrinsics;
   std::vector<std::string> cameras;
   std::string units, model, box, tracker;
   std::optional<std::string> scale;
@@ -83,16 +85,22 @@ RecordingFiles recording_at(const std::vector<std::filesystem::path>& paths) {
   return files;
 }
 
-RecordingFiles recording_of(const NewSceneOptions& options) {
+/// Finds the pictures, videos or live cameras of both views, without their calibration.
+RecordingFiles views_of(const NewSceneOptions& options) {
+  const CameraOptions& views = options.views;
   RecordingFiles files;
-  if (options.left.empty() != options.right.empty())
+  if (views.left.empty() != views.right.empty())
     throw ConfigError(fmt::format("{} is not given; expected --left and --right together",
-                                  options.left.empty() ? "--left" : "--right"));
-  if (!options.left.empty() && is_video(options.left) != is_video(options.right))
-    throw ConfigError("--left and --right: one is a video; expected both or none");
-  if (!options.left.empty()) {
-    files.left = options.left;
-    files.right = options.right;
+                                  views.left.empty() ? "--left" : "--right"));
+  if (names_cameras(views)) {
+    if (!options.recording.empty())
+      throw ConfigError("--recording and --device are given; expected one of them");
+    files.live = views;
+  } else if (!views.left.empty()) {
+    if (is_video(views.left) != is_video(views.right))
+      throw ConfigError("--left and --right: one is a video; expected both or none");
+    files.left = views.left;
+    files.right = views.right;
   } else if (!options.recording.empty()) {
     files = recording_at(options.recording);
   } else {
@@ -100,6 +108,11 @@ RecordingFiles recording_of(const NewSceneOptions& options) {
          .text = "a folder with pictures or videos of both views, or a video of them side by side"},
         [&](const std::string& answer) { files = recording_at({typed_path(answer)}); });
   }
+  return files;
+}
+
+RecordingFiles recording_of(const NewSceneOptions& options) {
+  RecordingFiles files = views_of(options);
   if (!options.calibration.empty()) {
     files.calibration = options.calibration;
     files.extrinsics = options.extrinsics;
@@ -147,8 +160,10 @@ SceneRequest request_of(const NewSceneOptions& options) {
     else
       take(options.box);
   }
+  const bool one_hand = request.model == "hand" || request.model == "left_hand";
+  const std::string usual = request.recording.live && one_hand ? "real_time" : "real";
   request.tracker =
-      word_of({"--tracker", "which tracker", "real"}, options.tracker, tracker_words());
+      word_of({"--tracker", "which tracker", usual}, options.tracker, tracker_words());
   return request;
 }
 
@@ -251,7 +266,9 @@ int new_scene(const NewSceneOptions& options, const CommonOptions& common) {
       scene.frames ? fmt::format("{} frame{}, ", *scene.frames, *scene.frames == 1 ? "" : "s") : "",
       scene.backend);
   const std::string word = shell_word(file.string());
-  fmt::print("next:\n  hypotrack validate {0}\n  hypotrack run {0}\n", word);
+  const bool live = request.recording.live.has_value();
+  fmt::print("next:\n  hypotrack validate {0}\n  hypotrack run {0}{1}\n", word,
+             live ? " --out result --web 8080" : "");
   return 0;
 }
 
@@ -259,11 +276,15 @@ void add_recording_options(const Command& command, NewSceneOptions& options) {
   command.add("--recording", &options.recording,
               "Folder of pictures or videos, or a video with both views side by side; twice: two "
               "videos");
-  command.add("--left", &options.left,
-              "Pictures (left_%04d.png) or video of the left camera, instead of --recording",
+  command.add(
+      "--left", &options.views.left,
+      "Pictures (left_%04d.png) or video of the left camera, instead of --recording; or the "
+      "live camera: a number, /dev/..., a URL or a GStreamer pipeline",
+      {.check = file_name(), .excludes = "--recording"});
+  command.add("--right", &options.views.right,
+              "Pictures or video of the right camera, or the live camera",
               {.check = file_name(), .excludes = "--recording"});
-  command.add("--right", &options.right, "Pictures or video of the right camera",
-              {.check = file_name(), .excludes = "--recording"});
+  add_camera_options(command, options.views);
   command.add("--calibration", &options.calibration,
               "Calibration of the cameras (default: calibration.yaml in the recording's folder)",
               {.check = file_name()});
@@ -287,7 +308,8 @@ void add_new_command(const Command& root, CommonOptions& common, int& exit_code)
   command.need_command();
   auto options = std::make_shared<NewSceneOptions>();
   const Command scene = command.add_command(
-      "scene", "Write a scene for a recording; asks on a terminal for what is not given");
+      "scene",
+      "Write a scene for a recording or live cameras; asks on a terminal for what is not given");
   scene.add("file", &options->file, "Scene file to write (YAML)",
             {.required = true, .check = file_name()});
   add_recording_options(scene, *options);

@@ -77,6 +77,7 @@ int record(const RecordOptions& options, const CommonOptions& common) {
   RecordingWriter writer(*session.scene, source.cameras(), source.frame_rate(), session.resolved,
                          options.out,
                          options.format == "jpeg" ? PictureFormat::jpeg : PictureFormat::png);
+  writer.copy_start(session.init);
   const InterruptGuard interrupt;
   FrameCounts counts;
   try {

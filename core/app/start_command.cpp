@@ -90,7 +90,7 @@ int click_start(const StartOptions& options, const CommonOptions& common) {
     return 1;
   }
   const std::filesystem::path clicks = clicks_file(options.out);
-  write_whole(clicks, clicks_yaml(clicker.clicks()));
+  write_whole(clicks, clicks_yaml({clicker.clicks(), frame.index, summaries(frame)}));
   write_whole(options.out,
               pose_yaml(*session.scene, clicker.fit()->state, clicker.complete_models()));
   fmt::print("{}\n{}: init: {{from: clicks, file: {}}}\n{}: init: {{from: file, file: {}}}\n",

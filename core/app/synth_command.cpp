@@ -28,6 +28,7 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
   const OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
   RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
                          session.resolved, options.out);
+  writer.copy_start(session.init);
   InterruptGuard interrupt;
   {
     std::optional<int> total = session.source->frame_count();

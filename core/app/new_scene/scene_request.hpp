@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "camera_source.hpp"
+
 namespace hypotrack::app {
 
-/// Pictures or videos of a pair of cameras, and their calibration.
+/// Pictures, videos or live pictures of a pair of cameras, and their calibration.
 struct RecordingFiles {
   std::filesystem::path left, right;   ///< patterns of pictures, single pictures, or videos
   std::filesystem::path side_by_side;  ///< one video of both views, instead of those
+  std::optional<CameraOptions> live;   ///< live cameras, instead of all those
   std::filesystem::path calibration;   ///< empty: not found
   std::filesystem::path extrinsics;    ///< second file of the calibration; may be empty
 };

@@ -53,20 +53,22 @@ std::vector<YamlDocument> models(const SceneRequest& request) {
   return out;
 }
 
-/// Returns the line of YAML that chooses cameras; empty if all are taken.
-std::string cameras_line(const SceneRequest& request) {
-  if (request.cameras.empty()) return {};
-  return fmt::format("cameras: [\"{}\"]", fmt::join(request.cameras, "\", \""));
-}
-
-YamlDocument source(const SceneRequest& request, const std::filesystem::path& folder) {
-  const RecordingFiles& files = request.recording;
-  YamlDocument out, calibration(cameras_line(request));
+/// Returns the source of pictures or videos, without its calibration.
+YamlDocument file_source(const RecordingFiles& files, const std::filesystem::path& folder) {
+  YamlDocument out;
   const bool one = !files.side_by_side.empty();
   out.set_string("type", one || is_video(files.left) ? "video" : "image_sequence");
   if (one) out.set_string("side_by_side", near_path(files.side_by_side, folder));
   if (!one) out.set_string("left", near_path(files.left, folder));
   if (!one) out.set_string("right", near_path(files.right, folder));
+  return out;
+}
+
+YamlDocument source(const SceneRequest& request, const std::filesystem::path& folder) {
+  const RecordingFiles& files = request.recording;
+  YamlDocument out = files.live ? camera_source(*files.live) : file_source(files, folder);
+  YamlDocument calibration;
+  if (!request.cameras.empty()) calibration.set_strings("cameras", request.cameras);
   calibration.set_string("file", near_path(files.calibration, folder));
   if (!files.extrinsics.empty())
     calibration.set_string("extrinsics", near_path(files.extrinsics, folder));
@@ -76,7 +78,7 @@ YamlDocument source(const SceneRequest& request, const std::filesystem::path& fo
   return out;
 }
 
-std::string tracker(const SceneRequest& request) {
+std::string tracker_name(const SceneRequest& request) {
   const bool two_hands = request.model == "two_hands";
   if (request.tracker == "real_time" && (two_hands || request.model == "hand_and_box"))
     throw ConfigError(
@@ -85,6 +87,17 @@ std::string tracker(const SceneRequest& request) {
                     request.model));
   if (!two_hands) return "@trackers/" + request.tracker;
   return request.tracker == "real" ? "@trackers/real_two_hands" : "@trackers/two_hands";
+}
+
+/// Sets what a live camera must not wait for: searches in another thread, and no video.
+void set_live(YamlDocument& scene, const std::string& tracker) {
+  YamlDocument recovery, output, keys;
+  recovery.set_string("run", "background");
+  keys.set_string("from", tracker);
+  keys.set("recovery", recovery);
+  scene.set("tracker", keys);
+  output.set_plain("overlay", "false");
+  scene.set("output", output);
 }
 
 }  // namespace
@@ -101,11 +114,13 @@ std::string scene_text(const SceneRequest& request, const std::filesystem::path&
   YamlDocument scene;
   scene.set_list("models", models(request));
   scene.set("source", source(request, folder));
-  scene.set_string("tracker", tracker(request));
+  const bool live = request.recording.live.has_value();
+  scene.set_string("tracker", tracker_name(request));
   YamlDocument init;
   init.set_string("from", "auto");
   scene.set("init", init);
-  if (request.tracker == "real") {  // which has the hand detector, as this needs
+  if (live) set_live(scene, tracker_name(request));
+  if (!live && request.tracker == "real") {  // which has the hand detector, as this needs
     YamlDocument shape;
     shape.set_plain("estimate_s", "2");
     shape.set_string("from", "starts");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "hypotrack/camera.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/export.hpp"
+#include "hypotrack/frame.hpp"
 #include "hypotrack/model.hpp"
 #include "hypotrack/scene.hpp"
 
@@ -21,11 +23,27 @@ struct Click {
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
 };
 
-/// Reads clicks: `clicks: [{landmark: wrist, left: [412, 300], right: [371, 301]}, ...]`. Throws
-/// ConfigError with file:line:column.
-HYPOTRACK_API std::vector<Click> read_clicks(const ConfigNode& node);
+/// Clicks into one frame of a source.
+struct ClickedFrame {
+  std::vector<Click> clicks;
+  std::optional<int> frame;           ///< its index; nothing if the clicks were written by hand
+  std::vector<std::string> pictures;  ///< summaries() of it; empty: it may be any frame
+};
+
+/// Reads clicks: `clicks: [{landmark: wrist, left: [412, 300], right: [371, 301]}, ...]`, and
+/// `frame` and `pictures` if they are given. Throws ConfigError with file:line:column.
+HYPOTRACK_API ClickedFrame read_clicks(const ConfigNode& node);
 /// Writes clicks as YAML, which read_clicks() reads back.
-HYPOTRACK_API std::string clicks_yaml(std::span<const Click> clicks);
+HYPOTRACK_API std::string clicks_yaml(const ClickedFrame& clicked);
+
+/// Returns the grey levels of the first two views in 8 x 6 cells, two hexadecimal digits each; none
+/// without colour pictures.
+HYPOTRACK_API std::vector<std::string> summaries(const Frame& frame);
+
+/// Throws DataError if a frame looks different from the one that was clicked. The message begins
+/// with `where`.
+HYPOTRACK_API void expect_clicked_frame(const ClickedFrame& clicked, const Frame& frame,
+                                        const std::string& where);
 
 /// Returns a model whose landmarks can be clicked. A rigid model has the corners of its bounding
 /// box as well, where these are vertices of its mesh: `corner_xyz` with 0 (low) or 1 (high) for

@@ -150,6 +150,13 @@ void YamlDocument::set_plain(std::string_view key, std::string_view value) {
   set_node(key, make_scalar(std::string(value), true));
 }
 
+void YamlDocument::set_strings(std::string_view key, std::span<const std::string> items) {
+  auto list = std::make_unique<YamlNode>();
+  list->kind = YamlNode::Kind::kList;
+  for (const std::string& item : items) list->add("", make_scalar(item, false));
+  set_node(key, std::move(list));
+}
+
 void YamlDocument::set_list(std::string_view key, std::span<const YamlDocument> items) {
   auto list = std::make_unique<YamlNode>();
   list->kind = YamlNode::Kind::kList;

@@ -100,6 +100,8 @@ class YamlDocument {
   void set_string(std::string_view key, std::string_view value);
   /// Sets a key to `value` as unquoted YAML, for example a number.
   void set_plain(std::string_view key, std::string_view value);
+  /// Sets a key to a list of strings, each as set_string() writes it.
+  void set_strings(std::string_view key, std::span<const std::string> items);
   /// Sets a key to a list of maps.
   void set_list(std::string_view key, std::span<const YamlDocument> items);
 

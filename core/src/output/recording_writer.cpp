@@ -11,6 +11,7 @@
 #include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
+#include "output/start_files.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {
@@ -100,6 +101,10 @@ void RecordingWriter::write_times() const {
   TextFile(part_ / "times.csv").write(text);
 }
 
+void RecordingWriter::copy_start(const InitSettings& init) {
+  init_yaml_ = copy_start_files(init, part_);
+}
+
 void RecordingWriter::add(const Frame& frame) {
   note_time(frame);
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
@@ -163,6 +168,7 @@ void RecordingWriter::write_scene() const {
   if (!landmarks_.empty()) source.set_string("truth_landmarks", "truth_landmarks.csv");
   detail::YamlDocument scene(scene_yaml_);
   scene.set("source", source);
+  if (!init_yaml_.empty()) scene.set("init", detail::YamlDocument(init_yaml_));
   TextFile(part_ / "scene.yaml").write(scene.text());
 }
 

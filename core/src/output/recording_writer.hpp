@@ -12,6 +12,7 @@
 #include "hypotrack/tables.hpp"
 #include "output/image_writer.hpp"
 #include "output/metrics/motion_speeds.hpp"
+#include "session/scene_file.hpp"
 
 namespace hypotrack {
 
@@ -23,9 +24,9 @@ enum class PictureFormat { png, jpeg };
 /// Images: left_000000.png, right_000000.png (or .jpg), masks (left_mask_000000.png) and depths
 /// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
 /// Also times.csv if frames are not evenly spaced in time; calibration.yaml; scene.yaml, which
-/// tracks the recording; source.yaml, the recorded scene. If the truth is known: truth_states.csv,
-/// truth_landmarks.csv and motion.json with the speeds. The folder gets its name when it is
-/// complete.
+/// tracks the recording; source.yaml, the recorded scene; start_NAME, files of its start. If the
+/// truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the speeds. The
+/// folder gets its name when it is complete.
 class RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
@@ -38,6 +39,9 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
+  /// Copies the files of the scene's start, so that scene.yaml runs from anywhere. Throws
+  /// OutputError.
+  void copy_start(const InitSettings& init);
   /// Adds a frame; one without views leaves a gap in the numbering. Its images must not change
   /// afterwards: they are compressed while the caller goes on. Throws OutputError if one could not
   /// be written.
@@ -61,6 +65,7 @@ class RecordingWriter {
   std::vector<Camera> cameras_;
   double frame_rate_;
   std::string scene_yaml_;
+  std::string init_yaml_;  ///< start of scene.yaml; empty: as in `scene_yaml_`
   std::filesystem::path directory_;
   PictureFormat format_;
   std::filesystem::path part_;  ///< folder under construction; removed if never finished

@@ -22,23 +22,33 @@ struct ClickParams {
 
 struct ClicksFile {
   std::vector<ClickParams> clicks;
+  std::optional<int> frame;
+  std::vector<std::string> pictures;
   void visit(ParamVisitor& v) {
+    v("frame", frame, {.help = "index of the frame that was clicked", .min = 0});
+    v("pictures", pictures, {.help = "summary of its two views, to recognize it"});
     v("clicks", clicks, {.help = "landmarks marked in both views", .required = true});
   }
 };
 
 }  // namespace
 
-std::vector<Click> read_clicks(const ConfigNode& node) {
-  std::vector<Click> out;
-  for (ClickParams& one : ParamReader(node).read<ClicksFile>().clicks)
-    out.push_back(std::move(one.click));
+ClickedFrame read_clicks(const ConfigNode& node) {
+  ClicksFile file = ParamReader(node).read<ClicksFile>();
+  ClickedFrame out{{}, file.frame, std::move(file.pictures)};
+  for (ClickParams& one : file.clicks) out.clicks.push_back(std::move(one.click));
   return out;
 }
 
-std::string clicks_yaml(std::span<const Click> clicks) {
-  std::string out = clicks.empty() ? "clicks: []\n" : "clicks:\n";
-  for (const Click& c : clicks)
+std::string clicks_yaml(const ClickedFrame& clicked) {
+  std::string out;
+  if (clicked.frame) out += fmt::format("frame: {}\n", *clicked.frame);
+  if (!clicked.pictures.empty()) {
+    out += "pictures:  # how its views look, so that a run that begins elsewhere is noticed\n";
+    for (const std::string& picture : clicked.pictures) out += fmt::format("  - \"{}\"\n", picture);
+  }
+  out += clicked.clicks.empty() ? "clicks: []\n" : "clicks:\n";
+  for (const Click& c : clicked.clicks)
     out += fmt::format("  - {{landmark: {}, left: [{:.1f}, {:.1f}], right: [{:.1f}, {:.1f}]}}\n",
                        c.landmark, c.left.x(), c.left.y(), c.right.x(), c.right.y());
   return out;

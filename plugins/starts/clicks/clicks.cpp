@@ -13,7 +13,7 @@ class Clicks final : public Start {
     void visit(ParamVisitor& v) {
       v("file", file,
         {.help = "landmarks marked in both views (YAML: `clicks: [{landmark, left: [x, y], right: "
-                 "[x, y]}, ...]`); `hypotrack start` writes it",
+                 "[x, y]}, ...]`); `hypotrack start` writes it, with the frame that they belong to",
          .required = true});
       v("tolerance_px", tolerance,
         {.help = "distance that a click in the right view may have from the epipolar line of the "
@@ -26,9 +26,12 @@ class Clicks final : public Start {
   explicit Clicks(const Params& params) : params_(params) {}
 
   std::optional<Eigen::VectorXd> state(const StartContext& context) override {
-    const std::vector<Click> clicks = read_clicks(ConfigNode::load(params_.file));
-    const ClickFit fit = fit_clicks(context.scene, context.cameras, clicks, params_.tolerance,
-                                    params_.file.string());
+    const ClickedFrame clicked = read_clicks(ConfigNode::load(params_.file));
+    const std::string where = params_.file.string();
+    if (!clicked.pictures.empty() && !context.frame) return std::nullopt;
+    if (context.frame) expect_clicked_frame(clicked, *context.frame, where);
+    const ClickFit fit =
+        fit_clicks(context.scene, context.cameras, clicked.clicks, params_.tolerance, where);
     if (context.notes) context.notes->push_back(describe(fit));
     return fit.state;
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <opencv2/imgproc.hpp>
 #include <random>
 #include <string>
 #include <vector>
@@ -215,11 +216,43 @@ TEST(ClickedBox, IsPlacedByThreeCorners) {
 TEST(Clicks, AreReadAsTheyAreWritten) {
   const std::vector<Click> clicks{{"hand.wrist", {412.5, 300}, {371.25, 301}},
                                   {"index_mcp", {0, 1}, {2, 3}}};
-  const auto read = read_clicks(ConfigNode::parse(clicks_yaml(clicks), "clicks.yaml"));
+  const ClickedFrame all =
+      read_clicks(ConfigNode::parse(clicks_yaml({clicks, 12, {"00ff", "7f80"}}), "clicks.yaml"));
+  EXPECT_EQ(all.frame, 12);
+  EXPECT_EQ(all.pictures, (std::vector<std::string>{"00ff", "7f80"}));
+  const std::vector<Click>& read = all.clicks;
   ASSERT_EQ(read.size(), 2);
   EXPECT_EQ(read[0].landmark, "hand.wrist");
   EXPECT_LT((read[0].right - clicks[0].right).norm(), 0.1);
   EXPECT_EQ(read[1].left, clicks[1].left);
+}
+
+TEST(Clicks, KnowTheFrameThatWasClickedByItsPictures) {
+  cv::Mat picture(96, 128, CV_8UC3, cv::Scalar::all(90)), noisy, other;
+  cv::rectangle(picture, {40, 30, 30, 30}, cv::Scalar(120, 160, 220), cv::FILLED);
+  noisy = picture + cv::Scalar::all(4);
+  other = picture.clone();
+  cv::rectangle(other, {70, 30, 30, 30}, cv::Scalar(120, 160, 220), cv::FILLED);
+  Frame frame;
+  frame.index = 7;
+  frame.views = {{picture, {}}, {picture, {}}};
+  ClickedFrame clicked{{}, 12, summaries(frame)};
+  ASSERT_EQ(clicked.pictures.size(), 2u);
+  EXPECT_EQ(clicked.pictures[0].size(), 96u);
+  const auto message = [&] {
+    return message_of<DataError>([&] { expect_clicked_frame(clicked, frame, "c.yaml"); });
+  };
+  EXPECT_NO_THROW(expect_clicked_frame(clicked, frame, "c.yaml"));
+  frame.views[1].color = noisy;
+  EXPECT_NO_THROW(expect_clicked_frame(clicked, frame, "c.yaml"));
+  frame.views[1].color = other;
+  EXPECT_THAT(message(), AllOf(HasSubstr("c.yaml: "), HasSubstr("clicked in frame 12"),
+                               HasSubstr("not those of frame 7")));
+  clicked.pictures[1] = "no number";
+  frame.views[1].color = picture;
+  EXPECT_THAT(message(), HasSubstr("c.yaml: "));
+  clicked.pictures.clear();
+  EXPECT_NO_THROW(expect_clicked_frame(clicked, frame, "c.yaml"));
 }
 
 TEST(Clicks, AreRefusedWithTheirPlaceInTheFile) {

@@ -95,6 +95,29 @@ TEST_F(NewSceneTest, CamerasOfTheCalibrationAreChosenByName) {
   EXPECT_THAT(read_text(file()), HasSubstr("cameras: [\"0\", \"1\"]"));
 }
 
+TEST(SceneText, HasTheSettingsOfLiveCameras) {
+  app::SceneRequest request;
+  request.recording.live = {.device = "0",
+                            .left = {},
+                            .right = {},
+                            .size = "2560x720",
+                            .fps = "60",
+                            .pixel_format = "MJPG"};
+  request.recording.calibration = "calibration.yaml";
+  request.model = "hand";
+  request.tracker = "real";
+  EXPECT_THAT(app::scene_text(request, ""),
+              AllOf(HasSubstr("device: \"0\""), HasSubstr("width: 2560"), HasSubstr("height: 720"),
+                    HasSubstr("fps: 60"), HasSubstr("pixel_format: MJPG"),
+                    testing::Not(HasSubstr("estimate_s"))));
+}
+
+TEST_F(NewSceneTest, NamesOfCamerasMayHaveQuotes) {
+  expect_nothing_new(new_scene({"--recording", recording(), "--model", "hand", "--tracker",
+                                "real_time", "--cameras", "my \"left\",0"}),
+                     {"my \"left\"", "expected"});
+}
+
 TEST_F(NewSceneTest, VideosAreTakenAsTwoOrSideBySide) {
   const std::string calibration = path("recording/calibration.yaml").string();
   const std::vector<std::string> rest{"--calibration", calibration, "--model", "hand",

@@ -34,6 +34,25 @@ TEST_F(SynthTest, TrackingTheRecordingIsTrackingTheSource) {
   EXPECT_EQ(read_text(path("from_disk/errors.csv")), read_text(path("direct/errors.csv")));
 }
 
+TEST_F(SynthTest, ARecordingThatIsMovedStartsFromItsCopyOfTheStartsFile) {
+  const std::string pose = "box: {position_mm: [0, 0, 400], rotation_deg: [20, 35, 5]}\n";
+  for (const char* init : {"init: {from: file, file: poses/mine.yaml}",
+                           "init: {from: {type: file, file: poses/mine.yaml}}"}) {
+    std::filesystem::create_directory(path("poses"));
+    write_text(path("poses/mine.yaml"), pose);
+    const Outcome outcome = record(replaced(box_scene(), "init: {from: truth}", init));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::filesystem::remove_all(path("poses"));
+    std::filesystem::rename(path("out"), path("moved"));
+    EXPECT_EQ(read_text(path("moved/start_mine.yaml")), pose);
+    const Outcome run =
+        run_program({"run", path("moved/scene.yaml").string(), "--out", path("tracked").string()});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::filesystem::remove_all(path("moved"));
+    std::filesystem::remove_all(path("tracked"));
+  }
+}
+
 TEST_F(SynthTest, ARecordingKnowsWhatIsAbsent) {
   ASSERT_EQ(record(replaced(box_scene(), "type: synthetic",
                             "type: synthetic\n  faults: [{frames: [1, 2], kind: absent}]"))

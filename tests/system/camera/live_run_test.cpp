@@ -45,6 +45,31 @@ TEST_F(LiveRunTest, ACameraThatIsGoneEndsTheRunAndKeepsItsFrames) {
   EXPECT_THAT(track, AllOf(HasSubstr(",tracked,"), HasSubstr(",missing,")));
 }
 
+TEST_F(LiveRunTest, ANewSceneOfLiveCamerasValidatesAndDoesNotWait) {
+  const MjpegServer left(pictures("left")), right(pictures("right"));
+  const std::string file = path("live.yaml").string();
+  const Outcome outcome = run_program(
+      {"new", "scene", file, "--left", left.url(), "--right", right.url(), "--calibration",
+       path("rendered/calibration.yaml").string(), "--model", "hand", "--tracker", "real_time"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("hypotrack run " + file + " --out result --web 8080"));
+  EXPECT_THAT(read_text(file),
+              AllOf(HasSubstr("type: camera"), HasSubstr("left: \"" + left.url() + "\""),
+                    HasSubstr("file: rendered/calibration.yaml"), HasSubstr("run: background"),
+                    HasSubstr("overlay: false"), HasSubstr("@trackers/real_time")));
+  const Outcome validated = run_program({"validate", file});
+  EXPECT_EQ(validated.exit_code, 0) << validated.err;
+}
+
+TEST_F(LiveRunTest, ANewSceneOfADeviceThatIsMissingIsNotWritten) {
+  const Outcome outcome = run_program(
+      {"new", "scene", path("live.yaml").string(), "--device", "/dev/video99", "--size", "2560x720",
+       "--fps", "60", "--pixel-format", "MJPG", "--calibration",
+       path("rendered/calibration.yaml").string(), "--model", "hand", "--tracker", "real_time"});
+  expect_refusal(outcome, {"/dev/video99: there is no such device", "live.yaml was not written"});
+  EXPECT_FALSE(std::filesystem::exists(path("live.yaml")));
+}
+
 TEST_F(LiveRunTest, AStreamThatNobodyServesEndsItWithOneMessage) {
   const Outcome outcome = run(live_scene("  device: \"http://127.0.0.1:1/stream\"\n"));
   expect_refusal(outcome, {"the stream cannot be opened; is the address right"});

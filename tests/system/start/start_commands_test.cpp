@@ -91,6 +91,20 @@ TEST_F(StartCommands, StartFromClicksAndRepeatTheRun) {
   EXPECT_EQ(track_without_times(path("out")), track_without_times(path("again")));
 }
 
+TEST_F(StartCommands, RefuseClicksIntoAnotherFrameThanTheFirst) {
+  write_text(path("clicks.yaml"), R"(frame: 12
+pictures: ["ff", "ff"]
+clicks:
+  - {landmark: corner_100, left: [91.6, 51.4], right: [55.2, 51.4]}
+  - {landmark: corner_110, left: [93.2, 76.2], right: [58.8, 76.2]}
+  - {landmark: corner_010, left: [61.7, 71.3], right: [30.9, 71.3]}
+)");
+  const std::string text =
+      replaced(box_scene(), "init: {from: truth}", "init: {from: clicks, file: clicks.yaml}");
+  expect_refused(text, {"clicks.yaml: the landmarks were clicked in frame 12",
+                        "not those of frame 0, where this run begins"});
+}
+
 TEST_F(StartCommands, NeedTheFileOfTheClicks) {
   expect_refused(replaced(box_scene(), "init: {from: truth}", "init: {from: clicks}"),
                  {"init.from is 'clicks' but init.file names none"});

@@ -3,7 +3,6 @@
 #include <optional>
 #include <string>
 
-#include "command_line.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::app {
@@ -15,9 +14,6 @@ struct CameraOptions {
   std::optional<std::string> size, fps;
   std::string pixel_format;
 };
-
-/// Adds --device, --size, --fps and --pixel-format; the command itself has --left and --right.
-void add_camera_options(const Command& command, CameraOptions& options);
 
 /// Returns whether the options name live cameras: numbers, /dev/..., URLs or GStreamer pipelines.
 /// Throws ConfigError if they name a camera and a file, or settings without a camera.
