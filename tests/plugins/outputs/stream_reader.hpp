@@ -33,6 +33,8 @@ class StreamReader {
     pollfd one{stream_.socket().native_handle(), POLLRDHUP, 0};
     poll(&one, 1, -1);
   }
+  /// Tells the other side that nothing more comes from here.
+  void end_sending() { stream_.socket().shutdown(boost::asio::socket_base::shutdown_send); }
   bool connected() const { return stream_.good(); }
   void close() { stream_.close(); }
 

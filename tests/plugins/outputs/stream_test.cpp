@@ -5,6 +5,7 @@
 #include <set>
 
 #include "expect_error.hpp"
+#include "hypotrack/session.hpp"
 #include "hypotrack/solution_json.hpp"
 #include "line_server.hpp"
 #include "output_run.hpp"
@@ -164,6 +165,16 @@ TEST_F(StreamTest, AReaderThatLeavesDisturbsNobody) {
   }
 }
 
+TEST_F(StreamTest, AReaderThatSendsNoMoreReadsOn) {
+  const auto output = begun(at_socket());
+  test::LocalReader silent = connected();
+  silent.end_sending();
+  for (const Solution& solution : test::random_solutions(scene_, 5)) {
+    output->online({}, solution);
+    EXPECT_EQ(silent.json()["frame"], solution.frame);
+  }
+}
+
 TEST_F(StreamTest, AReaderThatHangsIsDropped) {
   const stream::Address address{socket_file(), "", 0};
   stream::LineServer server(address, R"({"stream":"hypotrack"})",
@@ -238,6 +249,35 @@ TEST_F(StreamTest, ParametersThatGiveNoAddressAreRefused) {
   run_.open("{type: stream, socket: " + longest + "}");
   EXPECT_THAT(refused("{type: stream, socket: " + longest + "a}"),
               AllOf(HasSubstr("has 108 bytes; expected at most 107"), HasSubstr("scene.yaml")));
+}
+
+TEST_F(StreamTest, ARunThatCannotListenEndsBeforeItTracks) {
+  std::ofstream(socket_file()) << "a table";
+  const auto scene = folder_.path() / "scene.yaml", out = folder_.path() / "out";
+  std::ofstream(scene) << R"(models:
+  - {name: box, type: rigid_box, size_mm: [60, 90, 40]}
+source:
+  type: synthetic
+  frames: 2
+  cameras: {width: 160, height: 120, focal_px: 150, baseline_mm: 100}
+  keyframes:
+    - {frame: 0, pose: {box: {position_mm: [0, 0, 400]}}}
+objective: {type: stereo_color}
+optimizer: {type: pso, particles: 16, generations: 8}
+init: {from: truth}
+output:
+  overlay: false
+  also: {type: stream, socket: socket}
+)";
+  struct : RunWatcher {
+    void frame(const Frame&, const Solution&, double) override { ++frames; }
+    int frames = 0;
+  } watcher;
+  EXPECT_THAT(
+      message_of<OutputError>([&] { Session(scene).run({.out = out, .frames = {}}, watcher); }),
+      AllOf(HasSubstr("scene.yaml:14:9: "), HasSubstr("is no socket")));
+  EXPECT_EQ(watcher.frames, 0);
+  EXPECT_FALSE(std::filesystem::exists(out));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <cmath>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -84,6 +86,7 @@ TEST_F(Streams, TwoDevicesGivePairsOfNewPictures) {
   EXPECT_GT(source->frame_rate(), 0);
   EXPECT_FALSE(source->frame_count());
   double time = -1;
+  std::chrono::steady_clock::time_point begun;
   for (int i = 0; i < 12; ++i) {
     const auto frame = source->next();
     ASSERT_TRUE(frame);
@@ -91,6 +94,10 @@ TEST_F(Streams, TwoDevicesGivePairsOfNewPictures) {
     EXPECT_EQ(frame->index, i);
     EXPECT_GT(frame->time, time);
     time = frame->time;
+    if (i == 0) begun = *frame->taken - std::chrono::nanoseconds(std::llround(1e9 * time));
+    EXPECT_LE(frame->taken, std::chrono::steady_clock::now());
+    const std::chrono::duration<double> since = *frame->taken - begun;
+    EXPECT_NEAR(since.count(), time, 1e-6);
     EXPECT_GE(number_of(frame->views[0].color, 0), 0);
     EXPECT_GE(number_of(frame->views[1].color, 1), 0);
   }
