@@ -8,7 +8,7 @@
 #include "tell.hpp"
 #include "viewing/preview.hpp"
 #include "window/display.hpp"
-#include "window/load_window.hpp"
+#include "window/process_window.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -41,7 +41,7 @@ void add_viewer_options(const Command& command, ViewerOptions& options) {
 void open_viewers(const ViewerOptions& options, LiveRun& live) {
   if (options.preview) {
     check_display("watch it in a browser: --web in place of --preview");
-    live.add(make_preview(live.controls(), load_window(),
+    live.add(make_preview(live.controls(), show_in_process,
                           [](const std::string& text) { tell("{}\n", text); }));
   }
   open_web(options, live);

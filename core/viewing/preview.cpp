@@ -108,7 +108,9 @@ void Preview::show() {
     show_window_(content);
     if (!closing_) controls_.ask_for_end();
   } catch (const std::exception& e) {
-    warn_(fmt::format("warning: the window cannot be shown, the run goes on: {}", e.what()));
+    if (closing_) return;
+    controls_.resume();
+    warn_(fmt::format("warning: the run goes on without a preview: {}", e.what()));
   }
 }
 

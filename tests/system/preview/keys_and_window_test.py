@@ -150,6 +150,28 @@ class PreviewTest(unittest.TestCase):
         self.run_.send_signal(signal.SIGINT)
         self.expect_end(frames)
 
+    def window_process(self):
+        """Returns the number of the process that shows the window."""
+        children = pathlib.Path(f"/proc/{self.run_.pid}/task").glob("*/children")
+        return int("".join(each.read_text() for each in children))
+
+    def test_a_run_goes_on_when_its_window_fails(self):
+        self.start()
+        frames = self.pause()
+        os.kill(self.window_process(), signal.SIGKILL)
+        self.until(lambda: self.frames() > frames + 3)
+        self.assertIn("warning: the run goes on without a preview: the window's process ended with code 137",
+                      self.said())
+        self.run_.send_signal(signal.SIGINT)
+        self.expect_end()
+
+    def test_a_window_that_hangs_does_not_hold_up_the_end(self):
+        self.start()
+        frames = self.pause()
+        os.kill(self.window_process(), signal.SIGSTOP)
+        self.run_.send_signal(signal.SIGINT)
+        self.expect_end(frames)
+
     def test_a_snapshot_has_views_and_pose(self):
         self.start()
         frames = self.pause()
