@@ -18,6 +18,7 @@ def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("pictures", help="pattern of the JPEG files")
     parser.add_argument("--rate", type=float, default=30, help="pictures per second")
+    parser.add_argument("--port", type=int, default=0, help="0: any that is free")
     parser.add_argument("--port-file", required=True, help="file that gets the port")
     parser.add_argument("--jitter", type=float, default=0, help="largest delay of a picture, s")
     parser.add_argument("--cut", type=int, default=0, help="send half of every N-th picture")
@@ -94,7 +95,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
 
 def main():
     given = arguments()
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", given.port), Handler)
     server.camera = Camera(given)
     with open(given.port_file + ".part", "w", encoding="ascii") as file:
         file.write(str(server.server_port))

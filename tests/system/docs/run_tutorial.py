@@ -7,6 +7,7 @@ for example $HAND_DETECTOR. Commands find the scenes to record in $RECORDINGS an
 
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -64,4 +65,16 @@ def main():
     return 0
 
 
-sys.exit(main())
+def end_servers():
+    """Ends what the commands started and left running."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    os.killpg(0, signal.SIGTERM)
+
+
+if __name__ == "__main__":
+    os.setpgrp()
+    try:
+        code = main()
+    finally:
+        end_servers()
+    sys.exit(code)
