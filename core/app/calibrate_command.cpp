@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/text_file.hpp"
 #include "calibrate/board.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
@@ -47,6 +48,10 @@ struct CalibrateOptions {
     if (!found && (views.left.empty() || views.right.empty()))
       throw ConfigError(
           "there is nothing to calibrate from; expected --left and --right, or --device");
+    if (!found && (pairs || seconds))
+      throw ConfigError(
+          "--pairs and --seconds belong to live cameras; expected --device, or cameras as --left "
+          "and --right");
     return found;
   }
 };
@@ -125,10 +130,19 @@ FoundBoards take_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
   PairFolder folder(pairs_folder(options));
   std::optional<double> seconds;
   if (options.seconds) seconds = std::stod(*options.seconds);
-  TakenPairs taken = take_pairs(finder, *source, folder, seconds, interrupt);
-  if (!folder.empty())
-    tell("{} pairs are in {}; to calibrate from them again:\n  {}\n", taken.pairs.size(),
-         folder.path().string(), repeating_command(options, folder));
+  const auto say_where = [&] {
+    if (folder.empty()) return;
+    tell("the pairs are in {}; to calibrate from them:\n  {}\n", folder.path().string(),
+         repeating_command(options, folder));
+  };
+  TakenPairs taken;
+  try {
+    taken = take_pairs(finder, *source, folder, seconds, interrupt);
+  } catch (const DataError&) {  // the cameras are gone
+    say_where();
+    throw;
+  }
+  say_where();
   return {std::move(taken.pairs), {}, taken.picture, taken.interrupted && folder.empty()};
 }
 
@@ -178,6 +192,7 @@ void print_without(const std::vector<std::string>& names) {
 
 int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common) {
   check_new_file(options.out, options.force);
+  expect_writable(options.out);
   const bool live = options.live();
   const calibrate::BoardFinder finder(board_of(options));
   const FoundBoards boards =

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -28,13 +29,19 @@ std::string near_side(const BoardCorners& corners, cv::Size picture) {
   return nearest->second < kGap ? nearest->first : "";
 }
 
-/// Returns how far corners moved at most; infinite if they are not the same ones.
+constexpr int kLeastCommon = 6;  // corners, as a calibration needs of a pair
+
+/// Returns how far corners moved at most; infinite if too few of them are the same ones.
 double largest_move(const BoardCorners& from, const BoardCorners& to) {
-  if (from.ids != to.ids) return std::numeric_limits<double>::infinity();
   double out = 0;
-  for (std::size_t i = 0; i < to.at.size(); ++i)
-    out = std::max(out, cv::norm(to.at[i] - from.at[i]));
-  return out;
+  int same = 0;
+  for (std::size_t i = 0; i < to.ids.size(); ++i) {
+    const auto at = std::ranges::find(from.ids, to.ids[i]) - from.ids.begin();
+    if (at == std::ssize(from.ids)) continue;
+    out = std::max(out, cv::norm(to.at[i] - from.at[static_cast<std::size_t>(at)]));
+    ++same;
+  }
+  return same < kLeastCommon ? std::numeric_limits<double>::infinity() : out;
 }
 
 }  // namespace
@@ -87,6 +94,9 @@ PairLook PairCollector::look(double time, const cv::Mat& left, const cv::Mat& ri
       std::async(std::launch::async, [&] { find(1, time, right, pair, out.problems[1]); });
   find(0, time, left, pair, out.problems[0]);
   second.get();
+  if (out.problems[0].empty() && out.problems[1].empty() &&
+      std::isinf(largest_move(pair.corners[0], pair.corners[1])))
+    out.problems.fill("the other picture shows another part of the board");
   if (!out.problems[0].empty() || !out.problems[1].empty()) {
     still_.reset();
     return out;

@@ -14,9 +14,9 @@ void want_places(PoseCoverage& out, std::size_t view) {
   const char* name = view == 0 ? "left" : "right";
   const Coverage& coverage = out.pictures[view];
   for (const std::string& place : coverage.empty)
-    out.wanted.push_back(fmt::format("hold the board into the {} of the {} picture", place, name));
+    out.wanted.push_back(fmt::format("board into the {} of the {} picture", place, name));
   if (coverage.empty.empty() && coverage.share < kCovered)
-    out.wanted.push_back(fmt::format("hold the board at new places of the {} picture", name));
+    out.wanted.push_back(fmt::format("board to new places of the {} picture", name));
 }
 
 void want_tilts(PoseCoverage& out, const std::vector<RoughPose>& poses) {
@@ -28,18 +28,17 @@ void want_tilts(PoseCoverage& out, const std::vector<RoughPose>& poses) {
     if (std::ranges::any_of(poses, tilted))
       ++out.tilts;
     else
-      out.wanted.push_back(
-          fmt::format("tilt the board by 30 degrees, its {} away from the cameras", side));
+      out.wanted.push_back(fmt::format("tilt the board by 30 degrees, its {} away", side));
   }
 }
 
 void want_distances(PoseCoverage& out, const std::vector<RoughPose>& poses) {
   constexpr double kNear = 0.5, kRatio = 1.3;
   if (std::ranges::none_of(poses, [](const RoughPose& p) { return p.extent > kNear; }))
-    out.wanted.emplace_back("hold the board nearer: it should fill half of the picture");
+    out.wanted.emplace_back("board nearer, so that it fills half of the picture");
   const auto [nearest, farthest] = std::ranges::minmax_element(poses, {}, &RoughPose::distance);
   if (nearest == poses.end() || farthest->distance < kRatio * nearest->distance)
-    out.wanted.emplace_back("hold the board farther away");
+    out.wanted.emplace_back("board farther away");
 }
 
 }  // namespace
@@ -58,8 +57,7 @@ PoseCoverage pose_coverage(const std::vector<BoardPair>& pairs, const std::vecto
   want_distances(out, poses);
   want_places(out, 1);
   if (out.wanted.empty() && pairs.size() < kPairs)
-    out.wanted.push_back(
-        fmt::format("hold the board in new poses, {} more", kPairs - pairs.size()));
+    out.wanted.push_back(fmt::format("new poses of the board, {} more", kPairs - pairs.size()));
   return out;
 }
 

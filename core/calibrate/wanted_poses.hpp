@@ -14,7 +14,7 @@ namespace hypotrack::calibrate {
 struct PoseCoverage {
   std::array<Coverage, 2> pictures;  ///< left and right
   int tilts = 0;                     ///< of the board, of kTilts directions
-  std::vector<std::string> wanted;   ///< what to do next: `hold the board nearer`, ...
+  std::vector<std::string> wanted;   ///< what to do next: `board farther away`, ...
   static constexpr int kTilts = 4;
 };
 

@@ -51,7 +51,7 @@ class Taking {
     const PairLook look = collector_.look(frame.time, left, right);
     if (look.board == PairLook::Board::taken) return keep(frame, left, right);
     seen_ = words(look);
-    status_.show(fmt::format("{} pairs; {}. Wanted: {}", pairs().size(), seen_, wanted(frame)));
+    status_.show(fmt::format("{} taken; {}; next: {}", pairs().size(), seen_, wanted(frame)));
   }
 
   void too_few() {
@@ -75,8 +75,8 @@ class Taking {
   }
 
   static std::string words(const PairLook& look) {
-    if (look.board == PairLook::Board::moving) return "board in both pictures: hold it still";
-    if (look.board == PairLook::Board::known) return "a pair of this pose is taken: move the board";
+    if (look.board == PairLook::Board::moving) return "hold still";
+    if (look.board == PairLook::Board::known) return "taken before: move on";
     const auto& [left, right] = look.problems;
     if (left == right) return "both pictures: " + left;
     const auto of = [](const char* view, const std::string& problem) {

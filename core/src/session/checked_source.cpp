@@ -17,6 +17,13 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
   if (source_->cameras().empty())
     throw DataError(fmt::format(
         "source '{}' has no camera, expected one at least; this is a bug in the source", plugin_));
+  for (const Camera& camera : source_->cameras())
+    if (camera.fx == 0 && camera.fy == 0)
+      throw DataError(
+          fmt::format("source '{}' has cameras without a calibration, with which nothing can be "
+                      "tracked; expected "
+                      "`calibration: {{file: ...}}`, which `hypotrack calibrate` writes",
+                      plugin_));
   const double rate = source_->frame_rate();
   if (!(std::isfinite(rate) && rate > 0))
     throw DataError(fmt::format(

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "rendered_board.hpp"
@@ -99,12 +100,27 @@ TEST_F(PairCollectorTest, ABoardThatLeavesThePictureIsCutAtThatEdge) {
             "the board is cut at the left edge");
 }
 
+TEST_F(PairCollectorTest, PicturesOfDifferentPartsOfABoardAreNoPair) {
+  const Board board = parse_board("charuco:7x5", "30mm");
+  const BoardFinder finder(board);
+  PairCollector collector(finder, {700, 500});
+  cv::Mat whole;
+  cv::aruco::CharucoBoard::create(7, 5, 0.03f, 0.0225f,
+                                  cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50))
+      ->draw({700, 500}, whole, 20);
+  cv::Mat first = whole.clone(), second = whole.clone();
+  first.colRange(360, 700) = 255;
+  second.colRange(0, 320) = 255;
+  EXPECT_EQ(collector.look(0, whole, first).board, Board_::moving);
+  EXPECT_EQ(collector.look(1, first, second).problems[0],
+            "the other picture shows another part of the board");
+}
+
 TEST_F(PairCollectorTest, WhatPairsLackIsWantedUntilTheyHaveIt) {
   EXPECT_THAT(collector_.coverage().wanted,
-              Contains("hold the board into the top left of the left picture"));
+              Contains("board into the top left of the left picture"));
   hold(RenderedBoard::poses()[0]);
-  EXPECT_THAT(collector_.coverage().wanted,
-              Contains("tilt the board by 30 degrees, its top away from the cameras"));
+  EXPECT_THAT(collector_.coverage().wanted, Contains("tilt the board by 30 degrees, its top away"));
   for (const Eigen::Isometry3d& pose : RenderedBoard::poses())
     EXPECT_THAT(hold(pose), testing::AnyOf(Contains(Board_::taken), Contains(Board_::known)))
         << pose.translation().transpose();

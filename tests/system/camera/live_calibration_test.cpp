@@ -11,7 +11,6 @@ namespace hypotrack::test {
 namespace {
 
 using testing::AllOf;
-using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -79,8 +78,8 @@ TEST_F(LiveCalibrationTest, PairsAreTakenUntilTheySufficeAndGiveTheCameras) {
       run_program(command({"--left", left.url(), "--right", right.url(), "--seconds", "120"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("good: "), HasSubstr("left_12.png")));
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("pair 1 taken (left_01.png)"), HasSubstr("Wanted: "),
-                                 HasSubstr("calibrate from them again")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("pair 1 taken (left_01.png)"), HasSubstr("; next: "),
+                                 HasSubstr("to calibrate from them:")));
   CalibrationSettings settings;
   settings.file = path("rig.yaml");
   const std::vector<Camera> cameras = load_calibration(settings);
@@ -151,8 +150,7 @@ TEST_F(LiveCalibrationTest, AStreamThatStopsIsSaidAndTakenPairsStay) {
   hold_poses(4);
   const MjpegServer both = server("both", {"--stop-after", "80"});
   const Outcome outcome = run_program(command({"--device", both.url(), "--seconds", "6"}));
-  EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("cannot be opened"), ContainsRegex("[34] pairs are in")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("cannot be opened"), HasSubstr("the pairs are in ")));
   EXPECT_THAT(outcome.out, HasSubstr("calibration in"));
 }
 
@@ -180,6 +178,7 @@ TEST_F(LiveCalibrationTest, CamerasAndFilesAreNotMixed) {
   refused({"--device", "0", "--left", "1", "--right", "2"}, "--device has both views");
   refused({"--device", "0", "--size", "1280"}, "--size is '1280'");
   refused({"--left", "l*.png", "--right", "r*.png", "--fps", "30"}, "set live cameras");
+  refused({"--left", "l*.png", "--right", "r*.png", "--seconds", "9"}, "belong to live cameras");
   refused({}, "expected --left and --right, or --device");
 }
 

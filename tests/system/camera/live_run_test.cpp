@@ -70,6 +70,16 @@ TEST_F(LiveRunTest, ANewSceneOfADeviceThatIsMissingIsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(path("live.yaml")));
 }
 
+TEST_F(LiveRunTest, CamerasWithoutACalibrationAreNeitherTrackedNorRecorded) {
+  const MjpegServer both(pictures("both"));
+  const std::string text =
+      replaced(live_scene(one_device(both)), "calibration: {file: rendered/calibration.yaml}",
+               "uncalibrated: true");
+  expect_refused(text, {"source 'camera' has cameras without a calibration"});
+  expect_refusal(run_program({"record", scene(text), "--out", path("out").string()}),
+                 {"`hypotrack calibrate` writes"});
+}
+
 TEST_F(LiveRunTest, AStreamThatNobodyServesEndsItWithOneMessage) {
   const Outcome outcome = run(live_scene("  device: \"http://127.0.0.1:1/stream\"\n"));
   expect_refusal(outcome, {"the stream cannot be opened; is the address right"});

@@ -78,6 +78,16 @@ void expect_pair(const Frame& frame) {
   }
 }
 
+TEST_F(Streams, PicturesComeWithoutACalibrationIfThatIsAskedFor) {
+  const MjpegServer both(pictures("both"));
+  const auto source = make("type: camera\nuncalibrated: true\ndevice: \"" + both.url() + "\"\n");
+  EXPECT_EQ(source->cameras()[1].width, 64);
+  EXPECT_EQ(source->cameras()[1].fx, 0);
+  expect_pair(*source->next());
+  EXPECT_THAT([&] { make("type: camera\ndevice: \"" + both.url() + "\"\n"); },
+              ThrowsMessage<ConfigError>(HasSubstr("calibration")));
+}
+
 TEST_F(Streams, TwoDevicesGivePairsOfNewPictures) {
   const MjpegServer left(pictures("left"), {"--rate", "20", "--jitter", "0.01"});
   const MjpegServer right(pictures("right"), {"--rate", "20", "--jitter", "0.01"});
