@@ -15,6 +15,10 @@ if(HYPOTRACK_SANITIZE)
   target_compile_options(hypotrack_options INTERFACE
     -fsanitize=${HYPOTRACK_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(hypotrack_options INTERFACE -fsanitize=${HYPOTRACK_SANITIZE})
+  if(HYPOTRACK_SANITIZE STREQUAL "thread")  # GCC warns of the fences in Asio
+    target_compile_options(hypotrack_options INTERFACE
+      $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-tsan>)
+  endif()
 endif()
 
 # hypotrack_export_own_names(TARGET): the library exports what is in the namespace hypotrack, the

@@ -41,10 +41,8 @@ struct LineServer::Impl {
 void LineServer::Impl::take(Socket socket) {
   constexpr std::size_t kMostReaders = 32;
   const bool full = readers.size() >= kMostReaders;
-  auto number = std::make_shared<std::weak_ptr<Reader>>();
-  auto reader = std::make_shared<Reader>(std::move(socket), patience,
-                                         [this, number] { readers.erase(number->lock()); });
-  *number = reader;
+  const auto forget = [this](const std::shared_ptr<Reader>& closed) { readers.erase(closed); };
+  const auto reader = std::make_shared<Reader>(std::move(socket), patience, forget);
   if (!full) {
     readers.insert(reader);
     return reader->start(greeting);

@@ -21,7 +21,7 @@ std::string with_dropped(std::string line, std::size_t dropped) {
 
 }  // namespace
 
-Reader::Reader(Socket socket, const Patience& patience, std::function<void()> closed)
+Reader::Reader(Socket socket, const Patience& patience, Closed closed)
     : socket_(std::move(socket)),
       patience_(patience),
       closed_(std::move(closed)),
@@ -100,7 +100,7 @@ void Reader::close() {
   socket_.close(ignored);
   timer_.cancel();
   waiting_.clear();
-  closed_();
+  closed_(shared_from_this());
 }
 
 }  // namespace hypotrack::stream

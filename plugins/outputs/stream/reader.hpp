@@ -25,8 +25,10 @@ struct Patience {
 /// Sends lines to one connected reader. All functions are called from one thread.
 class Reader : public std::enable_shared_from_this<Reader> {
  public:
-  /// `closed` is called once, when the connection is.
-  Reader(Socket socket, const Patience& patience, std::function<void()> closed);
+  /// Is called once, when the connection of a reader is closed.
+  using Closed = std::function<void(const std::shared_ptr<Reader>&)>;
+
+  Reader(Socket socket, const Patience& patience, Closed closed);
 
   /// Sends the first line, and drops what the reader sends.
   void start(const Line& greeting);
@@ -44,7 +46,7 @@ class Reader : public std::enable_shared_from_this<Reader> {
 
   Socket socket_;
   Patience patience_;
-  std::function<void()> closed_;
+  Closed closed_;
   boost::asio::steady_timer timer_;
   std::deque<Line> waiting_;
   std::string unsent_;  ///< rest of the line that is being sent; empty: none
