@@ -86,7 +86,7 @@ void LiveRun::frame(const Frame& frame, const Solution& solution, double error) 
                        .fps = rate_.per_second(),
                        .views = shown_};
   for (const auto& viewer : viewers_) viewer->frame(live);
-  if (controls_.recording_wanted() && !recorder_.add(frame)) controls_.cancel_recording();
+  if (controls_.recording_wanted() && !recorder_.add(frame, solution)) controls_.cancel_recording();
   do_what_is_asked();
 }
 

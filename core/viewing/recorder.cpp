@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+
+#include "config/yaml.hpp"
+#include "hypotrack/pose.hpp"
 
 namespace hypotrack {
 namespace {
@@ -15,6 +19,19 @@ std::filesystem::path new_folder(const std::filesystem::path& parent, int frame)
   return out;
 }
 
+/// Returns the YAML of a scene that starts where the models are, if all are found.
+std::string started_at(const std::string& yaml, const Scene& scene, const Solution& solution) {
+  const auto found = [](Status s) { return s == Status::tracked || s == Status::uncertain; };
+  if (!std::ranges::all_of(solution.models, found)) return yaml;
+  const std::vector<bool> all(scene.items().size(), true);
+  detail::YamlDocument init;
+  init.set_string("from", "rest");
+  init.set("pose", detail::YamlDocument(pose_yaml(scene, solution.state, all)));
+  detail::YamlDocument document(yaml);
+  document.set("init", init);
+  return document.text();
+}
+
 }  // namespace
 
 void Recorder::open(const OpenedScene& opened) {
@@ -24,18 +41,18 @@ void Recorder::open(const OpenedScene& opened) {
   resolved_ = opened.resolved;
 }
 
-void Recorder::start(int frame) {
-  recording_ = new_folder(folder_, frame);
-  writer_ =
-      std::make_unique<RecordingWriter>(*scene_, cameras_, frame_rate_, resolved_, recording_);
+void Recorder::start(const Solution& solution) {
+  recording_ = new_folder(folder_, solution.frame);
+  writer_ = std::make_unique<RecordingWriter>(*scene_, cameras_, frame_rate_,
+                                              started_at(resolved_, *scene_, solution), recording_);
   frames_ = 0;
   say_(fmt::format("recording into {}", recording_.string()));
 }
 
-bool Recorder::add(const Frame& frame) {
+bool Recorder::add(const Frame& frame, const Solution& solution) {
   if (!writer_ && frame.views.empty()) return true;
   try {
-    if (!writer_) start(frame.index);
+    if (!writer_) start(solution);
     writer_->add(frame);
     ++frames_;
     return true;

@@ -8,13 +8,16 @@
 #include <vector>
 
 #include "hypotrack/frame.hpp"
+#include "hypotrack/solution.hpp"
 #include "output/recording_writer.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
 
 /// Records parts of a run's source, each into a new folder `recording_<first frame>` among the
-/// run's results, which tracks as a scene of its own. Errors end a recording, not the run.
+/// run's results. The folder's scene.yaml tracks the recording. It starts where the models were in
+/// the first frame, if all were found there, else as the run did. Errors end a recording, not the
+/// run.
 class Recorder {
  public:
   /// `say` receives lines for the user.
@@ -25,14 +28,14 @@ class Recorder {
   void open(const OpenedScene& opened);
 
   /// Adds a frame; the first usable one starts a recording. Returns false if that failed.
-  bool add(const Frame& frame);
+  bool add(const Frame& frame, const Solution& solution);
   /// Completes the recording, if there is one.
   void stop();
   /// Returns the number of frames so far; nothing while there is no recording.
   std::optional<int> recorded() const;
 
  private:
-  void start(int frame);
+  void start(const Solution& solution);
   void fail(const std::string& why);
 
   std::filesystem::path folder_;
