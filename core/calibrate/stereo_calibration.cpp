@@ -108,8 +108,8 @@ double distance_of(const CommonCorners& view, std::size_t camera, const Lens& le
 /// Moves views whose cameras stand to each other as in no other view out of `views`: pictures of
 /// different moments. One would spoil the calibration of both cameras. The reference is the view
 /// that most agree with (least median of squares: Rousseeuw 1984).
-void drop_strangers(std::vector<CommonCorners>& views, const std::array<Lens, 2>& lenses,
-                    std::vector<PairResidual>& pairs) {
+void drop_mismatched(std::vector<CommonCorners>& views, const std::array<Lens, 2>& lenses,
+                     std::vector<PairResidual>& pairs) {
   constexpr double kFar = 5;    // medians
   constexpr double kLeast = 5;  // pixels
   std::vector<cv::Affine3d> left, right_from_left;
@@ -125,8 +125,8 @@ void drop_strangers(std::vector<CommonCorners>& views, const std::array<Lens, 2>
     if (best.empty() || upper_median(distances) < upper_median(best)) best = std::move(distances);
   }
   const double limit = std::max(kLeast, kFar * upper_median(best));
-  const auto strangers = std::ranges::count_if(best, [&](double d) { return !(d <= limit); });
-  if (views.size() - static_cast<std::size_t>(strangers) < kLeastPairs) return;
+  const auto mismatched = std::ranges::count_if(best, [&](double d) { return !(d <= limit); });
+  if (views.size() - static_cast<std::size_t>(mismatched) < kLeastPairs) return;
   std::vector<CommonCorners> kept;
   for (std::size_t i = 0; i < views.size(); ++i) {
     PairResidual& pair = pairs[views[i].pair];
@@ -206,7 +206,7 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
       else
         out.focal_sigma[i] = calibrate_one(views, i, pictures, lenses[i]);
     }
-    if (found.rotation.empty()) drop_strangers(views, lenses, out.pairs);
+    if (found.rotation.empty()) drop_mismatched(views, lenses, out.pairs);
     found = calibrate_both(views, pictures, lenses, given.has_value());
     for (std::size_t i = 0; i < views.size(); ++i) {
       PairResidual& pair = out.pairs[views[i].pair];
