@@ -175,6 +175,15 @@ BoardCorners BoardFinder::find(const cv::Mat& picture) const {
   return out;
 }
 
+BoardCorners BoardFinder::find_quickly(const cv::Mat& picture) const {
+  constexpr int kWidth = 640;
+  if (markers_ || picture.cols <= kWidth) return find(picture);
+  cv::Mat small;
+  const double scale = static_cast<double>(kWidth) / picture.cols;
+  cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
+  return find(small).ids.empty() ? BoardCorners() : find(picture);
+}
+
 bool BoardFinder::sees_part(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
   if (!markers_) return cv::checkChessboard(gray, board_.size);

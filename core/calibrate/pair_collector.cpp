@@ -62,7 +62,7 @@ void PairCollector::find(std::size_t view, double time, const cv::Mat& picture, 
                          std::string& problem) {
   const double blurred = 0.01 * picture.cols;  // pixels
   BoardCorners& found = pair.corners[view];
-  found = finder_->find(picture);
+  found = finder_->find_quickly(picture);
   if (found.ids.empty() || !rough_pose(*finder_, found, picture_)) {
     problem = why_missing(view, time, picture);
     return;

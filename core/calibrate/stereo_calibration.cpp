@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/affine.hpp>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
@@ -90,12 +91,56 @@ Pair calibrate_both(const std::vector<CommonCorners>& views, cv::Size pictures,
   return out;
 }
 
+cv::Affine3d pose_of(const CommonCorners& view, std::size_t camera, const Lens& lens) {
+  cv::Vec3d turn, place;
+  cv::solvePnP(view.board, view.at[camera], lens.matrix, lens.distortion, turn, place);
+  return cv::Affine3d(turn, place);
+}
+
+/// Returns the root mean square distance of a picture's corners from those of a board in a pose.
+double distance_of(const CommonCorners& view, std::size_t camera, const Lens& lens,
+                   const cv::Affine3d& pose) {
+  std::vector<cv::Point2f> at;
+  cv::projectPoints(view.board, pose.rvec(), pose.translation(), lens.matrix, lens.distortion, at);
+  return cv::norm(at, view.at[camera]) / std::sqrt(static_cast<double>(at.size()));
+}
+
+/// Moves views whose cameras stand to each other as in no other view out of `views`: pictures of
+/// different moments. One would spoil the calibration of both cameras. The reference is the view
+/// that most agree with (least median of squares: Rousseeuw 1984).
+void drop_mismatched(std::vector<CommonCorners>& views, const std::array<Lens, 2>& lenses,
+                     std::vector<PairResidual>& pairs) {
+  constexpr double kFar = 5;    // medians
+  constexpr double kLeast = 5;  // pixels
+  std::vector<cv::Affine3d> left, right_from_left;
+  for (const CommonCorners& view : views) {
+    left.push_back(pose_of(view, 0, lenses[0]));
+    right_from_left.push_back(pose_of(view, 1, lenses[1]) * left.back().inv());
+  }
+  std::vector<double> best;
+  for (const cv::Affine3d& reference : right_from_left) {
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < views.size(); ++i)
+      distances.push_back(distance_of(views[i], 1, lenses[1], reference * left[i]));
+    if (best.empty() || upper_median(distances) < upper_median(best)) best = std::move(distances);
+  }
+  const double limit = std::max(kLeast, kFar * upper_median(best));
+  const auto mismatched = std::ranges::count_if(best, [&](double d) { return !(d <= limit); });
+  if (views.size() - static_cast<std::size_t>(mismatched) < kLeastPairs) return;
+  std::vector<CommonCorners> kept;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    PairResidual& pair = pairs[views[i].pair];
+    pair.dropped = !(best[i] <= limit);
+    pair.too_few = false;
+    pair.rms = {distance_of(views[i], 0, lenses[0], left[i]), best[i]};
+    if (!pair.dropped) kept.push_back(std::move(views[i]));
+  }
+  views = std::move(kept);
+}
+
 /// Returns the angle between a board and the plane of a picture.
 double tilt_of(const CommonCorners& view, const Lens& lens) {
-  cv::Mat turn, place, rotation;
-  cv::solvePnP(view.board, view.at[0], lens.matrix, lens.distortion, turn, place);
-  cv::Rodrigues(turn, rotation);
-  return std::acos(std::min(1.0, std::abs(rotation.at<double>(2, 2))));
+  return std::acos(std::min(1.0, std::abs(pose_of(view, 0, lens).rotation()(2, 2))));
 }
 
 Camera camera_of(const Lens& lens, cv::Size pictures) {
@@ -161,6 +206,7 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
       else
         out.focal_sigma[i] = calibrate_one(views, i, pictures, lenses[i]);
     }
+    if (found.rotation.empty()) drop_mismatched(views, lenses, out.pairs);
     found = calibrate_both(views, pictures, lenses, given.has_value());
     for (std::size_t i = 0; i < views.size(); ++i) {
       PairResidual& pair = out.pairs[views[i].pair];

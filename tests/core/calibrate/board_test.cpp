@@ -54,6 +54,15 @@ TEST(Board, ChessboardCornersAreFoundInAPicture) {
   EXPECT_TRUE(finder.find(cv::Mat1b(480, 640, uchar{255})).ids.empty());
 }
 
+TEST(Board, LargePicturesAreSearchedQuicklyWithTheSameResult) {
+  const BoardFinder finder(parse_board("9x6", "25mm"));
+  const cv::Mat large = chessboard({9, 6}, 80);
+  ASSERT_GT(large.cols, 640);
+  EXPECT_EQ(finder.find_quickly(large).at, finder.find(large).at);
+  EXPECT_EQ(finder.find_quickly(large).at.size(), 54u);
+  EXPECT_TRUE(finder.find_quickly(cv::Mat1b(480, 960, uchar{255})).ids.empty());
+}
+
 TEST(Board, MarkersAreFoundInHalfAPictureAndInverted) {
   const cv::Mat picture = charuco(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_100));
   Board board = parse_board("charuco:5x7", "30mm");

@@ -90,6 +90,16 @@ TEST_F(StereoCalibrationTest, DropsPairsWhosePicturesDoNotBelongTogether) {
   EXPECT_NEAR(found.cameras[1].camera_from_world.translation().norm(), 0.09, 0.001);
 }
 
+TEST_F(StereoCalibrationTest, DropsPairsOfDifferentMomentsOfAFewPairs) {
+  std::vector<BoardPair> given = pairs(8, 0.1);
+  given[3].corners[1] = given[4].corners[1];
+  const StereoCalibration found = calibrated(given);
+  for (std::size_t i = 0; i < given.size(); ++i)
+    EXPECT_EQ(found.pairs[i].dropped, i == 3) << found.pairs[i].name;
+  EXPECT_LT(found.rms, 0.2);
+  EXPECT_NEAR(found.cameras[1].camera_from_world.translation().norm(), 0.09, 0.001);
+}
+
 TEST_F(StereoCalibrationTest, TakesGivenLensesAsTheyAre) {
   const StereoCalibration found = calibrate_stereo(finder_, {640, 480}, pairs(4, 0.1), cameras_);
   EXPECT_EQ(found.cameras[0].fx, 530);
