@@ -51,15 +51,20 @@ double spread_of(const Scene& scene, const HypothesisBatch& batch) {
   return std::sqrt(sum / static_cast<double>(all.size()));
 }
 
-/// Returns the indices of hypotheses from the worst to the best, at most kMostDrawn and the best
-/// among them.
-std::vector<Eigen::Index> drawn_order(const Eigen::VectorXd& costs) {
+/// Returns how many of a batch's hypotheses are drawn: more would hide each other.
+std::size_t drawn_count(const HypothesisBatch& batch) {
   constexpr std::size_t kMostDrawn = 64;
+  return std::min(kMostDrawn, static_cast<std::size_t>(batch.costs.size()));
+}
+
+/// Returns the indices of the hypotheses that are drawn, from the worst to the best.
+std::vector<Eigen::Index> drawn_order(const HypothesisBatch& batch) {
+  const Eigen::VectorXd& costs = batch.costs;
   std::vector<Eigen::Index> order(static_cast<std::size_t>(costs.size()));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::greater{}, [&](Eigen::Index i) { return costs[i]; });
   std::vector<Eigen::Index> drawn;
-  const std::size_t count = std::min(kMostDrawn, order.size());
+  const std::size_t count = drawn_count(batch);
   for (std::size_t i = 0; i < count; ++i)
     drawn.push_back(order[order.size() - 1 - (count - 1 - i) * order.size() / count]);
   return drawn;
@@ -70,7 +75,7 @@ cv::Mat draw_batch(Renderer& renderer, const HypothesisBatch& batch, const TileV
   constexpr double kDark = 0.55;
   cv::Mat picture = kDark * panel_picture(view);
   const Camera camera = panel_camera(view.camera);
-  const std::vector<Eigen::Index> order = drawn_order(batch.costs);
+  const std::vector<Eigen::Index> order = drawn_order(batch);
   cv::Mat1b ranks(1, static_cast<int>(order.size()));
   for (int i = 0; i < ranks.cols; ++i)
     ranks(i) = static_cast<unsigned char>(255 * i / std::max(ranks.cols - 1, 1));
