@@ -44,7 +44,7 @@ TEST_F(DisplayTest, AWindowsProcessThatFailsSaysWhy) {
   content.on_key = [](char) { return WindowStep::wait; };
   content.next = [] { return WindowStep::wait; };
   EXPECT_THAT(message_of<DeviceError>([&] { show_in_process(content); }),
-              HasSubstr("the window's process ended with code"));
+              AllOf(HasSubstr("the window's process ended with code"), HasSubstr("display")));
 }
 
 }  // namespace
