@@ -5,10 +5,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <sstream>
 #include <string>
 
 #include "base/descriptor.hpp"
@@ -42,15 +42,16 @@ Descriptor make_memory_file() {
   return Descriptor(made);
 }
 
-/// Returns the last line of a file.
-std::string last_line(const Descriptor& file) {
-  constexpr off_t kMost = 4096;
-  const off_t size = lseek(file.get(), 0, SEEK_END), from = std::max<off_t>(0, size - kMost);
-  std::string text(static_cast<std::size_t>(size - from), '\0');
-  const ssize_t count = pread(file.get(), text.data(), text.size(), from);
-  text.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
-  while (text.ends_with('\n')) text.pop_back();
-  return text.substr(text.rfind('\n') + 1);
+/// Returns the first line that tells of an error.
+std::string first_error(const Descriptor& file) {
+  constexpr std::size_t kMost = 4096;
+  std::string text(kMost, '\0');
+  const ssize_t size = pread(file.get(), text.data(), text.size(), 0);
+  text.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty() && !line.starts_with("QStandardPaths")) return line;  // Qt's usual remark
+  return {};
 }
 
 /// Returns false if the other side is gone.
@@ -102,7 +103,7 @@ void show_in_process(const WindowContent& content) {
     throw DeviceError("the window does not answer");
   const int code = window.wait().code;
   if (code == 0) return;
-  const std::string said = last_line(errors);
+  const std::string said = first_error(errors);
   throw DeviceError(fmt::format("the window's process ended with code {}{}", code,
                                 said.empty() ? "" : ": " + said));
 }

@@ -104,10 +104,11 @@ class PreviewTest(unittest.TestCase):
     def pause(self):
         """Pauses and returns the number of frames then."""
         self.press("space")
-        before = -1
-        while before != self.frames():
-            before = self.frames()
-            time.sleep(0.5)
+        before, since = self.frames(), time.monotonic()
+        while time.monotonic() - since < 1.5:  # a frame takes some milliseconds
+            time.sleep(0.1)
+            if self.frames() != before:
+                before, since = self.frames(), time.monotonic()
         return before
 
     def expect_end(self, frames=None):
@@ -268,5 +269,7 @@ if __name__ == "__main__":
         unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
     own = {k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
     own["HYPOTRACK_ON_VIRTUAL_DISPLAY"] = "1"
-    sys.exit(subprocess.run(("xvfb-run", "-a", sys.executable, __file__, *sys.argv[1:]), env=own,
+    # A server without clients for a moment would start anew, and refuse those that come then.
+    screen = "-screen 0 1280x720x24 -noreset"
+    sys.exit(subprocess.run(("xvfb-run", "-a", "-s", screen, sys.executable, __file__, *sys.argv[1:]), env=own,
                             check=False).returncode)

@@ -76,7 +76,9 @@ def main():
         folder = pathlib.Path(name)
         (folder / "scene.yaml").write_text(SCENE)
         environment = {k: v for k, v in os.environ.items() if k not in ("WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
-        subprocess.run(("xvfb-run", "-a", sys.executable, __file__, program, folder), env=environment, check=True)
+        # A server without clients for a moment would start anew, and refuse those that come then.
+        subprocess.run(("xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, __file__, program,
+                        folder), env=environment, check=True)
         pose = (folder / "pose.yaml").read_text()
         print(pose)
         x, y, z = (float(v) for v in pose.split("position_mm: [")[1].split("]")[0].split(","))
