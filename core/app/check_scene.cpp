@@ -52,6 +52,7 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
   };
   // Before anything can fail because of the start: the picture shows why.
   if (draw && !looks) draw_on_first(given_start(session, start, first));
+  session.parts.status.recovery.run = RecoveryRun::frame;  // the one frame waits for its search
   SceneTracker tracker(*session.scene, std::move(session.parts), start, session.seed);
   if (usable) {
     tracker.check(first);

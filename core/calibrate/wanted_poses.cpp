@@ -33,9 +33,9 @@ void want_tilts(PoseCoverage& out, const std::vector<RoughPose>& poses) {
 }
 
 void want_distances(PoseCoverage& out, const std::vector<RoughPose>& poses) {
-  constexpr double kNear = 0.5, kRatio = 1.3;
+  constexpr double kNear = 0.35, kRatio = 1.3;
   if (std::ranges::none_of(poses, [](const RoughPose& p) { return p.extent > kNear; }))
-    out.wanted.emplace_back("board nearer, so that it fills half of the picture");
+    out.wanted.emplace_back("board nearer, so that it fills a third of the picture");
   const auto [nearest, farthest] = std::ranges::minmax_element(poses, {}, &RoughPose::distance);
   if (nearest == poses.end() || farthest->distance < kRatio * nearest->distance)
     out.wanted.emplace_back("board farther away");

@@ -73,6 +73,7 @@ def end_servers():
 
 if __name__ == "__main__":
     os.setpgrp()
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended from outside"))
     try:
         code = main()
     finally:

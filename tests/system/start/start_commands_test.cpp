@@ -45,6 +45,13 @@ TEST_F(StartCommands, DrawAStartThatIsRefusedBecauseItIsBehindTheCamera) {
   EXPECT_EQ(cv::imread(path("start.png").string()).cols, 320);
 }
 
+TEST_F(StartCommands, DrawWhatIsFoundAlsoWhereSearchesAreInTheBackground) {
+  const std::string text =
+      replaced(box_scene(), "init: {from: truth}",
+               "init: {from: global_search}\ntracker: {recovery: {run: background}}");
+  EXPECT_THAT(draw(text).err, HasSubstr("start: global_search; box found"));
+}
+
 TEST_F(StartCommands, DrawWhatIsFoundOrSayThatNothingIs) {
   const std::string text =
       replaced(box_scene(), "init: {from: truth}", "init: {from: global_search}");
