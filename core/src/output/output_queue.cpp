@@ -39,10 +39,10 @@ void OutputQueue::rethrow() {
 
 void OutputQueue::add_search(Frame frame, Solution solution, SearchRecord record) {
   rethrow();
-  jobs_.push([this, frame = std::move(frame), solution = std::move(solution),
-              record = std::move(record)] {
-    write([&](RunOutput& output) { output.add_search(frame, solution, record); });
-  });
+  jobs_.push(
+      [this, frame = std::move(frame), solution = std::move(solution), record = std::move(record)] {
+        write([&](RunOutput& output) { output.add_search(frame, solution, record); });
+      });
 }
 
 void OutputQueue::add_online(Frame frame, Solution solution) {
