@@ -61,6 +61,7 @@ void LiveRun::open(OutputContext& run) {
 void LiveRun::close() {
   end();
   for (const auto& viewer : viewers_) viewer->end();
+  renderer_.reset();
   run_ = nullptr;
 }
 
@@ -116,8 +117,9 @@ void LiveRun::set_status() {
 
 void LiveRun::write_snapshot() {
   const std::string name = fmt::format("snapshot_{:06}", shown_->frame);
+  if (!renderer_) renderer_ = std::make_unique<Renderer>(run_->scene());
   const std::vector<cv::Mat> views =
-      draw_views(run_->renderer(), run_->scene(), *shown_, run_->cameras());
+      draw_views(*renderer_, run_->scene(), *shown_, run_->cameras());
   TextFile(run_->file(name + ".png")).write(png(joined(views, ViewLayout::row)));
   std::vector<bool> known = shown_->hidden;
   known.flip();

@@ -9,6 +9,7 @@
 
 #include "hypotrack/frame.hpp"
 #include "hypotrack/output.hpp"
+#include "hypotrack/renderer.hpp"
 #include "hypotrack/solution.hpp"
 #include "run/run_scene.hpp"
 #include "viewing/frame_rate.hpp"
@@ -55,7 +56,8 @@ class LiveRun {
   RunControls controls_;
   std::function<void(const std::string&)> tell_;
   Recorder recorder_;
-  OutputContext* run_ = nullptr;  ///< while there is one
+  OutputContext* run_ = nullptr;        ///< while there is one
+  std::unique_ptr<Renderer> renderer_;  ///< of snapshots; the run's draws in another thread
   std::shared_ptr<const ShownViews> shown_;
   FrameRate rate_;
   LiveStatus status_;

@@ -32,7 +32,8 @@ class HYPOTRACK_API OutputContext {
   /// Returns the path at which to write the file of this name, one of Output::file_names(). The
   /// file gets its name when the run ends. Throws PluginError for other names.
   virtual std::filesystem::path file(const std::string& name) = 0;
-  /// Returns the run's renderer, made at the first call. Throws DeviceError.
+  /// Returns the run's renderer, made at the first call. Use it in calls of the output. Throws
+  /// DeviceError.
   virtual Renderer& renderer() = 0;
 };
 

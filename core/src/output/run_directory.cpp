@@ -108,6 +108,7 @@ std::vector<std::string> RunDirectory::results_there(const std::string& prefix) 
 }
 
 std::filesystem::path RunDirectory::part(const std::string& name) {
+  const std::lock_guard lock(mutex_);
   if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
   return part_path(name);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +30,7 @@ class RunDirectory {
   const std::filesystem::path& path() const { return directory_; }
 
   /// Returns the path at which to write the file that will be called `name`, the same for every
-  /// call. Keeps a video's suffix.
+  /// call. Keeps a video's suffix. May be called from several threads.
   std::filesystem::path part(const std::string& name);
 
   /// Keeps unfinished files from now on, whatever happens.
@@ -50,7 +51,8 @@ class RunDirectory {
   void lock();
   std::filesystem::path directory_;
   std::vector<std::string> results_;
-  std::vector<std::string> names_;
+  std::mutex mutex_;                ///< guards the names
+  std::vector<std::string> names_;  ///< of the files of this run
   bool made_ = false;
   bool keep_ = false;
   int descriptor_ = -1;  ///< file descriptor of the locked folder
