@@ -42,8 +42,8 @@ class HYPOTRACK_API OutputContext {
 /// A run calls begin(), then wants_search(), search() if it is wanted, online() and frame() for
 /// every frame, then finish(). An output that is destroyed without finish() leaves its files as
 /// they are.
-/// Calls come one after the other, and not all from one thread: frames are written while the next
-/// are tracked. wants_search() alone may come during another call.
+/// Calls come one after the other. An output that takes the renderer in begin() gets its frames in
+/// another thread, while the next are tracked; wants_search() may then come during another call.
 class HYPOTRACK_API Output {
  public:
   Output() = default;

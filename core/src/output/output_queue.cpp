@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <future>
-#include <optional>
 #include <utility>
 
 namespace hypotrack {
@@ -12,24 +11,33 @@ constexpr std::size_t kMostWaiting = 8;  // frames with pictures
 
 }  // namespace
 
-OutputQueue::OutputQueue(RunOutput& output) : output_(&output), jobs_(kMostWaiting) {
+OutputQueue::OutputQueue(RunOutput& output) : output_(&output), waiting_(kMostWaiting) {
   thread_ = std::jthread([this](const std::stop_token& stop) {
-    while (const std::optional<Job> job = jobs_.pop(stop)) (*job)();
+    while (const auto job = waiting_.pop(stop)) (*job)();
   });
 }
 
-void OutputQueue::write(const std::function<void(RunOutput&)>& what) {
-  if (failed_) return;
+void OutputQueue::write(const Job& job, Outputs which) {
   const auto begin = std::chrono::steady_clock::now();
+  job(*output_, which);
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void OutputQueue::draw(const Job& job) {
+  if (failed_) return;
   try {
-    what(*output_);
+    write(job, Outputs::drawing);
   } catch (...) {
     failed_ = true;
     const std::lock_guard lock(mutex_);
     error_ = std::current_exception();
   }
-  seconds_ =
-      seconds_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void OutputQueue::give(Job job) {
+  rethrow();
+  write(job, Outputs::plain);
+  if (output_->draws()) waiting_.push([this, job = std::move(job)] { draw(job); });
 }
 
 void OutputQueue::rethrow() {
@@ -38,30 +46,24 @@ void OutputQueue::rethrow() {
 }
 
 void OutputQueue::add_search(Frame frame, Solution solution, SearchRecord record) {
-  rethrow();
-  jobs_.push(
-      [this, frame = std::move(frame), solution = std::move(solution), record = std::move(record)] {
-        write([&](RunOutput& output) { output.add_search(frame, solution, record); });
-      });
+  give(
+      [frame = std::move(frame), solution = std::move(solution), record = std::move(record)](
+          RunOutput& output, Outputs which) { output.add_search(frame, solution, record, which); });
 }
 
 void OutputQueue::add_online(Frame frame, Solution solution) {
-  rethrow();
-  jobs_.push([this, frame = std::move(frame), solution = std::move(solution)] {
-    write([&](RunOutput& output) { output.add_online(frame, solution); });
-  });
+  give([frame = std::move(frame), solution = std::move(solution)](
+           RunOutput& output, Outputs which) { output.add_online(frame, solution, which); });
 }
 
 void OutputQueue::add(Frame frame, Solution solution) {
-  rethrow();
-  jobs_.push([this, frame = std::move(frame), solution = std::move(solution)] {
-    write([&](RunOutput& output) { output.add(frame, solution); });
-  });
+  give([frame = std::move(frame), solution = std::move(solution)](
+           RunOutput& output, Outputs which) { output.add(frame, solution, which); });
 }
 
 void OutputQueue::settle() {
   std::promise<void> reached;
-  jobs_.push([&reached] { reached.set_value(); });
+  waiting_.push([&reached] { reached.set_value(); });
   reached.get_future().wait();
   rethrow();
 }

@@ -11,8 +11,8 @@
 
 namespace hypotrack {
 
-/// Gives the frames of a run to its output in a thread of its own, in order. While many wait, the
-/// caller waits.
+/// Gives the frames of a run to its outputs, in order: to plain ones at once, to drawing ones in a
+/// thread of their own. While many frames wait for that, the caller waits.
 class OutputQueue {
  public:
   /// The output must outlive the object, and is used by nobody else until settle() returns.
@@ -22,8 +22,8 @@ class OutputQueue {
   OutputQueue(const OutputQueue&) = delete;
   OutputQueue& operator=(const OutputQueue&) = delete;
 
-  /// As those of RunOutput. Each throws what the output threw for an earlier frame, once; nothing
-  /// is written after that.
+  /// As those of RunOutput. Each throws what a drawing output threw for an earlier frame, once;
+  /// nothing is drawn after that.
   void add_search(Frame frame, Solution solution, SearchRecord record);
   void add_online(Frame frame, Solution solution);
   void add(Frame frame, Solution solution);
@@ -31,14 +31,16 @@ class OutputQueue {
   /// Waits until all that was added is written. Throws like add().
   void settle();
 
-  /// Returns how long the output has worked, in seconds.
+  /// Returns how long the outputs have worked, in seconds.
   double seconds() const { return seconds_; }
 
  private:
-  using Job = std::function<void()>;
+  using Job = std::function<void(RunOutput&, Outputs)>;
 
+  void give(Job job);
+  void write(const Job& job, Outputs which);
   /// Is called in the thread.
-  void write(const std::function<void(RunOutput&)>& what);
+  void draw(const Job& job);
   void rethrow();
 
   RunOutput* output_;
@@ -46,7 +48,7 @@ class OutputQueue {
   std::mutex mutex_;
   std::exception_ptr error_;  ///< guarded by the mutex; null after it was thrown
   bool failed_ = false;       ///< of the thread
-  BoundedQueue<Job> jobs_;
+  BoundedQueue<std::function<void()>> waiting_;
   std::jthread thread_;  ///< ends before what it uses
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -54,7 +55,7 @@ class RunDirectory {
   std::mutex mutex_;                ///< guards the names
   std::vector<std::string> names_;  ///< of the files of this run
   bool made_ = false;
-  bool keep_ = false;
+  std::atomic<bool> keep_ = false;
   int descriptor_ = -1;  ///< file descriptor of the locked folder
 };
 

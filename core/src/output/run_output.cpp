@@ -87,12 +87,22 @@ class RunOutput::Context final : public OutputContext {
           name_, name));
     return run_->directory_.part(name);
   }
-  Renderer& renderer() override { return run_->renderer(); }
+  Renderer& renderer() override {
+    draws_ = draws_ || begins_;
+    return run_->renderer(draws_);
+  }
+
+  /// Says that Output::begin() is over.
+  void begun() { begins_ = false; }
+  /// Returns true if the output took the renderer in Output::begin().
+  bool draws() const { return draws_; }
 
  private:
   RunOutput* run_;
   std::string name_;
   std::vector<std::string> files_;
+  bool begins_ = true;
+  bool draws_ = false;
 };
 
 RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options options,
@@ -108,6 +118,7 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
     for (const NamedOutput& output : outputs_) {
       contexts_.push_back(std::make_unique<Context>(*this, output));
       output.output->begin(*contexts_.back());
+      contexts_.back()->begun();
     }
   } catch (...) {
     outputs_.clear();  // closes the files before they are removed
@@ -117,9 +128,18 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
 
 RunOutput::~RunOutput() { outputs_.clear(); }
 
-Renderer& RunOutput::renderer() {
-  if (!renderer_) renderer_ = std::make_unique<Renderer>(*scene_);
-  return *renderer_;
+Renderer& RunOutput::renderer(bool of_drawing_outputs) {
+  std::unique_ptr<Renderer>& renderer = of_drawing_outputs ? drawing_renderer_ : renderer_;
+  if (!renderer) renderer = std::make_unique<Renderer>(*scene_);
+  return *renderer;
+}
+
+bool RunOutput::draws() const {
+  return std::ranges::any_of(contexts_, [](const auto& context) { return context->draws(); });
+}
+
+bool RunOutput::is_meant(std::size_t output, Outputs which) const {
+  return which == Outputs::all || contexts_[output]->draws() == (which == Outputs::drawing);
 }
 
 bool RunOutput::want_search(const Frame& frame) const {
@@ -128,27 +148,32 @@ bool RunOutput::want_search(const Frame& frame) const {
   });
 }
 
-void RunOutput::add_search(const Frame& frame, const Solution& solution,
-                           const SearchRecord& record) {
+void RunOutput::add_search(const Frame& frame, const Solution& solution, const SearchRecord& record,
+                           Outputs which) {
   directory_.keep();
-  for (const NamedOutput& output : outputs_)
-    if (output.output->wants_search(frame)) output.output->search(frame, solution, record);
-}
-
-void RunOutput::add_online(const Frame& frame, const Solution& solution) {
-  directory_.keep();
-  for (const NamedOutput& output : outputs_) output.output->online(frame, solution);
-}
-
-void RunOutput::add(const Frame& frame, const Solution& solution) {
-  if (options_.worst_frames > 0 && !options_.fixed_lag && true_landmarks(*scene_, frame))
-    renderer();  // without OpenGL, fail now and not at the end
-  directory_.keep();
-  for (const NamedOutput& output : outputs_) {
-    if (!options_.fixed_lag) output.output->online(frame, solution);
-    output.output->frame(frame, solution);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    Output& output = *outputs_[i].output;
+    if (is_meant(i, which) && output.wants_search(frame)) output.search(frame, solution, record);
   }
-  ++frames_;
+}
+
+void RunOutput::add_online(const Frame& frame, const Solution& solution, Outputs which) {
+  directory_.keep();
+  for (std::size_t i = 0; i < outputs_.size(); ++i)
+    if (is_meant(i, which)) outputs_[i].output->online(frame, solution);
+}
+
+void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which) {
+  if (options_.worst_frames > 0 && !options_.fixed_lag && !drawing_renderer_ &&
+      true_landmarks(*scene_, frame))
+    renderer(false);  // without OpenGL, fail now and not at the end
+  directory_.keep();
+  for (std::size_t i = 0; i < outputs_.size(); ++i) {
+    if (!is_meant(i, which)) continue;
+    if (!options_.fixed_lag) outputs_[i].output->online(frame, solution);
+    outputs_[i].output->frame(frame, solution);
+  }
+  if (which != Outputs::drawing) ++frames_;
 }
 
 Summary RunOutput::finish(bool complete, const ClockTimes& clock) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -19,8 +18,12 @@ namespace hypotrack {
 /// name is none.
 void check_outputs(const std::vector<NamedOutput>& outputs);
 
+/// Which outputs of a run get a frame. Drawing ones took the renderer in Output::begin(): they are
+/// slow.
+enum class Outputs { all, plain, drawing };
+
 /// Writes the results of a run: run.yaml, what MetricsOutput writes, and the files of the scene's
-/// outputs.
+/// outputs. One thread may add frames to drawing outputs while another adds them to plain ones.
 class RunOutput {
  public:
   struct Options {
@@ -42,16 +45,20 @@ class RunOutput {
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
+  /// Returns true if there are drawing outputs.
+  bool draws() const;
+
   /// Returns true if an output wants to see how this frame is searched.
   bool want_search(const Frame& frame) const;
   /// Passes on how a frame was searched, before its solution, to the outputs that want it.
-  void add_search(const Frame& frame, const Solution& solution, const SearchRecord& record);
+  void add_search(const Frame& frame, const Solution& solution, const SearchRecord& record,
+                  Outputs which = Outputs::all);
 
   /// Adds the unsmoothed solution of a frame. Call it with fixed-lag smoothing only.
-  void add_online(const Frame& frame, const Solution& solution);
+  void add_online(const Frame& frame, const Solution& solution, Outputs which = Outputs::all);
 
   /// Adds a frame. With fixed-lag smoothing its pictures may be gone.
-  void add(const Frame& frame, const Solution& solution);
+  void add(const Frame& frame, const Solution& solution, Outputs which = Outputs::all);
 
   /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
   /// frame was added.
@@ -62,7 +69,8 @@ class RunOutput {
  private:
   class Context;
 
-  Renderer& renderer();
+  Renderer& renderer(bool of_drawing_outputs);
+  bool is_meant(std::size_t output, Outputs which) const;
 
   const Scene* scene_;
   std::vector<Camera> cameras_;
@@ -71,8 +79,9 @@ class RunOutput {
   std::vector<NamedOutput> outputs_;
   RunDirectory directory_;
   std::unique_ptr<Renderer> renderer_;              ///< made when there is something to draw
+  std::unique_ptr<Renderer> drawing_renderer_;      ///< of the drawing outputs
   std::vector<std::unique_ptr<Context>> contexts_;  ///< of the outputs
-  std::atomic<int> frames_ = 0;
+  int frames_ = 0;
 };
 
 }  // namespace hypotrack

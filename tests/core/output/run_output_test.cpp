@@ -29,6 +29,7 @@ class Diary final : public Output {
 
   std::vector<std::string> file_names() const override { return names_; }
   void begin(OutputContext& run) override {
+    if (draws) run.renderer();
     file_.emplace(run.file(asks_for.empty() ? names_.front() : asks_for));
     file_->write("begin");
   }
@@ -45,6 +46,7 @@ class Diary final : public Output {
   }
 
   std::string asks_for;
+  bool draws = false;
   bool fails = false;
   int fails_at = -1;
 
@@ -179,21 +181,28 @@ TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
   EXPECT_THAT(names(), UnorderedElementsAre("page_7.txt", "run.yaml", "summary.json"));
 }
 
-TEST_F(RunOutputTest, AQueueWritesAllFramesInOrder) {
-  const auto output = open("diary.txt");
+TEST_F(RunOutputTest, AQueueGivesAllFramesInOrderToDrawingAndPlainOutputs) {
+  auto drawing = std::make_unique<Diary>("drawing.txt");
+  drawing->draws = true;
+  std::vector<NamedOutput> outputs = one(std::move(drawing));
+  outputs.push_back({"plain", std::make_unique<Diary>("plain.txt")});
+  const auto output = open(std::move(outputs));
   OutputQueue queue(*output);
   std::string expected = "begin";
   for (int i = 0; i < 40; ++i) {
     queue.add(frame(i), solution(i));
     expected += fmt::format(" online {0} frame {0}", i);
+    EXPECT_EQ(text(".part.plain.txt"), expected) << "a crash must not lose it";
   }
   queue.settle();
   output->finish(true);
-  EXPECT_EQ(text("diary.txt"), expected + " finish");
+  EXPECT_EQ(text("drawing.txt"), expected + " finish");
+  EXPECT_EQ(text("plain.txt"), expected + " finish");
 }
 
-TEST_F(RunOutputTest, AQueueTellsAnErrorOnceAndWritesNothingAfterIt) {
+TEST_F(RunOutputTest, AQueueTellsAnErrorOfADrawingOutputOnceAndDrawsNothingAfterIt) {
   auto diary = std::make_unique<Diary>("diary.txt");
+  diary->draws = true;
   diary->fails_at = 1;
   const auto output = open(one(std::move(diary)));
   OutputQueue queue(*output);
