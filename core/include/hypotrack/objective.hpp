@@ -105,7 +105,7 @@ class HYPOTRACK_API Objective {
 
   /// Prepares features of a frame that make scoring fast. The observation outlives every `cost`
   /// until the next `prepare`. Throws DataError if the observation does not suit (one view for a
-  /// stereo objective).
+  /// stereo objective). Several objectives are prepared at the same time.
   virtual void prepare(const Observation& observation) = 0;
 
   /// Returns the cost of a hypothesis: lower is better, +infinity is infeasible, NaN is a bug.

@@ -1,4 +1,6 @@
+#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -8,10 +10,13 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cost/backends.hpp"
+#include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
 #include "cost/linearizer.hpp"
+#include "cost/normal_equations.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack {
@@ -61,11 +66,11 @@ class HostCost final : public Cost, public StateResiduals {
     check_room(residuals, count(), batch.cols());
     const auto rows = static_cast<std::size_t>(residuals.rows());
     renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
-      std::span<float> rest(residuals.col(index).data(), rows);
-      costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
-        return residuals_->write(t, drawn, rest);
-      });
+      costs[index] = write_residuals(index, hypothesis, {residuals.col(index).data(), rows});
     });
+  }
+  std::unique_ptr<ResidualDifferences> differences() override {
+    return std::make_unique<Differences>(*this, difference_memory_);
   }
   bool can_linearize() const override { return linearizer_ != nullptr; }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
@@ -79,7 +84,8 @@ class HostCost final : public Cost, public StateResiduals {
   }
   void prepare_observation(const Observation& observation) override {
     arena_.execute([&] {
-      for (const ObjectiveTerm& term : terms()) term.objective->prepare(observation);
+      tbb::parallel_for(std::size_t{0}, terms().size(),
+                        [&](std::size_t i) { terms()[i].objective->prepare(observation); });
     });
     prepare_only_drawing(observation);
   }
@@ -98,6 +104,74 @@ class HostCost final : public Cost, public StateResiduals {
   }
 
  private:
+  /// Memory of Differences, kept from search to search.
+  struct DifferenceMemory {
+    Eigen::MatrixXf batch;  // residuals of the last batch of evaluate()
+    Eigen::VectorXf here;   // residuals of the point of linearisation
+    DifferenceBlocks blocks;
+  };
+
+  /// Residual differences that never store the residuals of neighbouring points.
+  class Differences final : public ResidualDifferences {
+   public:
+    Differences(HostCost& cost, DifferenceMemory& memory) : cost_(cost), memory_(memory) {}
+
+    void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                  Eigen::Ref<Eigen::VectorXd> costs) override {
+      const Eigen::Index rows = cost_.count(), columns = states.cols();
+      if (memory_.batch.rows() != rows || memory_.batch.cols() < columns) {
+        memory_.batch.resize(rows, columns);
+      }
+      cost_.evaluate(states, memory_.batch.leftCols(columns), costs);
+      neighbours_.resize(0, 0);
+    }
+    void move_to(Eigen::Index i) override {
+      if (neighbours_.cols() > 0) {  // rare: evaluated again, because residuals were not kept
+        Eigen::VectorXd cost(1);
+        evaluate(Eigen::MatrixXd(neighbours_.col(i)), cost);
+        i = 0;
+      }
+      memory_.here = memory_.batch.col(i);
+    }
+    NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                                     const Eigen::Ref<const Eigen::VectorXd>& scale,
+                                     Eigen::Ref<Eigen::VectorXd> costs) override {
+      neighbours_ = states;
+      cost_.fill(memory_.blocks, memory_.here, states, costs);
+      NormalEquations sums;
+      cost_.arena_.execute(
+          [&] { sums = memory_.blocks.normal_equations(scale_of_finite(scale, costs)); });
+      return sums;
+    }
+
+   private:
+    HostCost& cost_;
+    DifferenceMemory& memory_;
+    Eigen::MatrixXd neighbours_;  // states of the last batch, if it was of normal_equations()
+  };
+
+  /// Stores how the residuals of states (DxN) differ from those of one point; computes the costs.
+  void fill(DifferenceBlocks& blocks, const Eigen::VectorXf& here,
+            const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs) {
+    const Eigen::MatrixXd& batch = normalized(states, costs.size());
+    const auto rows = static_cast<std::size_t>(here.size());
+    blocks.begin({here.data(), rows}, batch.cols());
+    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      std::vector<float>& residuals = memory_.local();
+      residuals.resize(rows);
+      costs[index] = write_residuals(index, hypothesis, residuals);
+      blocks.set(index, residuals);
+    });
+  }
+
+  /// Writes all residuals of a hypothesis and returns its cost.
+  double write_residuals(Eigen::Index index, const RenderedHypothesis& hypothesis,
+                         std::span<float> residuals) const {
+    return sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
+      return residuals_->write(t, drawn, residuals);
+    });
+  }
+
   /// Returns the weighted sum of `cost_of(term index, hypothesis)` over the terms. Terms that need
   /// no rendering get no views.
   template <class CostOf>
@@ -120,7 +194,9 @@ class HostCost final : public Cost, public StateResiduals {
   std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
-  tbb::task_arena arena_;                   // for the work of a frame before hypotheses
+  tbb::task_arena arena_;                   // for work that is not on hypotheses
+  tbb::enumerable_thread_specific<std::vector<float>> memory_;  // residuals of one hypothesis
+  DifferenceMemory difference_memory_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,14 @@
 #include "cost/pixel_rows.hpp"
 
 namespace hypotrack {
+namespace {
+
+// A view's rows are summed in this many parts at the same time. The number is fixed, so that the
+// sums do not depend on the number of threads.
+constexpr std::size_t kBands = 8;
+
+}  // namespace
+
 struct Linearizer::Impl {
   /// The pixels of a view in one term.
   struct PixelPart {
@@ -19,13 +28,25 @@ struct Linearizer::Impl {
     std::size_t index;  ///< index of the view in its pixel_views()
     float factor;       ///< root of the term's weight
     std::vector<float> residuals = {}, slopes = {};
+
+    void resize(std::size_t pixels) {
+      residuals.resize(pixels);
+      slopes.resize(pixels);
+    }
+    void scale() {
+      if (factor == 1) return;
+      const auto pixels = static_cast<Eigen::Index>(residuals.size());
+      Eigen::Map<Eigen::ArrayXf>(residuals.data(), pixels) *= factor;
+      Eigen::Map<Eigen::ArrayXf>(slopes.data(), pixels) *= factor;
+    }
   };
 
-  /// All terms of one view; one thread handles them at a time.
+  /// All terms of one view.
   struct ViewPart {
     std::size_t view = 0;
     std::vector<PixelPart> parts = {};
-    PixelRows rows = {};
+    std::vector<PixelSlopes> slopes = {};      // of the parts
+    std::array<PixelRows, kBands> bands = {};  // of the tile's rows
   };
 
   struct StatePart {
@@ -68,15 +89,16 @@ struct Linearizer::Impl {
     }
   }
 
-  void draw(const Eigen::MatrixXd& states) {
-    const auto dimension = static_cast<std::size_t>(states.rows());
+  /// Draws the first state and poses the neighbours, given by their dimensions.
+  void draw(const Eigen::MatrixXd& states, const std::vector<Eigen::Index>& dimensions) {
     const std::size_t sets = frame.pair ? 1 : frame.views.size();
     const std::size_t size = std::size_t{plan.vertex_count} * kRecord;
-    const auto count = static_cast<std::size_t>(states.cols() - 1);
+    const std::size_t count = dimensions.size();
     records.resize(sets * count * size);
     tbb::parallel_for(std::size_t{0}, count + 1, [&](std::size_t i) {
-      const std::span<const double> state(states.col(static_cast<Eigen::Index>(i)).data(),
-                                          dimension);
+      const Eigen::Index column = i == 0 ? 0 : 1 + dimensions[i - 1];
+      const std::span<const double> state(states.col(column).data(),
+                                          static_cast<std::size_t>(states.rows()));
       if (i == 0) {
         centre->draw(state);
         return;
@@ -95,29 +117,46 @@ struct Linearizer::Impl {
     return records.data() + (set * count + i) * std::size_t{plan.vertex_count} * kRecord;
   }
 
-  void add_rows(ViewPart& part, const RenderedHypothesis& hypothesis,
-                const std::vector<float>& per_step, float blur) {
-    const std::size_t set = frame.pair ? 0 : part.view;
-    std::vector<const float*> beside;
-    for (std::size_t i = 0; i < per_step.size(); ++i) {
-      beside.push_back(record(set, i, per_step.size()));
+  /// Computes the residuals and slopes of every term in every view.
+  void write_slopes(const RenderedHypothesis& hypothesis) {
+    std::vector<std::pair<PixelPart*, const DepthTile*>> parts;
+    for (ViewPart& view : views) {
+      for (PixelPart& part : view.parts) parts.emplace_back(&part, &hypothesis.views[view.view]);
     }
-    const DepthTile& tile = hypothesis.views[part.view];
-    part.rows.begin({&plan, &frame.views[part.view], &centre->visible(part.view),
-                     frame.pair && part.view == 1, tile.inverse_depth, centre->records(part.view),
-                     beside.data(), per_step.data(), static_cast<int>(per_step.size())});
-    const auto pixels =
-        static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
-    for (PixelPart& pixel : part.parts) {
-      pixel.residuals.resize(pixels);
-      pixel.slopes.resize(pixels);
-      pixel.term->write_slopes(hypothesis, pixel.index, pixel.residuals, pixel.slopes);
-      if (pixel.factor != 1) {
-        for (float& r : pixel.residuals) r *= pixel.factor;
-        for (float& s : pixel.slopes) s *= pixel.factor;
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      const auto [part, tile] = parts[i];
+      part->resize(static_cast<std::size_t>(tile->width) * static_cast<std::size_t>(tile->height));
+      part->term->write_slopes(hypothesis, part->index, part->residuals, part->slopes);
+      part->scale();
+    });
+    for (ViewPart& view : views) {
+      view.slopes.clear();
+      for (const PixelPart& part : view.parts) {
+        view.slopes.push_back({part.residuals.data(), part.slopes.data()});
       }
-      part.rows.add({pixel.residuals.data(), pixel.slopes.data(), blur});
     }
+  }
+
+  /// Sums the products of the pixels' rows, in bands of every view.
+  void sum_rows(const RenderedHypothesis& hypothesis, const std::vector<float>& per_step,
+                float blur) {
+    tbb::parallel_for(std::size_t{0}, views.size() * kBands, [&](std::size_t i) {
+      ViewPart& part = views[i / kBands];
+      const std::size_t band = i % kBands, set = frame.pair ? 0 : part.view;
+      std::vector<const float*> beside;
+      for (std::size_t k = 0; k < per_step.size(); ++k) {
+        beside.push_back(record(set, k, per_step.size()));
+      }
+      const DepthTile& tile = hypothesis.views[part.view];
+      const auto row = [&](std::size_t of) {
+        return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(kBands);
+      };
+      part.bands[band].sum(
+          {&plan, &frame.views[part.view], &centre->visible(part.view),
+           frame.pair && part.view == 1, tile.inverse_depth, centre->records(part.view),
+           beside.data(), per_step.data(), static_cast<int>(per_step.size())},
+          part.slopes, blur, {row(band), row(band + 1)});
+    });
   }
 
   /// Adds a term of the state by differences.
@@ -151,6 +190,22 @@ struct Linearizer::Impl {
   std::vector<float> records;
 };
 
+namespace {
+
+/// Adds the sums of a band, whose columns are some dimensions.
+void add(const PixelRows& rows, const std::vector<Eigen::Index>& dimensions,
+         NormalEquations& sums) {
+  const auto d = static_cast<Eigen::Index>(dimensions.size());
+  const auto columns = static_cast<Eigen::Index>(rows.columns());
+  const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> all(
+      rows.sums().data(), columns, columns);
+  const Eigen::MatrixXd upper = all.topLeftCorner(d, d).cast<double>();
+  sums.a(dimensions, dimensions) += Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>());
+  sums.g(dimensions) += all.col(d).head(d).cast<double>();
+}
+
+}  // namespace
+
 bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   return std::ranges::all_of(terms, [](const ObjectiveTerm& term) {
     if (term.weight == 0) return true;
@@ -177,24 +232,23 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
   Impl& self = *impl_;
   const Eigen::Index d = steps.size();
   NormalEquations sums{Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)};
+  std::vector<Eigen::Index> moved;
   std::vector<float> per_step;
-  for (const double step : steps) per_step.push_back(step == 0 ? 0 : static_cast<float>(1 / step));
+  for (Eigen::Index i = 0; i < d; ++i) {
+    if (steps[i] == 0) continue;
+    moved.push_back(i);
+    per_step.push_back(static_cast<float>(1 / steps[i]));
+  }
   self.arena.execute([&] {
     if (self.views.empty()) return;
-    self.draw(states);
+    self.draw(states, moved);
     const RenderedHypothesis hypothesis{
         {states.col(0).data(), static_cast<std::size_t>(states.rows())}, self.centre->tiles()};
-    tbb::parallel_for(std::size_t{0}, self.views.size(), [&](std::size_t i) {
-      self.add_rows(self.views[i], hypothesis, per_step, static_cast<float>(blur));
-    });
+    self.write_slopes(hypothesis);
+    self.sum_rows(hypothesis, per_step, static_cast<float>(blur));
   });
   for (const Impl::ViewPart& view : self.views) {
-    const auto columns = static_cast<Eigen::Index>(view.rows.columns());
-    const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>
-        all(view.rows.sums().data(), columns, columns);
-    const Eigen::MatrixXd upper = all.topLeftCorner(d, d).cast<double>();
-    sums.a += Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>());
-    sums.g += all.col(d).head(d).cast<double>();
+    for (const PixelRows& rows : view.bands) add(rows, moved, sums);
   }
   for (const Impl::StatePart& part : self.others) self.add_differences(part, states, steps, sums);
   return sums;

@@ -7,8 +7,7 @@
 namespace hypotrack {
 
 /// Computes the normal equations from residuals r at a point (M) and at D neighbours (MxD). Column
-/// d of J is (beside.col(d) - r) * scale[d]; columns with scale 0 are ignored. Most residuals do
-/// not depend on most parameters; equal entries cost only a comparison.
+/// d of J is (beside.col(d) - r) * scale[d]; columns with scale 0 are ignored.
 NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
                                  const Eigen::Ref<const Eigen::MatrixXf>& beside,
                                  const Eigen::VectorXd& scale);

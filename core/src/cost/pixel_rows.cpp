@@ -15,8 +15,12 @@ namespace {
 /// Input and output of the kernel.
 struct Work {
   const DrawnView& drawn;
-  const PixelSlopes& term;
+  std::span<const PixelSlopes> terms;
+  float blur;
+  TileRows rows;
   std::size_t columns;
+  const float* slopes;     ///< of all terms together, from the first row
+  const float* residuals;  ///< belonging to `slopes`
   std::uint8_t* taken;
   std::uint8_t* known;
   float* motion;
@@ -37,6 +41,8 @@ constexpr float kStep = 0.006f;
 // The rasteriser's tolerance, widened for the different order of operations here.
 constexpr float kInclusive = 2e-5f;
 constexpr float kSameDepth = 1e-5f;
+// Flags of a vertex.
+constexpr std::uint8_t kKnown = 1, kMoves = 2;
 
 struct Point {
   float x, y, w;
@@ -79,7 +85,7 @@ class Walk {
         rows_(hwy::AllocateAligned<float>((kRows + 3) * work.columns)),
         surface_(rows_.get() + kRows * work.columns) {
     std::fill_n(rows_.get(), (kRows + 3) * work.columns, 0.0f);
-    root_blur_ = std::sqrt(work.term.blur);
+    root_blur_ = std::sqrt(work.blur);
   }
 
   void run() {
@@ -95,35 +101,60 @@ class Walk {
     return {d_.second ? record[3] : record[0], record[1], record[2]};
   }
 
-  /// Returns the motion of a vertex: rows of x, y and 1/z.
-  const float* motion(std::uint32_t corner) {
+  /// Returns the motion of a vertex: rows of x, y and 1/z. Requires moves().
+  const float* motion(std::uint32_t corner) const {
+    return work_.motion + 3 * work_.columns * (corner / kRecord);
+  }
+
+  /// Returns whether any parameter moves a vertex; computes its motion.
+  bool moves(std::uint32_t corner) {
     const std::size_t vertex = corner / kRecord;
-    float* rows = work_.motion + 3 * work_.columns * vertex;
-    if (work_.known[vertex]) return rows;
-    work_.known[vertex] = 1;
+    if (!(work_.known[vertex] & kKnown)) {
+      work_.known[vertex] =
+          find_motion(corner, work_.motion + 3 * work_.columns * vertex) ? kKnown | kMoves : kKnown;
+    }
+    return work_.known[vertex] & kMoves;
+  }
+
+  bool find_motion(std::uint32_t corner, float* rows) const {
     const Point here = point(corner);
     const int x = d_.second ? 3 : 0;
+    bool any = false;
     for (int i = 0; i < d_.dimension; ++i) {
       const float* record = d_.beside[i] + corner;
       const float per_step = record[2] > 0 ? d_.per_step[i] : 0;
-      rows[i] = (record[x] - here.x) * per_step;
-      rows[work_.columns + i] = (record[1] - here.y) * per_step;
-      rows[2 * work_.columns + i] = (record[2] - here.w) * per_step;
+      const float by_x = record[x] - here.x, by_y = record[1] - here.y, by_w = record[2] - here.w;
+      any |= by_x != 0 || by_y != 0 || by_w != 0;
+      rows[i] = by_x * per_step;
+      rows[work_.columns + i] = by_y * per_step;
+      rows[2 * work_.columns + i] = by_w * per_step;
     }
     for (std::size_t k = 0; k < 3; ++k) {
       std::fill(rows + k * work_.columns + d_.dimension, rows + (k + 1) * work_.columns, 0.0f);
     }
-    return rows;
+    return any;
+  }
+
+  bool meets_rows(const std::uint32_t* corners) const {
+    const float a = point(corners[0]).y, b = point(corners[1]).y, c = point(corners[2]).y;
+    return std::max({a, b, c}) >= static_cast<float>(work_.rows.first) &&
+           std::min({a, b, c}) <= static_cast<float>(work_.rows.end - 1);
   }
 
   void triangle(std::uint32_t number) {
     const std::uint32_t* corners = d_.plan->corners.data() + 4 * std::size_t{number};
+    if (!meets_rows(corners)) return;
+    bool moved = false;
+    for (int k = 0; k < 3; ++k) moved |= moves(corners[k]);
+    if (!moved) return;
     const Point a = point(corners[0]), b = point(corners[1]), c = point(corners[2]);
     const ViewProjection& view = *d_.view;
     const int x0 = static_cast<int>(std::ceil(std::max(std::min({a.x, b.x, c.x}), 0.0f)));
-    const int y0 = static_cast<int>(std::ceil(std::max(std::min({a.y, b.y, c.y}), 0.0f)));
+    const auto first_row = static_cast<float>(work_.rows.first);
+    const auto last_row = static_cast<float>(work_.rows.end - 1);
+    const int y0 = static_cast<int>(std::ceil(std::max(std::min({a.y, b.y, c.y}), first_row)));
     const float last_x = std::min(std::max({a.x, b.x, c.x}), static_cast<float>(view.width - 1));
-    const float last_y = std::min(std::max({a.y, b.y, c.y}), static_cast<float>(view.height - 1));
+    const float last_y = std::min(std::max({a.y, b.y, c.y}), last_row);
     const auto ox = static_cast<float>(x0), oy = static_cast<float>(y0);
     const float ax = a.x - ox, bx = b.x - ox, cx = c.x - ox;
     const float ay = a.y - oy, by = b.y - oy, cy = c.y - oy;
@@ -144,22 +175,21 @@ class Walk {
         const float w = c.w + share_a * (a.w - c.w) + share_b * (b.w - c.w);
         const float nearest = d_.tile[y * view.stride + x];
         if (!(w >= nearest * (1 - kSameDepth))) continue;
-        std::uint8_t& taken = work_.taken[y * view.width + x];
-        if (taken) continue;
-        taken = 1;
+        const int place = (y - work_.rows.first) * view.width + x;
+        if (work_.taken[place]) continue;
+        work_.taken[place] = 1;
         const float shares[3] = {share_a, share_b, share_c};
-        pixel(x, y, w, shares);
+        // On a surface seen at a grazing angle, a small motion moves the pixel far along it.
+        const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
+        if (work_.slopes[place] != 0 && !steep) surface(place, shares);
+        edges(x, y, w, shares);
       }
     }
   }
 
-  void pixel(int x, int y, float w, const float (&shares)[3]) {
+  void edges(int x, int y, float w, const float (&shares)[3]) {
     const int width = d_.view->width, height = d_.view->height;
     const int at = y * width + x;
-    const float slope = work_.term.slopes[at];
-    // On a surface seen at a grazing angle, a small motion moves the pixel far along it.
-    const bool steep = std::max(std::abs(share_dx_), std::abs(share_dy_)) > kStep * w * w;
-    if (slope != 0 && !steep) add_surface(slope, work_.term.residuals[at], shares);
     if (x > 0) edge(at, at - 1, x - 1, y, w, shares, 0, -1);
     if (x + 1 < width) edge(at, at + 1, x + 1, y, w, shares, 0, 1);
     if (y > 0) edge(at, at - width, x, y - 1, w, shares, 1, -1);
@@ -181,22 +211,28 @@ class Walk {
     }
   }
 
-  void add_surface(float slope, float residual, const float (&shares)[3]) {
+  void surface(int place, const float (&shares)[3]) {
     if (!has_surface_) find_surface();
-    add_row(surface_, surface_ + work_.columns, surface_ + 2 * work_.columns, slope, residual,
-            shares);
+    add_row(surface_, surface_ + work_.columns, surface_ + 2 * work_.columns, work_.slopes[place],
+            work_.residuals[place], shares);
   }
 
   void edge(int p, int q, int x, int y, float w, const float (&shares)[3], std::size_t axis,
             float outwards) {
     const float behind = d_.tile[y * d_.view->stride + x];
     if (w - behind <= kStep * w * behind) return;
-    const float r_p = work_.term.residuals[p], r_q = work_.term.residuals[q];
-    const float change = (r_p - r_q) * outwards / root_blur_;
-    if (change == 0) return;
+    float square = 0, product = 0;
+    for (const PixelSlopes& term : work_.terms) {
+      const float r_p = term.residuals[p], r_q = term.residuals[q], change = r_p - r_q;
+      square += change * change;
+      product += change * 0.5f * (r_p + r_q);
+    }
+    if (square == 0) return;
+    const float change = std::sqrt(square);
     const std::size_t offset = axis * work_.columns;
     add_row(motion(corners_[0]) + offset, motion(corners_[1]) + offset,
-            motion(corners_[2]) + offset, change, 0.5f * (r_p + r_q) * root_blur_, shares);
+            motion(corners_[2]) + offset, change * outwards / root_blur_,
+            product / change * root_blur_, shares);
   }
 
   void add_row(const float* a, const float* b, const float* c, float factor, float residual,
@@ -244,8 +280,8 @@ namespace {
 HWY_EXPORT(walk);
 }  // namespace
 
-void PixelRows::begin(const DrawnView& drawn) {
-  drawn_ = drawn;
+void PixelRows::sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, float blur,
+                    TileRows rows) {
   columns_ = (static_cast<std::size_t>(drawn.dimension) + 1 + kBlock - 1) / kBlock * kBlock;
   sums_.assign(columns_ * columns_, 0.0f);
   known_.assign(drawn.plan->vertex_count, 0);
@@ -254,14 +290,28 @@ void PixelRows::begin(const DrawnView& drawn) {
     motion_ = hwy::AllocateAligned<float>(size);
     motion_size_ = size;
   }
+  taken_.assign(static_cast<std::size_t>(drawn.view->width) *
+                    static_cast<std::size_t>(std::max(rows.end - rows.first, 0)),
+                0);
+  join_terms(terms, drawn.view->width, rows);
+  HWY_DYNAMIC_DISPATCH(walk)
+  ({drawn, terms, blur, rows, columns_, slopes_.data(), residuals_.data(), taken_.data(),
+    known_.data(), motion_.get(), sums_.data()});
 }
 
-void PixelRows::add(const PixelSlopes& term) {
-  taken_.assign(
-      static_cast<std::size_t>(drawn_.view->width) * static_cast<std::size_t>(drawn_.view->height),
-      0);
-  HWY_DYNAMIC_DISPATCH(walk)
-  ({drawn_, term, columns_, taken_.data(), known_.data(), motion_.get(), sums_.data()});
+void PixelRows::join_terms(std::span<const PixelSlopes> terms, int width, TileRows rows) {
+  using Pixels = Eigen::Map<const Eigen::ArrayXf>;
+  const Eigen::Index first = Eigen::Index{width} * rows.first;
+  const Eigen::Index count = Eigen::Index{width} * std::max(rows.end - rows.first, 0);
+  slopes_.setZero(count);
+  residuals_.setZero(count);
+  for (const PixelSlopes& term : terms) {
+    const Pixels slopes(term.slopes + first, count), residuals(term.residuals + first, count);
+    slopes_ += slopes.square();
+    residuals_ += slopes * residuals;
+  }
+  slopes_ = slopes_.sqrt();
+  residuals_ /= slopes_;  // not read where the slope is 0
 }
 
 }  // namespace hypotrack

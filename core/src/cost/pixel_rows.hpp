@@ -1,7 +1,9 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cost/raster_kernels.hpp"
@@ -17,20 +19,25 @@ struct DrawnView {
   bool second = false;             ///< second view of a rectified pair
   const float* tile = nullptr;     ///< inverse depth, `view->stride` x height
   const float* records = nullptr;  ///< of the drawn vertices
-  /// D records with one parameter changed, and 1 / the change (0 = ignore).
+  /// D records with one parameter changed, and 1 / the change.
   const float* const* beside = nullptr;
   const float* per_step = nullptr;
   int dimension = 0;
 };
 
-/// Residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.
+/// A term's residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.
 struct PixelSlopes {
   const float* residuals = nullptr;
   const float* slopes = nullptr;
-  float blur = 1;  ///< pixels over which a crossing silhouette changes a residual
 };
 
-/// Accumulates J^T J and J^T r of pixel residuals, from slopes and the motion of the drawn surface.
+/// Rows of a tile: first <= y < end.
+struct TileRows {
+  int first = 0, end = 0;
+};
+
+/// Sums J^T J and J^T r of the pixel residuals of all terms, from slopes and the motion of the
+/// drawn surface.
 ///
 /// Interior pixels: a pixel looks along a fixed ray. When the surface moves, its inverse depth w on
 /// the ray changes by dw = w' - grad w . p'. Here p' and w' are the motions of the surface point in
@@ -44,14 +51,14 @@ struct PixelSlopes {
 /// that changes from r_q to r_p over `blur` pixels has the row (r_p - r_q) / sqrt(blur) and the
 /// residual (r_p + r_q) / 2 sqrt(blur). They give the exact gradient and a curvature that decreases
 /// with the blur.
+///
+/// The terms' rows at a pixel are multiples f_t of one row, with residuals r_t. One row times
+/// f = sqrt(sum f_t^2), with the residual sum f_t r_t / f, has the same products.
 class PixelRows {
  public:
-  /// Begins a view. The data that `drawn` refers to must live until the last add(). `width` and
-  /// `height` of the tile come from the view.
-  void begin(const DrawnView& drawn);
-
-  /// Adds the rows of a term to the sums.
-  void add(const PixelSlopes& term);
+  /// Sums over the pixels of some rows of a view, whose size is the tile's. `blur`: pixels over
+  /// which a crossing silhouette changes a residual.
+  void sum(const DrawnView& drawn, std::span<const PixelSlopes> terms, float blur, TileRows rows);
 
   /// Returns the number of columns of the sums: D + 1, rounded up to whole vectors.
   std::size_t columns() const { return columns_; }
@@ -60,12 +67,14 @@ class PixelRows {
   const std::vector<float>& sums() const { return sums_; }
 
  private:
-  DrawnView drawn_;
+  void join_terms(std::span<const PixelSlopes> terms, int width, TileRows rows);
+
   std::size_t columns_ = 0;
   std::vector<float> sums_;
-  std::vector<std::uint8_t> taken_;  // per pixel: whether its triangle is known
-  std::vector<std::uint8_t> known_;  // per vertex: whether its motion is computed
-  AlignedFloats motion_;             // per vertex 3 x columns: of x, y and 1/z
+  Eigen::ArrayXf slopes_, residuals_;  // per pixel of the rows, of all terms together
+  std::vector<std::uint8_t> taken_;    // per pixel of the rows: whether its triangle is known
+  std::vector<std::uint8_t> known_;    // per vertex: whether its motion is computed, and not zero
+  AlignedFloats motion_;               // per vertex 3 x columns: of x, y and 1/z
   std::size_t motion_size_ = 0;
 };
 

@@ -72,7 +72,7 @@ double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothes
   rest = rest.subspan(part.count);
   const double cost = part.objective->cost_and_residuals(hypothesis, own);
   if (part.factor != 1) {
-    for (float& r : own) r *= part.factor;
+    Eigen::Map<Eigen::ArrayXf>(own.data(), static_cast<Eigen::Index>(own.size())) *= part.factor;
   }
   return cost;
 }

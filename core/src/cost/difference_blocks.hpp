@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hypotrack/optimizer.hpp"
+
+namespace hypotrack {
+
+/// Differences between the residuals of neighbouring points and those of one point, stored only
+/// where they differ. Most residuals do not depend on most parameters.
+class DifferenceBlocks {
+ public:
+  /// Begins `columns` empty columns beside the residuals `here`, which are copied.
+  void begin(std::span<const float> here, Eigen::Index columns);
+
+  /// Stores column i: `residuals` minus those of begin(), of equal length. Different columns may be
+  /// set from several threads at once.
+  void set(Eigen::Index i, std::span<const float> residuals);
+
+  /// Computes the normal equations, where column i of J is difference column i times scale[i], or 0
+  /// if that is 0. Uses the threads of the calling arena; equal columns give equal results.
+  NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXd>& scale) const;
+
+ private:
+  struct Column {
+    std::vector<std::uint32_t> blocks = {};  // that differ, ascending
+    std::vector<float> differences = {};     // of these blocks, one after the other
+  };
+  class Sum;
+
+  std::vector<float> here_;  // padded with zeros to whole blocks
+  std::vector<Column> columns_;
+};
+
+}  // namespace hypotrack
