@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include "cost/hypothesis_drawer.hpp"
@@ -94,23 +96,61 @@ struct Linearizer::Impl {
     const std::size_t sets = frame.pair ? 1 : frame.views.size();
     const std::size_t size = std::size_t{plan.vertex_count} * kRecord;
     const std::size_t count = dimensions.size();
+    const auto state_of = [&](Eigen::Index column) {
+      return std::span<const double>(states.col(column).data(),
+                                     static_cast<std::size_t>(states.rows()));
+    };
     records.resize(sets * count * size);
+    moves.resize(sets * count * block_count());
+    centre->clear();
+    centre->pose(state_of(0));
+    centre->project();
     tbb::parallel_for(std::size_t{0}, count + 1, [&](std::size_t i) {
-      const Eigen::Index column = i == 0 ? 0 : 1 + dimensions[i - 1];
-      const std::span<const double> state(states.col(column).data(),
-                                          static_cast<std::size_t>(states.rows()));
       if (i == 0) {
-        centre->draw(state);
+        centre->cull();
+        centre->fill();
         return;
       }
       const int thread = tbb::this_task_arena::current_thread_index();
       HypothesisDrawer& drawer = *drawers[static_cast<std::size_t>(thread)];
-      drawer.pose(state);
+      drawer.pose(state_of(1 + dimensions[i - 1]));
       drawer.project();
       for (std::size_t view = 0; view < sets; ++view) {
         std::copy_n(drawer.records(view), size, record(view, i - 1, count));
+        compare(drawer.records(view), centre->records(view), view * count + i - 1);
       }
     });
+    list_movers(sets, count);
+  }
+
+  std::size_t block_count() const {
+    return (std::size_t{plan.vertex_count} + kMoverBlock - 1) / kMoverBlock;
+  }
+
+  /// Notes which blocks of vertices a neighbour moves, in row `place` of `moves`.
+  void compare(const float* beside, const float* here, std::size_t place) {
+    const std::size_t blocks = block_count();
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const std::size_t first = b * kMoverBlock;
+      const std::size_t vertices = std::min(kMoverBlock, plan.vertex_count - first);
+      moves[place * blocks + b] = std::memcmp(beside + first * kRecord, here + first * kRecord,
+                                              vertices * kRecord * sizeof(float)) != 0;
+    }
+  }
+
+  /// Lists the parameters that move each block of vertices, in every set of records.
+  void list_movers(std::size_t sets, std::size_t count) {
+    const std::size_t blocks = block_count();
+    movers.resize(sets * blocks);
+    for (std::size_t set = 0; set < sets; ++set) {
+      for (std::size_t b = 0; b < blocks; ++b) {
+        std::vector<int>& list = movers[set * blocks + b];
+        list.clear();
+        for (std::size_t i = 0; i < count; ++i) {
+          if (moves[(set * count + i) * blocks + b]) list.push_back(static_cast<int>(i));
+        }
+      }
+    }
   }
 
   float* record(std::size_t set, std::size_t i, std::size_t count) {
@@ -151,11 +191,11 @@ struct Linearizer::Impl {
       const auto row = [&](std::size_t of) {
         return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(kBands);
       };
-      part.bands[band].sum(
-          {&plan, &frame.views[part.view], &centre->visible(part.view),
-           frame.pair && part.view == 1, tile.inverse_depth, centre->records(part.view),
-           beside.data(), per_step.data(), static_cast<int>(per_step.size())},
-          part.slopes, blur, {row(band), row(band + 1)});
+      part.bands[band].sum({&plan, &frame.views[part.view], &centre->visible(part.view),
+                            frame.pair && part.view == 1, tile.inverse_depth,
+                            centre->records(part.view), beside.data(), per_step.data(),
+                            static_cast<int>(per_step.size()), &movers[set * block_count()]},
+                           part.slopes, blur, {row(band), row(band + 1)});
     });
   }
 
@@ -188,6 +228,8 @@ struct Linearizer::Impl {
   std::vector<ViewPart> views;
   std::vector<StatePart> others;
   std::vector<float> records;
+  std::vector<std::uint8_t> moves;       // per set of records, neighbour and block of vertices
+  std::vector<std::vector<int>> movers;  // per set of records and block of vertices
 };
 
 namespace {

@@ -48,12 +48,32 @@ struct Point {
   float x, y, w;
 };
 
-/// Computes sums += rows^T rows, above the diagonal in blocks of kBlock.
+/// Returns whether any row is not 0 in a block of columns.
+HWY_INLINE bool is_used(const float* rows, std::size_t count, std::size_t columns,
+                        std::size_t block) {
+  Vec any = hn::Zero(f);
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < kBlock; i += kLanes) {
+      any = hn::Or(any, hn::Load(f, rows + k * columns + block + i));
+    }
+  }
+  return !hn::AllTrue(f, hn::Eq(any, hn::Zero(f)));
+}
+
+/// Computes sums += rows^T rows, above the diagonal in blocks of kBlock. Pixels of one part of the
+/// scene come together and depend on few columns.
 HWY_INLINE void multiply(const float* rows, std::size_t count, std::size_t columns, float* sums) {
   constexpr std::size_t kSide = 8;
   constexpr std::size_t kWide = kBlock / kLanes;
+  std::uint64_t used = 0;
+  for (std::size_t c = 0; c < columns; c += kBlock) {
+    if (is_used(rows, count, columns, c)) used |= std::uint64_t{1} << (c / kBlock % 64);
+  }
+  const auto has = [&](std::size_t c) { return (used >> (c / kBlock % 64) & 1) != 0; };
   for (std::size_t r = 0; r < columns; r += kSide) {
+    if (!has(r)) continue;
     for (std::size_t c = r / kBlock * kBlock; c < columns; c += kBlock) {
+      if (!has(c)) continue;
       for (std::size_t v = 0; v < kWide; ++v) {
         const std::size_t at = c + v * kLanes;
         Vec sum[kSide];
@@ -117,22 +137,18 @@ class Walk {
   }
 
   bool find_motion(std::uint32_t corner, float* rows) const {
+    std::fill_n(rows, 3 * work_.columns, 0.0f);
     const Point here = point(corner);
     const int x = d_.second ? 3 : 0;
-    bool any = false;
-    for (int i = 0; i < d_.dimension; ++i) {
+    const std::vector<int>& movers = d_.movers[corner / kRecord / kMoverBlock];
+    for (const int i : movers) {
       const float* record = d_.beside[i] + corner;
-      const float per_step = record[2] > 0 ? d_.per_step[i] : 0;
-      const float by_x = record[x] - here.x, by_y = record[1] - here.y, by_w = record[2] - here.w;
-      any |= by_x != 0 || by_y != 0 || by_w != 0;
-      rows[i] = by_x * per_step;
-      rows[work_.columns + i] = by_y * per_step;
-      rows[2 * work_.columns + i] = by_w * per_step;
+      if (!(record[2] > 0)) continue;
+      rows[i] = (record[x] - here.x) * d_.per_step[i];
+      rows[work_.columns + i] = (record[1] - here.y) * d_.per_step[i];
+      rows[2 * work_.columns + i] = (record[2] - here.w) * d_.per_step[i];
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::fill(rows + k * work_.columns + d_.dimension, rows + (k + 1) * work_.columns, 0.0f);
-    }
-    return any;
+    return !movers.empty();
   }
 
   bool meets_rows(const std::uint32_t* corners) const {

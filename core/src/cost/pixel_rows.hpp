@@ -11,6 +11,9 @@
 
 namespace hypotrack {
 
+/// Number of neighbouring vertices that share a list of the parameters that move them.
+inline constexpr std::size_t kMoverBlock = 8;
+
 /// A hypothesis drawn in one view, with its projected vertices at D neighbouring points.
 struct DrawnView {
   const ScenePlan* plan = nullptr;
@@ -23,6 +26,8 @@ struct DrawnView {
   const float* const* beside = nullptr;
   const float* per_step = nullptr;
   int dimension = 0;
+  const std::vector<int>* movers =
+      nullptr;  ///< per kMoverBlock vertices: parameters that move some
 };
 
 /// A term's residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.

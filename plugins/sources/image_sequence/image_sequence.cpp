@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <deque>
+#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/calibration.hpp"
@@ -155,13 +159,37 @@ class ImageSequence : public Source {
   std::optional<int> frame_count() const override { return static_cast<int>(lists_[0].size()); }
 
   std::optional<Frame> next() override {
-    if (next_ == lists_[0].size()) return std::nullopt;
-    Frame frame = read(next_);
-    ++next_;
-    return frame;
+    if (decoded_.empty()) decode();
+    if (decoded_.empty()) return std::nullopt;
+    Decoded next = std::move(decoded_.front());
+    decoded_.pop_front();
+    if (next.error) std::rethrow_exception(next.error);
+    return std::move(next.frame);
   }
 
  private:
+  struct Decoded {
+    Frame frame = {};
+    std::exception_ptr error = nullptr;
+  };
+
+  /// Decodes the next frames at the same time: as many as half of the threads.
+  void decode() {
+    constexpr int kMost = 4;
+    const auto at_once =
+        static_cast<std::size_t>(std::clamp(tbb::this_task_arena::max_concurrency() / 2, 1, kMost));
+    const std::size_t count = std::min(at_once, lists_[0].size() - next_);
+    decoded_.resize(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      try {
+        decoded_[i].frame = read(next_ + i);
+      } catch (...) {
+        decoded_[i].error = std::current_exception();
+      }
+    });
+    next_ += count;
+  }
+
   Frame read(std::size_t index) const {
     Frame frame;
     frame.index = static_cast<int>(index);
@@ -248,7 +276,8 @@ class ImageSequence : public Source {
   std::vector<double> times_;     ///< of the frames, seconds since the first; empty: constant rate
   std::vector<Camera> cameras_;
   TruthTables truth_;
-  std::size_t next_ = 0;
+  std::size_t next_ = 0;         ///< frame that is decoded next
+  std::deque<Decoded> decoded_;  ///< frames before it that were not asked for yet
 };
 
 }  // namespace hypotrack
