@@ -1,18 +1,23 @@
 #include "color_model.hpp"
 
+#include <Eigen/Core>
 #include <numeric>
 
 namespace hypotrack::skin {
 namespace {
 
-/// Smooths counts along one axis of the bins with weights 1, 2, 1.
+/// Smooths counts along one axis of the bins with weights 1, 2, 1. `stride` is the distance between
+/// neighbouring levels.
 std::vector<double> spread_along(const std::vector<double>& counts, std::size_t stride) {
   std::vector<double> out(kBins);
-  for (std::size_t i = 0; i < kBins; ++i) {
-    const std::size_t level = i / stride % kLevels;
-    out[i] = 2 * counts[i];
-    if (level > 0) out[i] += counts[i - stride];
-    if (level + 1 < kLevels) out[i] += counts[i + stride];
+  constexpr Eigen::Index kOthers = kLevels - 1;
+  for (std::size_t first = 0; first < kBins; first += stride * kLevels) {
+    const auto size = static_cast<Eigen::Index>(stride);
+    const Eigen::Map<const Eigen::ArrayXXd> from(counts.data() + first, size, kLevels);
+    Eigen::Map<Eigen::ArrayXXd> to(out.data() + first, size, kLevels);
+    to = 2 * from;
+    to.rightCols(kOthers) += from.leftCols(kOthers);
+    to.leftCols(kOthers) += from.rightCols(kOthers);
   }
   return out;
 }
@@ -64,29 +69,30 @@ std::vector<Seen> seen_pixels(const cv::Mat3b& color, const cv::Mat1f& prior,
 }  // namespace
 
 void ColorModel::add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight) {
-  constexpr int kRounds = 12;  // it converges within a few
+  const int rounds = ratio_.empty() ? 12 : 5;  // it begins near the answer after the first image
   const std::vector<Seen> pixels = seen_pixels(color, prior, weight);
+  if (ratio_.empty()) ratio_.assign(kBins, 0.5);
+  for (double& ratio : ratio_) ratio = (ratio + 0.5) / 2;  // a colour may have changed sides
   Counts foreground, background;
-  std::vector<double> ratio(kBins, 0.5);
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     foreground = foreground_;
     background = background_;
     for (const Seen& pixel : pixels) {
-      const double f = ratio[pixel.bin] * pixel.prior;
-      const double b = (1 - ratio[pixel.bin]) * (1 - pixel.prior);
+      const double f = ratio_[pixel.bin] * pixel.prior;
+      const double b = (1 - ratio_[pixel.bin]) * (1 - pixel.prior);
       const double share = f + b > 0 ? f / (f + b) : 0;
       foreground[pixel.bin] += share;
       background[pixel.bin] += pixel.weight * (1 - share);
     }
-    ratio = ratios(foreground, background);
+    ratio_ = ratios(foreground, background);
   }
   foreground_ = foreground;
   background_ = background;
 }
 
 std::vector<float> ColorModel::probabilities() const {
-  const std::vector<double> ratio = ratios(foreground_, background_);
-  return {ratio.begin(), ratio.end()};
+  if (ratio_.empty()) return std::vector<float>(kBins, 0.0f);
+  return {ratio_.begin(), ratio_.end()};
 }
 
 std::vector<ColorFrequency> ColorModel::color_frequencies() const {

@@ -19,7 +19,7 @@ class ColorModel {
   /// may be wrong about many pixels, if it is right about most pixels of a colour.
   void add(const cv::Mat3b& color, const cv::Mat1f& prior, const cv::Mat1f& weight);
 
-  /// Returns P of every bin.
+  /// Returns P of every bin; 0 before the first image.
   std::vector<float> probabilities() const;
   /// Returns the frequencies of every bin's colour.
   std::vector<ColorFrequency> color_frequencies() const;
@@ -28,6 +28,7 @@ class ColorModel {
   using Counts = std::vector<double>;
   Counts foreground_ = Counts(kBins);
   Counts background_ = Counts(kBins);
+  std::vector<double> ratio_;  // P; empty before the first image
 };
 
 }  // namespace hypotrack::skin

@@ -1,5 +1,7 @@
 #include "track/recover/recovery.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -89,13 +91,13 @@ void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& stat
   constexpr int kMargin = 3;  // reduced pixels around silhouettes
   const cv::Mat square =
       cv::getStructuringElement(cv::MORPH_RECT, {2 * kMargin + 1, 2 * kMargin + 1});
-  for (std::size_t i = 0; i < backgrounds_.size(); ++i) {
-    if (frame.views[i].color.empty()) continue;
+  tbb::parallel_for(std::size_t{0}, backgrounds_.size(), [&](std::size_t i) {
+    if (frame.views[i].color.empty()) return;
     cv::Mat1b models = silhouettes(scene_, std::vector<bool>(searches_.size(), true), state,
                                    cameras_[i], finders_[0].reduction(i));
     cv::dilate(models, models, square);
     backgrounds_[i].learn(finders_[0].reduced(frame.views[i].color, i), models);
-  }
+  });
 }
 
 ForegroundColors Recovery::colors_of(const Task& task) const {
