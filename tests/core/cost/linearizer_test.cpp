@@ -273,6 +273,103 @@ TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   EXPECT_EQ(some.g[2], all.g[2]);
 }
 
+TEST(Linearizer, OfOneFingerIsThatPartOfTheWhole) {
+  const Scene scene = test::hand_scene();
+  const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
+  const Observation frame = test::rectified_pair(scene);
+  cost->prepare(frame);
+  const Eigen::VectorXd state = hand_state(scene);
+  const NormalEquations all = linearize(*cost, scene, state);
+  Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
+  steps.head(6).setZero();
+  steps.tail(steps.size() - 10).setZero();
+  const NormalEquations finger =
+      cost->least_squares()->linearize(moved_states(scene, state, steps), steps, 1);
+  EXPECT_GT(finger.a.diagonal().segment(6, 4).minCoeff(), 0);
+  EXPECT_TRUE(finger.a.block(6, 6, 4, 4).isApprox(all.a.block(6, 6, 4, 4), 1e-3));
+  EXPECT_TRUE(finger.g.segment(6, 4).isApprox(all.g.segment(6, 4), 1e-3));
+  EXPECT_EQ(finger.a.norm(), finger.a.block(6, 6, 4, 4).norm());
+}
+
+/// A hand's residuals at a state and at its neighbours, with a term that looks at the state.
+class Differences : public testing::Test {
+ protected:
+  std::unique_ptr<Cost> make(int threads = 1) {
+    auto cost = make_cost(
+        scene_,
+        {{0.3, std::make_shared<DepthPattern>(0.2f, 0.5f)}, {2, std::make_shared<Position>()}},
+        {.backend = Backend::cpu, .threads = threads}, {.least_squares = true});
+    cost->prepare(frame_);
+    return cost;
+  }
+
+  /// Normal equations of the residuals that a cost returns, in double precision.
+  NormalEquations dense(Cost& cost, const Eigen::MatrixXd& states) {
+    Eigen::MatrixXf r(cost.least_squares()->count(), states.cols());
+    Eigen::VectorXd costs(states.cols());
+    cost.least_squares()->evaluate(states, r, costs);
+    const Eigen::VectorXd here = r.col(0).cast<double>();
+    const Eigen::MatrixXd j =
+        (r.rightCols(steps_.size()).cast<double>().colwise() - here) * scale_.asDiagonal();
+    return {j.transpose() * j, j.transpose() * here};
+  }
+
+  Scene scene_ = test::hand_scene();
+  Observation frame_ = test::rectified_pair(scene_);
+  Eigen::VectorXd steps_ = metres_and_radians(scene_.dimension() - 1, 1e-3, 0.03);
+  Eigen::VectorXd scale_ = steps_.cwiseInverse();
+  Eigen::MatrixXd states_ = moved_states(scene_, hand_state(scene_), steps_);
+};
+
+TEST_F(Differences, GiveTheNormalEquationsOfTheResiduals) {
+  scale_[4] = 0;
+  const auto cost = make();
+  const NormalEquations expected = dense(*cost, states_);
+  const auto differences = cost->least_squares()->differences();
+  Eigen::VectorXd here(1), costs(steps_.size()), plain(steps_.size());
+  differences->evaluate(states_.leftCols(1), here);
+  differences->move_to(0);
+  const Eigen::MatrixXd beside = states_.rightCols(steps_.size());
+  const NormalEquations found = differences->normal_equations(beside, scale_, costs);
+  EXPECT_TRUE(found.a.isApprox(expected.a, 1e-4));
+  EXPECT_TRUE(found.g.isApprox(expected.g, 1e-4));
+  cost->evaluate(beside, plain);
+  EXPECT_TRUE(costs.isApprox(plain, 1e-6));
+}
+
+TEST_F(Differences, DoNotDependOnTheNumberOfThreads) {
+  NormalEquations expected;
+  for (const int threads : {1, 2, 5}) {
+    const auto cost = make(threads);
+    const auto differences = cost->least_squares()->differences();
+    Eigen::VectorXd here(1), costs(steps_.size());
+    differences->evaluate(states_.leftCols(1), here);
+    differences->move_to(0);
+    const NormalEquations found =
+        differences->normal_equations(states_.rightCols(steps_.size()), scale_, costs);
+    if (threads == 1) expected = found;
+    EXPECT_EQ(found.a, expected.a);
+    EXPECT_EQ(found.g, expected.g);
+  }
+}
+
+TEST_F(Differences, GoOnFromANeighbour) {
+  const auto cost = make();
+  const auto differences = cost->least_squares()->differences();
+  Eigen::VectorXd here(1), costs(steps_.size());
+  differences->evaluate(states_.leftCols(1), here);
+  differences->move_to(0);
+  const Eigen::MatrixXd beside = states_.rightCols(steps_.size());
+  differences->normal_equations(beside, scale_, costs);
+  differences->move_to(2);
+  const NormalEquations found = differences->normal_equations(beside, scale_, costs);
+  states_.col(0) = beside.col(2);
+  const NormalEquations expected = dense(*cost, states_);
+  EXPECT_TRUE(found.a.isApprox(expected.a, 1e-4));
+  EXPECT_TRUE(found.g.isApprox(expected.g, 1e-4));
+}
+
 // Residuals of both tiles, but no slopes.
 class WithoutSlopes : public DepthPattern {
  public:
