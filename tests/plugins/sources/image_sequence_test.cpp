@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -82,6 +83,24 @@ TEST_F(ImageSequence, ReportsGapsAndGoesOn) {
   EXPECT_EQ(last->problem, "");
   EXPECT_EQ(last->index, 3);
   EXPECT_FALSE(source->next());
+}
+
+TEST_F(ImageSequence, YieldsTheSameWhereManyThreadsDecodeAhead) {
+  constexpr int kFrames = 11;
+  for (int i = 0; i < kFrames; ++i) write_pair(i);
+  write("left_0005.png", "this is no picture");
+  const auto source = make(numbered());
+  tbb::task_arena(8).execute([&] {
+    for (int i = 0; i < kFrames; ++i) {
+      const auto frame = source->next();
+      ASSERT_TRUE(frame);
+      EXPECT_EQ(frame->index, i);
+      EXPECT_EQ(frame->problem.empty(), i != 5) << frame->problem;
+      if (i == 5) continue;
+      EXPECT_EQ(cv::norm(frame->views[1].color, picture(i, 1), cv::NORM_INF), 0);
+    }
+    EXPECT_FALSE(source->next());
+  });
 }
 
 TEST_F(ImageSequence, ReportsImagesThatCannotBeUsedAndGoesOn) {
