@@ -217,8 +217,9 @@ class PreviewTest(unittest.TestCase):
         for first, count in ((frames, 3), (frames + 4, 1)):
             recording = self.out / f"recording_{first:06}"
             again = self.folder / f"again_{first}"
-            subprocess.run((PROGRAM, "run", recording / "scene.yaml", "--out", again), check=True,
-                           capture_output=True)
+            run = subprocess.run((PROGRAM, "run", recording / "scene.yaml", "--out", again),
+                                 capture_output=True, text=True)
+            self.assertEqual(run.returncode, 0, run.stderr)
             lines = (again / "track.csv").read_text().splitlines()[1:]
             self.assertEqual([int(line.split(",")[0]) for line in lines], list(range(count)))
 
