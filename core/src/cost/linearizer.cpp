@@ -7,12 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <utility>
 
-#include "cost/hypothesis_drawer.hpp"
 #include "cost/pixel_rows.hpp"
+#include "cost/posed_neighbours.hpp"
 
 namespace hypotrack {
 namespace {
@@ -59,12 +57,8 @@ struct Linearizer::Impl {
   Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads)
       : arena(threads > 0 ? threads : tbb::info::default_concurrency()),
         plan(scene),
-        terms(scene_terms) {
-    for (int i = 0; i < arena.max_concurrency(); ++i) {
-      drawers.push_back(std::make_unique<HypothesisDrawer>(plan));
-    }
-    centre = std::make_unique<HypothesisDrawer>(plan);
-  }
+        terms(scene_terms),
+        neighbours(plan, arena.max_concurrency()) {}
 
   /// Collects what the terms read in the prepared frame.
   void take_terms() {
@@ -89,72 +83,6 @@ struct Linearizer::Impl {
       if (found == views.end()) found = views.insert(found, ViewPart{view});
       found->parts.push_back({own, i, static_cast<float>(std::sqrt(term.weight))});
     }
-  }
-
-  /// Draws the first state and poses the neighbours, given by their dimensions.
-  void draw(const Eigen::MatrixXd& states, const std::vector<Eigen::Index>& dimensions) {
-    const std::size_t sets = frame.pair ? 1 : frame.views.size();
-    const std::size_t size = std::size_t{plan.vertex_count} * kRecord;
-    const std::size_t count = dimensions.size();
-    const auto state_of = [&](Eigen::Index column) {
-      return std::span<const double>(states.col(column).data(),
-                                     static_cast<std::size_t>(states.rows()));
-    };
-    records.resize(sets * count * size);
-    moves.resize(sets * count * block_count());
-    centre->clear();
-    centre->pose(state_of(0));
-    centre->project();
-    tbb::parallel_for(std::size_t{0}, count + 1, [&](std::size_t i) {
-      if (i == 0) {
-        centre->cull();
-        centre->fill();
-        return;
-      }
-      const int thread = tbb::this_task_arena::current_thread_index();
-      HypothesisDrawer& drawer = *drawers[static_cast<std::size_t>(thread)];
-      drawer.pose(state_of(1 + dimensions[i - 1]));
-      drawer.project();
-      for (std::size_t view = 0; view < sets; ++view) {
-        std::copy_n(drawer.records(view), size, record(view, i - 1, count));
-        compare(drawer.records(view), centre->records(view), view * count + i - 1);
-      }
-    });
-    list_movers(sets, count);
-  }
-
-  std::size_t block_count() const {
-    return (std::size_t{plan.vertex_count} + kMoverBlock - 1) / kMoverBlock;
-  }
-
-  /// Notes which blocks of vertices a neighbour moves, in row `place` of `moves`.
-  void compare(const float* beside, const float* here, std::size_t place) {
-    const std::size_t blocks = block_count();
-    for (std::size_t b = 0; b < blocks; ++b) {
-      const std::size_t first = b * kMoverBlock;
-      const std::size_t vertices = std::min(kMoverBlock, plan.vertex_count - first);
-      moves[place * blocks + b] = std::memcmp(beside + first * kRecord, here + first * kRecord,
-                                              vertices * kRecord * sizeof(float)) != 0;
-    }
-  }
-
-  /// Lists the parameters that move each block of vertices, in every set of records.
-  void list_movers(std::size_t sets, std::size_t count) {
-    const std::size_t blocks = block_count();
-    movers.resize(sets * blocks);
-    for (std::size_t set = 0; set < sets; ++set) {
-      for (std::size_t b = 0; b < blocks; ++b) {
-        std::vector<int>& list = movers[set * blocks + b];
-        list.clear();
-        for (std::size_t i = 0; i < count; ++i) {
-          if (moves[(set * count + i) * blocks + b]) list.push_back(static_cast<int>(i));
-        }
-      }
-    }
-  }
-
-  float* record(std::size_t set, std::size_t i, std::size_t count) {
-    return records.data() + (set * count + i) * std::size_t{plan.vertex_count} * kRecord;
   }
 
   /// Computes the residuals and slopes of every term in every view.
@@ -182,20 +110,17 @@ struct Linearizer::Impl {
                 float blur) {
     tbb::parallel_for(std::size_t{0}, views.size() * kBands, [&](std::size_t i) {
       ViewPart& part = views[i / kBands];
-      const std::size_t band = i % kBands, set = frame.pair ? 0 : part.view;
-      std::vector<const float*> beside;
-      for (std::size_t k = 0; k < per_step.size(); ++k) {
-        beside.push_back(record(set, k, per_step.size()));
-      }
+      const std::size_t band = i % kBands;
+      const HypothesisDrawer& centre = neighbours.centre();
       const DepthTile& tile = hypothesis.views[part.view];
       const auto row = [&](std::size_t of) {
         return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(kBands);
       };
-      part.bands[band].sum({&plan, &frame.views[part.view], &centre->visible(part.view),
-                            frame.pair && part.view == 1, tile.inverse_depth,
-                            centre->records(part.view), beside.data(), per_step.data(),
-                            static_cast<int>(per_step.size()), &movers[set * block_count()]},
-                           part.slopes, blur, {row(band), row(band + 1)});
+      part.bands[band].sum(
+          {&plan, &frame.views[part.view], &centre.visible(part.view), frame.pair && part.view == 1,
+           tile.inverse_depth, centre.records(part.view), neighbours.records(part.view).data(),
+           per_step.data(), static_cast<int>(per_step.size()), neighbours.movers(part.view)},
+          part.slopes, blur, {row(band), row(band + 1)});
     });
   }
 
@@ -223,13 +148,9 @@ struct Linearizer::Impl {
   ScenePlan plan;
   std::vector<ObjectiveTerm> terms;
   FrameProjection frame;
-  std::vector<std::unique_ptr<HypothesisDrawer>> drawers;  // for posing, one per slot of the arena
-  std::unique_ptr<HypothesisDrawer> centre;                // draws the point of linearisation
+  PosedNeighbours neighbours;
   std::vector<ViewPart> views;
   std::vector<StatePart> others;
-  std::vector<float> records;
-  std::vector<std::uint8_t> moves;       // per set of records, neighbour and block of vertices
-  std::vector<std::vector<int>> movers;  // per set of records and block of vertices
 };
 
 namespace {
@@ -264,8 +185,7 @@ Linearizer::~Linearizer() = default;
 void Linearizer::prepare(const Observation& observation) {
   Impl& self = *impl_;
   self.frame = FrameProjection(observation);
-  self.centre->prepare(self.frame);
-  for (const auto& drawer : self.drawers) drawer->prepare(self.frame);
+  self.neighbours.prepare(self.frame);
   self.take_terms();
 }
 
@@ -283,9 +203,10 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
   }
   self.arena.execute([&] {
     if (self.views.empty()) return;
-    self.draw(states, moved);
+    self.neighbours.draw(states, moved);
     const RenderedHypothesis hypothesis{
-        {states.col(0).data(), static_cast<std::size_t>(states.rows())}, self.centre->tiles()};
+        {states.col(0).data(), static_cast<std::size_t>(states.rows())},
+        self.neighbours.centre().tiles()};
     self.write_slopes(hypothesis);
     self.sum_rows(hypothesis, per_step, static_cast<float>(blur));
   });
