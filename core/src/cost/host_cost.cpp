@@ -111,7 +111,7 @@ class HostCost final : public Cost, public StateResiduals {
     DifferenceBlocks blocks;
   };
 
-  /// Residual differences that never store the residuals of neighbouring points.
+  /// Computes normal equations without storing the residuals of all neighbouring points at once.
   class Differences final : public ResidualDifferences {
    public:
     Differences(HostCost& cost, DifferenceMemory& memory) : cost_(cost), memory_(memory) {}
@@ -157,7 +157,7 @@ class HostCost final : public Cost, public StateResiduals {
     const auto rows = static_cast<std::size_t>(here.size());
     blocks.begin({here.data(), rows}, batch.cols());
     renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
-      std::vector<float>& residuals = memory_.local();
+      std::vector<float>& residuals = residual_memory_.local();
       residuals.resize(rows);
       costs[index] = write_residuals(index, hypothesis, residuals);
       blocks.set(index, residuals);
@@ -195,7 +195,7 @@ class HostCost final : public Cost, public StateResiduals {
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
   tbb::task_arena arena_;                   // for work that is not on hypotheses
-  tbb::enumerable_thread_specific<std::vector<float>> memory_;  // residuals of one hypothesis
+  tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis
   DifferenceMemory difference_memory_;
 };
 

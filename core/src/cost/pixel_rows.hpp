@@ -26,8 +26,8 @@ struct DrawnView {
   const float* const* beside = nullptr;
   const float* per_step = nullptr;
   int dimension = 0;
-  const std::vector<int>* movers =
-      nullptr;  ///< per kMoverBlock vertices: parameters that move some
+  /// For each kMoverBlock vertices: the parameters that move any of them.
+  const std::vector<int>* movers = nullptr;
 };
 
 /// A term's residuals of a view's pixels and their slopes d r / d(1/z), rows without gaps.
@@ -78,8 +78,9 @@ class PixelRows {
   std::vector<float> sums_;
   Eigen::ArrayXf slopes_, residuals_;  // per pixel of the rows, of all terms together
   std::vector<std::uint8_t> taken_;    // per pixel of the rows: whether its triangle is known
-  std::vector<std::uint8_t> known_;    // per vertex: whether its motion is computed, and not zero
-  AlignedFloats motion_;               // per vertex 3 x columns: of x, y and 1/z
+  std::vector<std::uint8_t>
+      known_;             // per vertex: whether its motion is computed and whether it moves
+  AlignedFloats motion_;  // per vertex 3 x columns: of x, y and 1/z
   std::size_t motion_size_ = 0;
 };
 

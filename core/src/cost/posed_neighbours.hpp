@@ -27,7 +27,7 @@ class PosedNeighbours {
   const HypothesisDrawer& centre() const { return centre_; }
   /// Returns the vertices of every neighbour in a view, kRecord floats each.
   const std::vector<const float*>& records(std::size_t view) const { return beside_[set(view)]; }
-  /// Returns the neighbours that differ in a vertex, for each kMoverBlock vertices.
+  /// Returns, for each kMoverBlock vertices, the neighbours in which any of them has moved.
   const std::vector<int>* movers(std::size_t view) const { return movers_[set(view)].data(); }
 
  private:
