@@ -134,6 +134,14 @@ Eigen::VectorXd metres_and_radians(Eigen::Index size, double metres, double radi
   return steps;
 }
 
+/// A cost of one pattern, prepared for a frame, which must outlive it.
+std::unique_ptr<Cost> pattern_cost(const Scene& scene, const Observation& frame) {
+  auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
+                        {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
+  cost->prepare(frame);
+  return cost;
+}
+
 NormalEquations linearize(Cost& cost, const Scene& scene, const Eigen::VectorXd& state,
                           double blur = 1) {
   const Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
@@ -259,10 +267,8 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   const Scene scene = test::hand_scene();
-  const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
-  cost->prepare(frame);
+  const auto cost = pattern_cost(scene, frame);
   const Eigen::VectorXd state = hand_state(scene);
   Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
   const NormalEquations all = linearize(*cost, scene, state);
@@ -275,10 +281,8 @@ TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
 
 TEST(Linearizer, OfOneFingerIsThatPartOfTheWhole) {
   const Scene scene = test::hand_scene();
-  const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}},
-                              {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
   const Observation frame = test::rectified_pair(scene);
-  cost->prepare(frame);
+  const auto cost = pattern_cost(scene, frame);
   const Eigen::VectorXd state = hand_state(scene);
   const NormalEquations all = linearize(*cost, scene, state);
   Eigen::VectorXd steps = metres_and_radians(state.size() - 1, 2e-4, 2e-3);
