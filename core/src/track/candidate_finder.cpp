@@ -334,7 +334,9 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   ++learned_;
   search_.show(sure);
   search_.learn(frame, best.found.state);
-  recovery_.remember(frame, best.found.state, sure);
+  recovery_.remember(best.found.state, sure);
+  const bool all = std::ranges::find(sure, false) == sure.end();
+  if (is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
 }
 
 }  // namespace hypotrack

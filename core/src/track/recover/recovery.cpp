@@ -73,8 +73,7 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
   }
 }
 
-void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
-                        const std::vector<bool>& tracked) {
+void Recovery::remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked) {
   for (std::size_t m = 0; m < searches_.size(); ++m) {
     if (!tracked[m]) continue;
     searched_[m].forget();
@@ -82,8 +81,6 @@ void Recovery::remember(const Frame& frame, const Eigen::VectorXd& state,
     const Scene::Item& item = scene_.items()[m];
     searches_[m]->postures().remember(state.segment(item.offset, item.model->dimension()));
   }
-  // A lost model may be anywhere in the background.
-  if (std::ranges::find(tracked, false) == tracked.end()) learn_backgrounds(frame, state);
 }
 
 void Recovery::learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state) {

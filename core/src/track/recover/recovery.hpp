@@ -74,9 +74,10 @@ class Recovery {
   Candidates find(const Task& task, const PoseGuess& guess, const GlobalSearchSettings& effort,
                   const MotionLimits& limits, std::uint64_t seed);
 
-  /// Learns the postures of the models with `tracked`, which are surely right. Learns the
-  /// background if all are tracked.
-  void remember(const Frame& frame, const Eigen::VectorXd& state, const std::vector<bool>& tracked);
+  /// Learns the postures of the models with `tracked`, which are surely right.
+  void remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked);
+  /// Learns the background, where all models are surely right: a lost one may be anywhere in it.
+  void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
 
  private:
   std::vector<PoseGuess> guesses(const Task& task, const Places& places,
@@ -87,7 +88,6 @@ class Recovery {
   ForegroundColors colors_of(const Task& task) const;
   /// Returns the guess that the model has moved rigidly with another, as an object in a hand does.
   PoseGuess beside(const Task& task, std::size_t other) const;
-  void learn_backgrounds(const Frame& frame, const Eigen::VectorXd& state);
   /// Returns whether a state hides models that are visible without the lost one.
   static bool hides_others(const Task& task, const Eigen::VectorXd& state, const ColorMap& colors);
 
