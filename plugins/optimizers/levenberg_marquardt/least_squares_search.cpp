@@ -7,44 +7,45 @@
 
 namespace hypotrack {
 
-LeastSquaresSearch::LeastSquaresSearch(CostFunction& cost, ResidualCost& residuals,
-                                       const SearchRegion& region, const Budget& budget,
-                                       const LevenbergMarquardtParams& params)
-    : cost_(cost),
-      residual_cost_(residuals),
-      region_(region),
-      budget_(budget),
+LeastSquaresSearch::LeastSquaresSearch(const SearchRegion& region, std::int64_t evaluations,
+                                       const LevenbergMarquardtParams& params, bool analytic)
+    : region_(region),
+      evaluations_(evaluations),
       params_(params),
-      deadline_(budget.seconds),
+      analytic_(analytic),
       x_(region.start),
-      analytic_(params.jacobian == Jacobian::analytic ||
-                (params.jacobian == Jacobian::automatic && residuals.can_linearize())),
-      differences_(analytic_ ? nullptr : residuals.differences()),
-      damping_(
-          {.first = params.damping, .least = 1e-7, .most = 1e7, .accepted = 1, .rejected = 1}) {}
+      damping_({.first = params.damping, .least = 1e-7, .most = 1e7, .accepted = 1, .rejected = 1}),
+      points_(region.start) {}
 
-bool LeastSquaresSearch::may_go_on() const { return remaining() > 0 && !deadline_.passed(); }
+void LeastSquaresSearch::move_to(Eigen::Index point, const Eigen::VectorXd& costs) {
+  x_ = points_.col(point);
+  cost_at_x_ = costs[point];
+}
 
-void LeastSquaresSearch::evaluate() {
-  costs_.resize(points_.cols());
-  if (analytic_) {
-    cost_.evaluate(points_, costs_);
-  } else {
-    differences_->evaluate(points_, costs_);
+Eigen::Index LeastSquaresSearch::take(const Eigen::VectorXd& costs) {
+  best_.update(points_, costs);
+  if (round_ < 0) {  // the start
+    move_to(0, costs);
+    want_equations();
+    return 0;
   }
-  best_.update(points_, costs_);
-}
-
-void LeastSquaresSearch::evaluate_start() {
-  points_ = x_;
-  evaluate();
-  move_to(0);
-}
-
-void LeastSquaresSearch::move_to(Eigen::Index trial) {
-  x_ = points_.col(trial);
-  if (!analytic_) differences_->move_to(trial);
-  cost_at_x_ = costs_[trial];
+  Eigen::Index best = 0;
+  if (costs.minCoeff(&best) < cost_at_x_) {
+    damping_.accept(lowest_ * std::pow(params_.damping_factor, best));
+    const double moved =
+        (points_.col(best) - x_).cwiseQuotient(region_.spread).cwiseAbs().maxCoeff();
+    move_to(best, costs);
+    end_of_steps(moved > params_.tolerance);
+    return best;
+  }
+  constexpr int kRounds = 2;
+  damping_.reject(lowest_ * std::pow(params_.damping_factor, static_cast<double>(points_.cols())));
+  if (round_ + 1 < kRounds && remaining() > 0) {
+    want_trials(round_ + 1);
+  } else {
+    end_of_steps(false);
+  }
+  return -1;
 }
 
 Eigen::VectorXd LeastSquaresSearch::differences(double share) const {
@@ -60,35 +61,53 @@ Eigen::VectorXd LeastSquaresSearch::differences(double share) const {
   return steps;
 }
 
-bool LeastSquaresSearch::linearize() {
-  const Eigen::Index d = x_.size();
-  if (analytic_) return linearize_by_slopes();
-  if (remaining() <= d) return false;  // nothing would be left for a step
-  const Eigen::VectorXd steps = differences(params_.difference * fineness_);
-  points_ = x_.replicate(1, d);
-  points_.diagonal() += steps;
-  const Eigen::VectorXd scale =
-      (steps.array() == 0).select(0.0, region_.spread.array() / steps.array());
-  costs_.resize(d);
-  equations_ = differences_->normal_equations(points_, scale, costs_);
-  best_.update(points_, costs_);
-  sign_ = -sign_;
-  return true;
+void LeastSquaresSearch::want_equations() {
+  const bool allowed = params_.iterations == 0 || jacobians_ < params_.iterations;
+  const std::int64_t price = analytic_ ? 1 : x_.size();
+  const bool enough = remaining() > price;  // otherwise nothing would be left for a step
+  const bool possible = std::isfinite(cost_at_x_) || !analytic_;
+  wants_ = allowed && enough && possible ? Wants::equations : Wants::nothing;
 }
 
-bool LeastSquaresSearch::linearize_by_slopes() {
-  if (remaining() <= 1) return false;
+Neighbourhood LeastSquaresSearch::neighbourhood() const {
   constexpr double kShare = 0.01;  // surfaces move by a fraction of a pixel, far above rounding
-  const Eigen::VectorXd steps = differences(kShare);
-  points_ = x_.replicate(1, x_.size() + 1);
-  points_.rightCols(x_.size()).diagonal() += steps;
-  equations_ = residual_cost_.linearize(points_, steps, params_.blur * fineness_);
-  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));  // the linearisation counts as an
-                                                               // evaluation
+  Neighbourhood at;
+  at.steps = differences(analytic_ ? kShare : params_.difference * fineness_);
+  at.blur = params_.blur * fineness_;
+  at.points = x_.replicate(1, x_.size() + 1);
+  at.points.rightCols(x_.size()).diagonal() += at.steps;
+  return at;
+}
+
+void LeastSquaresSearch::take(const NormalEquations& equations) {
+  ++jacobians_;
+  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));
   const auto spread = region_.spread.asDiagonal();
-  equations_.a = spread * equations_.a * spread;
-  equations_.g = spread * equations_.g;
-  return true;
+  equations_ = {spread * equations.a * spread, spread * equations.g};
+  want_trials(0);
+}
+
+Eigen::Index LeastSquaresSearch::take(const NormalEquations& equations, const Neighbourhood& at,
+                                      const Eigen::VectorXd& costs) {
+  ++jacobians_;
+  points_ = at.points.rightCols(x_.size());
+  best_.update(points_, costs);
+  equations_ = equations;
+  sign_ = -sign_;
+  if (std::isfinite(cost_at_x_)) {
+    want_trials(0);
+    return -1;
+  }
+  // Nothing is known about an infeasible point: leave it.
+  Eigen::Index best = 0;
+  const bool leaves = std::isfinite(costs.minCoeff(&best));
+  if (leaves) move_to(best, costs);
+  if (!leaves && ++failed_ == 2) {
+    wants_ = Wants::nothing;
+  } else {
+    want_equations();
+  }
+  return leaves ? best : -1;
 }
 
 Eigen::VectorXd LeastSquaresSearch::step(double damping) const {
@@ -111,57 +130,33 @@ Eigen::VectorXd LeastSquaresSearch::step(double damping) const {
   return dx;
 }
 
-bool LeastSquaresSearch::try_steps() {
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds && may_go_on(); ++round) {
-    const auto trials = std::min<std::int64_t>(params_.trials, remaining());
-    points_.resize(x_.size(), trials);
-    const double lowest =
-        damping_.value() * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
-    for (Eigen::Index i = 0; i < trials; ++i) {
-      points_.col(i) = within_bounds(
-          x_ + step(lowest * std::pow(params_.damping_factor, i)).cwiseProduct(region_.spread),
-          region_);
-    }
-    evaluate();
-    Eigen::Index best = 0;
-    if (costs_.minCoeff(&best) < cost_at_x_) {
-      damping_.accept(lowest * std::pow(params_.damping_factor, best));
-      moved_ = (points_.col(best) - x_).cwiseQuotient(region_.spread).cwiseAbs().maxCoeff();
-      move_to(best);
-      return true;
-    }
-    damping_.reject(lowest * std::pow(params_.damping_factor, trials));
+void LeastSquaresSearch::want_trials(int round) {
+  const auto trials = std::min<std::int64_t>(params_.trials, remaining());
+  wants_ = Wants::costs;
+  round_ = round;
+  lowest_ = damping_.value() * std::pow(params_.damping_factor, round == 0 ? -(trials / 2) : 0);
+  points_.resize(x_.size(), trials);
+  for (Eigen::Index i = 0; i < trials; ++i) {
+    const Eigen::VectorXd dx =
+        step(lowest_ * std::pow(params_.damping_factor, static_cast<double>(i)));
+    points_.col(i) = within_bounds(x_ + dx.cwiseProduct(region_.spread), region_);
   }
-  return false;
 }
 
-void LeastSquaresSearch::leave_infeasible() {
-  Eigen::Index best = 0;
-  if (std::isfinite(costs_.minCoeff(&best))) move_to(best);
-}
-
-OptimizerResult LeastSquaresSearch::run() {
-  evaluate_start();
+void LeastSquaresSearch::end_of_steps(bool gained) {
   const int patience = analytic_ ? 1 : 2;  // numerical Jacobians have two signs
-  int failed = 0;
-  for (int i = 0; params_.iterations == 0 || i < params_.iterations; ++i) {
-    if (!may_go_on() || !linearize()) break;
-    if (!std::isfinite(cost_at_x_)) {
-      leave_infeasible();
-      if (!std::isfinite(cost_at_x_) && ++failed == 2) break;
-      continue;
+  if (gained) {
+    failed_ = 0;
+  } else if (++failed_ == patience) {
+    failed_ = 0;
+    fineness_ *= 0.5;
+    if (fineness_ < params_.finest) {
+      wants_ = Wants::nothing;
+      return;
     }
-    if (try_steps() && moved_ > params_.tolerance) {
-      failed = 0;
-    } else if (++failed == patience) {
-      failed = 0;
-      fineness_ *= 0.5;
-      if (fineness_ < params_.finest) break;
-      damping_.lower_to_first();
-    }
+    damping_.lower_to_first();
   }
-  return best_.result();
+  want_equations();
 }
 
 }  // namespace hypotrack

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 
 #include "hypotrack/damping.hpp"
 #include "hypotrack/search.hpp"
@@ -10,50 +9,62 @@
 
 namespace hypotrack {
 
-/// One search of LevenbergMarquardt. It moves in units of the region's spread.
+/// One search of LevenbergMarquardt, step by step: the caller evaluates and linearises what it asks
+/// for. It moves in units of the region's spread.
 class LeastSquaresSearch {
  public:
-  /// All arguments must outlive the search.
-  LeastSquaresSearch(CostFunction& cost, ResidualCost& residuals, const SearchRegion& region,
-                     const Budget& budget, const LevenbergMarquardtParams& params);
+  /// What the search waits for.
+  enum class Wants { costs, equations, nothing };
 
-  OptimizerResult run();
+  /// The region must outlive the search.
+  LeastSquaresSearch(const SearchRegion& region, std::int64_t evaluations,
+                     const LevenbergMarquardtParams& params, bool analytic);
+
+  Wants wants() const { return wants_; }
+
+  /// Returns the points whose costs it wants.
+  const Eigen::MatrixXd& points() const { return points_; }
+  /// Takes the costs of points(). Returns the index of the point that the search moved to, or -1.
+  Eigen::Index take(const Eigen::VectorXd& costs);
+
+  /// Returns the point and neighbours whose equations it wants.
+  Neighbourhood neighbourhood() const;
+  /// Takes normal equations from linearize(); counts an evaluation.
+  void take(const NormalEquations& equations);
+  /// Takes normal equations from differences, and the costs of the neighbours, which count as
+  /// evaluations. Returns the index of the neighbour that the search moved to, or -1.
+  Eigen::Index take(const NormalEquations& equations, const Neighbourhood& at,
+                    const Eigen::VectorXd& costs);
+
+  const OptimizerResult& result() const { return best_.result(); }
 
  private:
-  std::int64_t remaining() const { return budget_.evaluations - best_.result().evaluations; }
-  bool may_go_on() const;
-  void evaluate();
-  void evaluate_start();
-  bool linearize();
-  bool linearize_by_slopes();
+  std::int64_t remaining() const { return evaluations_ - best_.result().evaluations; }
   /// Returns steps of a share of the spread, inwards at bounds; 0 without room.
   Eigen::VectorXd differences(double share) const;
-  bool try_steps();
   Eigen::VectorXd step(double damping) const;
-  void move_to(Eigen::Index trial);
-  void leave_infeasible();
+  void move_to(Eigen::Index point, const Eigen::VectorXd& costs);
+  void want_equations();
+  void want_trials(int round);
+  void end_of_steps(bool gained);
 
-  CostFunction& cost_;
-  ResidualCost& residual_cost_;
   const SearchRegion& region_;
-  const Budget budget_;
+  const std::int64_t evaluations_;
   const LevenbergMarquardtParams params_;
-  const Deadline deadline_;
+  const bool analytic_;
   BestSoFar best_;
+  Wants wants_ = Wants::costs;
 
   Eigen::VectorXd x_;  ///< current point
   double cost_at_x_ = 0;
-  double sign_ = 1;  ///< of the differences
-  const bool analytic_;
-  const std::unique_ptr<ResidualDifferences> differences_;  ///< unless analytic_; moves with x_
+  double sign_ = 1;      ///< of the differences
   double fineness_ = 1;  ///< of differences or blur, as a share of the first
   Damping damping_;
   NormalEquations equations_;  ///< at x, per spread
-  double moved_ = 0;           ///< largest component of the last step, in spreads
-
-  // The last batch.
-  Eigen::MatrixXd points_;
-  Eigen::VectorXd costs_;
+  Eigen::MatrixXd points_;     ///< the start, or trial steps
+  int round_ = -1;             ///< of trial steps; -1: the start
+  double lowest_ = 0;          ///< damping of the first trial step
+  int jacobians_ = 0, failed_ = 0;
 };
 
 }  // namespace hypotrack

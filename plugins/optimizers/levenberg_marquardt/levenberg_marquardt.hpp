@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "hypotrack/optimizer.hpp"
 #include "levenberg_marquardt_params.hpp"
@@ -24,6 +26,9 @@ namespace hypotrack {
 /// Dimensions that want to cross a bound stay there; the others are solved without them. No
 /// dimension moves farther than its spread in one step.
 ///
+/// With `starts` N, N searches begin at the region's start and at samples about it, each with an
+/// N-th of the evaluations; the best result counts.
+///
 /// It is a local refinement: pixel residuals do not guide it over errors of many pixels.
 class LevenbergMarquardt : public Optimizer {
  public:
@@ -35,8 +40,23 @@ class LevenbergMarquardt : public Optimizer {
   /// a point whose residuals are not finite; they should be wherever the cost is.
   OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed) override;
+  /// Searches with analytic Jacobians go in step, one batch for all.
+  std::vector<OptimizerResult> minimize_each(CostFunction& cost,
+                                             std::span<const SearchRegion> regions,
+                                             const Budget& budget, std::uint64_t seed) override;
 
  private:
+  bool is_analytic(const ResidualCost& residuals) const;
+  /// Searches every region from its start.
+  std::vector<OptimizerResult> search_each(CostFunction& cost,
+                                           std::span<const SearchRegion> regions,
+                                           const Budget& budget) const;
+  /// Searches every region from all its starts, which are drawn with the region's seed.
+  std::vector<OptimizerResult> search_from_starts(CostFunction& cost,
+                                                  std::span<const SearchRegion> regions,
+                                                  const Budget& budget,
+                                                  const std::vector<std::uint64_t>& seeds) const;
+
   LevenbergMarquardtParams params_;
 };
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "hypotrack/params.hpp"
+#include "hypotrack/start_points.hpp"
 
 namespace hypotrack {
 
@@ -27,6 +28,8 @@ struct LevenbergMarquardtParams {
   double damping_factor = 4;
   double mean_share = 0.05;
   double tolerance = 1e-4;
+  int starts = 1;
+  StartParams around;
   void visit(ParamVisitor& v) {
     v("evaluations", evaluations,
       {.help = "evaluations where the scene names no budget", .min = 1, .max = 1 << 30});
@@ -67,6 +70,12 @@ struct LevenbergMarquardtParams {
       {.help = "a step below this share of the spread in every number does not help",
        .min = 0,
        .max = 1});
+    v("starts", starts,
+      {.help = "searches from different starts that share the evaluations; the first begins at the "
+               "start",
+       .min = 1,
+       .max = 4096});
+    around.visit(v);
   }
 };
 

@@ -75,6 +75,18 @@ SearchRegion region_of(const Limb& limb, const SearchRegion& region, const Eigen
   return own;
 }
 
+/// Returns `start` with more and more limbs where they were found, the best first; one column per
+/// limb.
+Eigen::MatrixXd joined(const Eigen::VectorXd& start, const std::vector<Limb>& limbs) {
+  Eigen::MatrixXd points(start.size(), static_cast<Eigen::Index>(limbs.size()));
+  Eigen::VectorXd point = start;
+  for (std::size_t k = 0; k < limbs.size(); ++k) {
+    for (const int d : *limbs[k].dimensions) point[d] = limbs[k].point[d];
+    points.col(static_cast<Eigen::Index>(k)) = point;
+  }
+  return points;
+}
+
 }  // namespace
 
 OptimizerResult LimbSearch::minimize(CostFunction& cost, const SearchRegion& region,
@@ -90,25 +102,38 @@ OptimizerResult LimbSearch::minimize(CostFunction& cost, const SearchRegion& reg
   cost.evaluate(points, costs);
   OptimizerResult best{region.start, costs[0], points.cols()};
   if (samples == 0) return best;
-  const auto take = [&](const Eigen::VectorXd& point, double its_cost) {
-    const double least = std::isfinite(best.cost) ? params_.gain * std::abs(best.cost) : 0;
-    if (!(its_cost < best.cost - least)) return;
-    best.point = point;
-    best.cost = its_cost;
-  };
+  const double least = std::isfinite(best.cost) ? params_.gain * std::abs(best.cost) : 0;
+  const double enough = best.cost - least;
 
   take_best(limbs, points, costs);
-  take(limbs.front().point, limbs.front().cost);
-  for (std::int64_t k = 0; k < count && !deadline.passed(); ++k) {
-    const std::int64_t evaluations = (budget.evaluations - best.evaluations) / (count - k);
-    if (evaluations == 0) continue;
-    const OptimizerResult found = optimizer_->minimize(
-        cost, region_of(limbs[static_cast<std::size_t>(k)], region, best.point, params_.spread),
-        {evaluations, deadline.left() / static_cast<double>(count - k), budget.usual_cost},
-        seed_of_part(seed, static_cast<std::uint32_t>(k)));
-    take(found.point, found.cost);
-    best.evaluations += found.evaluations;
+  // Each search may spend its part less one evaluation, in which limbs are joined.
+  const std::int64_t evaluations = (budget.evaluations - best.evaluations) / count - 1;
+  if (evaluations > 0 && !deadline.passed()) {
+    std::vector<SearchRegion> regions;
+    for (const Limb& limb : limbs) {
+      regions.push_back(region_of(limb, region, region.start, params_.spread));
+    }
+    const std::vector<OptimizerResult> found = optimizer_->minimize_each(
+        cost, regions, {evaluations, deadline.left(), budget.usual_cost}, seed);
+    for (std::size_t k = 0; k < limbs.size(); ++k) {
+      best.evaluations += found[k].evaluations;
+      limbs[k].point = found[k].point;
+      limbs[k].cost = found[k].cost;
+    }
   }
+  std::erase_if(limbs, [&](const Limb& limb) { return !(limb.cost < enough); });
+  if (limbs.empty()) return best;
+  std::ranges::stable_sort(limbs, {}, &Limb::cost);
+  Eigen::MatrixXd together = joined(region.start, limbs);
+  Eigen::VectorXd their_costs = Eigen::VectorXd::Constant(1, limbs.front().cost);
+  if (limbs.size() > 1 && evaluations > 0) {
+    their_costs.conservativeResize(together.cols());
+    cost.evaluate(together.rightCols(together.cols() - 1), their_costs.tail(together.cols() - 1));
+    best.evaluations += together.cols() - 1;
+  }
+  Eigen::Index lowest = 0;
+  best.cost = their_costs.minCoeff(&lowest);
+  best.point = together.col(lowest);
   return best;
 }
 

@@ -40,15 +40,15 @@ struct LimbSearchParams {
 /// solution, but has few dimensions.
 ///
 /// Evaluates the start and `samples` places of every limb, uniform within its bounds, in one batch;
-/// fewer of each if the budget is too small. Then searches each limb from its best sample, in its
-/// own dimensions. The limb of lowest cost comes first; later limbs build on its result. Each gets
-/// an equal part of the evaluations and seconds that are left. A region without limbs of finite
-/// bounds is evaluated at its start only. Search k has seed_of_part(seed, k).
+/// fewer of each if the budget is too small. Then searches all limbs at the same time
+/// (Optimizer::minimize_each), each from its best sample, in its own dimensions, with an equal part
+/// of the evaluations that are left. Last, it joins the limbs that gained: the best one, the best
+/// two, and so on; the lowest cost counts. A region without limbs of finite bounds is evaluated at
+/// its start only.
 ///
 /// An invisible limb costs about the same everywhere, and among many places one is always a little
 /// cheaper. With a `gain` a limb moves only if that lowers the cost by more than this share of its
-/// magnitude. The result is then the best of those moves and the start, and may cost a little more
-/// than the best point evaluated.
+/// magnitude. The result may then cost a little more than the best point evaluated.
 class LimbSearch : public Optimizer {
  public:
   LimbSearch(const LimbSearchParams& params, std::unique_ptr<Optimizer> optimizer)

@@ -44,19 +44,18 @@ OptimizerResult MultiStart::minimize(CostFunction& cost, const SearchRegion& reg
   first.update(candidates, costs);
   OptimizerResult best = first.result();
 
-  SearchRegion around = region;
-  around.spread *= params_.spread;
   const std::vector<Eigen::Index> starts = lowest(costs, params_.starts);
-  for (std::size_t k = 0; k < starts.size() && !deadline.passed(); ++k) {
-    const auto searches = static_cast<std::int64_t>(starts.size() - k);
-    const std::int64_t left = budget.evaluations - best.evaluations;
-    const std::int64_t evaluations = std::min(left, std::max<std::int64_t>(1, left / searches));
-    if (evaluations == 0) break;
-    around.start = candidates.col(starts[k]);
-    const OptimizerResult found = optimizer_->minimize(
-        cost, around,
-        {evaluations, deadline.left() / static_cast<double>(searches), budget.usual_cost},
-        seed_of_part(seed, static_cast<std::uint32_t>(k)));
+  const std::int64_t evaluations =
+      (budget.evaluations - best.evaluations) / static_cast<std::int64_t>(starts.size());
+  if (evaluations == 0 || deadline.passed()) return best;
+  std::vector<SearchRegion> regions;
+  for (const Eigen::Index start : starts) {
+    regions.push_back(region);
+    regions.back().spread *= params_.spread;
+    regions.back().start = candidates.col(start);
+  }
+  for (const OptimizerResult& found : optimizer_->minimize_each(
+           cost, regions, {evaluations, deadline.left(), budget.usual_cost}, seed)) {
     const std::int64_t all = best.evaluations + found.evaluations;
     if (found.cost < best.cost) best = found;
     best.evaluations = all;

@@ -36,9 +36,9 @@ struct MultiStartParams {
 };
 
 /// Runs several searches around the region and keeps the best result. Evaluates the start and
-/// samples around it in one batch. The searches begin at the best of these, the best first. Each
-/// gets an equal part of the evaluations and seconds that are left (at least one evaluation, of its
-/// start). Search k has seed_of_part(seed, k). To refine the result, make this the first stage of a
+/// samples around it in one batch. The searches begin at the best of these and run at the same time
+/// where the optimizer can (Optimizer::minimize_each). Each has an equal part of the evaluations
+/// that are left. To refine the result, make this the first stage of a
 /// pipeline.
 class MultiStart : public Optimizer {
  public:

@@ -110,8 +110,7 @@ TEST(LevenbergMarquardt, RefusesAnAnalyticJacobianThatIsNotThere) {
   params.jacobian = Jacobian::analytic;
   EXPECT_THAT([&] { minimize(cost, region, 10, params); },
               ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
-                  "the optimizer takes analytic Jacobians, which are computed on the CPU: a term "
-                  "of this cost has no slopes")));
+                  "the optimizer takes analytic Jacobians: a term of this cost has no slopes")));
 }
 
 TEST(LevenbergMarquardt, FollowsACurvedValley) {
@@ -247,6 +246,50 @@ class Reticent final : public CostFunction, public ResidualCost {
  private:
   RecordingCost& cost_;
 };
+
+TEST(LevenbergMarquardt, SearchesOfSeveralRegionsShareBatches) {
+  const SearchRegion region = test::tracking_region(12);
+  const Problem valley = test::rosenbrock(region, test::hidden_target(region, 3));
+  std::vector<SearchRegion> regions(3, region);
+  regions[1].start += 0.2 * region.spread;
+  regions[2].lower.head<5>() = regions[2].upper.head<5>() = regions[2].start.head<5>();
+  for (const bool linearizes : {true, false}) {
+    RecordingCost cost(12, valley);
+    cost.linearizes = linearizes;
+    LevenbergMarquardt optimizer({});
+    const std::vector<OptimizerResult> found = optimizer.minimize_each(cost, regions, {200}, 1);
+    ASSERT_EQ(found.size(), 3u);
+    std::size_t alone = 0;  // batches
+    for (std::size_t k = 0; k < 3; ++k) {
+      RecordingCost own(12, valley);
+      own.linearizes = linearizes;
+      const OptimizerResult expected = optimizer.minimize(own, regions[k], {200}, 1);
+      EXPECT_EQ(found[k].point, expected.point) << k;
+      EXPECT_EQ(found[k].cost, expected.cost) << k;
+      EXPECT_EQ(found[k].evaluations, expected.evaluations) << k;
+      alone = std::max(alone, own.batches.size());
+    }
+    if (linearizes) {
+      EXPECT_LE(cost.batches.size(), alone + 20);
+      EXPECT_EQ(cost.batches.front(), 3);
+    }
+  }
+}
+
+TEST(LevenbergMarquardt, StartsShareTheEvaluationsAndTheBestCounts) {
+  const SearchRegion region = test::tracking_region(12);
+  RecordingCost cost(12, test::rosenbrock(region, test::hidden_target(region, 3)));
+  cost.linearizes = true;
+  LevenbergMarquardtParams params;
+  params.starts = 7;
+  params.iterations = 2;
+  const OptimizerResult result = minimize(cost, region, 100, params);
+  EXPECT_EQ(cost.batches.front(), 7);
+  EXPECT_EQ(cost.points.front(), region.start);
+  EXPECT_EQ(result.cost, *std::ranges::min_element(cost.costs));
+  EXPECT_LE(result.evaluations, 100);
+  EXPECT_EQ(result.evaluations, static_cast<std::int64_t>(cost.points.size() + cost.blurs.size()));
+}
 
 TEST(LevenbergMarquardt, LeavesResidualsWhereTheCostKeepsThem) {
   const SearchRegion region = test::tracking_region(27);

@@ -107,11 +107,26 @@ TEST(LimbSearch, SearchesEachLimbFromItsBestSampleWithTheOthersHeld) {
   EXPECT_EQ(first.start, search.cost.points[best]) << "the limb that gains most comes first";
   for (const SearchRegion& region : search.regions) {
     EXPECT_EQ(groups_moved(region, region.lower, region.upper), 1);
-    EXPECT_EQ(region.start.head(7), search.region.start.head(7));
+    EXPECT_EQ(groups_moved(region, region.start, search.region.start), 1);
     EXPECT_EQ(region.spread, 2 * search.region.spread);
-    EXPECT_EQ(region.start[15], first.start[15]) << "later ones are searched beside what was found";
   }
   EXPECT_EQ(search.result.point, first.start);
+}
+
+TEST(LimbSearch, JoinsTheLimbsThatGain) {
+  const Search search(test::Problem([](const Eigen::VectorXd& p) {
+    // The fourth limb gains where it is alone, and loses beside the third.
+    const bool third = p[15] < 0.5, fourth = p[19] < 0.5;
+    return 100 + std::abs(p[7] - 1.5) + (third ? 0 : 3) + (fourth ? 0 : 2) +
+           (third && fourth ? 5 : 0);
+  }));
+  const Eigen::VectorXd& start = search.region.start;
+  ASSERT_GT(start[15], 0.5);
+  ASSERT_GT(start[19], 0.5);
+  EXPECT_LT(search.result.point[15], 0.5);
+  EXPECT_EQ(search.result.point.tail(8), start.tail(8));
+  EXPECT_LT(std::abs(search.result.point[7] - 1.5), std::abs(start[7] - 1.5));
+  EXPECT_LE(search.result.evaluations, 200);
 }
 
 TEST(LimbSearch, ALimbStaysUnlessMovingItGainsEnough) {

@@ -67,7 +67,9 @@ TEST(MultiStart, ASmallBudgetSearchesFromAsManyStartsAsItCan) {
     test::RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 5)));
     std::vector<Eigen::VectorXd> starts;
     MultiStart multi(three_of_twenty(), std::make_unique<Staying>(starts));
-    EXPECT_EQ(multi.minimize(cost, region, {budget}, 1).evaluations, budget);
+    const std::int64_t spent = multi.minimize(cost, region, {budget}, 1).evaluations;
+    EXPECT_LE(spent, budget);
+    EXPECT_GT(spent, budget - 3) << "every search has the same number";
     EXPECT_EQ(starts.size(), static_cast<std::size_t>(std::clamp<std::int64_t>(budget - 20, 0, 3)));
   }
 }
