@@ -163,7 +163,7 @@ TEST_F(DeviceResiduals, OfATermThatHasThemOnTheCpuOnlyAreRefusedByItsName) {
   EXPECT_THAT(automatic->backend(), testing::HasSubstr("objective prior has them on the CPU only"));
 }
 
-TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
+TEST_F(DeviceResiduals, AreTakenOnTheGpuByAutomatic) {
   const Scene scene = test::hand_scene();
   const auto backend = [&](std::vector<ObjectiveTerm> terms, Linearization linearization) {
     return make_cost(scene, std::move(terms), {},
@@ -174,8 +174,8 @@ TEST_F(DeviceResiduals, WithoutSlopesAreTakenOnTheGpuByAutomatic) {
   const std::vector<ObjectiveTerm> plain = {
       {1, std::make_shared<rgbd_depth::RgbdDepth>(rgbd_depth::Params{})}};
   EXPECT_THAT(backend(sloped, Linearization::unused), testing::StartsWith("cuda"));
-  EXPECT_THAT(backend(sloped, Linearization::welcome), testing::StartsWith("cpu"));
-  EXPECT_THAT(backend(sloped, Linearization::needed), testing::StartsWith("cpu"));
+  EXPECT_THAT(backend(sloped, Linearization::welcome), testing::StartsWith("cuda"));
+  EXPECT_THAT(backend(sloped, Linearization::needed), testing::StartsWith("cuda"));
   EXPECT_THAT(backend(plain, Linearization::welcome), testing::StartsWith("cuda"));
 }
 

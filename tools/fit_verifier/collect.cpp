@@ -152,7 +152,8 @@ class Recoveries {
     search_->learn(frame, truth);
     verifier_.verify(frame, truth, search_->second_view_colors(), all);
     verifier_.learn(all);
-    recovery_.remember(frame, truth, all);
+    recovery_.remember(truth, all);
+    recovery_.learn_backgrounds(frame, truth);
   }
 
  private:

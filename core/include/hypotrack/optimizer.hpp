@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,15 @@ class DeviceCost;
 struct NormalEquations {
   Eigen::MatrixXd a;  ///< DxD
   Eigen::VectorXd g;  ///< D
+};
+
+/// A point of linearisation and its neighbours.
+struct Neighbourhood {
+  /// Dx(D+1): the point, then one per dimension. Column 1 + i differs from the first by steps[i] in
+  /// dimension i.
+  Eigen::MatrixXd points;
+  Eigen::VectorXd steps;  ///< D; 0 leaves a dimension out
+  double blur = 1;        ///< pixels over which a silhouette that crosses changes a residual
 };
 
 /// Normal equations from differences of residuals. The residuals stay where they are computed, in
@@ -74,6 +84,9 @@ class HYPOTRACK_API ResidualCost {
   /// residual of a pixel changes over this many pixels of motion of a silhouette that crosses it.
   virtual NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                     const Eigen::Ref<const Eigen::VectorXd>& steps, double blur);
+  /// Computes the normal equations of several points at the same time. The default calls
+  /// linearize() for one after the other.
+  virtual std::vector<NormalEquations> linearize_each(std::span<const Neighbourhood> points);
 };
 
 /// The cost that an optimizer minimises. A search point is a column of D numbers. The search region
@@ -131,7 +144,7 @@ struct OptimizerResult {
   std::int64_t evaluations = 0;
 };
 
-/// An optimizer's use of ResidualCost::linearize(), which is computed on the CPU only.
+/// An optimizer's use of ResidualCost::linearize().
 enum class Linearization {
   unused,
   welcome,  ///< used if available
@@ -195,6 +208,13 @@ class HYPOTRACK_API Optimizer {
   /// `start` first and stays within the bounds. Exceptions of `cost` pass through unchanged.
   virtual OptimizerResult minimize(CostFunction& cost, const SearchRegion& region,
                                    const Budget& budget, std::uint64_t seed) = 0;
+
+  /// Searches several regions of one cost and returns the result of each. Every search has the
+  /// budget's evaluations; all share its seconds. Search k has seed_of_part(seed, k). The default
+  /// searches one after the other; an optimizer whose searches can share batches overrides it.
+  virtual std::vector<OptimizerResult> minimize_each(CostFunction& cost,
+                                                     std::span<const SearchRegion> regions,
+                                                     const Budget& budget, std::uint64_t seed);
 };
 
 }  // namespace hypotrack

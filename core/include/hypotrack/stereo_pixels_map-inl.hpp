@@ -62,6 +62,28 @@ HYPOTRACK_PIXEL auto same_depth(F a, F b, F r) {
   return abs(a - b) <= r * a * b;
 }
 
+/// Motion of a surface point in the other view as its 1/z grows.
+template <class F>
+struct EpipolarMotion {
+  F along_u, along_v;  ///< direction, of length 1
+  F speed;             ///< pixels per 1/m
+};
+
+/// Computes the motion of the point that map_pixel() maps to (u, v). With q = a2 . (x, y, 1) + b2
+/// w, du/dw = (b0 - u b2) / q and dv/dw = (b1 - v b2) / q.
+template <class F>
+HYPOTRACK_PIXEL EpipolarMotion<F> epipolar_motion(const StereoMap& map, F x, F y, F w, F u, F v) {
+  using pixel::max;
+  using pixel::sqrt;
+  if (map.rectified) {
+    return {F(map.b[0] < 0 ? -1.0f : 1.0f), F(0.0f), F(map.b[0] < 0 ? -map.b[0] : map.b[0])};
+  }
+  const F q = affine<F>(map.a[2], map.b[2], x, y, w);
+  const F du = (F(map.b[0]) - u * F(map.b[2])) / q, dv = (F(map.b[1]) - v * F(map.b[2])) / q;
+  const F speed = max(sqrt(du * du + dv * dv), F(1e-6f));
+  return {du / speed, dv / speed, speed};
+}
+
 }  // namespace hypotrack::HYPOTRACK_TARGET
 HYPOTRACK_PIXEL_END();
 

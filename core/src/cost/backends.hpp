@@ -28,6 +28,9 @@ namespace cuda {
 std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                               const EvaluateSettings& settings, bool residuals);
 
+/// Returns why these terms have no analytic Jacobians on a GPU; empty if they have.
+std::string why_not_linearized(const std::vector<ObjectiveTerm>& terms);
+
 /// Makes the cost that poses, draws and scores on the GPU. Throws DeviceError with the reason of
 /// why_not_evaluated(), if there is one.
 std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,

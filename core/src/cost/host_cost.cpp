@@ -15,7 +15,7 @@
 #include "cost/backends.hpp"
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
-#include "cost/linearizer.hpp"
+#include "cost/linearizer_pool.hpp"
 #include "cost/normal_equations.hpp"
 #include "cost/term_residuals.hpp"
 
@@ -45,7 +45,9 @@ class HostCost final : public Cost, public StateResiduals {
         arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
     if (TermResiduals::why_none(terms()).empty()) residuals_.emplace(terms());
     if (residuals_ && Linearizer::can_linearize(terms())) {
-      linearizer_ = std::make_unique<Linearizer>(scene, terms(), settings.threads);
+      linearizers_.emplace([this, &scene] {
+        return std::make_unique<Linearizer>(scene, terms(), arena_.max_concurrency());
+      });
     }
   }
 
@@ -72,10 +74,26 @@ class HostCost final : public Cost, public StateResiduals {
   std::unique_ptr<ResidualDifferences> differences() override {
     return std::make_unique<Differences>(*this, difference_memory_);
   }
-  bool can_linearize() const override { return linearizer_ != nullptr; }
+  bool can_linearize() const override { return linearizers_.has_value(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
-    return linearizer_->linearize(normalized(states, steps.size() + 1), steps, blur);
+    const Neighbourhood at{states, steps, blur};
+    return linearize_each({&at, 1}).front();
+  }
+  std::vector<NormalEquations> linearize_each(std::span<const Neighbourhood> points) override {
+    std::vector<Eigen::MatrixXd> states;
+    for (const Neighbourhood& at : points) {
+      states.push_back(normalized(at.points, at.steps.size() + 1));
+    }
+    std::vector<NormalEquations> out(points.size());
+    arena_.execute([&] {
+      tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        linearizers_->use([&](Linearizer& linearizer) {
+          out[i] = linearizer.linearize(states[i], points[i].steps, points[i].blur);
+        });
+      });
+    });
+    return out;
   }
 
  protected:
@@ -92,7 +110,7 @@ class HostCost final : public Cost, public StateResiduals {
   void prepare_only_drawing(const Observation& observation) override {
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
-    if (linearizer_) linearizer_->prepare(observation);
+    if (linearizers_) linearizers_->prepare(observation);
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -193,8 +211,8 @@ class HostCost final : public Cost, public StateResiduals {
   std::string why_here_;
   std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
-  std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
-  tbb::task_arena arena_;                   // for work that is not on hypotheses
+  tbb::task_arena arena_;                      // for work that is not on hypotheses
+  std::optional<LinearizerPool> linearizers_;  // set if the terms can be linearised
   tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis
   DifferenceMemory difference_memory_;
 };

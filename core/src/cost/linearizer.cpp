@@ -1,8 +1,6 @@
 #include "cost/linearizer.hpp"
 
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
@@ -55,10 +53,7 @@ struct Linearizer::Impl {
   };
 
   Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads)
-      : arena(threads > 0 ? threads : tbb::info::default_concurrency()),
-        plan(scene),
-        terms(scene_terms),
-        neighbours(plan, arena.max_concurrency()) {}
+      : plan(scene), terms(scene_terms), neighbours(plan, threads) {}
 
   /// Collects what the terms read in the prepared frame.
   void take_terms() {
@@ -144,7 +139,6 @@ struct Linearizer::Impl {
     sums.g += part.weight * j.transpose() * at;
   }
 
-  tbb::task_arena arena;
   ScenePlan plan;
   std::vector<ObjectiveTerm> terms;
   FrameProjection frame;
@@ -201,15 +195,14 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
     moved.push_back(i);
     per_step.push_back(static_cast<float>(1 / steps[i]));
   }
-  self.arena.execute([&] {
-    if (self.views.empty()) return;
+  if (!self.views.empty()) {
     self.neighbours.draw(states, moved);
     const RenderedHypothesis hypothesis{
         {states.col(0).data(), static_cast<std::size_t>(states.rows())},
         self.neighbours.centre().tiles()};
     self.write_slopes(hypothesis);
     self.sum_rows(hypothesis, per_step, static_cast<float>(blur));
-  });
+  }
   for (const Impl::ViewPart& view : self.views) {
     for (const PixelRows& rows : view.bands) add(rows, moved, sums);
   }

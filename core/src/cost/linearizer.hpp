@@ -19,7 +19,7 @@ class Linearizer {
   /// Returns true if every term (of a sum of squares) needs no rendering or has slopes.
   static bool can_linearize(const std::vector<ObjectiveTerm>& terms);
 
-  /// The scene must outlive it. `threads` 0 means one per core.
+  /// The scene must outlive it. It is called in an arena of at most `threads` slots.
   Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads);
   ~Linearizer();
 

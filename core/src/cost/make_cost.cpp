@@ -33,10 +33,12 @@ std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
 std::string why_automatic_on_cpu(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                                  const EvaluateSettings& settings,
                                  const Requirements& requirements) {
-  if (requirements.least_squares && (requirements.jacobian == Linearization::needed ||
-                                     (requirements.jacobian == Linearization::welcome &&
-                                      !requirements.device && Linearizer::can_linearize(terms)))) {
-    return "the optimizer takes analytic Jacobians, which are computed on the CPU";
+  if (requirements.least_squares && requirements.jacobian != Linearization::unused) {
+    const bool needed = requirements.jacobian == Linearization::needed;
+    const std::string why = cuda::why_not_linearized(terms);
+    if (!why.empty() && (needed || (!requirements.device && Linearizer::can_linearize(terms)))) {
+      return "the optimizer takes analytic Jacobians, and " + why;
+    }
   }
   return cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares);
 }
@@ -46,7 +48,9 @@ CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, Backend backend, boo
   constexpr const char* kInstead = ". Write `jacobian: auto` or `numerical` in the optimizer";
   CostOffer offer{.no_least_squares = TermResiduals::why_none(terms), .device = on_gpu};
   if (backend == Backend::cuda) {
-    offer.no_jacobian = fmt::format("evaluate.backend is cuda{}, or `backend: cpu`", kInstead);
+    if (const std::string why = cuda::why_not_linearized(terms); !why.empty()) {
+      offer.no_jacobian = fmt::format("{}{}, or `backend: cpu`", why, kInstead);
+    }
   } else if (!Linearizer::can_linearize(terms)) {
     offer.no_jacobian = fmt::format("a term has no slopes of its residuals{}", kInstead);
   }

@@ -23,8 +23,7 @@ void check_requirements(const Requirements& requirements, const CostOffer& offer
   }
   if (requirements.least_squares && requirements.jacobian == Linearization::needed &&
       !offer.no_jacobian.empty()) {
-    throw ConfigError("the optimizer takes analytic Jacobians, which are computed on the CPU: " +
-                      offer.no_jacobian);
+    throw ConfigError("the optimizer takes analytic Jacobians: " + offer.no_jacobian);
   }
   if (requirements.device && !offer.device) {
     throw DeviceError(
@@ -44,8 +43,9 @@ void check_requirements(const Requirements& requirements, const ResidualCost* re
         "pso}`";
   } else if (!residuals->can_linearize()) {
     offer.no_jacobian =
-        "a term of this cost has no slopes of its residuals, or the backend does not draw on the "
-        "CPU. Write `jacobian: auto` or `numerical` in the optimizer";
+        "a term of this cost has no slopes of its residuals where it is evaluated. Write "
+        "`jacobian: "
+        "auto` or `numerical` in the optimizer";
   }
   check_requirements(requirements, offer);
 }

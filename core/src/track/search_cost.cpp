@@ -69,4 +69,12 @@ NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& p
   return cost_.least_squares()->linearize(space_.states(points, prior_), steps, blur);
 }
 
+std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbourhood> points) {
+  std::vector<Neighbourhood> states;
+  for (const Neighbourhood& at : points) {
+    states.push_back({space_.states(at.points, prior_), at.steps, at.blur});
+  }
+  return cost_.least_squares()->linearize_each(states);
+}
+
 }  // namespace hypotrack

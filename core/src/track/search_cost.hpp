@@ -34,6 +34,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
   bool can_linearize() const override { return cost_.least_squares()->can_linearize(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override;
+  std::vector<NormalEquations> linearize_each(std::span<const Neighbourhood> points) override;
 
  private:
   Cost& cost_;

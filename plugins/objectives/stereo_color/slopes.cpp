@@ -37,27 +37,15 @@ struct SlopeWriter {
     store(select(p.seen, residual<kBilinear>(here, p), sqrt(share * here.weight)), p.pixels,
           residuals + at);
     if (!any(p.seen)) return;
-    // With q = a2 . (x, y, 1) + b2 w, du/dw = (b0 - u b2) / q and dv/dw = (b1 - v b2) / q.
-    Lanes along_u(map.b[0] < 0 ? -1.0f : 1.0f), along_v = zero;
-    Lanes speed(map.b[0] < 0 ? -map.b[0] : map.b[0]);
-    if (!p.same_row) {
-      const Lanes x = count_from(static_cast<float>(p.x));
-      const Lanes q = mul_add(Lanes(map.a[2][0]), x,
-                              mul_add(Lanes(map.b[2]), p.inverse_depth,
-                                      Lanes(map.a[2][1] * static_cast<float>(p.y) + map.a[2][2])));
-      const Lanes du = (Lanes(map.b[0]) - p.u * Lanes(map.b[2])) / q;
-      const Lanes dv = (Lanes(map.b[1]) - p.v * Lanes(map.b[2])) / q;
-      speed = max(sqrt(du * du + dv * dv), Lanes(1e-6f));
-      along_u = du / speed;
-      along_v = dv / speed;
-    }
+    const auto motion = epipolar_motion(map, count_from(static_cast<float>(p.x)),
+                                        Lanes(static_cast<float>(p.y)), p.inverse_depth, p.u, p.v);
     StereoPixels near = p, far = p;
-    near.u = mul_add(along_u, Lanes(kReach), p.u);
-    near.v = mul_add(along_v, Lanes(kReach), p.v);
-    far.u = mul_add(along_u, Lanes(-kReach), p.u);
-    far.v = mul_add(along_v, Lanes(-kReach), p.v);
-    const Lanes slope =
-        (residual<true>(here, near) - residual<true>(here, far)) * speed * Lanes(0.5f / kReach);
+    near.u = mul_add(motion.along_u, Lanes(kReach), p.u);
+    near.v = mul_add(motion.along_v, Lanes(kReach), p.v);
+    far.u = mul_add(motion.along_u, Lanes(-kReach), p.u);
+    far.v = mul_add(motion.along_v, Lanes(-kReach), p.v);
+    const Lanes slope = (residual<true>(here, near) - residual<true>(here, far)) * motion.speed *
+                        Lanes(0.5f / kReach);
     store(select(p.seen, slope, zero), p.pixels, slopes + at);
   }
   HYPOTRACK_PIXEL void end_row() {}

@@ -148,6 +148,16 @@ NormalEquations linearize(Cost& cost, const Scene& scene, const Eigen::VectorXd&
   return cost.least_squares()->linearize(moved_states(scene, state, steps), steps, blur);
 }
 
+TEST(Linearizer, MakesAutomaticTakeTheCpuForTermsWithoutSlopesOnAGpu) {
+  const Scene scene = test::hand_scene();
+  for (const auto linearization : {Linearization::needed, Linearization::welcome}) {
+    const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f), "pattern"}},
+                                {}, {.least_squares = true, .jacobian = linearization});
+    EXPECT_THAT(cost->backend(),
+                testing::AllOf(testing::StartsWith("cpu"), testing::HasSubstr("not on a GPU: ")));
+  }
+}
+
 class Linearize : public testing::TestWithParam<bool> {
  protected:
   Observation observation(const Scene& scene) const {

@@ -32,9 +32,7 @@ __device__ __forceinline__ int row_at(const Span& rows, float share) {
   return rows.first + round_nearest(exact_float(rows.last - rows.first) * share);
 }
 
-/// Bits of an empty slot, which no arithmetic produces. A slot in device memory passes one number
-/// from one block to another.
-inline constexpr std::uint64_t kEmptySlot = ~std::uint64_t{0};
+/// A slot of BlockPlan::band_sums passes one number from one block to another.
 __device__ __forceinline__ void fill_slot(double* slot, double value) {
   store_relaxed(slot, value);
 }

@@ -21,6 +21,9 @@ struct PoseMemory {
 /// Numbers that a particle stores per dimension, in double precision.
 inline constexpr int kParticleNumbers = 8;
 
+/// Bits of an empty slot of BlockPlan::band_sums, which no arithmetic produces.
+inline constexpr std::uint64_t kEmptySlot = ~std::uint64_t{0};
+
 /// Distribution of a hypothesis over blocks of threads, and the layout of a block's shared memory
 /// (offsets in floats, multiples of four).
 struct BlockPlan {
@@ -82,6 +85,29 @@ inline constexpr int kReservedBytes = 1024 + 1024;
 // rest.
 inline constexpr int kLeftToOthers = 20 * 1024;
 
+/// Lays out a posed hypothesis from offset `end` on and moves `end` behind it.
+inline PoseMemory lay_out_pose(const SceneLayout& scene, int& end) {
+  const auto take = [&](int floats) {
+    const int begin = end;
+    end += rounded(floats);
+    return begin;
+  };
+  const auto take_items = [&](std::size_t size, int count) {
+    return take(static_cast<int>(size / sizeof(float)) * count);
+  };
+  PoseMemory pose{};
+  pose.point = take(scene.dimension);
+  pose.state = take(scene.dimension);
+  pose.models = take(12 * scene.model_count);
+  pose.drawable = take(scene.model_count);
+  pose.locals = take(12 * scene.bone_count);
+  pose.bones = take(12 * scene.bone_count);
+  pose.model_layouts = take_items(sizeof(ModelLayout), scene.model_count);
+  pose.bone_layouts = take_items(sizeof(BoneLayout), scene.bone_count);
+  pose.turns = take_items(sizeof(Turn), scene.turn_count);
+  return pose;
+}
+
 /// Plans a block that may use `bytes` of shared memory; the z-buffers take what is left.
 inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes) {
   BlockPlan p;
@@ -96,18 +122,7 @@ inline BlockPlan lay_out(const PlanRequest& r, int threads, int bands, int bytes
     end += rounded(floats);
     return begin;
   };
-  const auto take_items = [&](std::size_t size, int count) {
-    return take(static_cast<int>(size / sizeof(float)) * count);
-  };
-  p.pose.point = take(r.scene.dimension);
-  p.pose.state = take(r.scene.dimension);
-  p.pose.models = take(12 * r.scene.model_count);
-  p.pose.drawable = take(r.scene.model_count);
-  p.pose.locals = take(12 * r.scene.bone_count);
-  p.pose.bones = take(12 * r.scene.bone_count);
-  p.pose.model_layouts = take_items(sizeof(ModelLayout), r.scene.model_count);
-  p.pose.bone_layouts = take_items(sizeof(BoneLayout), r.scene.bone_count);
-  p.pose.turns = take_items(sizeof(Turn), r.scene.turn_count);
+  p.pose = lay_out_pose(r.scene, end);
   p.particle = take(2 * kParticleNumbers * r.scene.dimension);
   p.sums = take(r.sums * (kMostThreads / 32));
   p.list = take(p.chunk);  // two 16-bit entries per triangle

@@ -44,12 +44,27 @@ struct DeviceObservation {
   bool pair = false;                   ///< as in the FrameLayout
 };
 
-/// Depth tiles of hypotheses that another component has drawn.
+/// Depth tiles (float 1/z, 0 where nothing is drawn) of drawn hypotheses: in a texture or in device
+/// memory.
 struct DrawnBatch {
-  std::uint64_t texture =
-      0;          ///< cudaTextureObject_t, layered, float 1/z: hypothesis * views + view
-  int first = 0;  ///< hypothesis of the batch in layer 0
-  int count = 0;  ///< number of hypotheses
+  std::uint64_t texture = 0;  ///< cudaTextureObject_t, layered: hypothesis * views + view; or 0
+  int first = 0;              ///< the first drawn hypothesis of the batch
+  int count = 0;              ///< number of hypotheses
+  /// Without a texture: the tiles of all views, one after the other, row by row without gaps.
+  const float* depth = nullptr;
+  std::int64_t stride = 0;  ///< from one hypothesis to the next
+};
+
+/// A pixel's residual and its slope d residual / d(1/z), in metres.
+struct alignas(8) PixelSlope {
+  float residual, slope;
+};
+
+/// Memory for an objective's slopes of drawn hypotheses.
+struct SlopeLayout {
+  PixelSlope* pixels;   ///< of all views, one after the other, row by row without gaps
+  std::int64_t stride;  ///< from one hypothesis to the next
+  float factor;         ///< factor on residuals and slopes: the root of the objective's weight
 };
 
 /// An objective on the GPU. All calls come from one thread and use one stream.
@@ -83,14 +98,22 @@ class HYPOTRACK_API DeviceObjective {
   virtual bool has_residuals() const { return false; }
   /// Returns ResidualTerm::residual_count() of the prepared frame.
   virtual std::int64_t residual_count() const { return 0; }
-  /// Evaluates like enqueue() and writes all residuals, in the order of
-  /// ResidualTerm::write_residuals(). Throws Error if there are none.
-  virtual void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
-                                 const ResidualLayout& residuals, Stream stream);
 
-  /// Enqueues the scoring of drawn hypotheses.
+  /// Enqueues the scoring of drawn hypotheses. An objective of the state ignores what is drawn.
   virtual void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch,
                              const DrawnBatch& drawn, Stream stream) = 0;
+  /// Scores like enqueue_drawn() and writes all residuals, in the order of
+  /// ResidualTerm::write_residuals(). Throws Error if there are none.
+  virtual void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
+                                 const DrawnBatch& drawn, const ResidualLayout& residuals,
+                                 Stream stream);
+
+  /// Returns true if enqueue_slopes() is available; the answer never changes.
+  virtual bool has_slopes() const { return false; }
+  /// Enqueues the computation of ResidualTerm::write_slopes() for drawn hypotheses. Pixels without a
+  /// residual get 0. Throws Error if there are none.
+  virtual void enqueue_slopes(const SceneLayout& scene, const DrawnBatch& drawn,
+                              const SlopeLayout& slopes, Stream stream);
 
   /// Returns a number that changes whenever enqueue() would launch other kernels or arguments. A
   /// captured graph is then invalid.

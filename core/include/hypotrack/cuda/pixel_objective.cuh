@@ -7,6 +7,7 @@
 #include <set>
 #include <type_traits>
 
+#include "hypotrack/cuda/block_memory.cuh"
 #include "hypotrack/cuda/drawn.cuh"
 #include "hypotrack/cuda/evaluate.cuh"
 #include "hypotrack/cuda/pixel_residuals.cuh"
@@ -50,6 +51,12 @@ namespace hypotrack::cuda {
 ///     // an uncovered pixel, the i-th of the view's tile row by row. views() or directions() are
 ///     // then HYPOTRACK_PIXEL, for the host as well.
 ///     __device__ float uncovered_residual(int view, int i) const;
+///     // If they have slopes d residual / d(1/z) (ResidualTerm::write_slopes()): that of a covered
+///     // pixel. `map` is that to the other view. Any pixel of `texels` may be read.
+///     template <int kReference, class Texels>                        // if kStereo
+///     __device__ float slope(const StereoPixel& p, const StereoMap& map,
+///                            const Texels& texels) const;
+///     __device__ float slope(const ViewPixel& p) const;              // otherwise
 ///     // If the state has residuals; they follow those of the pixels:
 ///     HYPOTRACK_PIXEL int state_residual_count() const;
 ///     __device__ float state_residual(int i, const float* state) const;
@@ -87,53 +94,23 @@ class PixelObjective : public DeviceObjective {
     if (count == reserved_) return;
     reserved_ = 0;
     limits_ = limits;
-    PlanRequest request{.scene = scene,
-                        .limits = limits,
-                        .count = count,
-                        .tile_width = width_,
-                        .tile_height = height_,
-                        .tiles_at_once = Term::kStereo ? 2 : 1,
-                        .may_split = !Term::kStereo || rectified_,
-                        .sums = Term::kSums,
-                        .texels = HasTexels<Term>};
-    BlockPlan plan = plan_blocks(request);
+    BlockPlan plan = plan_blocks(plan_request(scene, count));
     if (plan.depth_capacity < least_depth_capacity(Term::kStereo ? 2 : 1, width_)) {
       throw DeviceError("CUDA: tiles " + std::to_string(width_) +
                         " pixels wide and this scene's bones do not fit into the device's shared "
                         "memory; use smaller tiles, or backend: cpu");
     }
-    const auto blocks = static_cast<std::size_t>(count) * static_cast<std::size_t>(plan.bands);
-    if (!plan.vertices_in_shared) {
-      vertex_scratch_.reserve(blocks * 4 * static_cast<std::size_t>(plan.vertex_stride));
-    }
     const int both_tiles = 2 * detail::rounded(width_ * height_);
     if (Term::kStereo && !rectified_ && both_tiles > plan.depth_capacity) {
       plan.depth_scratch_size = both_tiles;
-      depth_scratch_.reserve(blocks * static_cast<std::size_t>(both_tiles));
     }
-    if (plan.bands > 1) {
-      if (band_sums_.reserve(blocks * Term::kSums)) {
-        static_assert(kEmptySlot == ~std::uint64_t{0});
-        check(cudaMemset(band_sums_.data(), 0xFF, band_sums_.size() * sizeof(double)),
-              "emptying memory");
-        check(cudaDeviceSynchronize(), "emptying memory");
-      }
-    }
-    plan.vertex_scratch = vertex_scratch_.data();
-    plan.depth_scratch = depth_scratch_.data();
-    plan.band_sums = band_sums_.data();
+    // Blocks wait for one another, so all of them must run at once; twice as many would.
+    drawn_bands_ = static_cast<int>(
+        std::clamp<std::int64_t>(2 * limits.multiprocessors / count, 1, kMostBands));
+    memory_.reserve(plan, count, drawn_bands_, Term::kSums);
     allow_shared(kernel_for<Term>(plan));
-    searching_blocks_ = 0;
-    if (plan.vertices_in_shared && (!Term::kStereo || rectified_)) {
-      allow_shared(search_kernel());
-      request.alone = true;
-      search_plan_ = plan_blocks(request);
-      search_plan_.band_sums = plan.band_sums;
-      searching_blocks_ = blocks_at_once(search_kernel(), search_plan_.threads,
-                                         static_cast<std::size_t>(search_plan_.shared_bytes),
-                                         limits.multiprocessors);
-    }
     plan_ = plan;
+    searching_blocks_ = kUnknown;
     reserved_ = count;
     ++revision_;
   }
@@ -147,6 +124,7 @@ class PixelObjective : public DeviceObjective {
 
   bool enqueue_search(const SceneLayout& scene, const BatchLayout& batch, const SwarmSearch& search,
                       Stream stream) final {
+    if (searching_blocks_ == kUnknown) plan_search(scene);
     const std::int64_t blocks = batch.count * search_plan_.bands;
     if (blocks > searching_blocks_) return false;
     launch_together(search_kernel(), dim3(static_cast<unsigned>(blocks)),
@@ -162,7 +140,7 @@ class PixelObjective : public DeviceObjective {
     if constexpr (HasResiduals<Term>) {
       std::int64_t count = state_residual_count(term_);
       for (std::size_t i = 0; i < tiles_.size(); ++i) {
-        if (looks_at() >> i & 1) count += std::int64_t{tiles_[i].width} * tiles_[i].height;
+        if (views_of(term_) >> i & 1) count += std::int64_t{tiles_[i].width} * tiles_[i].height;
       }
       return count;
     } else {
@@ -170,31 +148,35 @@ class PixelObjective : public DeviceObjective {
     }
   }
 
+  void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
+                     Stream stream) final {
+    score_drawn(scene, batch, drawn, NoResiduals{}, stream);
+  }
+
   void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
-                         const ResidualLayout& residuals, Stream stream) final {
+                         const DrawnBatch& drawn, const ResidualLayout& residuals,
+                         Stream stream) final {
     if constexpr (HasResiduals<Term>) {
-      const WithResiduals<Term> term{term_, places(residuals)};
-      const auto pixels = static_cast<unsigned>(width_ * height_);
-      launch(&write_uncovered<Term>,
-             dim3((pixels + kFillThreads - 1) / kFillThreads, static_cast<unsigned>(kMaxViews)),
-             dim3(kFillThreads), 0, stream, false, term_, term.to, batch.count);
-      const auto kernel = kernel_for<WithResiduals<Term>>(plan_);
-      allow_shared(kernel);
-      const auto blocks = static_cast<unsigned>(batch.count * plan_.bands);
-      launch(kernel, dim3(blocks), dim3(static_cast<unsigned>(plan_.threads)),
-             static_cast<std::size_t>(plan_.shared_bytes), stream, overlaps_launches(limits_),
-             scene, frame_, batch, plan_, term);
+      score_drawn(scene, batch, drawn, places(residuals), stream);
     } else {
-      DeviceObjective::enqueue_residuals(scene, batch, residuals, stream);
+      DeviceObjective::enqueue_residuals(scene, batch, drawn, residuals, stream);
     }
   }
 
-  void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
-                     Stream stream) final {
-    constexpr unsigned kThreads = 512;
-    const auto bytes = sizeof(float) * static_cast<std::size_t>(plan_.list);  // all before `list`
-    launch(&score_drawn_hypotheses<Term>, dim3(static_cast<unsigned>(drawn.count)), dim3(kThreads),
-           bytes, stream, false, scene, frame_, batch, plan_, drawn, term_);
+  bool has_slopes() const final { return HasSlopes<Term>; }
+
+  void enqueue_slopes(const SceneLayout& scene, const DrawnBatch& drawn, const SlopeLayout& slopes,
+                      Stream stream) final {
+    if constexpr (HasSlopes<Term>) {
+      const int rows = kDrawnThreads / std::max(width_, 1) + 1;
+      launch(&write_drawn_slopes<Term>,
+             dim3(static_cast<unsigned>((height_ + rows - 1) / rows),
+                  static_cast<unsigned>(drawn.count)),
+             dim3(kDrawnThreads), 0, stream, overlaps_launches(limits_), frame_, drawn, term_,
+             slopes);
+    } else {
+      DeviceObjective::enqueue_slopes(scene, drawn, slopes, stream);
+    }
   }
 
   std::uint64_t revision() const final { return revision_; }
@@ -205,6 +187,50 @@ class PixelObjective : public DeviceObjective {
   virtual Term make_term(const DeviceObservation& observation, Stream stream) = 0;
 
  private:
+  static constexpr std::int64_t kUnknown = -1;
+
+  PlanRequest plan_request(const SceneLayout& scene, std::int64_t count) const {
+    return {.scene = scene,
+            .limits = limits_,
+            .count = count,
+            .tile_width = width_,
+            .tile_height = height_,
+            .tiles_at_once = Term::kStereo ? 2 : 1,
+            .may_split = !Term::kStereo || rectified_,
+            .sums = Term::kSums,
+            .texels = HasTexels<Term>};
+  }
+
+  /// Plans a whole search as one kernel for the reserved number of hypotheses.
+  void plan_search(const SceneLayout& scene) {
+    searching_blocks_ = 0;
+    if (!plan_.vertices_in_shared || (Term::kStereo && !rectified_)) return;
+    allow_shared(search_kernel());
+    PlanRequest request = plan_request(scene, reserved_);
+    request.alone = true;
+    search_plan_ = plan_blocks(request);
+    search_plan_.band_sums = plan_.band_sums;
+    searching_blocks_ = blocks_at_once(search_kernel(), search_plan_.threads,
+                                       static_cast<std::size_t>(search_plan_.shared_bytes),
+                                       limits_.multiprocessors);
+  }
+
+  template <class To>
+  void score_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
+                   const To& to, Stream stream) {
+    const auto run = [&](auto kernel) {
+      launch(kernel, dim3(static_cast<unsigned>(drawn.count * drawn_bands_)), dim3(kDrawnThreads),
+             sizeof(float) * static_cast<std::size_t>(plan_.list),  // all before `list`
+             stream, overlaps_launches(limits_), scene, frame_, batch, plan_, drawn_bands_, drawn,
+             term_, to);
+    };
+    if (drawn.texture != 0) {
+      run(&score_drawn_hypotheses<Term, To, true>);
+    } else {
+      run(&score_drawn_hypotheses<Term, To, false>);
+    }
+  }
+
   template <class AnyTerm>
   using Kernel = void (*)(SceneLayout, const FrameLayout*, BatchLayout, BlockPlan, AnyTerm);
 
@@ -245,26 +271,16 @@ class PixelObjective : public DeviceObjective {
     ResidualPlaces to{};
     to.stride = layout.stride;
     to.factor = layout.factor;
-    to.bands = plan_.bands;
     float* next = layout.residuals;
     for (std::size_t i = 0; i < tiles_.size(); ++i) {
       to.width[i] = tiles_[i].width;
-      to.height[i] = tiles_[i].height;
-      if (!(looks_at() >> i & 1)) continue;
+      if (!(views_of(term_) >> i & 1)) continue;
       to.views[i] = next;
       next += std::int64_t{tiles_[i].width} * tiles_[i].height;
     }
     to.state = next;
     return to;
   }
-  int looks_at() const {
-    if constexpr (Term::kStereo) {
-      return term_.directions();
-    } else {
-      return term_.views();
-    }
-  }
-
   static bool differ(const Term& a, const Term& b) {
     if constexpr (std::is_empty_v<Term>) {
       return false;
@@ -280,11 +296,12 @@ class PixelObjective : public DeviceObjective {
   bool rectified_ = false;
   DeviceLimits limits_;
   std::int64_t reserved_ = 0;
-  std::int64_t searching_blocks_ = 0;  ///< most blocks of a search in one kernel; 0 = unavailable
+  /// Most blocks of a search in one kernel; 0 = unavailable.
+  std::int64_t searching_blocks_ = kUnknown;
+  int drawn_bands_ = 1;  ///< blocks per drawn hypothesis
   std::uint64_t revision_ = 0;
   BlockPlan plan_, search_plan_;
-  DeviceBuffer<float> vertex_scratch_, depth_scratch_;
-  DeviceBuffer<double> band_sums_;
+  BlockMemory memory_;
   std::set<const void*> allowed_;  // kernels
 };
 

@@ -187,26 +187,26 @@ class StateObjective : public DeviceObjective {
       return 0;
     }
   }
-  void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
-                         const ResidualLayout& residuals, Stream stream) final {
-    if constexpr (HasStateTermResiduals<Term>) {
-      const WithStateResiduals<Term> term{term_, residuals};
-      const auto kernel = &score_states<WithStateResiduals<Term>>;
-      allow_shared(kernel, scene);
-      launch(kernel, dim3(static_cast<unsigned>(batch.count)), dim3(kWarp), shared_bytes(scene),
-             stream, overlaps_launches(limits_), scene, batch, term);
-    } else {
-      DeviceObjective::enqueue_residuals(scene, batch, residuals, stream);
-    }
-  }
 
   void enqueue_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
                      Stream stream) final {
-    BatchLayout part = batch;
-    part.points += drawn.first * point_size(scene, batch);
-    part.costs += drawn.first;
-    part.count = drawn.count;
-    enqueue(scene, part, stream);
+    enqueue(scene, part_of(scene, batch, drawn), stream);
+  }
+  void enqueue_residuals(const SceneLayout& scene, const BatchLayout& batch,
+                         const DrawnBatch& drawn, const ResidualLayout& residuals,
+                         Stream stream) final {
+    if constexpr (HasStateTermResiduals<Term>) {
+      const BatchLayout part = part_of(scene, batch, drawn);
+      ResidualLayout to = residuals;
+      to.residuals += drawn.first * residuals.stride;
+      const WithStateResiduals<Term> term{term_, to};
+      const auto kernel = &score_states<WithStateResiduals<Term>>;
+      allow_shared(kernel, scene);
+      launch(kernel, dim3(static_cast<unsigned>(part.count)), dim3(kWarp), shared_bytes(scene),
+             stream, overlaps_launches(limits_), scene, part, term);
+    } else {
+      DeviceObjective::enqueue_residuals(scene, batch, drawn, residuals, stream);
+    }
   }
   std::uint64_t revision() const final { return revision_; }
 
@@ -218,6 +218,15 @@ class StateObjective : public DeviceObjective {
   }
 
  private:
+  static BatchLayout part_of(const SceneLayout& scene, const BatchLayout& batch,
+                             const DrawnBatch& drawn) {
+    BatchLayout part = batch;
+    part.points += drawn.first * point_size(scene, batch);
+    part.costs += drawn.first;
+    part.count = drawn.count;
+    return part;
+  }
+
   template <class AnyTerm>
   void allow_shared(void (*kernel)(SceneLayout, BatchLayout, AnyTerm), const SceneLayout& scene) {
     check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,

@@ -164,14 +164,14 @@ class SharedTexels {
   int pitch_;
 };
 
-/// Adds a pixel to a Term's sums, with texels if the Term has them.
+/// Adds a pixel to a Term's sums, with texels if the Term has them. Returns what pixel() returns.
 template <int kReference, class Term, class Pixel, class Texels>
-__device__ __forceinline__ void add_pixel(const Term& term, const Pixel& p, const Texels& texels,
+__device__ __forceinline__ auto add_pixel(const Term& term, const Pixel& p, const Texels& texels,
                                           float (&sums)[Term::kSums]) {
   if constexpr (HasTexels<Term>) {
-    term.template pixel<kReference>(p, texels, sums);
+    return term.template pixel<kReference>(p, texels, sums);
   } else {
-    term.template pixel<kReference>(p, sums);
+    return term.template pixel<kReference>(p, sums);
   }
 }
 

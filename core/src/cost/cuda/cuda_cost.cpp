@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cost/backends.hpp"
+#include "cost/cuda/device_linearizer.hpp"
 #include "cost/cuda/device_residuals.hpp"
 #include "cost/cuda/device_scene.hpp"
 #include "cost/cuda/frame_on_device.hpp"
@@ -56,6 +57,15 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   }
   std::unique_ptr<ResidualDifferences> differences() override {
     return std::make_unique<DeviceResiduals>(*this, frame_, batch_, residual_memory_);
+  }
+  bool can_linearize() const override { return frame_.has_slopes(); }
+  NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
+                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
+    const Neighbourhood at{states, steps, blur};
+    return linearizer_.linearize({&at, 1}).front();
+  }
+  std::vector<NormalEquations> linearize_each(std::span<const Neighbourhood> points) override {
+    return linearizer_.linearize(points);
   }
 
   // DeviceCost
@@ -119,6 +129,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   HostBatch batch_;
   bool sum_of_squares_;
   ResidualMemory residual_memory_;
+  DeviceLinearizer linearizer_{*this, frame_};
   DeviceBuffer<double> prior_;
   PinnedBuffer<double> prior_staging_;
   bool rotation_vectors_ = false;
@@ -140,6 +151,16 @@ std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTer
     }
   }
   return why_not_this_device(settings.device);
+}
+
+std::string why_not_linearized(const std::vector<ObjectiveTerm>& terms) {
+  for (const ObjectiveTerm& term : terms) {
+    if (term.weight == 0 || !term.objective->needs_rendering()) continue;
+    const auto on_device = term.objective->on_device();
+    if (on_device && on_device->has_slopes()) continue;
+    return fmt::format("objective {} has no slopes of its residuals on a GPU", term.name);
+  }
+  return {};
 }
 
 std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,

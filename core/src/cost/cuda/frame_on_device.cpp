@@ -1,5 +1,6 @@
 #include "cost/cuda/frame_on_device.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cost/cuda/reserve_batch.hpp"
@@ -12,6 +13,7 @@ FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm
                              const EvaluateSettings& settings)
     : device_(settings.device), scene_(scene), terms_(terms) {
   for (const ObjectiveTerm& term : terms_) objectives_.push_back(term.objective->on_device());
+  for (std::size_t i = 0; i < terms_.size(); ++i) drawing_terms_ += draws(i) ? 1 : 0;
 }
 
 FrameOnDevice::~FrameOnDevice() { cudaStreamSynchronize(native(stream())); }
@@ -27,6 +29,7 @@ void FrameOnDevice::prepare(const Observation& observation) {
 
 void FrameOnDevice::prepare(const DeviceObservation& observation) {
   observation_ = observation;
+  drawer_.prepare(observation_);
   for (const auto& objective : objectives_) objective->prepare(observation_, stream());
 }
 
@@ -40,8 +43,13 @@ void FrameOnDevice::reserve(std::int64_t count, const std::function<void(std::in
       if (terms_[i].weight == 0) continue;
       objectives_[i]->reserve(scene_.layout(), device_.limits(), hypotheses);
     }
+    if (draws()) drawer_.reserve(scene_.layout(), device_.limits(), hypotheses);
     more(hypotheses);
   });
+}
+
+bool FrameOnDevice::draws(std::size_t term) const {
+  return terms_[term].weight != 0 && terms_[term].objective->needs_rendering();
 }
 
 template <class Enqueue>
@@ -55,7 +63,21 @@ void FrameOnDevice::add_up(BatchLayout& batch, const Enqueue& enqueue) {
   }
 }
 
+/// Draws a batch in parts that fit into memory, and calls enqueue(drawn) for each.
+template <class Enqueue>
+void FrameOnDevice::draw_parts(const BatchLayout& batch, const Enqueue& enqueue) {
+  if (!draws()) return enqueue(DrawnBatch{.count = static_cast<int>(batch.count)});
+  for (std::int64_t first = 0; first < batch.count; first += drawer_.at_once()) {
+    const std::int64_t count = std::min(drawer_.at_once(), batch.count - first);
+    enqueue(drawer_.enqueue(scene_.layout(), batch, first, count, stream()));
+  }
+}
+
 void FrameOnDevice::enqueue(BatchLayout batch) {
+  if (drawing_terms_ > 1) {
+    draw_parts(batch, [&](const DrawnBatch& drawn) { enqueue_drawn(batch, drawn); });
+    return;
+  }
   add_up(batch,
          [&](DeviceObjective& objective) { objective.enqueue(scene_.layout(), batch, stream()); });
   clear_costs_without_terms(batch);
@@ -75,12 +97,42 @@ bool FrameOnDevice::enqueue_search(BatchLayout batch, const SwarmSearch& search)
 
 void FrameOnDevice::enqueue(BatchLayout batch, float* residuals) {
   const std::int64_t stride = residual_count();
-  add_up(batch, [&](DeviceObjective& objective) {
-    const auto factor = static_cast<float>(std::sqrt(batch.weight));
-    objective.enqueue_residuals(scene_.layout(), batch, {residuals, stride, factor}, stream());
-    residuals += objective.residual_count();
+  draw_parts(batch, [&](const DrawnBatch& drawn) {
+    float* next = residuals;
+    add_up(batch, [&](DeviceObjective& objective) {
+      const auto factor = static_cast<float>(std::sqrt(batch.weight));
+      objective.enqueue_residuals(scene_.layout(), batch, drawn, {next, stride, factor}, stream());
+      next += objective.residual_count();
+    });
   });
   clear_costs_without_terms(batch);
+}
+
+DrawnBatch FrameOnDevice::draw(const BatchLayout& batch) {
+  return drawer_.enqueue(scene_.layout(), batch, 0, batch.count, stream());
+}
+
+void FrameOnDevice::enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes) {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (!draws(i)) continue;
+    const auto factor = static_cast<float>(std::sqrt(terms_[i].weight));
+    objectives_[i]->enqueue_slopes(scene_.layout(), drawn,
+                                   {slopes, drawing_terms_ * pixels(), factor}, stream());
+    slopes += pixels();
+  }
+}
+
+void FrameOnDevice::enqueue_state_residuals(BatchLayout batch, float* residuals, Stream stream) {
+  const DrawnBatch all{.count = static_cast<int>(batch.count)};
+  const std::int64_t stride = state_residual_count();
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight == 0 || draws(i)) continue;
+    batch.weight = terms_[i].weight;
+    const auto factor = static_cast<float>(std::sqrt(batch.weight));
+    objectives_[i]->enqueue_residuals(scene_.layout(), batch, all, {residuals, stride, factor},
+                                      stream);
+    residuals += objectives_[i]->residual_count();
+  }
 }
 
 void FrameOnDevice::clear_costs_without_terms(const BatchLayout& batch) {
@@ -94,6 +146,21 @@ bool FrameOnDevice::has_residuals() const {
     if (terms_[i].weight != 0 && !objectives_[i]->has_residuals()) return false;
   }
   return true;
+}
+
+bool FrameOnDevice::has_slopes() const {
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (draws(i) && !objectives_[i]->has_slopes()) return false;
+  }
+  return has_residuals();
+}
+
+std::int64_t FrameOnDevice::state_residual_count() const {
+  std::int64_t count = 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    if (terms_[i].weight != 0 && !draws(i)) count += objectives_[i]->residual_count();
+  }
+  return count;
 }
 
 std::int64_t FrameOnDevice::residual_count() const {
@@ -120,7 +187,7 @@ void FrameOnDevice::enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn) {
 }
 
 std::uint64_t FrameOnDevice::revision() const {
-  std::uint64_t sum = 0;  // of numbers that only grow
+  std::uint64_t sum = drawer_.revision();  // of numbers that only grow
   for (const auto& objective : objectives_) sum += objective->revision();
   return sum;
 }

@@ -8,6 +8,7 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/device_scene.hpp"
+#include "cost/cuda/tile_drawer.hpp"
 #include "cost/cuda/tile_upload.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
@@ -44,7 +45,8 @@ class FrameOnDevice {
   /// such a batch needs.
   void reserve(std::int64_t count, const std::function<void(std::int64_t)>& more);
 
-  /// Enqueues all terms for a batch; sets `batch.weight` and `batch.add`.
+  /// Enqueues all terms for a batch; sets `batch.weight` and `batch.add`. Several terms that need
+  /// rendering share one drawing of each hypothesis.
   void enqueue(BatchLayout batch);
   /// Enqueues a whole search, which only a single term can run (DeviceCost::enqueue_search()). Sets
   /// `batch.weight`.
@@ -54,11 +56,34 @@ class FrameOnDevice {
   void enqueue(BatchLayout batch, float* residuals);
   /// Enqueues all terms for hypotheses that are already drawn.
   void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
+  /// Draws a batch of at most drawn_at_once() hypotheses. Sets their costs to 0.
+  DrawnBatch draw(const BatchLayout& batch);
+  /// Enqueues the slopes of the terms that need rendering: drawing_terms() x pixels() per drawn
+  /// hypothesis. Requires has_slopes().
+  void enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes);
+  /// Enqueues the residuals of the terms that need no rendering: state_residual_count() per
+  /// hypothesis, each times the root of its weight. Overwrites the costs.
+  void enqueue_state_residuals(BatchLayout batch, float* residuals, Stream stream);
+
+  const SceneLayout& scene() const { return scene_.layout(); }
+  const DeviceObservation& observation() const { return observation_; }
+  int view_count() const { return static_cast<int>(observation_.header->views.size()); }
+  /// Returns how many hypotheses are drawn at once, at most as many as were reserved.
+  std::int64_t drawn_at_once() const { return draws() ? drawer_.at_once() : 1 << 20; }
+  /// Returns the number of pixels of all views.
+  std::int64_t pixels() const { return drawer_.pixels(); }
+  /// Returns the number of terms that need rendering.
+  int drawing_terms() const { return drawing_terms_; }
+  bool draws() const { return drawing_terms_ > 0; }
 
   /// Returns true if every term has residuals on the GPU.
   bool has_residuals() const;
+  /// Returns true if they also have slopes there, unless they need no rendering.
+  bool has_slopes() const;
   /// Returns the number of residuals per hypothesis of the prepared frame.
   std::int64_t residual_count() const;
+  /// Returns the number of residuals of terms that need no rendering.
+  std::int64_t state_residual_count() const;
   /// See StateResiduals::pose_only().
   std::vector<ResidualRows> pose_only_residuals() const;
 
@@ -66,15 +91,20 @@ class FrameOnDevice {
   std::uint64_t revision() const;
 
  private:
+  bool draws(std::size_t term) const;
   template <class Enqueue>
   void add_up(BatchLayout& batch, const Enqueue& enqueue);
+  template <class Enqueue>
+  void draw_parts(const BatchLayout& batch, const Enqueue& enqueue);
   void clear_costs_without_terms(const BatchLayout& batch);
 
   Device device_;
   DeviceScene scene_;
   std::vector<ObjectiveTerm> terms_;
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
+  int drawing_terms_ = 0;
   TileUpload upload_;
+  TileDrawer drawer_;
   DeviceObservation observation_;
 };
 

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kThreads = 256;
 constexpr int kWarps = kThreads / kWarp;
-constexpr int kSquaresPerBlock = 32;
+constexpr int kSquaresPerBlock = kWarps;
 
 __device__ double warp_sum(double x) {
   for (int step = kWarp / 2; step > 0; step /= 2) x += __shfl_xor_sync(kWholeWarp, x, step);
@@ -22,7 +22,7 @@ struct Columns {
   int differences, columns;  ///< how many of the four
 
   __device__ Columns(const GramJob& job, int side)
-      : first(job.beside + job.rows * (kGramSide * side)),
+      : first(job.beside + job.stride * blockIdx.z + job.rows * (kGramSide * side)),
         pitch(job.rows),
         differences(min(job.dimension - kGramSide * side, kGramSide)),
         columns(min(job.dimension + 1 - kGramSide * side, kGramSide)) {}
@@ -37,7 +37,8 @@ struct Columns {
 };
 
 /// Sums one square of the matrix over the block's rows, with one warp.
-__device__ void add_square(const GramJob& job, int square, std::int64_t begin, std::int64_t end) {
+__device__ void add_square(const GramJob& job, int squares, int square, std::int64_t begin,
+                           std::int64_t end) {
   int a = 0, b = square;
   for (int sides = (job.dimension + kGramSide) / kGramSide; b >= sides - a; ++a) b -= sides - a;
   b += a;
@@ -45,7 +46,7 @@ __device__ void add_square(const GramJob& job, int square, std::int64_t begin, s
   float sums[kGramSide][kGramSide] = {};
   const int lane = static_cast<int>(threadIdx.x) % kWarp;
   for (std::int64_t row = begin + lane; row < end; row += kWarp) {
-    const float here = job.here[row];
+    const float here = job.here[job.stride * blockIdx.z + row];
     float x[kGramSide], y[kGramSide];
     left.load(row, here, x);
     right.load(row, here, y);
@@ -59,12 +60,13 @@ __device__ void add_square(const GramJob& job, int square, std::int64_t begin, s
   for (int k = 0; k < kGramSquare; ++k) {
     const float sum = cuda::warp_sum(sums[k / kGramSide][k % kGramSide]);
     if (lane == 0) {
-      job.parts[(std::int64_t{square} * kGramSquare + k) * gridDim.x + blockIdx.x] = sum;
+      const std::int64_t place = std::int64_t{blockIdx.z} * squares + square;
+      job.parts[(place * kGramSquare + k) * gridDim.x + blockIdx.x] = sum;
     }
   }
 }
 
-/// Sums the parts: blocks in y for groups of squares, blocks in x for groups of rows.
+/// Sums the parts: blocks in z for matrices, in y for groups of squares, in x for groups of rows.
 __global__ void __launch_bounds__(kThreads)
     add_parts(const __grid_constant__ GramJob job, int squares) {
   const std::int64_t begin = kGramRows * blockIdx.x;
@@ -73,7 +75,7 @@ __global__ void __launch_bounds__(kThreads)
   const int last = min(first + kSquaresPerBlock, squares);
   for (int square = first + static_cast<int>(threadIdx.x) / kWarp; square < last;
        square += kWarps) {
-    add_square(job, square, begin, end);
+    add_square(job, squares, square, begin, end);
   }
 }
 
@@ -92,12 +94,14 @@ __global__ void __launch_bounds__(kThreads)
 }  // namespace
 
 void enqueue_gram(const GramJob& job, Stream stream) {
-  const int squares = gram_squares(job.dimension), numbers = gram_numbers(job.dimension);
+  const int squares = gram_squares(job.dimension);
+  const int numbers = job.count * gram_numbers(job.dimension);
   const std::int64_t blocks = gram_blocks(job.rows);
   if (blocks > 0) {
     launch(&add_parts,
            dim3(static_cast<unsigned>(blocks),
-                static_cast<unsigned>((squares + kSquaresPerBlock - 1) / kSquaresPerBlock)),
+                static_cast<unsigned>((squares + kSquaresPerBlock - 1) / kSquaresPerBlock),
+                static_cast<unsigned>(job.count)),
            dim3(kThreads), 0, stream, false, job, squares);
   }
   launch(&join_parts, dim3(static_cast<unsigned>((numbers + kWarps - 1) / kWarps)), dim3(kThreads),

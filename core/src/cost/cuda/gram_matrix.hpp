@@ -29,9 +29,11 @@ struct GramJob {
   const float* here;    ///< r: `rows` residuals
   const float* beside;  ///< D times `rows` residuals
   std::int64_t rows;
-  std::int32_t dimension;  ///< D
-  float* parts;            ///< gram_numbers(D) x gram_blocks(rows)
-  double* sums;            ///< gram_numbers(D): columns are r_i - r, the last one is r
+  std::int32_t dimension;   ///< D
+  float* parts;             ///< count x gram_numbers(D) x gram_blocks(rows)
+  double* sums;             ///< count x gram_numbers(D): columns are r_i - r, the last one is r
+  std::int32_t count = 1;   ///< matrices
+  std::int64_t stride = 0;  ///< floats between the residuals of two matrices
 };
 
 /// Enqueues the sums, which are the same in every run.

@@ -34,6 +34,8 @@ struct SkinTerm {
   __device__ float uncovered_residual(int view, int i) const {
     return skin::uncovered_residual(cuda::exact_low_half(foreground[view][i]) * kUnit, share());
   }
+  /// The residual does not depend on the depth of what is drawn.
+  __device__ float slope(const cuda::ViewPixel&) const { return 0.0f; }
   __device__ float share() const { return 1.0f / static_cast<float>(view_count); }
 
   __device__ double cost(const double (&sums)[kSums], const float*) const {

@@ -50,6 +50,25 @@ struct ColorTerm {
     return residual(features[view][i], 0.0f);
   }
 
+  /// Differences over half a pixel to either side along the epipolar line, as on the CPU.
+  template <int kReference, class Texels>
+  __device__ float slope(const cuda::StereoPixel& p, const StereoMap& map,
+                         const Texels& texels) const {
+    if (!p.seen) return 0.0f;
+    constexpr float kReach = 0.5f;
+    const Texel here = texels.template at<kReference>(p.x, p.y);
+    const auto there = [&](int x, int y) { return texels.template at<1 - kReference>(x, y); };
+    const auto motion = hypotrack::scalar::epipolar_motion<float>(
+        map, static_cast<float>(p.x), static_cast<float>(p.y), p.inverse_depth, p.u, p.v);
+    const auto residual_at = [&](float reach) {
+      cuda::StereoPixel moved = p;
+      moved.u = fmaf(motion.along_u, reach, p.u);
+      moved.v = fmaf(motion.along_v, reach, p.v);
+      return residual(here, scalar::color_consistency(sample(here), blended(there, moved), curve));
+    };
+    return (residual_at(kReach) - residual_at(-kReach)) * motion.speed * (0.5f / kReach);
+  }
+
   __device__ double cost(const double (&sums)[kSums], const float*) const {
     const double first = aggregate(aggregation, sums[0], sums[1], sums[2]);
     if constexpr (!kBoth) return 0.0 - first;  // not -0.0

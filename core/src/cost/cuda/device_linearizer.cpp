@@ -1,0 +1,189 @@
+#include "cost/cuda/device_linearizer.hpp"
+
+#include <algorithm>
+
+#include "cost/cuda/device_residuals.hpp"
+#include "cost/cuda/gram_matrix.hpp"
+#include "cost/cuda/pixel_rows.hpp"
+#include "cost/cuda/transfer.hpp"
+
+namespace hypotrack::cuda {
+namespace {
+
+std::size_t size(std::int64_t numbers) { return static_cast<std::size_t>(numbers); }
+
+/// Returns the dimensions with steps.
+std::vector<Eigen::Index> moved_dimensions(const Eigen::VectorXd& steps) {
+  std::vector<Eigen::Index> moved;
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+    if (steps[i] != 0) moved.push_back(i);
+  }
+  return moved;
+}
+
+/// Returns the matrix of the sums of enqueue_pixel_rows(): (D + 1) x (D + 1), valid on and above
+/// the diagonal.
+Eigen::MatrixXd unpack_rows(const double* sums, int columns) {
+  const int sides = (columns + kRowSide) / kRowSide;
+  Eigen::MatrixXd all(sides * kRowSide, sides * kRowSide);
+  for (int a = 0; a < sides; ++a) {
+    for (int b = a; b < sides; ++b, sums += kRowSquare) {
+      all.block<kRowSide, kRowSide>(kRowSide * a, kRowSide * b) =
+          Eigen::Map<const Eigen::Matrix<double, kRowSide, kRowSide>>(sums);
+    }
+  }
+  return all.topLeftCorner(columns + 1, columns + 1);
+}
+
+}  // namespace
+
+std::vector<NormalEquations> DeviceLinearizer::linearize(std::span<const Neighbourhood> points) {
+  std::vector<NormalEquations> out;
+  frame_.device().use();
+  frame_.reserve(static_cast<std::int64_t>(points.size()));
+  const std::size_t most = size(frame_.drawn_at_once());
+  while (out.size() < points.size()) {
+    const auto part = points.subspan(out.size(), std::min(most, points.size() - out.size()));
+    linearize_together(part, out);
+  }
+  return out;
+}
+
+void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
+                                          std::vector<NormalEquations>& all) {
+  std::vector<std::vector<Eigen::Index>> moved;
+  int columns = 0;
+  const std::size_t before = all.size();
+  for (const Neighbourhood& at : points) {
+    moved.push_back(moved_dimensions(at.steps));
+    columns = std::max(columns, static_cast<int>(moved.back().size()));
+    const Eigen::Index d = at.steps.size();
+    all.push_back({Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)});
+  }
+  if (columns == 0) return;
+  const std::span<NormalEquations> out = std::span(all).subspan(before);
+  const auto count = static_cast<int>(points.size());
+  const bool differs = frame_.state_residual_count() > 0;
+  reserve(count, columns);
+  upload(points, moved, columns);
+  // What does not need the drawing runs beside it.
+  side_.fork(frame_.stream());
+  if (differs) enqueue_differences(count, columns, side_.stream());
+  if (frame_.draws()) enqueue_rows(count, columns);
+  side_.join(frame_.stream());
+  check(cudaStreamSynchronize(native(frame_.stream())), "linearising");
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const auto d = static_cast<Eigen::Index>(moved[k].size());
+    if (frame_.draws()) {
+      const Eigen::MatrixXd sums =
+          unpack_rows(row_sums_staging_.data() + k * size(row_numbers(columns)), columns);
+      out[k].a(moved[k], moved[k]) =
+          Eigen::MatrixXd(sums.topLeftCorner(d, d).selfadjointView<Eigen::Upper>());
+      out[k].g(moved[k]) = sums.col(columns).head(d);
+    }
+    if (differs) {
+      const NormalEquations state = unpack_gram(
+          gram_sums_staging_.data() + k * size(gram_numbers(columns)),
+          Eigen::Map<const Eigen::VectorXf>(numbers_staging_.data() + k * size(columns), columns)
+              .cast<double>());
+      out[k].a(moved[k], moved[k]) += state.a.topLeftCorner(d, d);
+      out[k].g(moved[k]) += state.g.head(d);
+    }
+  }
+}
+
+void DeviceLinearizer::reserve(std::int64_t points, int columns) {
+  const std::int64_t rows = frame_.state_residual_count();
+  numbers_.reserve(size(points * (columns + 1)));
+  numbers_staging_.reserve(size(points * (columns + 1)));
+  frame_.reserve(points, [&](std::int64_t count) {
+    const std::int64_t pixels = count * frame_.pixels();
+    if (frame_.draws()) {
+      const int sets = frame_.observation().pair ? 1 : frame_.view_count();
+      records_.reserve(size(count * record_floats(frame_.scene(), sets, columns)));
+      slopes_.reserve(size(pixels * frame_.drawing_terms()));
+      owners_.reserve(size(pixels));
+      row_parts_.reserve(size(count * row_numbers(columns) * row_blocks(frame_.pixels(), count)));
+    }
+    residuals_.reserve(size(count * rows * (columns + 1)));
+    gram_parts_.reserve(size(count * gram_numbers(columns) * gram_blocks(rows)));
+  });
+  row_sums_.reserve(size(points * row_numbers(columns)));
+  row_sums_staging_.reserve(size(points * row_numbers(columns)));
+  gram_sums_.reserve(size(points * gram_numbers(columns)));
+  gram_sums_staging_.reserve(size(points * gram_numbers(columns)));
+}
+
+void DeviceLinearizer::upload(std::span<const Neighbourhood> points,
+                              const std::vector<std::vector<Eigen::Index>>& moved, int columns) {
+  const auto count = static_cast<Eigen::Index>(points.size()), side = Eigen::Index{columns} + 1;
+  Eigen::MatrixXd states(points[0].points.rows(), count * (side + 1));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Neighbourhood& at = points[static_cast<std::size_t>(k)];
+    const std::vector<Eigen::Index>& own = moved[static_cast<std::size_t>(k)];
+    float* per_step = numbers_staging_.data() + k * columns;
+    std::fill_n(per_step, columns, 0.0f);
+    states.middleCols(count + k * side, side) = at.points.col(0).replicate(1, side);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      states.col(count + k * side + 1 + static_cast<Eigen::Index>(i)) = at.points.col(own[i] + 1);
+      per_step[i] = static_cast<float>(1 / at.steps[own[i]]);
+    }
+    states.col(k) = at.points.col(0);
+    numbers_staging_.data()[count * columns + k] = static_cast<float>(at.blur);
+  }
+  batch_.upload(cost_.normalized(states, states.cols()), frame_.stream());
+  to_device(numbers_, numbers_staging_, size(count * side), frame_.stream());
+}
+
+void DeviceLinearizer::enqueue_rows(int points, int columns) {
+  const Stream stream = frame_.stream();
+  BatchLayout centres = batch_.layout();
+  centres.count = points;
+  PixelRowsJob job{
+      .frame = frame_.observation().frame,
+      .view_count = frame_.view_count(),
+      .pair = frame_.observation().pair,
+      .pixels = static_cast<int>(frame_.pixels()),
+      .terms = frame_.drawing_terms(),
+      .columns = columns,
+      .points = points,
+      .states = batch_.layout().points + std::int64_t{points} * frame_.scene().dimension,
+      .per_step = numbers_.data(),
+      .blurs = numbers_.data() + std::int64_t{points} * columns,
+      .depth = nullptr,
+      .slopes = slopes_.data(),
+      .records = records_.data(),
+      .owners = owners_.data(),
+      .parts = row_parts_.data(),
+      .sums = row_sums_.data()};
+  enqueue_posing(frame_.scene(), frame_.device().limits(), job, side_.stream());
+  const DrawnBatch drawn = frame_.draw(centres);
+  job.depth = drawn.depth;
+  frame_.enqueue_slopes(drawn, slopes_.data());
+  side_.join(stream);
+  enqueue_pixel_rows(frame_.scene(), frame_.device().limits(), job, stream);
+  to_host(row_sums_staging_, row_sums_, 0, size(std::int64_t{points} * row_numbers(columns)),
+          stream);
+}
+
+void DeviceLinearizer::enqueue_differences(int points, int columns, Stream stream) {
+  const std::int64_t rows = frame_.state_residual_count();
+  BatchLayout states = batch_.layout();
+  states.points += std::int64_t{points} * frame_.scene().dimension;
+  states.costs += points;  // behind those of the drawn states
+  states.count = std::int64_t{points} * (columns + 1);
+  frame_.enqueue_state_residuals(states, residuals_.data(), stream);
+  enqueue_gram({.here = residuals_.data(),
+                .beside = residuals_.data() + rows,
+                .rows = rows,
+                .dimension = columns,
+                .parts = gram_parts_.data(),
+                .sums = gram_sums_.data(),
+                .count = points,
+                .stride = rows * (columns + 1)},
+               stream);
+  to_host(gram_sums_staging_, gram_sums_, 0, size(std::int64_t{points} * gram_numbers(columns)),
+          stream);
+}
+
+}  // namespace hypotrack::cuda

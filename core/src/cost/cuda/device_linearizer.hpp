@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cost/cost.hpp"
+#include "cost/cuda/frame_on_device.hpp"
+#include "cost/cuda/host_batch.hpp"
+#include "cost/cuda/side_stream.hpp"
+#include "hypotrack/optimizer.hpp"
+
+namespace hypotrack::cuda {
+
+/// Computes normal equations of the terms' residuals on the GPU, each from one drawn hypothesis:
+/// the Linearizer of the CPU, there. The results are the same in every run.
+class DeviceLinearizer {
+ public:
+  /// Both must outlive it; `cost` normalises states.
+  DeviceLinearizer(Cost& cost, FrameOnDevice& frame) : cost_(cost), frame_(frame) {}
+
+  /// Computes the normal equations as ResidualCost::linearize_each(), for states. Throws DeviceError
+  /// if there is too little memory.
+  std::vector<NormalEquations> linearize(std::span<const Neighbourhood> points);
+
+ private:
+  /// Linearises points that are drawn together.
+  void linearize_together(std::span<const Neighbourhood> points, std::vector<NormalEquations>& out);
+  void reserve(std::int64_t points, int columns);
+  /// Uploads the drawn states of all points, then the states of each.
+  void upload(std::span<const Neighbourhood> points,
+              const std::vector<std::vector<Eigen::Index>>& moved, int columns);
+  void enqueue_rows(int points, int columns);
+  void enqueue_differences(int points, int columns, Stream stream);
+
+  Cost& cost_;
+  FrameOnDevice& frame_;
+  HostBatch batch_;
+  SideStream side_;
+  DeviceBuffer<float> numbers_;  // per point the reciprocal steps; then the blurs of all points
+  PinnedBuffer<float> numbers_staging_;
+  DeviceBuffer<PixelSlope> slopes_;
+  DeviceBuffer<std::uint32_t> owners_;
+  DeviceBuffer<float> records_, row_parts_;
+  DeviceBuffer<float> residuals_, gram_parts_;  // of terms of the state
+  DeviceBuffer<double> row_sums_, gram_sums_;
+  PinnedBuffer<double> row_sums_staging_, gram_sums_staging_;
+};
+
+}  // namespace hypotrack::cuda

@@ -1,0 +1,140 @@
+#include "cost/cuda/tile_drawer.hpp"
+
+#include <algorithm>
+
+#include "hypotrack/cuda/evaluate.cuh"
+
+namespace hypotrack::cuda {
+namespace {
+
+constexpr std::int64_t kMostBytes = std::int64_t{32} << 20;  // of tiles; less than the L2 cache
+
+/// A Term that stores the depth of every pixel of a pair, or of single views.
+template <bool kPair>
+struct DepthTerm {
+  static constexpr bool kStereo = kPair;
+  static constexpr bool kVisitsUncovered = true;
+  static constexpr int kSums = 1;
+
+  float* depth;
+  std::int64_t stride;  // from one hypothesis to the next
+  int bands;            // blocks per hypothesis
+  int view_bits;
+  int before[kMaxViews], width[kMaxViews];
+  float tolerance;
+
+  __device__ int directions() const { return 3; }
+  __device__ int views() const { return view_bits; }
+  template <int kReference>
+  __device__ void pixel(const StereoPixel& p, float (&)[kSums]) const {
+    put(kReference, p.x, p.y, p.inverse_depth);
+  }
+  __device__ void pixel(const ViewPixel& p, float (&)[kSums]) const {
+    put(p.view, p.x, p.y, p.inverse_depth);
+  }
+  __device__ double cost(const double (&)[kSums], const float*) const { return 0; }
+
+ private:
+  __device__ __forceinline__ void put(int view, int x, int y, float w) const {
+    const std::int64_t hypothesis = blockIdx.x / static_cast<unsigned>(bands);
+    depth[stride * hypothesis + before[view] + y * width[view] + x] = w;
+  }
+};
+
+template <bool kPair>
+auto kernel_for(const BlockPlan& plan) {
+  constexpr Walk kWalk = DepthTerm<kPair>::kStereo ? Walk::pair : Walk::views;
+  return plan.vertices_in_shared ? &evaluate_hypotheses<DepthTerm<kPair>, kWalk, true>
+                                 : &evaluate_hypotheses<DepthTerm<kPair>, kWalk, false>;
+}
+
+template <bool kPair>
+void allow_shared(const BlockPlan& plan, const DeviceLimits& limits) {
+  check(cudaFuncSetAttribute(kernel_for<kPair>(plan), cudaFuncAttributeMaxDynamicSharedMemorySize,
+                             limits.shared_bytes_per_block - detail::kReservedBytes),
+        "reserving shared memory");
+}
+
+}  // namespace
+
+void TileDrawer::prepare(const DeviceObservation& observation) {
+  int width = 0, height = 0;
+  pixels_ = 0;
+  view_count_ = 0;
+  for (int v = 0; v < kMaxViews; ++v) {
+    const TileLayout& tile = observation.tiles[static_cast<std::size_t>(v)].layout;
+    if (tile.width == 0) break;  // the views before it are all there are
+    ++view_count_;
+    before_[v] = static_cast<int>(pixels_);
+    widths_[v] = tile.width;
+    pixels_ += std::int64_t{tile.width} * tile.height;
+    width = std::max(width, tile.width);
+    height = std::max(height, tile.height);
+  }
+  if (frame_ != observation.frame || width != width_ || height != height_ ||
+      pair_ != observation.pair) {
+    reserved_ = 0;
+    ++revision_;
+  }
+  frame_ = observation.frame;
+  pair_ = observation.pair;
+  width_ = width;
+  height_ = height;
+}
+
+void TileDrawer::reserve(const SceneLayout& scene, const DeviceLimits& limits, std::int64_t count) {
+  if (count == reserved_) return;
+  reserved_ = 0;
+  limits_ = limits;
+  const auto bytes = std::max<std::int64_t>(static_cast<std::int64_t>(sizeof(float)) * pixels_, 1);
+  at_once_ = std::clamp<std::int64_t>(kMostBytes / bytes, 1, std::max<std::int64_t>(count, 1));
+  depth_.reserve(static_cast<std::size_t>(at_once_ * pixels_));
+  plan_ = plan_blocks({.scene = scene,
+                       .limits = limits,
+                       .count = at_once_,
+                       .tile_width = width_,
+                       .tile_height = height_,
+                       .tiles_at_once = pair_ ? 2 : 1,
+                       .sums = 1});
+  memory_.reserve(plan_, at_once_, 1, 1);
+  if (pair_) {
+    allow_shared<true>(plan_, limits);
+  } else {
+    allow_shared<false>(plan_, limits);
+  }
+  reserved_ = count;
+  ++revision_;
+}
+
+DrawnBatch TileDrawer::enqueue(const SceneLayout& scene, const BatchLayout& batch,
+                               std::int64_t first, std::int64_t count, Stream stream) {
+  const int point_size = scene.dimension - (batch.prior ? scene.model_count : 0);
+  BatchLayout part = batch;
+  part.points += first * point_size;
+  part.costs += first;
+  part.count = count;
+  part.add = false;
+  const auto draw = [&]<bool kPair>() {
+    DepthTerm<kPair> term{};
+    term.depth = depth_.data();
+    term.stride = pixels_;
+    term.bands = plan_.bands;
+    term.view_bits = (1 << view_count_) - 1;
+    std::copy_n(before_, kMaxViews, term.before);
+    std::copy_n(widths_, kMaxViews, term.width);
+    launch(kernel_for<kPair>(plan_), dim3(static_cast<unsigned>(count * plan_.bands)),
+           dim3(static_cast<unsigned>(plan_.threads)), static_cast<std::size_t>(plan_.shared_bytes),
+           stream, overlaps_launches(limits_), scene, frame_, part, plan_, term);
+  };
+  if (pair_) {
+    draw.operator()<true>();
+  } else {
+    draw.operator()<false>();
+  }
+  return {.first = static_cast<int>(first),
+          .count = static_cast<int>(count),
+          .depth = depth_.data(),
+          .stride = pixels_};
+}
+
+}  // namespace hypotrack::cuda
