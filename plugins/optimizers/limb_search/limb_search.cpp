@@ -75,16 +75,10 @@ SearchRegion region_of(const Limb& limb, const SearchRegion& region, const Eigen
   return own;
 }
 
-/// Returns `start` with more and more limbs where they were found, the best first; one column per
-/// limb.
-Eigen::MatrixXd joined(const Eigen::VectorXd& start, const std::vector<Limb>& limbs) {
-  Eigen::MatrixXd points(start.size(), static_cast<Eigen::Index>(limbs.size()));
-  Eigen::VectorXd point = start;
-  for (std::size_t k = 0; k < limbs.size(); ++k) {
-    for (const int d : *limbs[k].dimensions) point[d] = limbs[k].point[d];
-    points.col(static_cast<Eigen::Index>(k)) = point;
-  }
-  return points;
+/// Returns a point with a limb where it was found.
+Eigen::VectorXd with_limb(Eigen::VectorXd point, const Limb& limb) {
+  for (const int d : *limb.dimensions) point[d] = limb.point[d];
+  return point;
 }
 
 }  // namespace
@@ -122,18 +116,19 @@ OptimizerResult LimbSearch::minimize(CostFunction& cost, const SearchRegion& reg
     }
   }
   std::erase_if(limbs, [&](const Limb& limb) { return !(limb.cost < enough); });
-  if (limbs.empty()) return best;
   std::ranges::stable_sort(limbs, {}, &Limb::cost);
-  Eigen::MatrixXd together = joined(region.start, limbs);
-  Eigen::VectorXd their_costs = Eigen::VectorXd::Constant(1, limbs.front().cost);
-  if (limbs.size() > 1 && evaluations > 0) {
-    their_costs.conservativeResize(together.cols());
-    cost.evaluate(together.rightCols(together.cols() - 1), their_costs.tail(together.cols() - 1));
-    best.evaluations += together.cols() - 1;
+  for (std::size_t k = 0; k < limbs.size(); ++k) {
+    const Eigen::VectorXd point = with_limb(best.point, limbs[k]);
+    Eigen::VectorXd its_cost = Eigen::VectorXd::Constant(1, limbs[k].cost);
+    if (k > 0) {
+      if (best.evaluations >= budget.evaluations) break;
+      cost.evaluate(point, its_cost);
+      ++best.evaluations;
+    }
+    if (!(its_cost[0] < best.cost)) continue;
+    best.point = point;
+    best.cost = its_cost[0];
   }
-  Eigen::Index lowest = 0;
-  best.cost = their_costs.minCoeff(&lowest);
-  best.point = together.col(lowest);
   return best;
 }
 

@@ -42,8 +42,8 @@ struct LimbSearchParams {
 /// Evaluates the start and `samples` places of every limb, uniform within its bounds, in one batch;
 /// fewer of each if the budget is too small. Then searches all limbs at the same time
 /// (Optimizer::minimize_each), each from its best sample, in its own dimensions, with an equal part
-/// of the evaluations that are left. Last, it joins the limbs that gained: the best one, the best
-/// two, and so on; the lowest cost counts. A region without limbs of finite bounds is evaluated at
+/// of the evaluations that are left. Last, it joins the limbs that gained, the best first, each if
+/// that lowers the cost. A region without limbs of finite bounds is evaluated at
 /// its start only.
 ///
 /// An invisible limb costs about the same everywhere, and among many places one is always a little

@@ -44,10 +44,11 @@ OptimizerResult MultiStart::minimize(CostFunction& cost, const SearchRegion& reg
   first.update(candidates, costs);
   OptimizerResult best = first.result();
 
-  const std::vector<Eigen::Index> starts = lowest(costs, params_.starts);
-  const std::int64_t evaluations =
-      (budget.evaluations - best.evaluations) / static_cast<std::int64_t>(starts.size());
-  if (evaluations == 0 || deadline.passed()) return best;
+  const std::int64_t left = budget.evaluations - best.evaluations;
+  if (left == 0 || deadline.passed()) return best;
+  const std::vector<Eigen::Index> starts =
+      lowest(costs, std::min<std::int64_t>(params_.starts, left));
+  const std::int64_t evaluations = left / static_cast<std::int64_t>(starts.size());
   std::vector<SearchRegion> regions;
   for (const Eigen::Index start : starts) {
     regions.push_back(region);

@@ -9,6 +9,7 @@
 
 #include "cost/normal_equations.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/search.hpp"
 #include "limb_search.hpp"
 #include "multi_start.hpp"
 #include "pipeline.hpp"
@@ -251,7 +252,7 @@ TEST(LevenbergMarquardt, SearchesOfSeveralRegionsShareBatches) {
   const SearchRegion region = test::tracking_region(12);
   const Problem valley = test::rosenbrock(region, test::hidden_target(region, 3));
   std::vector<SearchRegion> regions(3, region);
-  regions[1].start += 0.2 * region.spread;
+  regions[1].start = within_bounds(region.start + 0.2 * region.spread, region);
   regions[2].lower.head<5>() = regions[2].upper.head<5>() = regions[2].start.head<5>();
   for (const bool linearizes : {true, false}) {
     RecordingCost cost(12, valley);
