@@ -98,6 +98,30 @@ TEST_F(LeastSquaresOnDevice, RefinesWhatASwarmOnTheGpuFound) {
                  fmt::format("pso {}, pso_cuda {}", by_batches.error, on_device.error));
 }
 
+// A search for one hand plans tiles of that hand alone.
+TEST_F(LeastSquaresOnDevice, LooksForOneOfTwoHands) {
+  PluginLoader plugins;
+  const std::vector<std::string> on_gpu{"evaluate.backend=cuda", "budget.evaluations=256"};
+  OpenedScene session =
+      open_scene(test::source_dir() / "configs/scenes/two_hands.yaml", on_gpu, plugins);
+  const Scene& scene = *session.scene;
+  Frame frame = session.source->next().value();
+  Eigen::VectorXd start = initial_state(session, frame);
+  const auto offset = scene.items()[1].offset;
+  start.segment<3>(offset) += Eigen::Vector3d(0.1, 0.1, 0.2);
+  SceneTracker tracker(scene, std::move(session.parts), start, session.seed);
+  for (int i = 0; i < 6; ++i) {
+    const Solution solution = tracker.track(frame);
+    EXPECT_TRUE(solution.state.allFinite());
+    if (i == 5) {
+      const Eigen::VectorXd apart = solution.state - frame.truth->state;
+      EXPECT_LT(apart.segment<3>(0).norm(), 0.01);
+      EXPECT_LT(apart.segment<3>(offset).norm(), 0.01);
+    }
+    frame = session.source->next().value();
+  }
+}
+
 TEST_F(LeastSquaresOnDevice, GivesSigmasToo) {
   const std::vector<std::string> sigmas{"tracker.uncertainty.enabled=true"};
   const Tracked cpu = track("cpu", kNumerical, sigmas), gpu = track("cuda", kNumerical, sigmas);

@@ -121,6 +121,8 @@ TileMaker::~TileMaker() = default;
 bool TileMaker::rectifies() const { return impl_->rig.rectified; }
 std::span<const Resampler> TileMaker::resamplers() const { return impl_->resamplers; }
 
+const Scene& TileMaker::scene() const { return impl_->scene; }
+
 const PosedScene& TileMaker::posed(const Eigen::VectorXd& state) const {
   impl_->posed.pose(state);
   return impl_->posed;

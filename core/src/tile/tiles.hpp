@@ -63,6 +63,7 @@ class TileMaker {
   /// covers much of the foreground.
   ForegroundOverlap foreground_overlap(const Frame& frame, const Eigen::VectorXd& state) const;
 
+  const Scene& scene() const;
   /// Returns the scene posed in `state`, cached for the last state. Call it from one thread at a
   /// time.
   const PosedScene& posed(const Eigen::VectorXd& state) const;

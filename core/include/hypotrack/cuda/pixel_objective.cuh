@@ -218,16 +218,16 @@ class PixelObjective : public DeviceObjective {
   template <class To>
   void score_drawn(const SceneLayout& scene, const BatchLayout& batch, const DrawnBatch& drawn,
                    const To& to, Stream stream) {
-    const auto run = [&](auto kernel) {
-      launch(kernel, dim3(static_cast<unsigned>(drawn.count * drawn_bands_)), dim3(kDrawnThreads),
+    const auto run = [&](auto kernel, int bands) {
+      launch(kernel, dim3(static_cast<unsigned>(drawn.count * bands)), dim3(kDrawnThreads),
              sizeof(float) * static_cast<std::size_t>(plan_.list),  // all before `list`
-             stream, overlaps_launches(limits_), scene, frame_, batch, plan_, drawn_bands_, drawn,
-             term_, to);
+             stream, overlaps_launches(limits_), scene, frame_, batch, plan_, bands, drawn, term_,
+             to);
     };
     if (drawn.texture != 0) {
-      run(&score_drawn_hypotheses<Term, To, true>);
+      run(&score_drawn_hypotheses<Term, To, true>, 1);
     } else {
-      run(&score_drawn_hypotheses<Term, To, false>);
+      run(&score_drawn_hypotheses<Term, To, false>, drawn_bands_);
     }
   }
 

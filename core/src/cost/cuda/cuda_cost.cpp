@@ -95,6 +95,8 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
       resampler_ = std::make_unique<TileResampler>(tiles.resamplers(), frame_.device().limits());
     }
     const auto bands = [&] {
+      // A search for one model plans tiles of that model alone.
+      if (plan.header.scene != &tiles.scene()) return even_bands();
       return bands_of_equal_work(tiles.posed(plan.header.start), plan.header.views[0].camera);
     };
     if (!bands_) bands_ = bands();
