@@ -12,6 +12,7 @@
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "plugin/crash_report.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
@@ -42,6 +43,8 @@ bool close_output() {
 
 int main(int argc, char** argv) {
   using namespace hypotrack::app;
+  const hypotrack::detail::CrashReport crash_report;
+  const hypotrack::detail::EarlyExitReport exit_report;
   CommandLine line("Model-based 3D tracking from RGB stereo pairs.",
                    fmt::format("hypotrack {} (plugin ABI {}: {})", HYPOTRACK_VERSION,
                                hypotrack::kAbiVersion, hypotrack::kBuildTag));

@@ -93,14 +93,14 @@ void Execution::start(std::size_t index, RunFolder folder) {
 }
 
 bool Execution::finish(const Ended& ended) {
-  if (ended.end.code == kInterrupted) return false;
   const PlannedRun& run = plan_.runs[ended.key];
   RunFolder& folder = working_.at(ended.key);
   std::string failure;
-  if (ended.end.code == 0) {
+  if (ended.end.code == 0 && folder.holds_a_complete_run()) {
     folder.finish(plan_, run, {ended.seconds, launch_.threads});
   } else {
     failure = failure_message(folder.log(), ended.end);
+    if (ended.end.code == kInterrupted && failure.starts_with("interrupted")) return false;
     folder.fail(plan_, run, {failure, ended.end.code});
   }
   working_.erase(ended.key);

@@ -40,6 +40,8 @@ class RunFolder {
   /// Returns the lock's descriptor, which the process that writes into working() must inherit.
   int lock_descriptor() const { return lock_.descriptor(); }
 
+  /// Returns true if the run has reported its end, which its exit code alone does not say.
+  bool holds_a_complete_run() const;
   /// Moves the folder to its final path, without the log. Throws OutputError.
   void put_into_place();
   /// Completes a successful run and moves it to its final path. Throws OutputError.
