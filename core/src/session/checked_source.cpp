@@ -6,12 +6,15 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
 
 namespace hypotrack {
 
-CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin)
+CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
+                             std::string who)
     : source_(std::move(source)),
       plugin_(std::move(plugin)),
+      who_(std::move(who)),
       parameters_(scene.dimension()),
       landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())) {
   if (source_->cameras().empty())
@@ -33,7 +36,8 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
 }
 
 std::optional<Frame> CheckedSource::next() {
-  std::optional<Frame> frame = source_->next();
+  std::optional<Frame> frame =
+      detail::call_explaining_plugin(who_, [&] { return source_->next(); });
   if (!frame) return frame;
   check_order(*frame);
   if (frame->truth) {

@@ -9,7 +9,11 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
 #include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
+#include "session/checked_objective.hpp"
+#include "session/checked_output.hpp"
 #include "session/checked_source.hpp"
+#include "session/checked_start.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
@@ -48,6 +52,15 @@ class Opening {
     auto object = plugins_->make<T>(node, session_.scene.get(), std::move(also_allowed), &resolved);
     record = YamlDocument(resolved);
     return object;
+  }
+
+  /// Makes a plugin and wraps it into a class that checks it and names it in messages.
+  template <class Checked, class T>
+  std::unique_ptr<T> make_checked(const ConfigNode& node, std::vector<std::string> also_allowed,
+                                  YamlDocument& record) {
+    auto object = make<T>(node, std::move(also_allowed), record);
+    std::string who = detail::plugin_label(kPluginKind<T>, node, object.get());
+    return std::make_unique<Checked>(std::move(object), std::move(who));
   }
 
   SceneFile file_;
@@ -112,8 +125,9 @@ void Opening::source() {
   if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
   YamlDocument record;
   auto made = make<Source>(file_.source, {}, record);
+  std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());
   source(std::make_unique<CheckedSource>(std::move(made), *session_.scene,
-                                         text_of(file_.source, "type", "")),
+                                         text_of(file_.source, "type", ""), std::move(who)),
          record.text());
 }
 
@@ -135,7 +149,7 @@ void Opening::objective() {
     YamlDocument record;
     ObjectiveTerm term;
     term.name = text_of(node, "type", "");
-    term.objective = make<Objective>(node, {"weight"}, record);
+    term.objective = make_checked<CheckedObjective, Objective>(node, {"weight"}, record);
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
     record.set_plain("weight", fmt::format("{}", term.weight));
@@ -162,6 +176,8 @@ void Opening::images() {
 void Opening::optimizer() {
   YamlDocument record;
   session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
+  session_.parts.optimizer_label =
+      detail::plugin_label(kPluginKind<Optimizer>, file_.optimizer, session_.parts.optimizer.get());
   record_.set("optimizer", record);
 }
 
@@ -172,7 +188,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
-      all.push_back(make<Start>(node, {}, record));
+      all.push_back(make_checked<CheckedStart, Start>(node, {}, record));
     } catch (const DataError& e) {
       if (from.scalar() != kStartAuto) throw;
       session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
@@ -232,7 +248,7 @@ void Opening::start() {
 void Opening::outputs() {
   const auto add = [&](const ConfigNode& node) {
     YamlDocument record;
-    auto output = make<Output>(node, {}, record);
+    auto output = make_checked<CheckedOutput, Output>(node, {}, record);
     session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
     return record;
   };
