@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/calibration.hpp"
@@ -104,6 +105,15 @@ class Video : public Source {
       count = std::min(count.value_or(frames), frames);
     }
     return count;
+  }
+
+  std::vector<std::string> statistics() const override {
+    std::vector<std::string> lines;
+    for (const VideoReader& reader : readers_) {
+      if (std::string problem = reader.problem_of_end(); !problem.empty())
+        lines.push_back(std::move(problem));
+    }
+    return lines;
   }
 
   std::optional<Frame> next() override {
