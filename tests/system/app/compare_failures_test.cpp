@@ -86,6 +86,16 @@ TEST_F(CompareFailureTest, APluginThatEndsTheProgramIsFoundBeforeAnythingRuns) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
+TEST_F(CompareFailureTest, ARunThatNeverReturnsIsEndedAtTheTimeLimit) {
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  const auto results = lines_of(table("results.csv"));
+  ASSERT_THAT(results, SizeIs(5));
+  for (const int bad : {3, 4})
+    EXPECT_THAT(results[static_cast<std::size_t>(bad)],
+                AllOf(HasSubstr(",failed,"), HasSubstr("did not end within 4 s (--time-limit)")));
+}
+
 TEST_F(CompareFailureTest, FailedRunsStayUnlessAskedForAgain) {
   ASSERT_EQ(compare_failing("exception").exit_code, 3);
   const Outcome again = compare_failing("exception");

@@ -19,6 +19,7 @@ enum class How {
   kExit,
   kUnderscoreExit,
   kInterruptedCode,
+  kHang,
   kShortPoint,
   kOutside,
   kTooCheap,
@@ -28,10 +29,10 @@ enum class How {
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 12> kNames = {
-      "exception",        "int",         "segfault", "exit",      "underscore_exit",
-      "interrupted_code", "short_point", "outside",  "too_cheap", "minus_infinity",
-      "negative_count",   "over_budget"};
+  static constexpr std::array<std::string_view, 13> kNames = {
+      "exception",  "int",         "segfault", "exit",      "underscore_exit", "interrupted_code",
+      "hang",       "short_point", "outside",  "too_cheap", "minus_infinity",  "negative_count",
+      "over_budget"};
   return kNames;
 }
 
@@ -70,6 +71,7 @@ class Failing : public hypotrack::Optimizer {
     if (params_.how == How::kExit) exit(0);
     if (params_.how == How::kUnderscoreExit) _exit(0);
     if (params_.how == How::kInterruptedCode) _exit(130);
+    while (params_.how == How::kHang) pause();
     if (params_.how == How::kException) throw std::runtime_error("the search is broken");
   }
   void spoil(hypotrack::OptimizerResult& answer, hypotrack::CostFunction& cost,
