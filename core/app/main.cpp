@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -43,6 +44,7 @@ bool close_output() {
 
 int main(int argc, char** argv) {
   using namespace hypotrack::app;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of writing
   const hypotrack::detail::CrashReport crash_report;
   const hypotrack::detail::EarlyExitReport exit_report;
   CommandLine line("Model-based 3D tracking from RGB stereo pairs.",
@@ -51,7 +53,7 @@ int main(int argc, char** argv) {
   const Command root = line.root();
   CommonOptions common;
   root.add("--plugin-path", &common.plugin_path,
-           "Folder to look for plugins in first (may be repeated)");
+           "Folder to look for plugins in first (may be repeated)", {.check = existing_folder()});
   int exit_code = 0;
   add_run_command(root, common, exit_code);
   add_validate_command(root, common, exit_code);

@@ -43,7 +43,9 @@ ReadImage decode(const std::filesystem::path& file) {
   ReadImage read;
   try {
     read.image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem)
+      return {{}, name + ": there is not enough memory to decode it"};
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines
   }
   if (read.image.empty()) read.problem = name + ": is damaged or no image";

@@ -39,7 +39,11 @@ std::string type_of(std::string_view kind, const ConfigNode& config) {
 
 std::string join_paths(const std::vector<std::filesystem::path>& paths) {
   std::vector<std::string> texts;
-  for (const auto& path : paths) texts.push_back(path.string());
+  for (const auto& path : paths) {
+    std::error_code error;
+    const bool there = std::filesystem::is_directory(path, error);
+    texts.push_back(path.string() + (there ? "" : " (there is no such folder)"));
+  }
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
@@ -51,6 +55,11 @@ void* create(const HypotrackPlugin& plugin, PluginContext& context) {
   void* object = nullptr;
   try {
     object = plugin.create(context);
+  } catch (const DataError& e) {
+    // Core says `model: vertex 0 ...` of what a plugin gave it.
+    const std::string_view message = e.what();
+    if (!message.starts_with(std::string(plugin.kind) + ": ")) throw;
+    throw DataError(who + std::string(message.substr(std::string_view(plugin.kind).size())));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {

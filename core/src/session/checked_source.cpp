@@ -40,6 +40,9 @@ std::optional<Frame> CheckedSource::next() {
       detail::call_explaining_plugin(who_, [&] { return source_->next(); });
   if (!frame) return frame;
   check_order(*frame);
+  if (frame->views.empty() && frame->problem.empty())
+    frame->problem = fmt::format(
+        "source '{}' gives no views and no reason; this is a bug in the source", plugin_);
   if (frame->truth) {
     check_truth(*frame, "numbers in the true state", frame->truth->state.size(), parameters_);
     check_truth(*frame, "true landmarks", frame->truth->landmarks.cols(), landmarks_);

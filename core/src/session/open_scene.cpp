@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 #include <vector>
 
@@ -49,7 +50,14 @@ class Opening {
   std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
                           YamlDocument& record) {
     std::string resolved;
-    auto object = plugins_->make<T>(node, session_.scene.get(), std::move(also_allowed), &resolved);
+    auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved);
+    const ConfigNode parameters = ConfigNode::parse(resolved, "the plugin's parameters");
+    for (const std::string& key : also_allowed)
+      if (parameters.get(key).defined())
+        throw PluginError(fmt::format(
+            "{}: its parameter '{}' has a name that scenes take for every {}; rename it in the "
+            "plugin",
+            detail::plugin_label(kPluginKind<T>, node, object.get()), key, kPluginKind<T>));
     record = YamlDocument(resolved);
     return object;
   }
@@ -79,6 +87,13 @@ std::string text_of(const ConfigNode& node, std::string_view key, std::string ot
   return value.scalar();
 }
 
+/// Returns a text for messages, without control characters.
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  return text;
+}
+
 struct WeightParam {
   double weight = 1;
   void visit(ParamVisitor& v) {
@@ -104,11 +119,14 @@ void Opening::models() {
     YamlDocument record;
     std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
-    if (name.find_first_of(". ,\"\n") != std::string::npos)
+    const auto allowed = [](unsigned char c) {
+      return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;  // the rest of UTF-8
+    };
+    if (!std::ranges::all_of(name, allowed))
       throw ConfigError(
-          fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
-                      "spaces",
-                      node.get("name").where(), name));
+          fmt::format("{}: the name '{}' of a model holds other characters than "
+                      "letters, digits, '_' and '-'",
+                      node.get("name").where(), printable(name)));
     const auto same = [&](const auto& other) { return other.first == name; };
     if (std::any_of(models.begin(), models.end(), same))
       throw ConfigError(fmt::format("{}: two models are called '{}'; give each a `name` of its own",

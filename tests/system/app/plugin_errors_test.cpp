@@ -76,6 +76,22 @@ TEST_F(PluginErrorsTest, AnAnswerThatBreaksTheContractIsRefused) {
   expect_optimizer_named("over_budget", "made 97 evaluations, its budget is 2");
 }
 
+TEST_F(PluginErrorsTest, AMeshThatIsNoneNamesItsPlugin) {
+  const Outcome outcome =
+      run_with(replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]", "type: failing"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              testing::ContainsRegex("hypotrack: .*scene.yaml:1:10: model 'failing': vertex 0 "));
+}
+
+TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
+  const Outcome outcome = run_with(replaced(box_scene(), "stereo_color", "weighty"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("scene.yaml:8:12: objective 'weighty' ("),
+                    HasSubstr("its parameter 'weight' has a name that scenes take for every")));
+}
+
 TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer reports crashes in its own way";
