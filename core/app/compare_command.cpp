@@ -184,7 +184,7 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
   command.add("--shard", &options->shard,
               "Make a part of the runs: i/n, for one of n machines that share the folder");
   command.add("--time-limit", &options->time_limit_s,
-              "Seconds after which a run is ended and counts as failed (default: none)",
+              "Seconds after which a run, or its check, is ended and fails (default: none)",
               {.check = positive_number()});
   command.add("--retry-failed", &options->retry_failed, "Make failed runs again");
   command.on_call([=, &common, &exit_code] { exit_code = compare(*options, common); });

@@ -103,9 +103,7 @@ bool Execution::finish(const Ended& ended) {
   if (ended.end.code == 0 && folder.holds_a_complete_run()) {
     folder.finish(plan_, run, {ended.seconds, launch_.threads});
   } else {
-    failure = ended.overdue ? fmt::format("did not end within {:g} s (--time-limit); ended there",
-                                          launch_.time_limit_s)
-                            : failure_message(folder.log(), ended.end);
+    failure = failure_message(folder.log(), ended);
     if (ended.end.code == kInterrupted && failure.starts_with("interrupted")) return false;
     folder.fail(plan_, run, {failure, ended.end.code});
   }

@@ -26,7 +26,7 @@ std::optional<Ended> ProcessPool::take_ended() {
     const bool overdue = running && limit_s_ > 0 && seconds > limit_s_;
     if (running && !overdue) continue;
     if (overdue) it->process.kill();
-    const Ended ended{it->key, it->process.wait(), seconds, overdue};
+    const Ended ended{it->key, it->process.wait(), seconds, overdue ? limit_s_ : 0};
     running_.erase(it);
     return ended;
   }

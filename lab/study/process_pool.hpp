@@ -14,7 +14,7 @@ struct Ended {
   std::size_t key = 0;  ///< key given to start()
   Subprocess::End end;
   double seconds = 0;
-  bool overdue = false;  ///< the pool ended it, after the limit
+  double limit_s = 0;  ///< time limit after which the pool ended it; 0: it ended by itself
 };
 
 /// Programs that run at the same time. None outlives the pool.

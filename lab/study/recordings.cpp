@@ -78,7 +78,7 @@ class Recorder {
     if (ended.end.code != 0 || !std::filesystem::exists(folder.working() / "recording/scene.yaml"))
       throw DataError(fmt::format(
           "{}: {}: its source cannot be recorded: {}", plan_.scene_of(plan_.cells[ended.key]).where,
-          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended.end)));
+          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended)));
     folder.put_into_place();
     working_.erase(ended.key);
   }

@@ -130,7 +130,10 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
 }
 
-std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end) {
+std::string failure_message(const std::filesystem::path& log, const Ended& ended) {
+  if (ended.limit_s > 0)
+    return fmt::format("did not end within {:g} s (--time-limit); ended there", ended.limit_s);
+  const Subprocess::End& end = ended.end;
   std::ifstream in(log);
   std::string message;
   bool goes_on = false;  // further lines of a message are indented

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "base/subprocess.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
+#include "lab/study/process_pool.hpp"
 
 namespace hypotrack::study {
 
@@ -64,6 +64,6 @@ std::string repair_advice(const std::filesystem::path& file);
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
 /// Returns the line of a log that says why a run failed, without the names of its folders.
-std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end);
+std::string failure_message(const std::filesystem::path& log, const Ended& ended);
 
 }  // namespace hypotrack::study

@@ -16,7 +16,8 @@ namespace hypotrack {
 /// order of frames and sizes of the ground truth.
 class CheckedSource final : public Source {
  public:
-  /// `plugin`: its name. `who`: its plugin_label(), for crashes and exceptions other than Error.
+  /// `plugin`: its place in the scene and name: `a.yaml:2:9: source 'video'`. `who`: its
+  /// plugin_label(), for crashes and exceptions other than Error.
   /// Throws DataError, naming the plugin.
   CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
                 std::string who = {});

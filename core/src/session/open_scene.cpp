@@ -144,8 +144,10 @@ void Opening::source() {
   YamlDocument record;
   auto made = make<Source>(file_.source, {}, record);
   std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());
-  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene,
-                                         text_of(file_.source, "type", ""), std::move(who)),
+  std::string plugin =
+      fmt::format("{}: source '{}'", file_.source.where(), text_of(file_.source, "type", ""));
+  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene, std::move(plugin),
+                                         std::move(who)),
          record.text());
 }
 

@@ -195,8 +195,9 @@ class Video : public Source {
     for (std::size_t v = 0; v < images.size(); ++v) {
       const cv::Mat& image = images[v];
       if (image.cols != cameras_[v].width || image.rows != cameras_[v].height) {
-        frame.problem = fmt::format("view {}: the frame is {}x{} pixels; expected {}x{}", v,
-                                    image.cols, image.rows, cameras_[v].width, cameras_[v].height);
+        frame.problem = fmt::format("{}: the frame is {}x{} pixels; expected {}x{} as its camera",
+                                    files_[split_ ? 0 : v].string(), image.cols, image.rows,
+                                    cameras_[v].width, cameras_[v].height);
         frame.views.clear();
         return;
       }

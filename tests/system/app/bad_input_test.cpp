@@ -79,7 +79,8 @@ TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
   const std::vector<std::string> plugins{"--plugin-path",
                                          (build_dir() / "tests/broken_plugins").string()};
   const std::string bug = "this is a bug in the source";
-  expect_refused(with("no_cameras"), {"source 'broken' has no camera", bug}, plugins);
+  expect_refused(with("no_cameras"), {"scene.yaml:2:9: source 'broken' has no camera", bug},
+                 plugins);
   expect_refused(with("no_frame_rate"), {"source 'broken'", "0 frames per second", bug}, plugins);
   expect_refused(with("endless_frame_rate"), {"source 'broken'", "inf frames per second", bug},
                  plugins);
@@ -88,8 +89,10 @@ TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
   EXPECT_THAT(late.err, HasSubstr("frame 1 at 0 s follows frame 0 at 0 s, expected"));
   EXPECT_THAT(late.err, HasSubstr("holds the frames so far"));
   std::filesystem::remove_all(path("out"));
-  EXPECT_THAT(run(with("silent_gap"), plugins).err,
-              HasSubstr("frame 2: source 'broken' gives no views and no reason; this is a bug"));
+  EXPECT_THAT(
+      run(with("silent_gap"), plugins).err,
+      testing::ContainsRegex("frame 2: .*scene.yaml:2:9: source 'broken' gives no views and no "
+                             "reason; this is a bug"));
   std::filesystem::remove_all(path("out"));
   expect_refused(with("truth_of_another_scene"),
                  {"source 'broken', frame 0", "5 numbers in the true state, the scene has 7", bug},

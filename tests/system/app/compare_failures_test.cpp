@@ -96,6 +96,13 @@ TEST_F(CompareFailureTest, ARunThatNeverReturnsIsEndedAtTheTimeLimit) {
                 AllOf(HasSubstr(",failed,"), HasSubstr("did not end within 4 s (--time-limit)")));
 }
 
+TEST_F(CompareFailureTest, ACheckThatNeverReturnsIsEndedAtTheTimeLimit) {
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"}, -1);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("method bad: did not end within 4 s (--time-limit)"),
+                                 HasSubstr("nothing was run")));
+}
+
 TEST_F(CompareFailureTest, FailedRunsStayUnlessAskedForAgain) {
   ASSERT_EQ(compare_failing("exception").exit_code, 3);
   const Outcome again = compare_failing("exception");
