@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -17,10 +18,10 @@ constexpr std::string_view kAdvice = "repeat the run that wrote it, or remove it
 }  // namespace
 
 Json read_json_object(const std::filesystem::path& file, std::string_view advice) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw DataError(fmt::format("{}: no such file; expected a JSON object{}{}", file.string(),
+  if (const std::string why = why_no_file(file); !why.empty())
+    throw DataError(fmt::format("{}: {}; expected a JSON object{}{}", file.string(), why,
                                 advice.empty() ? "" : "; ", advice));
+  std::error_code error;
   if (advice.empty()) advice = kAdvice;
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw DataError(fmt::format("{}: is larger than {} MiB", file.string(), kLargestFile >> 20));

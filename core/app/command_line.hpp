@@ -37,6 +37,7 @@ OptionCheck whole_number(std::int64_t lowest,
                          std::int64_t highest = std::numeric_limits<int>::max());
 OptionCheck positive_number();
 OptionCheck file_name();
+OptionCheck existing_folder();
 OptionCheck one_of(std::vector<std::string> words);
 
 struct OptionRules {

@@ -35,6 +35,7 @@ struct CompareOptions {
   std::filesystem::path study, out;
   std::optional<std::string> variant;
   int jobs = 0, threads = 0;
+  double time_limit_s = 0;
   std::string shard = "1/1";
   bool retry_failed = false;
 };
@@ -63,6 +64,7 @@ study::Launch launch_of(const CompareOptions& options, const CommonOptions& comm
   launch.program = std::filesystem::read_symlink("/proc/self/exe");
   for (const auto& folder : common.plugin_path)
     launch.plugin_path.push_back(std::filesystem::absolute(folder));
+  launch.time_limit_s = options.time_limit_s;
   const int cores = core_count();
   launch.jobs = options.jobs > 0 ? options.jobs : cores;
   launch.threads = options.threads > 0 ? options.threads : std::max(1, cores / launch.jobs);
@@ -181,6 +183,9 @@ void add_compare_command(const Command& root, CommonOptions& common, int& exit_c
               {.check = whole_number(1)});
   command.add("--shard", &options->shard,
               "Make a part of the runs: i/n, for one of n machines that share the folder");
+  command.add("--time-limit", &options->time_limit_s,
+              "Seconds after which a run, or its check, is ended and fails (default: none)",
+              {.check = positive_number()});
   command.add("--retry-failed", &options->retry_failed, "Make failed runs again");
   command.on_call([=, &common, &exit_code] { exit_code = compare(*options, common); });
 }

@@ -1,7 +1,11 @@
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
+
+#include "plugin/running_plugin.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -9,17 +13,26 @@ namespace {
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t g_interrupted = 0;
+volatile unsigned g_patience_s = 0;
 
 void on_signal(int signal) {
   g_interrupted = 1;
   // A closed terminal may send SIGHUP twice, from its shell and the kernel: keep ignoring it.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
+  alarm(g_patience_s);
+}
+
+void on_alarm(int /*signal*/) {
+  detail::report_end("was told to stop and did not answer; ended now. Files are left unfinished");
+  _exit(kInterruptedExitCode);
 }
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard(unsigned patience_s) {
   g_interrupted = 0;
+  g_patience_s = patience_s;
+  of_alarm_ = std::signal(SIGALRM, on_alarm);
   // A shell's background jobs and nohup ignore Ctrl-C: keep it ignored then.
   for (const int signal : kSignals)
     if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
@@ -28,11 +41,17 @@ InterruptGuard::InterruptGuard() {
 }
 
 InterruptGuard::~InterruptGuard() {
+  alarm(0);
+  std::signal(SIGALRM, of_alarm_);
   std::signal(SIGPIPE, of_broken_pipe_);
   for (const int signal : kSignals)
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-bool InterruptGuard::interrupted() const { return g_interrupted != 0; }
+bool InterruptGuard::interrupted() const {
+  if (g_interrupted == 0) return false;
+  alarm(0);  // somebody acts on it
+  return true;
+}
 
 }  // namespace hypotrack::app

@@ -7,10 +7,12 @@ inline constexpr int kInterruptedExitCode = 130;
 
 /// Makes Ctrl-C, SIGTERM and SIGHUP (a closed terminal) set a flag instead of ending the program
 /// while it lives. So a frame can be finished and files closed. A second Ctrl-C or SIGTERM ends the
-/// program at once. Ignores SIGPIPE: output into a closed pipe is lost.
+/// program at once; so does a minute in which nobody asks for the flag, as in a search that never
+/// returns. Ignores SIGPIPE: output into a closed pipe is lost.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  /// `patience_s`: seconds after a signal until the program is ended.
+  explicit InterruptGuard(unsigned patience_s = 60);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
@@ -18,6 +20,7 @@ class InterruptGuard {
 
  private:
   void (*of_broken_pipe_)(int);  ///< handler of SIGPIPE before
+  void (*of_alarm_)(int);        ///< handler of SIGALRM before
 };
 
 }  // namespace hypotrack::app

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <new>
@@ -12,6 +13,7 @@
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "plugin/crash_report.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
@@ -42,13 +44,16 @@ bool close_output() {
 
 int main(int argc, char** argv) {
   using namespace hypotrack::app;
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of writing
+  const hypotrack::detail::CrashReport crash_report;
+  const hypotrack::detail::EarlyExitReport exit_report;
   CommandLine line("Model-based 3D tracking from RGB stereo pairs.",
                    fmt::format("hypotrack {} (plugin ABI {}: {})", HYPOTRACK_VERSION,
                                hypotrack::kAbiVersion, hypotrack::kBuildTag));
   const Command root = line.root();
   CommonOptions common;
   root.add("--plugin-path", &common.plugin_path,
-           "Folder to look for plugins in first (may be repeated)");
+           "Folder to look for plugins in first (may be repeated)", {.check = existing_folder()});
   int exit_code = 0;
   add_run_command(root, common, exit_code);
   add_validate_command(root, common, exit_code);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -47,6 +48,16 @@ OptionCheck positive_number() {
 OptionCheck file_name() {
   const auto check = [](const std::string& text) {
     return std::string(text.empty() ? "is empty, expected a name" : "");
+  };
+  return {check, ""};
+}
+
+OptionCheck existing_folder() {
+  const auto check = [](const std::string& text) {
+    std::error_code error;
+    return std::filesystem::is_directory(text, error)
+               ? std::string()
+               : fmt::format("there is no folder '{}'", text);
   };
   return {check, ""};
 }

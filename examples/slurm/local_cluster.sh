@@ -5,10 +5,12 @@
 #
 #   examples/slurm/local_cluster.sh start DIR     then: export SLURM_CONF=DIR/slurm.conf
 #   examples/slurm/local_cluster.sh stop DIR
+#
+# Exit code 77 of start: a service cannot run here, as without cgroups; its own words are printed.
 set -euo pipefail
 
 usage() {
-  sed -n '2,7s/^# \{0,1\}//p' "$0" >&2
+  sed -n '2,9s/^# \{0,1\}//p' "$0" >&2
   exit 2
 }
 
@@ -59,14 +61,21 @@ start() {
     --pid-file="$dir/munged.pid" --seed-file="$dir/munge.seed" --log-file="$dir/munged.log"
   write_conf
   export SLURM_CONF=$dir/slurm.conf
-  slurmctld -c
-  slurmd
+  local program
+  for program in "slurmctld -c" slurmd; do
+    $program 2>"$dir/stderr.log" || { cannot_run "${program%% *}"; return 77; }
+  done
   for _ in $(seq 100); do
     [ "$(sinfo --noheader --format=%t 2>/dev/null)" = idle ] && return 0
     sleep 0.2
   done
-  echo "the node did not come up; see $dir/slurmctld.log and $dir/slurmd.log" >&2
-  return 1
+  cannot_run slurmd
+  return 77
+}
+
+cannot_run() {  # says so in the service's own words
+  echo "$1 cannot run on this machine:" >&2
+  cat "$dir/stderr.log" "$dir/$1.log" 2>/dev/null | grep -E 'error|fatal' | tail -n 3 >&2 || true
 }
 
 stop() {
@@ -85,7 +94,7 @@ stop() {
 mkdir -p "$2"
 dir=$(cd "$2" && pwd)
 case $1 in
-  start) start || { stop; exit 1; } ;;
+  start) start || { code=$?; stop; exit "$code"; } ;;
   stop) stop ;;
   *) usage ;;
 esac

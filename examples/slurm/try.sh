@@ -3,12 +3,13 @@
 # the tables byte by byte.
 #
 #   examples/slurm/try.sh STUDY [options of hypotrack compare, for example --variant smoke]
+# Exit code 77: Slurm cannot run on this machine. After a failure the logs stay.
 #
 # HYPOTRACK names the program (default: hypotrack on the PATH), TASKS the size of the array (2).
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 if [ $# -lt 1 ]; then
-  sed -n '2,7s/^# \{0,1\}//p' "$0" >&2
+  sed -n '2,8s/^# \{0,1\}//p' "$0" >&2
   exit 2
 fi
 export HYPOTRACK=${HYPOTRACK:-hypotrack}
@@ -16,8 +17,12 @@ study=$1
 shift
 scratch=$(mktemp -d)
 finish() {
+  code=$?
   "$here/local_cluster.sh" stop "$scratch/slurm"
-  rm -rf "$scratch"
+  case $code in
+    0 | 77) rm -rf "$scratch" ;;
+    *) echo "the logs are in $scratch" >&2 ;;
+  esac
 }
 trap finish EXIT
 

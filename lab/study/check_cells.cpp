@@ -67,7 +67,7 @@ std::string report(const Plan& plan, const std::map<std::size_t, std::string>& p
 void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const Launch& launch,
                  const std::function<bool()>& again) {
   const Scratch scratch;
-  ProcessPool pool;
+  ProcessPool pool(launch.time_limit_s);
   std::map<std::size_t, std::string> problems;
   std::size_t next = 0;
   while (again() && (next < cells.size() || pool.size() > 0)) {
@@ -83,7 +83,7 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
     const auto ended = pool.take_ended();
     if (!ended) std::this_thread::sleep_for(kCheckPoll);
     if (ended && ended->end.code != 0)
-      problems[ended->key] = failure_message(scratch.log(ended->key), ended->end);
+      problems[ended->key] = failure_message(scratch.log(ended->key), *ended);
   }
   if (!problems.empty()) throw ConfigError(report(plan, problems));
 }

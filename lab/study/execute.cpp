@@ -24,7 +24,11 @@ class Execution {
  public:
   Execution(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
             const Launch& launch, Watcher& watcher)
-      : folder_(folder), plan_(plan), launch_(launch), watcher_(watcher) {
+      : folder_(folder),
+        plan_(plan),
+        launch_(launch),
+        watcher_(watcher),
+        pool_(launch.time_limit_s) {
     for (const std::size_t run : runs) waiting_.push_back({run, {}, folder_.state(plan.runs[run])});
   }
 
@@ -93,14 +97,14 @@ void Execution::start(std::size_t index, RunFolder folder) {
 }
 
 bool Execution::finish(const Ended& ended) {
-  if (ended.end.code == kInterrupted) return false;
   const PlannedRun& run = plan_.runs[ended.key];
   RunFolder& folder = working_.at(ended.key);
   std::string failure;
-  if (ended.end.code == 0) {
+  if (ended.end.code == 0 && folder.holds_a_complete_run()) {
     folder.finish(plan_, run, {ended.seconds, launch_.threads});
   } else {
-    failure = failure_message(folder.log(), ended.end);
+    failure = failure_message(folder.log(), ended);
+    if (ended.end.code == kInterrupted && failure.starts_with("interrupted")) return false;
     folder.fail(plan_, run, {failure, ended.end.code});
   }
   working_.erase(ended.key);

@@ -15,6 +15,7 @@ struct Launch {
   std::filesystem::path program;                   ///< `hypotrack`
   std::vector<std::filesystem::path> plugin_path;  ///< absolute
   int jobs = 1;                                    ///< processes at the same time
+  double time_limit_s = 0;                         ///< of a run; 0: none
   int threads = 1;                                 ///< threads of each process
 };
 

@@ -21,10 +21,12 @@ void ProcessPool::start(std::size_t key, const Subprocess::Command& command) {
 
 std::optional<Ended> ProcessPool::take_ended() {
   for (auto it = running_.begin(); it != running_.end(); ++it) {
-    if (it->process.running()) continue;
-    const Subprocess::End end = it->process.wait();
     const double seconds = std::chrono::duration<double>(Clock::now() - it->begin).count();
-    const Ended ended{it->key, end, seconds};
+    const bool running = it->process.running();
+    const bool overdue = running && limit_s_ > 0 && seconds > limit_s_;
+    if (running && !overdue) continue;
+    if (overdue) it->process.kill();
+    const Ended ended{it->key, it->process.wait(), seconds, overdue ? limit_s_ : 0};
     running_.erase(it);
     return ended;
   }

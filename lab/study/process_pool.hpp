@@ -14,11 +14,14 @@ struct Ended {
   std::size_t key = 0;  ///< key given to start()
   Subprocess::End end;
   double seconds = 0;
+  double limit_s = 0;  ///< time limit after which the pool ended it; 0: it ended by itself
 };
 
 /// Programs that run at the same time. None outlives the pool.
 class ProcessPool {
  public:
+  /// `limit_s`: seconds after which a program is ended; 0: never.
+  explicit ProcessPool(double limit_s = 0) : limit_s_(limit_s) {}
   /// Starts a program. Throws OutputError if it cannot be started or its log cannot be written.
   void start(std::size_t key, const Subprocess::Command& command);
   /// Removes and returns a program that has ended, if any.
@@ -32,6 +35,7 @@ class ProcessPool {
     Subprocess process;
     Clock::time_point begin;
   };
+  double limit_s_;
   std::vector<Running> running_;
 };
 

@@ -74,10 +74,11 @@ class Recorder {
 
   void finish(const Ended& ended) {
     RunFolder& folder = working_.at(ended.key);
-    if (ended.end.code != 0)
+    // The scene is written last.
+    if (ended.end.code != 0 || !std::filesystem::exists(folder.working() / "recording/scene.yaml"))
       throw DataError(fmt::format(
           "{}: {}: its source cannot be recorded: {}", plan_.scene_of(plan_.cells[ended.key]).where,
-          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended.end)));
+          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended)));
     folder.put_into_place();
     working_.erase(ended.key);
   }

@@ -86,6 +86,13 @@ void RunFolder::rename() {
                                   final_.string(), error.message()));
 }
 
+bool RunFolder::holds_a_complete_run() const {
+  std::ifstream in(working_ / "summary.json", std::ios::binary);
+  const Json summary = Json::parse(in, nullptr, false);
+  const auto complete = summary.is_object() ? summary.find("complete") : summary.end();
+  return complete != summary.end() && complete->is_boolean() && complete->get<bool>();
+}
+
 void RunFolder::put_into_place() {
   std::filesystem::remove(log());
   rename();
@@ -123,7 +130,10 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
 }
 
-std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end) {
+std::string failure_message(const std::filesystem::path& log, const Ended& ended) {
+  if (ended.limit_s > 0)
+    return fmt::format("did not end within {:g} s (--time-limit); ended there", ended.limit_s);
+  const Subprocess::End& end = ended.end;
   std::ifstream in(log);
   std::string message;
   bool goes_on = false;  // further lines of a message are indented
@@ -139,7 +149,9 @@ std::string failure_message(const std::filesystem::path& log, const Subprocess::
     }
   }
   if (end.signal != 0)
-    return fmt::format("ended by signal {} ({})", end.signal, strsignal(end.signal));
+    return fmt::format("{}{}ended by signal {} ({})", message, message.empty() ? "" : "; ",
+                       end.signal, strsignal(end.signal));
+  if (end.code == 0) return "ended with exit code 0 before its results were complete";
   return message.empty() ? fmt::format("ended with exit code {}", end.code) : message;
 }
 

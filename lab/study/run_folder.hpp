@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "base/subprocess.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
+#include "lab/study/process_pool.hpp"
 
 namespace hypotrack::study {
 
@@ -40,6 +40,8 @@ class RunFolder {
   /// Returns the lock's descriptor, which the process that writes into working() must inherit.
   int lock_descriptor() const { return lock_.descriptor(); }
 
+  /// Returns true if the run has reported its end, which its exit code alone does not say.
+  bool holds_a_complete_run() const;
   /// Moves the folder to its final path, without the log. Throws OutputError.
   void put_into_place();
   /// Completes a successful run and moves it to its final path. Throws OutputError.
@@ -62,6 +64,6 @@ std::string repair_advice(const std::filesystem::path& file);
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
 /// Returns the line of a log that says why a run failed, without the names of its folders.
-std::string failure_message(const std::filesystem::path& log, const Subprocess::End& end);
+std::string failure_message(const std::filesystem::path& log, const Ended& ended);
 
 }  // namespace hypotrack::study

@@ -22,8 +22,9 @@ enum class Fault {
   needs_a_first_frame,
   infinite_residual,
   leaves_residuals_out,
+  has_no_residuals,
 };
-constexpr std::array<std::string_view, 11> kFaults = {"none",
+constexpr std::array<std::string_view, 12> kFaults = {"none",
                                                       "nan_where_nothing_is_covered",
                                                       "overflows_on_noise",
                                                       "remembers",
@@ -33,7 +34,8 @@ constexpr std::array<std::string_view, 11> kFaults = {"none",
                                                       "refuses_everything",
                                                       "needs_a_first_frame",
                                                       "infinite_residual",
-                                                      "leaves_residuals_out"};
+                                                      "leaves_residuals_out",
+                                                      "has_no_residuals"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 /// Rewards inverse depth: the cost is its negative mean.
@@ -67,7 +69,9 @@ class Broken final : public Objective, public ResidualTerm {
     return -sum / count + extra(sum);
   }
 
-  const ResidualTerm* residual_term() const override { return this; }
+  const ResidualTerm* residual_term() const override {
+    return fault_ == Fault::has_no_residuals ? nullptr : this;
+  }
   std::int64_t residual_count() const override { return 2; }
   void write_residuals(const RenderedHypothesis& hypothesis,
                        std::span<float> residuals) const override {
@@ -106,4 +110,4 @@ class Broken final : public Objective, public ResidualTerm {
 }  // namespace
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::Broken, "breaks the contract as asked", "")
+HYPOTRACK_PLUGIN(hypotrack::Broken, "breaks the contract as asked", "residuals")

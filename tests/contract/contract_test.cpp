@@ -109,6 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
                            "it can take in a frame after a frame", "the cost is NaN"},
                       Case{"objective", "infinite_residual", kResidualRow,
                            "nothing covered, a rectified pair: residual 0 is inf"},
+                      Case{"objective", "has_no_residuals", "it has what its capabilities claim",
+                           "they claim residuals, and residual_term() is null"},
                       Case{"objective", "leaves_residuals_out", kResidualRow,
                            "a rectified pair: not all of them are written"}),
     [](const auto& each) { return each.param.fault; });

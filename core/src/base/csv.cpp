@@ -9,6 +9,7 @@
 #include <limits>
 #include <set>
 
+#include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -17,11 +18,10 @@ namespace {
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
 
 std::string read_all(const std::filesystem::path& file) {
-  std::error_code error;
-  const bool regular = std::filesystem::is_regular_file(file, error);
-  if (!regular) {
-    throw DataError(fmt::format("{}: no such file; expected a CSV table", file.string()));
+  if (const std::string why = why_no_file(file); !why.empty()) {
+    throw DataError(fmt::format("{}: {}; expected a CSV table", file.string(), why));
   }
+  std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > kLargestFile) {
     throw DataError(

@@ -70,7 +70,12 @@ void apply_size(std::vector<NamedCamera>& cameras, const ConfigNode& file,
       camera.width = common.width;
       camera.height = common.height;
     }
-    if (given.width != 0) fit_image_size(camera, given.width, given.height, "image_size");
+    if (given.width == 0) continue;
+    if (camera.width == 0) {
+      camera.width = given.width;
+      camera.height = given.height;
+    }
+    fit_image_size(camera, given.width, given.height, "image_size");
   }
 }
 
@@ -113,6 +118,18 @@ void choose(std::vector<NamedCamera>& cameras, const CalibrationSettings& settin
   cameras = std::move(chosen);
 }
 
+/// Returns the camera with a size to check it by. A file may leave the size to the first image.
+Camera with_a_size(Camera camera) {
+  static constexpr double kSmallest = 64, kLargest = 65536;
+  if (camera.width != 0) return camera;
+  const auto size_about = [](double centre) {
+    return static_cast<int>(std::clamp(2 * std::abs(centre), kSmallest, kLargest));
+  };
+  camera.width = size_about(camera.cx);
+  camera.height = size_about(camera.cy);
+  return camera;
+}
+
 }  // namespace
 
 std::span<const std::string_view> enum_names(LengthUnit) { return kUnitNames; }
@@ -127,9 +144,7 @@ Calibration read_calibration(const CalibrationSettings& settings, const ImageSiz
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < out.cameras.size(); ++i) {
     cameras.push_back(out.cameras[i].camera);
-    Camera checked = cameras[i];
-    if (checked.width == 0) checked.width = checked.height = 1;  // set with the first image
-    validate(checked, fmt::format("{}: camera {}", settings.file.string(), i));
+    validate(with_a_size(cameras[i]), fmt::format("{}: camera {}", settings.file.string(), i));
   }
   if (!settings.any_baseline) check_baselines(cameras, settings);
   return out;
@@ -147,6 +162,7 @@ void fit_image_size(Camera& camera, int width, int height, std::string_view wher
   if (camera.width == 0 && camera.height == 0) {
     camera.width = width;
     camera.height = height;
+    if (camera.fx != 0) validate(camera, fmt::format("the calibration for {}", where));
   }
   if (camera.width == width && camera.height == height) return;
   throw DataError(

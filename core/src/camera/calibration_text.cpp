@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -17,10 +18,10 @@ constexpr std::size_t kLargestYamlFile = std::size_t{8} << 20;
 constexpr int kLargestSide = 65536;
 
 std::string read_text(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) {
-    throw DataError(fmt::format("{}: no such file; expected a calibration", file.string()));
+  if (const std::string why = why_no_file(file); !why.empty()) {
+    throw DataError(fmt::format("{}: {}; expected a calibration", file.string(), why));
   }
+  std::error_code error;
   if (std::filesystem::file_size(file, error) > kLargestYamlFile || error) {
     throw DataError(
         fmt::format("{}: is larger than 8 MiB, which no calibration is", file.string()));

@@ -1,6 +1,7 @@
 #include "hypotrack/camera.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,6 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include "camera/distort.hpp"
 #include "camera/distortion.hpp"
@@ -77,6 +80,57 @@ void check_pose(const Camera& camera, std::string_view where) {
         "calibration points the wrong way: OpenCV's are x right, y down, z forward",
         where));
   }
+  constexpr double kFarthest = 1e4;  // metres
+  if (t.norm() > kFarthest) {
+    throw DataError(
+        fmt::format("{}: T puts the camera {:.3g} m from the origin; expected {:g} m at most. Is "
+                    "its unit right?",
+                    where, t.norm(), kFarthest));
+  }
+}
+
+/// Throws DataError unless the lens keeps the corners and edges of the image near it.
+void check_lens_reach(const Camera& camera, std::string_view where) {
+  constexpr double kFarthest = 10;  // diagonals of the image
+  Camera lens = camera;
+  lens.camera_from_world = Eigen::Isometry3d::Identity();
+  const double diagonal = std::hypot(camera.width, camera.height);
+  for (const double u : {0.0, 0.5, 1.0}) {
+    for (const double v : {0.0, 0.5, 1.0}) {
+      const Eigen::Vector2d pixel(u * camera.width, v * camera.height);
+      const Eigen::Vector3d ray((pixel.x() - camera.cx) / camera.fx,
+                                (pixel.y() - camera.cy) / camera.fy, 1);
+      const double moved = (project(lens, ray) - pixel).norm();
+      if (moved <= kFarthest * diagonal) continue;
+      throw DataError(fmt::format(
+          "{}: the distortion ({:g}) moves pixel ({:g}, {:g}) by {:.3g} pixels; expected {:.0f} at "
+          "most. Are the coefficients in OpenCV's order, and the camera matrix in pixels?",
+          where, fmt::join(camera.distortion, ", "), pixel.x(), pixel.y(), moved,
+          kFarthest * diagonal));
+    }
+  }
+}
+
+/// Throws DataError unless focal length and principal point suit the size of the image.
+void check_scale(const Camera& camera, std::string_view where) {
+  constexpr double kShortest = 0.1, kLongest = 100, kFarthest = 5;  // image sizes
+  for (const auto& [name, focal] : {std::pair{"fx", camera.fx}, std::pair{"fy", camera.fy}}) {
+    if (focal >= kShortest * camera.width && focal <= kLongest * camera.width) continue;
+    throw DataError(fmt::format(
+        "{}: the focal length {} is {:g} pixels for an image of {}x{}; expected {:g} to {:g}. Does "
+        "the calibration belong to pictures of this size?",
+        where, name, focal, camera.width, camera.height, kShortest * camera.width,
+        kLongest * camera.width));
+  }
+  for (const auto& [name, centre, size] :
+       {std::tuple{"cx", camera.cx, camera.width}, std::tuple{"cy", camera.cy, camera.height}}) {
+    if (std::abs(centre) <= kFarthest * size) continue;
+    throw DataError(fmt::format(
+        "{}: the principal point's {} is {:g} pixels for an image of {}x{}; expected {} to {}. "
+        "Does "
+        "the calibration belong to pictures of this size?",
+        where, name, centre, camera.width, camera.height, -kFarthest * size, kFarthest * size));
+  }
 }
 
 }  // namespace
@@ -145,7 +199,9 @@ void validate(const Camera& camera, std::string_view where) {
     throw DataError(fmt::format("{}: the principal point is ({:g}, {:g}); expected finite numbers",
                                 where, camera.cx, camera.cy));
   }
+  check_scale(camera, where);
   check_distortion(camera, where);
+  check_lens_reach(camera, where);
   check_pose(camera, where);
 }
 

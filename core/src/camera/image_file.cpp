@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -43,11 +44,24 @@ ReadImage decode(const std::filesystem::path& file) {
   ReadImage read;
   try {
     read.image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines
   }
   if (read.image.empty()) read.problem = name + ": is damaged or no image";
   return read;
+}
+
+/// Calls a function that reads a file. Lack of memory is a problem of the file, but no damage.
+template <class Read>
+ReadImage within_memory(const std::filesystem::path& file, const Read& read) {
+  try {
+    return read();
+  } catch (const cv::Exception& e) {
+    if (e.code != cv::Error::StsNoMem) throw;
+  } catch (const std::bad_alloc&) {
+  }
+  return {{}, file.string() + ": there is not enough memory to decode it"};
 }
 
 /// Converts an image to three channels of the same depth.
@@ -72,45 +86,51 @@ cv::Mat to_bgr(const cv::Mat& image) {
 }  // namespace
 
 ReadImage read_color(const std::filesystem::path& file, int bits) {
-  ReadImage read = decode(file);
-  if (!read.problem.empty()) return read;
-  if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
-    return {{}, file.string() + ": has floating-point pixels; expected 8 or 16 bits"};
-  }
-  read.image = to_bgr(read.image);
-  if (read.image.depth() == CV_16U) {
-    // The largest value of that many bits becomes 255.
-    read.image.convertTo(read.image, CV_8U, 255.0 / (std::exp2(bits) - 1));
-  }
-  return read;
+  return within_memory(file, [&]() -> ReadImage {
+    ReadImage read = decode(file);
+    if (!read.problem.empty()) return read;
+    if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
+      return {{}, file.string() + ": has floating-point pixels; expected 8 or 16 bits"};
+    }
+    read.image = to_bgr(read.image);
+    if (read.image.depth() == CV_16U) {
+      // The largest value of that many bits becomes 255.
+      read.image.convertTo(read.image, CV_8U, 255.0 / (std::exp2(bits) - 1));
+    }
+    return read;
+  });
 }
 
 ReadImage read_mask(const std::filesystem::path& file) {
-  ReadImage read = decode(file);
-  if (!read.problem.empty()) return read;
-  std::vector<cv::Mat> channels;
-  cv::split(to_bgr(read.image), channels);
-  cv::Mat any = channels[0] != 0;
-  any |= channels[1] != 0;
-  any |= channels[2] != 0;
-  read.image = any;
-  return read;
+  return within_memory(file, [&]() -> ReadImage {
+    ReadImage read = decode(file);
+    if (!read.problem.empty()) return read;
+    std::vector<cv::Mat> channels;
+    cv::split(to_bgr(read.image), channels);
+    cv::Mat any = channels[0] != 0;
+    any |= channels[1] != 0;
+    any |= channels[2] != 0;
+    read.image = any;
+    return read;
+  });
 }
 
 ReadImage read_depth(const std::filesystem::path& file, double unit) {
-  ReadImage read = decode(file);
-  if (!read.problem.empty()) return read;
-  if (read.image.type() != CV_16UC1) {
-    constexpr std::array<const char*, 8> kPixels = {"8-bit",         "8-bit signed",   "16-bit",
-                                                    "16-bit signed", "32-bit integer", "float",
-                                                    "double",        "half float"};
-    return {{},
-            fmt::format("{}: has {} pixels of {} channel{}; depth is 16 bits and one channel",
-                        file.string(), kPixels[static_cast<std::size_t>(read.image.depth())],
-                        read.image.channels(), read.image.channels() == 1 ? "" : "s")};
-  }
-  read.image.convertTo(read.image, CV_32F, unit);
-  return read;
+  return within_memory(file, [&]() -> ReadImage {
+    ReadImage read = decode(file);
+    if (!read.problem.empty()) return read;
+    if (read.image.type() != CV_16UC1) {
+      constexpr std::array<const char*, 8> kPixels = {"8-bit",         "8-bit signed",   "16-bit",
+                                                      "16-bit signed", "32-bit integer", "float",
+                                                      "double",        "half float"};
+      return {{},
+              fmt::format("{}: has {} pixels of {} channel{}; depth is 16 bits and one channel",
+                          file.string(), kPixels[static_cast<std::size_t>(read.image.depth())],
+                          read.image.channels(), read.image.channels() == 1 ? "" : "s")};
+    }
+    read.image.convertTo(read.image, CV_32F, unit);
+    return read;
+  });
 }
 
 std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,

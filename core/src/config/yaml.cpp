@@ -8,6 +8,9 @@
 #include <cctype>
 #include <utility>
 
+#include "config/yaml_text.hpp"
+#include "hypotrack/error.hpp"
+
 namespace hypotrack::detail {
 namespace {
 
@@ -38,6 +41,13 @@ bool needs_no_quotes(const YamlNode& node) {
 }
 
 void emit_text(YAML::Emitter& out, const YamlNode& node) {
+  if (!is_utf8(node.text)) {
+    std::string shown = node.text;
+    std::ranges::replace_if(
+        shown, [](unsigned char c) { return c >= 0x80; }, '?');
+    throw ConfigError(fmt::format(
+        "'{}' is no UTF-8, which run.yaml cannot hold; rename the file or folder", shown));
+  }
   if (!needs_no_quotes(node)) out << YAML::DoubleQuoted;
   out << node.text;
 }

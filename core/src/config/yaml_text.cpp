@@ -1,12 +1,18 @@
 #include "config/yaml_text.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <system_error>
+#include <thread>
 
+#include "base/descriptor.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::detail {
@@ -31,7 +37,45 @@ bool is_control(char c) {
   return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7F;
 }
 
+/// Reads a named pipe. Throws ConfigError if nobody begins to write into it.
+std::string read_pipe(const std::filesystem::path& file) {
+  constexpr std::chrono::milliseconds kPatience{2000}, kInterval{10};
+  // Without O_NONBLOCK, open() waits for a writer for ever.
+  const int opened = open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (opened < 0)
+    throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
+                                  std::generic_category().message(errno)));
+  const Descriptor pipe(opened);
+  std::string text;
+  std::array<char, 4096> buffer;
+  bool has_writer = false;
+  const auto begin = std::chrono::steady_clock::now();
+  while (text.size() <= kMaxYamlBytes) {
+    const ssize_t size = read(pipe.get(), buffer.data(), buffer.size());
+    if (size > 0) text.append(buffer.data(), static_cast<std::size_t>(size));
+    has_writer = has_writer || size != 0;
+    if (size > 0) continue;
+    if (size < 0 && errno != EAGAIN && errno != EINTR)
+      throw ConfigError(file.string() + ": cannot be read");
+    if (size == 0 && has_writer) break;  // the writer has gone
+    if (size == 0 && std::chrono::steady_clock::now() - begin > kPatience)
+      throw ConfigError(file.string() +
+                        ": is a pipe that nobody writes into; expected a YAML file");
+    std::this_thread::sleep_for(kInterval);
+  }
+  return text;
+}
+
 }  // namespace
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
 
 std::string read_text_file(const std::filesystem::path& file) {
   if (file.empty()) throw ConfigError("the name of the file is empty; expected a YAML file");
@@ -39,6 +83,7 @@ std::string read_text_file(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored)) {
     throw ConfigError(file.string() + ": is a folder; expected a YAML file");
   }
+  if (std::filesystem::is_fifo(file, ignored)) return read_pipe(file);
   std::ifstream in(file, std::ios::binary);
   if (!in) {
     throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),

@@ -10,6 +10,8 @@
 
 namespace hypotrack::detail {
 
+bool is_utf8(std::string_view text);
+
 /// Reads a file, or a little more than the limit of a larger one. Throws ConfigError if it cannot.
 std::string read_text_file(const std::filesystem::path& file);
 

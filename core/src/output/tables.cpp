@@ -1,6 +1,7 @@
 #include "hypotrack/tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,8 @@
 
 namespace hypotrack {
 namespace {
+
+constexpr double kFarthest = 1e6;  // metres; models farther away are not drawn
 
 /// Returns the index in `names` of the name that a column means: the name itself, or the name
 /// without its model if that is unique.
@@ -181,9 +184,9 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
     StateRow row{timeline.frames[i], timeline.times[i], Eigen::VectorXd(scene.dimension())};
     for (std::size_t k = 0; k < names.size(); ++k) {
       const double value = table.number(table.rows()[i], columns[k], false);
-      if (!std::isfinite(value)) {
-        throw DataError(fmt::format("{}: '{}' is {}; expected a finite number",
-                                    table.where(table.rows()[i]), names[k], value));
+      if (!(std::abs(value) <= kFarthest)) {
+        throw DataError(fmt::format("{}: '{}' is {}; expected a finite number, {:g} at most",
+                                    table.where(table.rows()[i]), names[k], value, kFarthest));
       }
       row.state[static_cast<Eigen::Index>(k)] = value;
     }
@@ -214,10 +217,12 @@ std::vector<LandmarkRow> read_landmarks(const std::filesystem::path& file,
       for (int k = 0; k < 3; ++k) {
         p[k] = table.number(table.rows()[i], triple.columns[static_cast<std::size_t>(k)], true);
       }
-      if (p.array().isInf().any()) {
-        throw DataError(fmt::format("{}: '{}' is infinite; expected numbers, or nan where unknown",
-                                    table.where(table.rows()[i]),
-                                    landmark_names[static_cast<std::size_t>(triple.landmark)]));
+      if ((options.metres_per_unit * p.array().abs() > kFarthest).any()) {
+        throw DataError(fmt::format(
+            "{}: '{}' is ({}), too far away; expected metres up to {:g} in "
+            "the table's unit, or nan where unknown",
+            table.where(table.rows()[i]), landmark_names[static_cast<std::size_t>(triple.landmark)],
+            fmt::join(p, ", "), kFarthest));
       }
       if (p.allFinite()) row.landmarks.col(triple.landmark) = options.metres_per_unit * p;
     }

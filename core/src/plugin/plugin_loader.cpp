@@ -1,19 +1,17 @@
-#include <cxxabi.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstdlib>
 #include <map>
 #include <mutex>
-#include <typeinfo>
 
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/suggest.hpp"
-#include "plugin/crash_note.hpp"
+#include "plugin/crash_report.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
+#include "plugin/plugin_call.hpp"
 
 namespace hypotrack {
 namespace {
@@ -41,37 +39,36 @@ std::string type_of(std::string_view kind, const ConfigNode& config) {
 
 std::string join_paths(const std::vector<std::filesystem::path>& paths) {
   std::vector<std::string> texts;
-  for (const auto& path : paths) texts.push_back(path.string());
+  for (const auto& path : paths) {
+    std::error_code error;
+    const bool there = std::filesystem::is_directory(path, error);
+    texts.push_back(path.string() + (there ? "" : " (there is no such folder)"));
+  }
   return fmt::format("{}", fmt::join(texts, ", "));
-}
-
-/// Returns the type name of the exception being handled: `int`.
-std::string current_exception_name() {
-  const std::type_info* type = abi::__cxa_current_exception_type();
-  if (!type) return "an unknown type";
-  int status = 0;
-  char* readable = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
-  const std::string name = status == 0 ? readable : type->name();
-  std::free(readable);
-  return name;
 }
 
 /// Runs a plugin's factory; converts exceptions other than Error to PluginError.
 void* create(const HypotrackPlugin& plugin, PluginContext& context) {
   const std::string who =
       fmt::format("{}: {} '{}'", context.config().where(), plugin.kind, plugin.name);
+  const detail::RunningPlugin running(who.c_str(), " while it was made");
   void* object = nullptr;
   try {
     object = plugin.create(context);
+  } catch (const DataError& e) {
+    // Core says `model: vertex 0 ...` of what a plugin gave it.
+    const std::string_view message = e.what();
+    if (!message.starts_with(std::string(plugin.kind) + ": ")) throw;
+    throw DataError(who + std::string(message.substr(std::string_view(plugin.kind).size())));
   } catch (const Error&) {
     throw;
   } catch (const std::exception& e) {
     throw PluginError(fmt::format("{}: could not be made: its constructor threw {}: {}", who,
-                                  current_exception_name(), e.what()));
+                                  detail::current_exception_name(), e.what()));
   } catch (...) {
     throw PluginError(
         fmt::format("{}: could not be made: its constructor threw {}, which is no std::exception",
-                    who, current_exception_name()));
+                    who, detail::current_exception_name()));
   }
   if (!object)
     throw PluginError(fmt::format("{}: could not be made: its factory returned null", who));
@@ -113,9 +110,12 @@ struct PluginLoader::Impl {
 
   static const HypotrackPlugin& open_plugin(const std::filesystem::path& file,
                                             const detail::PluginId& id) {
+    const std::string how =
+        fmt::format(" while it was loaded; `hypotrack plugins check {}` says how", file.string());
     std::string problem;
     try {
-      const detail::CrashNote note(file);
+      const detail::CrashReport report;
+      const detail::RunningPlugin running(file.c_str(), how.c_str());
       const HypotrackPlugin& plugin = detail::descriptor_of(detail::load_library(file));
       problem = detail::find_mismatch(plugin, id);
       if (problem.empty()) return plugin;

@@ -6,36 +6,43 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
 
 namespace hypotrack {
 
-CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin)
+CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
+                             std::string who)
     : source_(std::move(source)),
       plugin_(std::move(plugin)),
+      who_(std::move(who)),
       parameters_(scene.dimension()),
       landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())) {
   if (source_->cameras().empty())
     throw DataError(fmt::format(
-        "source '{}' has no camera, expected one at least; this is a bug in the source", plugin_));
+        "{} has no camera, expected one at least; this is a bug in the source", plugin_));
   for (const Camera& camera : source_->cameras())
     if (camera.fx == 0 && camera.fy == 0)
       throw DataError(
-          fmt::format("source '{}' has cameras without a calibration, with which nothing can be "
+          fmt::format("{} has cameras without a calibration, with which nothing can be "
                       "tracked; expected "
                       "`calibration: {{file: ...}}`, which `hypotrack calibrate` writes",
                       plugin_));
   const double rate = source_->frame_rate();
   if (!(std::isfinite(rate) && rate > 0))
     throw DataError(fmt::format(
-        "source '{}' says that it has {} frames per second, expected a number above 0; this is a "
+        "{} says that it has {} frames per second, expected a number above 0; this is a "
         "bug in the source",
         plugin_, rate));
 }
 
 std::optional<Frame> CheckedSource::next() {
-  std::optional<Frame> frame = source_->next();
+  std::optional<Frame> frame =
+      detail::call_explaining_plugin(who_, [&] { return source_->next(); });
   if (!frame) return frame;
   check_order(*frame);
+  if (frame->views.empty() && frame->problem.empty())
+    frame->problem =
+        fmt::format("{} gives no views and no reason; this is a bug in the source", plugin_);
   if (frame->truth) {
     check_truth(*frame, "numbers in the true state", frame->truth->state.size(), parameters_);
     check_truth(*frame, "true landmarks", frame->truth->landmarks.cols(), landmarks_);
@@ -45,10 +52,10 @@ std::optional<Frame> CheckedSource::next() {
 
 void CheckedSource::check_order(const Frame& frame) {
   if (!(frame.index > last_index_ && frame.time > last_time_ && std::isfinite(frame.time)))
-    throw DataError(fmt::format(
-        "source '{}': frame {} at {} s follows frame {} at {} s, expected numbers from 0 on and "
-        "times that grow; this is a bug in the source",
-        plugin_, frame.index, frame.time, last_index_, last_time_));
+    throw DataError(
+        fmt::format("{}: frame {} at {} s follows frame {} at {} s, expected numbers from 0 on and "
+                    "times that grow; this is a bug in the source",
+                    plugin_, frame.index, frame.time, last_index_, last_time_));
   last_index_ = frame.index;
   last_time_ = frame.time;
 }
@@ -57,7 +64,7 @@ void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Ind
                                 Eigen::Index expected) const {
   if (found == 0 || found == expected) return;  // 0: unknown
   throw DataError(
-      fmt::format("source '{}', frame {}: there are {} {}, the scene has {}; this is a bug in the "
+      fmt::format("{}, frame {}: there are {} {}, the scene has {}; this is a bug in the "
                   "source",
                   plugin_, frame.index, found, what, expected));
 }

@@ -16,14 +16,18 @@ namespace hypotrack {
 /// order of frames and sizes of the ground truth.
 class CheckedSource final : public Source {
  public:
+  /// `plugin`: its place in the scene and name: `a.yaml:2:9: source 'video'`. `who`: its
+  /// plugin_label(), for crashes and exceptions other than Error.
   /// Throws DataError, naming the plugin.
-  CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin);
+  CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
+                std::string who = {});
 
   const std::vector<Camera>& cameras() const override { return source_->cameras(); }
   double frame_rate() const override { return source_->frame_rate(); }
   std::optional<int> frame_count() const override { return source_->frame_count(); }
   /// Returns the next frame. Throws DataError, naming the plugin and the frame.
   std::optional<Frame> next() override;
+  bool live() const override { return source_->live(); }
   std::vector<std::string> notes() const override { return source_->notes(); }
   std::vector<std::string> statistics() const override { return source_->statistics(); }
 
@@ -33,7 +37,7 @@ class CheckedSource final : public Source {
                    Eigen::Index expected) const;
 
   std::unique_ptr<Source> source_;
-  std::string plugin_;
+  std::string plugin_, who_;
   Eigen::Index parameters_, landmarks_;
   int last_index_ = -1;
   double last_time_ = -std::numeric_limits<double>::infinity();

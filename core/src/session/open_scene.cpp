@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 #include <vector>
 
@@ -9,7 +10,11 @@
 #include "cost/cost.hpp"
 #include "cost/cuda/page_locked_images.hpp"
 #include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
+#include "session/checked_objective.hpp"
+#include "session/checked_output.hpp"
 #include "session/checked_source.hpp"
+#include "session/checked_start.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
@@ -45,9 +50,25 @@ class Opening {
   std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
                           YamlDocument& record) {
     std::string resolved;
-    auto object = plugins_->make<T>(node, session_.scene.get(), std::move(also_allowed), &resolved);
+    auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved);
+    const ConfigNode parameters = ConfigNode::parse(resolved, "the plugin's parameters");
+    for (const std::string& key : also_allowed)
+      if (parameters.get(key).defined())
+        throw PluginError(fmt::format(
+            "{}: its parameter '{}' has a name that scenes take for every {}; rename it in the "
+            "plugin",
+            detail::plugin_label(kPluginKind<T>, node, object.get()), key, kPluginKind<T>));
     record = YamlDocument(resolved);
     return object;
+  }
+
+  /// Makes a plugin and wraps it into a class that checks it and names it in messages.
+  template <class Checked, class T>
+  std::unique_ptr<T> make_checked(const ConfigNode& node, std::vector<std::string> also_allowed,
+                                  YamlDocument& record) {
+    auto object = make<T>(node, std::move(also_allowed), record);
+    std::string who = detail::plugin_label(kPluginKind<T>, node, object.get());
+    return std::make_unique<Checked>(std::move(object), std::move(who));
   }
 
   SceneFile file_;
@@ -64,6 +85,13 @@ std::string text_of(const ConfigNode& node, std::string_view key, std::string ot
   if (!value.is_scalar() || value.is_null() || value.scalar().empty())
     throw ConfigError(fmt::format("{}: {} must be a word", value.where(), key));
   return value.scalar();
+}
+
+/// Returns a text for messages, without control characters.
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 32 || c == 127; }, '?');
+  return text;
 }
 
 struct WeightParam {
@@ -91,11 +119,14 @@ void Opening::models() {
     YamlDocument record;
     std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
-    if (name.find_first_of(". ,\"\n") != std::string::npos)
+    const auto allowed = [](unsigned char c) {
+      return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;  // the rest of UTF-8
+    };
+    if (!std::ranges::all_of(name, allowed))
       throw ConfigError(
-          fmt::format("{}: the name '{}' may not contain dots, commas, quotes or "
-                      "spaces",
-                      node.get("name").where(), name));
+          fmt::format("{}: the name '{}' of a model holds other characters than "
+                      "letters, digits, '_' and '-'",
+                      node.get("name").where(), printable(name)));
     const auto same = [&](const auto& other) { return other.first == name; };
     if (std::any_of(models.begin(), models.end(), same))
       throw ConfigError(fmt::format("{}: two models are called '{}'; give each a `name` of its own",
@@ -112,8 +143,11 @@ void Opening::source() {
   if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
   YamlDocument record;
   auto made = make<Source>(file_.source, {}, record);
-  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene,
-                                         text_of(file_.source, "type", "")),
+  std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());
+  std::string plugin =
+      fmt::format("{}: source '{}'", file_.source.where(), text_of(file_.source, "type", ""));
+  source(std::make_unique<CheckedSource>(std::move(made), *session_.scene, std::move(plugin),
+                                         std::move(who)),
          record.text());
 }
 
@@ -135,7 +169,7 @@ void Opening::objective() {
     YamlDocument record;
     ObjectiveTerm term;
     term.name = text_of(node, "type", "");
-    term.objective = make<Objective>(node, {"weight"}, record);
+    term.objective = make_checked<CheckedObjective, Objective>(node, {"weight"}, record);
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
     record.set_plain("weight", fmt::format("{}", term.weight));
@@ -162,6 +196,8 @@ void Opening::images() {
 void Opening::optimizer() {
   YamlDocument record;
   session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
+  session_.parts.optimizer_label =
+      detail::plugin_label(kPluginKind<Optimizer>, file_.optimizer, session_.parts.optimizer.get());
   record_.set("optimizer", record);
 }
 
@@ -172,7 +208,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
-      all.push_back(make<Start>(node, {}, record));
+      all.push_back(make_checked<CheckedStart, Start>(node, {}, record));
     } catch (const DataError& e) {
       if (from.scalar() != kStartAuto) throw;
       session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
@@ -232,7 +268,7 @@ void Opening::start() {
 void Opening::outputs() {
   const auto add = [&](const ConfigNode& node) {
     YamlDocument record;
-    auto output = make<Output>(node, {}, record);
+    auto output = make_checked<CheckedOutput, Output>(node, {}, record);
     session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
     return record;
   };

@@ -21,7 +21,7 @@ struct PoseParams {
   ConfigNode directions, angles;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
-      {.help = "x y z in the world", .min = -1e9, .max = 1e9, .unit = "mm", .to_si = kMillimetre});
+      {.help = "x y z in the world", .min = -1e6, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
     v("rotation_deg", rotation,
       {.help = "rotation vector: axis times angle",
        .min = -1e6,

@@ -1,14 +1,12 @@
 #include "track/frame_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
+#include "plugin/plugin_call.hpp"
 #include "track/search_cost.hpp"
 
 namespace hypotrack {
@@ -36,7 +34,8 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
                       ? std::make_optional<StillBackground>(scene, parts.cameras)
                       : std::nullopt),
       cost_(make_cost(scene, parts.objective, parts.evaluate, requirements_of(parts))),
-      optimizer_(std::move(parts.optimizer)) {}
+      optimizer_(std::move(parts.optimizer)),
+      optimizer_label_(parts.optimizer_label) {}
 
 void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
   const std::vector<bool>& moves = moving.empty() ? models : moving;
@@ -94,18 +93,26 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
   return states.col(best);
 }
 
+OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& region,
+                                      const Budget& budget, std::uint64_t seed) {
+  const detail::RunningPlugin running(optimizer_label_.c_str());
+  OptimizerResult answer;
+  try {
+    answer = optimizer_->minimize(cost, region, budget, seed);
+  } catch (...) {
+    if (cost.tally().failed) throw;
+    detail::rethrow_from(optimizer_label_);
+  }
+  check_answer(answer, cost.tally(), region, budget, optimizer_label_);
+  return answer;
+}
+
 Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
   const Eigen::VectorXd posed = drawn(prior);
   RecordedSearch* record = record_ ? &record_->emplace_back() : nullptr;
   SearchCost cost(*cost_, space_, posed, record);
-  const OptimizerResult result =
-      optimizer_->minimize(cost, space_.region(posed, reach), budget, seed);
-  if (!result.point.allFinite() || std::isnan(result.cost))
-    throw PluginError(
-        fmt::format("the optimizer's answer of cost {} has numbers that are none; this is a bug in "
-                    "the optimizer",
-                    result.cost));
+  const OptimizerResult result = minimize(cost, space_.region(posed, reach), budget, seed);
   Found found{space_.states(result.point, posed), result.cost, result.evaluations};
   if (record) {
     record->state = found.state;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cost/cost.hpp"
@@ -17,6 +18,8 @@
 #include "track/tracker_parts.hpp"
 
 namespace hypotrack {
+
+class SearchCost;
 
 /// The result of a search.
 struct Found {
@@ -87,6 +90,9 @@ class FrameSearch {
   ColorMap second_view_colors() const { return photometric_.colors(1); }
 
  private:
+  /// Calls the optimizer and checks its answer. Throws PluginError, naming it.
+  OptimizerResult minimize(SearchCost& cost, const SearchRegion& region, const Budget& budget,
+                           std::uint64_t seed);
   Eigen::Vector3d some_position(const Eigen::VectorXd& state) const;
 
   const Scene& scene_;
@@ -99,6 +105,7 @@ class FrameSearch {
   std::optional<StillBackground> background_;  ///< if any term reads it
   std::unique_ptr<Cost> cost_;
   std::unique_ptr<Optimizer> optimizer_;
+  std::string optimizer_label_;
   TilePlan plan_;                                  ///< of the last frame
   std::vector<RecordedSearch>* record_ = nullptr;  ///< receives searches; null: nothing does
 };

@@ -11,6 +11,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
+#include "plugin/plugin_call.hpp"
 #include "track/tangent.hpp"
 #include "track/term_maps.hpp"
 
@@ -62,6 +63,17 @@ Status worst(const std::vector<Status>& models) {
 /// frame and the 4th, 16th, 64th, ...
 bool is_time_to_search(unsigned frames) {
   return std::has_single_bit(frames + 1) && std::countr_zero(frames + 1) % 2 == 0;
+}
+
+/// Calls a function and names the frame in what it throws, and if it crashes.
+template <class Function>
+void naming(const Frame& frame, const Function& function) {
+  const detail::RunningFrame running(frame.index);
+  try {
+    function();
+  } catch (...) {
+    detail::rethrow_from(fmt::format("frame {}", frame.index));
+  }
 }
 
 /// Subtracts the evaluations of fixed-lag smoothing from a search's budget. Throws ConfigError if
@@ -144,7 +156,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
   if (uncertainty_) solution.sigma.setConstant(std::ssize(scene_.landmark_names()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    find(frame, solution, record);
+    naming(frame, [&] { find(frame, solution, record); });
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
@@ -491,8 +503,10 @@ void SceneTracker::search_anew() {
 }
 
 void SceneTracker::check(const Frame& frame) {
-  finder_.search().take_in(finder_.search().tiles(), frame,
-                           finder_.search().tiles().plan(frame, state_));
+  naming(frame, [&] {
+    finder_.search().take_in(finder_.search().tiles(), frame,
+                             finder_.search().tiles().plan(frame, state_));
+  });
 }
 
 std::string SceneTracker::problem_of_start(const Frame& frame) const {

@@ -13,20 +13,29 @@ void add_to(RecordedSearch* record, const Eigen::MatrixXd& states, const Eigen::
 class SearchDifferences final : public ResidualDifferences {
  public:
   SearchDifferences(std::unique_ptr<ResidualDifferences> of_states, const SearchSpace& space,
-                    const Eigen::VectorXd& prior, RecordedSearch* record)
-      : of_states_(std::move(of_states)), space_(space), prior_(prior), record_(record) {}
+                    const Eigen::VectorXd& prior, RecordedSearch* record, SearchTally& tally)
+      : of_states_(std::move(of_states)),
+        space_(space),
+        prior_(prior),
+        record_(record),
+        tally_(tally) {}
 
   void evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                 Eigen::Ref<Eigen::VectorXd> costs) override {
     const Eigen::MatrixXd states = space_.states(points, prior_);
-    of_states_->evaluate(states, costs);
+    tally_.count(states.cols(), [&] { of_states_->evaluate(states, costs); });
+    tally_.add(costs);
     add_to(record_, states, costs);
   }
   void move_to(Eigen::Index i) override { of_states_->move_to(i); }
   NormalEquations normal_equations(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                    const Eigen::Ref<const Eigen::VectorXd>& scale,
                                    Eigen::Ref<Eigen::VectorXd> costs) override {
-    return of_states_->normal_equations(space_.states(points, prior_), scale, costs);
+    const Eigen::MatrixXd states = space_.states(points, prior_);
+    NormalEquations sums = tally_.count(
+        states.cols(), [&] { return of_states_->normal_equations(states, scale, costs); });
+    tally_.add(costs);
+    return sums;
   }
 
  private:
@@ -34,6 +43,7 @@ class SearchDifferences final : public ResidualDifferences {
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
   RecordedSearch* record_;
+  SearchTally& tally_;
 };
 
 }  // namespace
@@ -41,13 +51,15 @@ class SearchDifferences final : public ResidualDifferences {
 void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::VectorXd> costs) {
   const Eigen::MatrixXd states = space_.states(points, prior_);
-  cost_.evaluate(states, costs);
+  tally_.count(states.cols(), [&] { cost_.evaluate(states, costs); });
+  tally_.add(costs);
   add_to(record_, states, costs);
 }
 
 cuda::DeviceCost* SearchCost::device() {
   cuda::DeviceCost* device = cost_.device(space_.rotation_vectors() ? &prior_ : nullptr);
   if (record_ && device) record_->on_device = true;
+  tally_.on_device = tally_.on_device || device;
   return device;
 }
 
@@ -55,18 +67,20 @@ void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::MatrixXf> residuals,
                           Eigen::Ref<Eigen::VectorXd> costs) {
   const Eigen::MatrixXd states = space_.states(points, prior_);
-  cost_.least_squares()->evaluate(states, residuals, costs);
+  tally_.count(states.cols(), [&] { cost_.least_squares()->evaluate(states, residuals, costs); });
+  tally_.add(costs);
   add_to(record_, states, costs);
 }
 
 std::unique_ptr<ResidualDifferences> SearchCost::differences() {
   return std::make_unique<SearchDifferences>(cost_.least_squares()->differences(), space_, prior_,
-                                             record_);
+                                             record_, tally_);
 }
 
 NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                       const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) {
-  return cost_.least_squares()->linearize(space_.states(points, prior_), steps, blur);
+  const Eigen::MatrixXd states = space_.states(points, prior_);
+  return tally_.count(1, [&] { return cost_.least_squares()->linearize(states, steps, blur); });
 }
 
 std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbourhood> points) {

@@ -7,6 +7,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/search_record.hpp"
 #include "track/search_space.hpp"
+#include "track/search_tally.hpp"
 
 namespace hypotrack {
 
@@ -18,6 +19,9 @@ class SearchCost final : public CostFunction, public ResidualCost {
   SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior,
              RecordedSearch* record = nullptr)
       : cost_(cost), space_(space), prior_(prior), record_(record) {}
+
+  /// Returns what was evaluated so far.
+  const SearchTally& tally() const { return tally_; }
 
   // CostFunction
   int dimension() const override { return space_.dimension(); }
@@ -41,6 +45,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
   const SearchSpace& space_;
   const Eigen::VectorXd& prior_;
   RecordedSearch* record_;
+  SearchTally tally_;
 };
 
 }  // namespace hypotrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "cost/cost.hpp"
@@ -33,6 +34,7 @@ struct TrackerParts {
   std::vector<std::unique_ptr<Start>> starts = {};
   /// True if they also look for models that were never seen: no start gives a state.
   bool begins_by_looking = false;
+  std::string optimizer_label = "the optimizer";  ///< plugin_label() of the optimizer, for messages
 };
 
 /// Returns what the search, the uncertainty and fixed-lag smoothing require of the cost.

@@ -13,7 +13,18 @@ Vector3d file_point(const Rigging& r, const std::vector<double>& point, const st
   }
   Vector3d p = Eigen::Map<const Vector3d>(point.data()) * r.rig.scale;
   if (r.rig.side == Side::left) p.x() = -p.x();
-  return r.hand_from_file * p;
+  p = r.hand_from_file * p;
+  const auto& vertices = r.in.mesh.vertices;
+  const Vector3d low = vertices.rowwise().minCoeff().cast<double>();
+  const Vector3d high = vertices.rowwise().maxCoeff().cast<double>();
+  const double size = (high - low).norm();
+  if (!((p - (low + high) / 2).norm() <= 2 * size)) {
+    r.fail(
+        fmt::format("{} is {:.3g} m from the middle of the mesh, which is {:.3g} m long; expected "
+                    "a point of the hand, in the file's units",
+                    key, (p - (low + high) / 2).norm(), size));
+  }
+  return p;
 }
 
 /// Returns the vertex farthest from `joint` among those that mostly follow a bone of the rig.

@@ -29,6 +29,7 @@ class DepthFromStereo final : public Source {
   const std::vector<Camera>& cameras() const override { return cameras_; }
   double frame_rate() const override { return source_->frame_rate(); }
   std::optional<int> frame_count() const override { return source_->frame_count(); }
+  bool live() const override { return source_->live(); }
   std::vector<std::string> notes() const override { return source_->notes(); }
   std::vector<std::string> statistics() const override { return source_->statistics(); }
 

@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestList = std::uintmax_t{64} << 20;
 constexpr std::string_view kBlank = " \t\r,";
+constexpr double kLatest = 1e11;  // seconds; doubles still tell milliseconds apart
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
@@ -61,7 +62,7 @@ TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   const std::string_view name = trimmed(rest);
   const bool apart = !rest.empty() && kBlank.find(rest.front()) != std::string_view::npos;
-  if (failure != std::errc{} || !std::isfinite(image.time) || !apart || name.empty()) {
+  if (failure != std::errc{} || !(std::abs(image.time) <= kLatest) || !apart || name.empty()) {
     throw DataError(fmt::format(
         "{}: '{}' is not understood; expected a time in seconds and a file name, such as "
         "1305031102.175304 rgb/1305031102.175304.png",

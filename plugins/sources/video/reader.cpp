@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
@@ -56,7 +57,8 @@ bool VideoReader::grab_and_retrieve(cv::Mat& frame) {
     if (decoded.type() != CV_8UC3) return false;
     frame = decoded.clone();  // the decoder reuses its memory for the next frame
     return true;
-  } catch (const cv::Exception&) {
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem) throw std::bad_alloc();
     return false;
   }
 }
@@ -76,7 +78,17 @@ VideoReader::Result VideoReader::next(cv::Mat& frame) {
   }
   ++failures_;
   const bool more_promised = position_ <= frame_count_ - kPromised;
+  if (!more_promised && frames_at_end_ < 0) frames_at_end_ = position_ - failures_;
   return more_promised ? Result::damaged : Result::end;
+}
+
+std::string VideoReader::problem_of_end() const {
+  constexpr int kUsual = 1;  // frames too many in sound files
+  if (frames_at_end_ < 0 || frames_at_end_ + kUsual >= frame_count_) return {};
+  return fmt::format(
+      "{}: ends after {} frames, its header says {}; the file may be cut off: copy or convert it "
+      "again",
+      name_, frames_at_end_, frame_count_);
 }
 
 }  // namespace hypotrack

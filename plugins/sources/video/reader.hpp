@@ -26,6 +26,10 @@ class VideoReader {
   /// promise more than they hold.
   Result next(cv::Mat& frame);
 
+  /// Returns a note for the user if the video ended well before the number of frames that its
+  /// header says; empty otherwise.
+  std::string problem_of_end() const;
+
  private:
   bool grab_and_retrieve(cv::Mat& frame);
 
@@ -37,7 +41,8 @@ class VideoReader {
   double frame_rate_ = 0;
   int frame_count_ = 0;
   int position_ = 0;
-  int failures_ = 0;  ///< in a row
+  int failures_ = 0;        ///< in a row
+  int frames_at_end_ = -1;  ///< number of frames, once the end was met
 };
 
 }  // namespace hypotrack

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/calibration.hpp"
@@ -106,6 +107,15 @@ class Video : public Source {
     return count;
   }
 
+  std::vector<std::string> statistics() const override {
+    std::vector<std::string> lines;
+    for (const VideoReader& reader : readers_) {
+      if (std::string problem = reader.problem_of_end(); !problem.empty())
+        lines.push_back(std::move(problem));
+    }
+    return lines;
+  }
+
   std::optional<Frame> next() override {
     if (params_.count && index_ == *params_.count) return std::nullopt;
     if (index_ > 0) {
@@ -185,8 +195,9 @@ class Video : public Source {
     for (std::size_t v = 0; v < images.size(); ++v) {
       const cv::Mat& image = images[v];
       if (image.cols != cameras_[v].width || image.rows != cameras_[v].height) {
-        frame.problem = fmt::format("view {}: the frame is {}x{} pixels; expected {}x{}", v,
-                                    image.cols, image.rows, cameras_[v].width, cameras_[v].height);
+        frame.problem = fmt::format("{}: the frame is {}x{} pixels; expected {}x{} as its camera",
+                                    files_[split_ ? 0 : v].string(), image.cols, image.rows,
+                                    cameras_[v].width, cameras_[v].height);
         frame.views.clear();
         return;
       }

@@ -76,13 +76,13 @@ void check_help(const std::string& help, const std::string& dump) {
   }
 }
 
-bool has_word(const std::string& text, const std::string& wanted) {
-  std::istringstream words(text);
-  return std::find(std::istream_iterator<std::string>(words), {}, wanted) !=
+}  // namespace
+
+bool Subject::claims(const std::string& capability) const {
+  std::istringstream words(capabilities);
+  return std::find(std::istream_iterator<std::string>(words), {}, capability) !=
          std::istream_iterator<std::string>();
 }
-
-}  // namespace
 
 ConfigNode Subject::config() const {
   if (config_file.empty()) return ConfigNode::parse("type: " + name, "contract.yaml");
@@ -106,7 +106,7 @@ bool check_library(Report& report, Subject& subject) {
   report.row("library gives version, summary and licence", [&] { check_texts(*plugin); });
   if (!report.passed()) return false;
   subject.name = plugin->name;
-  subject.needs_device = has_word(plugin->capabilities, "needs_device");
+  subject.capabilities = plugin->capabilities;
   subject.loader = std::make_unique<PluginLoader>(
       std::vector{std::filesystem::absolute(subject.library).parent_path()});
   return true;
@@ -119,7 +119,7 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config)
     try {
       subject.make<T>(subject.config(), &dump);
     } catch (const DeviceError& error) {
-      if (!subject.needs_device) throw;
+      if (!subject.claims("needs_device")) throw;
       throw Skipped(error.what());
     } catch (const ConfigError& error) {
       const std::string advice =

@@ -183,6 +183,10 @@ void check_slopes(const Setting& setting) {
 
 void check_objective(Report& report, const Subject& subject) {
   if (!check_parameters<Objective>(report, subject)) return;
+  report.row("it has what its capabilities claim", [&] {
+    require(subject.make<Objective>()->residual_term() || !subject.claims("residuals"),
+            "they claim residuals, and residual_term() is null");
+  });
   std::vector<Setting> settings;
   report.row("it takes observations in or refuses them with a DataError", [&] {
     settings = make_settings(subject);

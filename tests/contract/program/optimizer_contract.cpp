@@ -33,7 +33,7 @@ struct Run {
 /// Searches; evaluates the same costs on the device if the optimizer needs one.
 OptimizerResult minimize(const Subject& subject, Optimizer& optimizer, RecordingCost& cost,
                          const SearchRegion& region, const Budget& budget, std::uint64_t seed) {
-  if (!subject.needs_device) return optimizer.minimize(cost, region, budget, seed);
+  if (!subject.claims("needs_device")) return optimizer.minimize(cost, region, budget, seed);
   test::DeviceTwin twin(cost);
   return optimizer.minimize(twin, region, budget, seed);
 }
@@ -169,7 +169,7 @@ void check_exceptions_of_device(const Subject& subject) {
 }
 
 void check_exceptions(const Subject& subject) {
-  if (subject.needs_device) return check_exceptions_of_device(subject);
+  if (subject.claims("needs_device")) return check_exceptions_of_device(subject);
   const SearchRegion region = test::tracking_region(27);
   const auto smooth = test::sphere(region, test::hidden_target(region, 5));
   for (const int when : {0, 20}) {
@@ -256,7 +256,12 @@ void check_residuals(const Subject& subject) {
 
 void check_optimizer(Report& report, const Subject& subject) {
   if (!check_parameters<Optimizer>(report, subject)) return;
-  if (subject.needs_device && !check_device(report, subject)) return;
+  if (subject.claims("needs_device") && !check_device(report, subject)) return;
+  report.row("it needs what its capabilities claim", [&] {
+    require(subject.make<Optimizer>()->requirements().least_squares ||
+                !subject.claims("needs_least_squares"),
+            "they claim needs_least_squares, and requirements().least_squares is false");
+  });
   report.row("a cost without residuals is refused where they are needed",
              [&] { check_residuals(subject); });
   report.row("the default budget is at least one evaluation", [&] {

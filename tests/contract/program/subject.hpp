@@ -16,10 +16,12 @@ struct Subject {
   std::filesystem::path library;
   std::filesystem::path config_file;  ///< parameters as in a scene; empty: the defaults
   std::string name;                   ///< from the library, once its descriptor was checked
-  bool needs_device = false;          ///< likewise: whether it has this capability
+  std::string capabilities;           ///< likewise
   std::unique_ptr<PluginLoader> loader;
   std::unique_ptr<Scene> scene;
 
+  /// Returns whether the plugin says that it has a capability.
+  bool claims(const std::string& capability) const;
   /// Returns the parameters with the plugin's `type`.
   ConfigNode config() const;
   /// Returns config() with one more line of YAML.

@@ -269,8 +269,8 @@ TEST_F(CalibrationFormats, DamagedFilesEndWithAnErrorOrValidCameras) {
     CalibrationSettings settings = file("damaged", text);
     settings.any_baseline = true;
     try {
-      for (Camera& camera : load_calibration(settings, {1280, 720})) {
-        if (camera.width == 0) camera.width = camera.height = 1;
+      for (const Camera& camera : load_calibration(settings, {1280, 720})) {
+        if (camera.width == 0) continue;
         EXPECT_NO_THROW(validate(camera, "camera")) << text;
       }
     } catch (const DataError& e) {

@@ -246,10 +246,46 @@ TEST_F(Calibration, SaysWhichMatrixIsBadAndWhere) {
               ThrowsMessage<DataError>(HasSubstr("a camera has no 'nmae'; expected name, ")));
 }
 
+TEST_F(Calibration, RefusesNumbersThatSuitNoImage) {
+  const auto with = [&](const std::string& old, const std::string& by) {
+    return loading(rig(replaced(kRig, old, by)));
+  };
+  EXPECT_THAT(with("[700, 0, 640,", "[700, 0, 1e40,"),
+              ThrowsMessage<DataError>(AllOf(
+                  HasSubstr("rig.yml: camera 0: the principal point's cx is 1e+40 pixels for an "
+                            "image of 1280x720; expected -6400 to 6400"))));
+  EXPECT_THAT(with("[0, 301, 240]", "[0, 301, -1e9]"),
+              ThrowsMessage<DataError>(HasSubstr("camera 1: the principal point's cy is -1e+09")));
+  EXPECT_THAT(
+      with("[700, 0, 640,", "[1e9, 0, 640,"),
+      ThrowsMessage<DataError>(HasSubstr("camera 0: the focal length fx is 1e+09 pixels for "
+                                         "an image of 1280x720; expected 128 to 128000")));
+  EXPECT_THAT(with("[0, 301, 240]", "[0, 1, 240]"),
+              ThrowsMessage<DataError>(HasSubstr("camera 1: the focal length fy is 1 pixels")));
+  EXPECT_THAT(
+      with("D: [0.01,", "D: [1e100,"),
+      ThrowsMessage<DataError>(AllOf(HasSubstr("rig.yml: camera 1: the distortion (1e+100, "),
+                                     HasSubstr("moves pixel (0, 0) by"))));
+  CalibrationSettings far = rig(replaced(kRig, "T: [-12, 0, 0]", "T: [1e40, 0, 0]"));
+  far.any_baseline = true;
+  EXPECT_THAT(loading(far), ThrowsMessage<DataError>(HasSubstr(
+                                "rig.yml: camera 1: T puts the camera 1e+38 m from the origin")));
+}
+
+TEST_F(Calibration, RefusesNumbersThatDoNotSuitTheFirstImage) {
+  std::vector<Camera> cameras = load_calibration(stereo());
+  EXPECT_THAT(
+      [&] { fit_image_size(cameras[0], 6400, 4800, "left.png"); },
+      ThrowsMessage<DataError>(HasSubstr("the calibration for left.png: the focal length fx "
+                                         "is 530 pixels for an image of 6400x4800")));
+}
+
 TEST_F(Calibration, SaysWhatItDoesNotRead) {
   CalibrationSettings settings;
   settings.file = folder_.path() / "none.yml";
   EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("no such file")));
+  settings.file = "/dev/zero";
+  EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("/dev/zero: is a device; ")));
   settings.file = write("camera.xml", "<?xml version=\"1.0\"?><opencv_storage/>");
   EXPECT_THAT(loading(settings), ThrowsMessage<DataError>(HasSubstr("is XML or compressed")));
   settings.file = write("other.yml", "cam0: {a: 1}\n");
@@ -306,8 +342,8 @@ TEST_F(Calibration, EndsWithAnErrorOrValidCamerasWhateverBytesAreDamaged) {
     }
     CalibrationSettings settings = rig(text);
     try {
-      for (Camera& camera : load_calibration(settings)) {
-        if (camera.width == 0) camera.width = camera.height = 1;
+      for (const Camera& camera : load_calibration(settings)) {
+        if (camera.width == 0) continue;
         EXPECT_NO_THROW(validate(camera, "camera")) << text;
       }
     } catch (const DataError& e) {

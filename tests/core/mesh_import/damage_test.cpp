@@ -17,6 +17,9 @@ class DamagedMesh : public ::testing::Test {
   std::string error(const char* name, std::string_view bytes) {
     return import_error(write_file(folder_.path() / name, bytes));
   }
+  bool reads(const char* name, std::string_view bytes) {
+    return import_mesh(write_file(folder_.path() / name, bytes)).mesh.triangles.cols() == 1;
+  }
   TemporaryDirectory folder_;
 };
 
@@ -34,7 +37,8 @@ TEST_F(DamagedMesh, NanVertexIsNamed) {
   EXPECT_THAT(error("a.glb", glb(content)),
               AllOf(HasSubstr("vertex 2 of mesh"), HasSubstr("every coordinate must be finite")));
   EXPECT_THAT(error("a.obj", "v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n"),
-              HasSubstr("every coordinate must be finite"));
+              HasSubstr("a.obj: the OBJ file is damaged: line 3: v 'nan' is no number: every "
+                        "coordinate must be finite"));
 }
 
 TEST_F(DamagedMesh, WeightsThatAreNoneLeaveTheirVertexWithoutABone) {
@@ -64,7 +68,37 @@ TEST_F(DamagedMesh, IndexOutOfRangeIsNamed) {
   content.indices[4] = 999;
   EXPECT_THAT(error("a.glb", glb(content)),
               HasSubstr("1 of its 4 triangles name vertices that are not there"));
-  EXPECT_THAT(error("a.obj", obj() + "f 1 2 99\n"), HasSubstr("the mesh could not be read"));
+  EXPECT_THAT(error("a.obj", obj() + "f 1 2 99\n"),
+              HasSubstr("line 9: the face names vertex 99, but there are 4"));
+}
+
+TEST_F(DamagedMesh, AnObjThatIsDamagedIsRefusedWithItsLine) {
+  const std::string start = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  const auto of_face = [&](const std::string& end) { return error("a.obj", start + end); };
+  EXPECT_THAT(of_face("f 1 2"), HasSubstr("line 6: the face has 2 corners, expected three"));
+  EXPECT_THAT(of_face("f 1/1 2/1 3/"), HasSubstr("'3/' names no texture coordinate"));
+  EXPECT_THAT(of_face("f 1//1 2//1 3//1x\n"), HasSubstr("'3//1x' names no normal"));
+  EXPECT_THAT(of_face("f 1/1 2/1 3/999999999999\n"),
+              HasSubstr("line 6: the face names texture coordinate 999999999999, but there are 1"));
+  EXPECT_THAT(of_face("f 1 2 99999999999999999999\n"), HasSubstr("names no vertex"));
+  EXPECT_THAT(of_face("f 1 2 -4\n"), HasSubstr("'-4' names no vertex"));
+  EXPECT_THAT(of_face("vt nan 0\nf 1 2 3\n"), HasSubstr("line 6: vt 'nan' is no number"));
+  EXPECT_THAT(of_face("f 1 2 3\nv 0 1"), HasSubstr("line 7: v has 2 numbers, expected 3"));
+  EXPECT_TRUE(reads("a.obj", start + "# f 1\nf -3/-1/-1 2//1 \\\n 3/1 \r\n"));
+}
+
+TEST_F(DamagedMesh, AnStlOfTextThatIsCutIsRefusedWithItsLine) {
+  const std::string facet =
+      "facet normal 0 0 1\n outer loop\n  vertex 0 0 0\n  vertex 1 0 0\n  vertex 0 1 0.25\n"
+      " endloop\nendfacet\n";
+  const std::string whole = "solid made up\n" + facet + "endsolid made up\n";
+  EXPECT_TRUE(reads("a.stl", whole));
+  for (const char* cut : {"0.25", "vertex 0 1", "endfacet", "endsolid"}) {
+    const auto problem = error("a.stl", whole.substr(0, whole.find(cut) + 2));
+    EXPECT_THAT(problem, HasSubstr("a.stl: the STL file is damaged: line ")) << cut;
+  }
+  EXPECT_THAT(error("a.stl", std::string(whole).replace(whole.find("0.25"), 4, "1e999")),
+              HasSubstr("line 6: vertex '1e999' is no number"));
 }
 
 TEST_F(DamagedMesh, TruncatedFilesAreToldFromTheirLength) {

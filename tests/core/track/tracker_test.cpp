@@ -66,6 +66,8 @@ class Sampling final : public Optimizer {
     Eigen::MatrixXd points(cost.dimension(), budget.evaluations);
     for (auto& x : points.reshaped()) x = 0.3 * normal(random);
     points = (points.array().colwise() * region.spread.array()).matrix().colwise() + region.start;
+    points = points.cwiseMax(region.lower.replicate(1, points.cols()))
+                 .cwiseMin(region.upper.replicate(1, points.cols()));
     points.col(0) = region.start;
     Eigen::VectorXd costs(points.cols());
     cost.evaluate(points, costs);

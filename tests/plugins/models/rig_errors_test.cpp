@@ -87,6 +87,8 @@ TEST(RigErrors, BonesNeedALengthAndAFlexionAxisAcrossIt) {
               HasSubstr("bone 'middle_2' needs a `joint`"));
   EXPECT_THAT(error_after("end: middle_2", "end_at: [0, 1]"),
               HasSubstr("`end_at` of bone 'middle_1' has 2 numbers instead of three"));
+  EXPECT_THAT(error_after("end: middle_2", "end_at: [0, 999999999999, 0]"),
+              HasSubstr("`end_at` of bone 'middle_1' is 1e+12 m from the middle of the mesh"));
 }
 
 TEST(RigErrors, ParametersAndLandmarksAreChecked) {

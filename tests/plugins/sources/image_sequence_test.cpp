@@ -426,10 +426,10 @@ TEST_F(ImageSequence, SaysThatTheCalibrationDoesNotFit) {
   calibrate(64, 48, 3);
   EXPECT_THAT(making(numbered()),
               ThrowsMessage<DataError>(HasSubstr("holds 3 cameras, the source has 2 views")));
-  calibrate(640, 480, 2);
+  calibrate(320, 240, 2);
   EXPECT_THAT(making(numbered()),
               ThrowsMessage<DataError>(HasSubstr(
-                  "the image is 64x48 pixels, but its camera is calibrated for 640x480")));
+                  "the image is 64x48 pixels, but its camera is calibrated for 320x240")));
   calibrate(64, 48, 2);
   write("right_0005.png", "no picture");
   EXPECT_THAT(making(numbered()), ThrowsMessage<DataError>(HasSubstr("no image can be read: ")));

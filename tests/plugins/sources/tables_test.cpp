@@ -144,6 +144,8 @@ TEST_F(Tables, SayWhatIsWrongAndWhere) {
               error("table.csv:3: column 'box.position_y' holds 'x'; expected a number"));
   EXPECT_THAT(reading(kHeader + "\n0,,1,1,0,0,0\n"), error("holds ''; expected a number"));
   EXPECT_THAT(reading(kHeader + "\n0,nan,1,1,0,0,0\n"), error("expected a finite number"));
+  EXPECT_THAT(reading(kHeader + "\n0,1e308,1,1,0,0,0\n"),
+              error("'box.position_y' is 1e+308; expected a finite number, 1e+06 at most"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,1.5\n"), error("the frame number is 1.5"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,-1\n"), error("the frame number is -1"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,1\n0,0,1,1,0,0,0,1\n"),
@@ -156,7 +158,15 @@ TEST_F(Tables, SayWhatIsWrongAndWhere) {
                     "scene's 7 parameters; did you mean 'box.positoin_y'?"));
   EXPECT_THAT(reading(std::string("a,b\n\0,1\n", 8)), error("NUL character"));
   EXPECT_THAT([&] { read_states(folder_.path() / "none.csv", scene); }, error("no such file"));
-  EXPECT_THAT([&] { read_states(folder_.path(), scene); }, error("no such file"));
+  EXPECT_THAT([&] { read_states(folder_.path(), scene); }, error("is a folder"));
+}
+
+TEST_F(Tables, HoldNoLandmarkFartherThanAModelIsDrawn) {
+  write("a_x,a_y,a_z\n0,0,1\n0,-1e308,1\n");
+  const std::vector<std::string> names{"a"};
+  EXPECT_THAT([&] { read_landmarks(file_, names); },
+              ThrowsMessage<DataError>(AllOf(HasSubstr("table.csv:3: 'a' is (0, -1e+308, 1)"),
+                                             HasSubstr("metres up to 1e+06"))));
 }
 
 TEST_F(Tables, DoNotGuessWhichModelAShortNameMeans) {

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <iterator>
 #include <opencv2/videoio.hpp>
 
 #include "expect_error.hpp"
@@ -163,6 +165,25 @@ TEST_F(Video, ReportsDamagedFramesAndGoesOn) {
     ASSERT_LE(++frames, 20);
   }
   EXPECT_GE(frames, 8);
+}
+
+TEST_F(Video, SaysThatAFileEndsBeforeItsHeaderSays) {
+  const std::string one = "type: video\nside_by_side: both.avi\ncalibration: {file: rig.yml}\n";
+  const auto statistics_of = [&] {
+    const auto source = make(one);
+    while (source->next()) EXPECT_THAT(source->statistics(), testing::IsEmpty());
+    return source->statistics();
+  };
+  write_video("both.avi", 7, {0, 1});
+  EXPECT_THAT(statistics_of(), testing::IsEmpty());
+  std::ifstream in(file("both.avi"), std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  std::size_t fifth = bytes.find("movi");
+  for (int i = 0; i < 5; ++i) fifth = bytes.find("00dc", fifth + 1);
+  std::filesystem::resize_file(file("both.avi"), fifth);
+  EXPECT_THAT(statistics_of(), testing::ElementsAre(HasSubstr(
+                                   "both.avi: ends after 4 frames, its header says 7; the file may "
+                                   "be cut off")));
 }
 
 TEST_F(Video, SaysWhatItCannotUse) {

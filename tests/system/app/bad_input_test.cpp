@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <array>
 #include <csignal>
 #include <cstdint>
@@ -77,7 +79,8 @@ TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
   const std::vector<std::string> plugins{"--plugin-path",
                                          (build_dir() / "tests/broken_plugins").string()};
   const std::string bug = "this is a bug in the source";
-  expect_refused(with("no_cameras"), {"source 'broken' has no camera", bug}, plugins);
+  expect_refused(with("no_cameras"), {"scene.yaml:2:9: source 'broken' has no camera", bug},
+                 plugins);
   expect_refused(with("no_frame_rate"), {"source 'broken'", "0 frames per second", bug}, plugins);
   expect_refused(with("endless_frame_rate"), {"source 'broken'", "inf frames per second", bug},
                  plugins);
@@ -85,6 +88,11 @@ TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
   EXPECT_EQ(late.exit_code, 1);
   EXPECT_THAT(late.err, HasSubstr("frame 1 at 0 s follows frame 0 at 0 s, expected"));
   EXPECT_THAT(late.err, HasSubstr("holds the frames so far"));
+  std::filesystem::remove_all(path("out"));
+  EXPECT_THAT(
+      run(with("silent_gap"), plugins).err,
+      testing::ContainsRegex("frame 2: .*scene.yaml:2:9: source 'broken' gives no views and no "
+                             "reason; this is a bug"));
   std::filesystem::remove_all(path("out"));
   expect_refused(with("truth_of_another_scene"),
                  {"source 'broken', frame 0", "5 numbers in the true state, the scene has 7", bug},
@@ -96,9 +104,48 @@ TEST_F(BadInputTest, ASourceThatBreaksItsContract) {
 TEST_F(BadInputTest, ValuesOutOfRange) {
   expect_refused(replaced(box_scene(), "particles: 8", "particles: 0"),
                  {"scene.yaml:9:", "0 is out of range"});
+  expect_refused(replaced(box_scene(), "[20, 10, 420]", "[1e9, 10, 420]"),
+                 {"scene.yaml:7:", "1e9 is out of range"});
   expect_refused(box_scene() + "seed: -1\n", {"scene.yaml:13:", "-1 is out of range"});
   expect_refused(box_scene(), {"--set optimizer.particles=no", "expected an integer"},
                  {"--set", "optimizer.particles=no"});
+}
+
+TEST_F(BadInputTest, APipeThatNobodyWritesInto) {
+  const std::string pipe = path("pipe.yaml").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expect_refusal(run_program({"run", pipe, "--out", path("out").string()}),
+                 {pipe + ": is a pipe that nobody writes into; expected a YAML file"});
+}
+
+TEST_F(BadInputTest, ADeviceAsATable) {
+  expect_refused(
+      replaced(box_scene(), "init: {from: truth}", "init: {from: file, file: /dev/zero}"),
+      {"/dev/zero: is a device; expected a CSV table"});
+}
+
+TEST_F(BadInputTest, APluginFolderThatIsNotThere) {
+  const Outcome outcome = run(box_scene(), {"--plugin-path", path("nowhere").string()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("there is no folder '" + path("nowhere").string() + "'"));
+}
+
+TEST_F(BadInputTest, ModelNamesThatTablesAndOptionsCannotHold) {
+  for (const char* name : {"a=b", "a<b", "a/b", "a\\tb", "a.b", "a b"})
+    expect_refused(replaced(box_scene(), "name: box", "name: \"" + std::string(name) + "\""),
+                   {"scene.yaml:1:", "holds other characters than letters, digits, '_' and '-'"});
+}
+
+TEST_F(BadInputTest, APathThatRunYamlCouldNotHold) {
+  const std::filesystem::path folder = path("caf\xE9");
+  std::filesystem::create_directory(folder);
+  ASSERT_EQ(run_program({"synth", scene(box_scene()), "--out", (folder / "recording").string()})
+                .exit_code,
+            0);
+  expect_refusal(
+      run_program(
+          {"run", (folder / "recording/scene.yaml").string(), "--out", path("out").string()}),
+      {"caf?/recording", "is no UTF-8, which run.yaml cannot hold", "rename the file or folder"});
 }
 
 TEST_F(BadInputTest, AnObjectiveWithoutWeight) {
@@ -233,7 +280,7 @@ TEST_F(BadInputTest, WithoutMp4NothingIsWrittenAndTheWayOutIsSaid) {
   expect_refusal(run_program(start), {"overlay.mp4", "--set output.overlay=false"});
 }
 
-TEST_F(BadInputTest, AFullDiskIsReportedAndLeavesNoFinishedName) {
+TEST_F(BadInputTest, AFullDiskOrALimitOnFileSizesIsReportedAndLeavesNoFinishedName) {
   Start start;
   start.arguments = {"run", scene(box_scene()), "--out", path("out").string()};
   start.largest_file = 4096;

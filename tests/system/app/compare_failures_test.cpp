@@ -13,19 +13,20 @@ using testing::SizeIs;
 class CompareFailureTest : public CompareTest {
  protected:
   /// The study with a plugin in it that fails in the second frame.
-  static std::string failing(const std::string& how) {
+  static std::string failing(const std::string& how, int frames = 1) {
     return replaced(study(), "  optimizer.particles: [4, 8]\n",
                     "  method:\n"
                     "    good: {optimizer: {type: pso, particles: 4, generations: 2}}\n"
-                    "    bad: {optimizer: {type: failing, frames: 1, how: " +
-                        how + "}}\n");
+                    "    bad: {optimizer: {type: failing, frames: " +
+                        std::to_string(frames) + ", how: " + how + "}}\n");
   }
 
-  Outcome compare_failing(const std::string& how, const std::vector<std::string>& more = {}) const {
+  Outcome compare_failing(const std::string& how, const std::vector<std::string>& more = {},
+                          int frames = 1) const {
     std::vector<std::string> arguments{"--plugin-path",
                                        (build_dir() / "tests/plugin_fixtures/app").string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return compare(failing(how), "out", arguments);
+    return compare(failing(how, frames), "out", arguments);
   }
 
   /// A study that must be refused before anything is written.
@@ -56,8 +57,50 @@ TEST_F(CompareFailureTest, ACrashIsARowToo) {
   const auto results = lines_of(table("results.csv"));
   ASSERT_THAT(results, SizeIs(5));
 #ifndef __SANITIZE_ADDRESS__  // which turns the signal into an exit code
-  EXPECT_THAT(results[3], HasSubstr("ended by signal 11 (Segmentation fault)"));
+  EXPECT_THAT(results[3], AllOf(HasSubstr("frame 0: "), HasSubstr("optimizer 'failing'"),
+                                HasSubstr("ended by signal 11 (Segmentation fault)")));
 #endif
+}
+
+TEST_F(CompareFailureTest, ARunThatEndsBeforeItReportedFailedWhateverItsExitCode) {
+  for (const auto& [how, message] :
+       {std::pair{"exit", "ended the program by exit() before its work was done"},
+        std::pair{"underscore_exit", "ended with exit code 0 before its results were complete"},
+        std::pair{"interrupted_code", "ended with exit code 130"}}) {
+    std::filesystem::remove_all(path("out"));
+    const Outcome outcome = compare_failing(how);
+    EXPECT_EQ(outcome.exit_code, 3) << how << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("4 of 4 runs are there, 2 failed")) << how;
+    const auto results = lines_of(table("results.csv"));
+    ASSERT_THAT(results, SizeIs(5)) << how;
+    EXPECT_THAT(results[1], testing::StartsWith("box,good,1,ok,,"));
+    EXPECT_THAT(results[3], AllOf(testing::StartsWith("box,bad,1,failed,"), HasSubstr(message)));
+  }
+}
+
+TEST_F(CompareFailureTest, APluginThatEndsTheProgramIsFoundBeforeAnythingRuns) {
+  const Outcome outcome = compare_failing("exit", {}, -1);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("optimizer 'failing': ended the program by exit()"),
+                                 HasSubstr("while it was made"), HasSubstr("nothing was run")));
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+}
+
+TEST_F(CompareFailureTest, ARunThatNeverReturnsIsEndedAtTheTimeLimit) {
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"});
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+  const auto results = lines_of(table("results.csv"));
+  ASSERT_THAT(results, SizeIs(5));
+  for (const int bad : {3, 4})
+    EXPECT_THAT(results[static_cast<std::size_t>(bad)],
+                AllOf(HasSubstr(",failed,"), HasSubstr("did not end within 4 s (--time-limit)")));
+}
+
+TEST_F(CompareFailureTest, ACheckThatNeverReturnsIsEndedAtTheTimeLimit) {
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"}, -1);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("method bad: did not end within 4 s (--time-limit)"),
+                                 HasSubstr("nothing was run")));
 }
 
 TEST_F(CompareFailureTest, FailedRunsStayUnlessAskedForAgain) {

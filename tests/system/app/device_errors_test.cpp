@@ -50,7 +50,12 @@ TEST_F(LostDeviceTest, TheFilesHoldTheFramesBefore) {
 TEST_F(LostDeviceTest, TheReasonIsSaidOnce) {
   const Outcome outcome = run_lost(lost_after(2));
   const auto lines = lines_of(outcome.err);
-  EXPECT_EQ(std::count(lines.begin(), lines.end(), "hypotrack: the device is lost"), 1)
+  EXPECT_EQ(std::ranges::count_if(lines,
+                                  [](const std::string& line) {
+                                    return line.starts_with("hypotrack: frame 2: ") &&
+                                           line.ends_with(": the device is lost");
+                                  }),
+            1)
       << outcome.err;
   const auto at = outcome.err.find("the device is lost");
   EXPECT_EQ(outcome.err.find("the device is lost", at + 1), std::string::npos) << outcome.err;

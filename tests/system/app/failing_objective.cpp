@@ -1,27 +1,68 @@
-// A plugin that scores a few frames and then loses its device.
+// A plugin that scores a few frames and then throws, crashes or breaks its contract.
+#include <array>
+#include <csignal>
+#include <limits>
+#include <stdexcept>
+
 #include "hypotrack/plugin.hpp"
 
 namespace {
 
-class Failing : public hypotrack::Objective {
+enum class How { kDevice, kException, kInt, kSegfault, kNanResidual, kNegativeCount };
+
+std::span<const std::string_view> enum_names(How) {
+  static constexpr std::array<std::string_view, 6> kNames = {
+      "device", "exception", "int", "segfault", "nan_residual", "negative_count"};
+  return kNames;
+}
+
+class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
  public:
   struct Params {
     int frames = 2;
-    void visit(hypotrack::ParamVisitor& v) { v("frames", frames, {.help = "that work", .min = 0}); }
+    How how = How::kDevice;
+    void visit(hypotrack::ParamVisitor& v) {
+      v("frames", frames, {.help = "that work", .min = 0});
+      v("how", how, {.help = "it fails then"});
+    }
   };
   explicit Failing(const Params& params) : params_(params) {}
 
+  bool needs_rendering() const override { return false; }
   void prepare(const hypotrack::Observation&) override { ++frames_; }
   double cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
-    if (frames_ > params_.frames) throw hypotrack::DeviceError("the device is lost");
-    return hypothesis.state[0];
+    if (fails()) fail();
+    return hypothesis.state[0] * hypothesis.state[0];
+  }
+
+  const hypotrack::ResidualTerm* residual_term() const override {
+    return has_residuals() ? this : nullptr;
+  }
+  std::int64_t residual_count() const override {
+    return fails() && params_.how == How::kNegativeCount ? -7 : 1;
+  }
+  void write_residuals(const hypotrack::RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override {
+    residuals[0] = static_cast<float>(hypothesis.state[0]);
+    if (fails() && params_.how == How::kNanResidual)
+      residuals[0] = std::numeric_limits<float>::quiet_NaN();
   }
 
  private:
+  bool has_residuals() const {
+    return params_.how == How::kNanResidual || params_.how == How::kNegativeCount;
+  }
+  bool fails() const { return frames_ > params_.frames; }
+  void fail() const {
+    if (params_.how == How::kDevice) throw hypotrack::DeviceError("the device is lost");
+    if (params_.how == How::kException) throw std::runtime_error("the cost is broken");
+    if (params_.how == How::kInt) throw 42;
+    if (params_.how == How::kSegfault) raise(SIGSEGV);
+  }
   Params params_;
   int frames_ = 0;
 };
 
 }  // namespace
 
-HYPOTRACK_PLUGIN(Failing, "loses its device in the middle of a run", "")
+HYPOTRACK_PLUGIN(Failing, "fails in the middle of a run", "")

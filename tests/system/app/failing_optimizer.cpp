@@ -1,16 +1,38 @@
-// A plugin whose search works for a few frames and then throws or dies.
+// A plugin whose search works for a few frames and then throws, ends the program or breaks its
+// contract.
+#include <stdlib.h>
+#include <unistd.h>
+
 #include <array>
 #include <csignal>
+#include <limits>
 #include <stdexcept>
 
 #include "hypotrack/plugin.hpp"
 
 namespace {
 
-enum class How { kException, kInt, kSegfault };
+enum class How {
+  kException,
+  kInt,
+  kSegfault,
+  kExit,
+  kUnderscoreExit,
+  kInterruptedCode,
+  kHang,
+  kShortPoint,
+  kOutside,
+  kTooCheap,
+  kMinusInfinity,
+  kNegativeCount,
+  kOverBudget,
+};
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 3> kNames = {"exception", "int", "segfault"};
+  static constexpr std::array<std::string_view, 13> kNames = {
+      "exception",  "int",         "segfault", "exit",      "underscore_exit", "interrupted_code",
+      "hang",       "short_point", "outside",  "too_cheap", "minus_infinity",  "negative_count",
+      "over_budget"};
   return kNames;
 }
 
@@ -18,7 +40,7 @@ struct Params {
   int frames = 2;
   How how = How::kException;
   void visit(hypotrack::ParamVisitor& v) {
-    v("frames", frames, {.help = "that work", .min = 0});
+    v("frames", frames, {.help = "that work; -1: not even the constructor", .min = -1});
     v("how", how, {.help = "it fails then"});
   }
 };
@@ -26,22 +48,44 @@ struct Params {
 class Failing : public hypotrack::Optimizer {
  public:
   using Params = ::Params;
-  explicit Failing(const Params& params) : params_(params) {}
-  std::int64_t default_evaluations() const override { return 1; }
+  explicit Failing(const Params& params) : params_(params) {
+    if (params.frames < 0) fail();
+  }
+  std::int64_t default_evaluations() const override { return 2; }
   hypotrack::OptimizerResult minimize(hypotrack::CostFunction& cost,
                                       const hypotrack::SearchRegion& region,
                                       const hypotrack::Budget&, std::uint64_t) override {
-    if (done_++ >= params_.frames) fail();
+    const bool works = done_++ < params_.frames;
+    if (!works) fail();
     Eigen::VectorXd costs(1);
     cost.evaluate(region.start, costs);
-    return {region.start, costs[0], 1};
+    hypotrack::OptimizerResult answer{region.start, costs[0], 1};
+    if (!works) spoil(answer, cost, region);
+    return answer;
   }
 
  private:
   void fail() const {
     if (params_.how == How::kInt) throw 42;
     if (params_.how == How::kSegfault) raise(SIGSEGV);
-    throw std::runtime_error("the search is broken");
+    if (params_.how == How::kExit) exit(0);
+    if (params_.how == How::kUnderscoreExit) _exit(0);
+    if (params_.how == How::kInterruptedCode) _exit(130);
+    while (params_.how == How::kHang) pause();
+    if (params_.how == How::kException) throw std::runtime_error("the search is broken");
+  }
+  void spoil(hypotrack::OptimizerResult& answer, hypotrack::CostFunction& cost,
+             const hypotrack::SearchRegion& region) const {
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    if (params_.how == How::kShortPoint) answer.point.conservativeResize(3);
+    if (params_.how == How::kOutside) answer.point[0] = kInfinite;
+    if (params_.how == How::kTooCheap) answer.cost -= 1e-3;
+    if (params_.how == How::kMinusInfinity) answer.cost = -kInfinite;
+    if (params_.how == How::kNegativeCount) answer.evaluations = -5;
+    if (params_.how == How::kOverBudget) {
+      Eigen::VectorXd costs(96);
+      cost.evaluate(region.start.replicate(1, costs.size()), costs);
+    }
   }
   Params params_;
   int done_ = 0;

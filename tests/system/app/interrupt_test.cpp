@@ -1,3 +1,5 @@
+#include "interrupt.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -68,6 +70,23 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
   EXPECT_EQ(summary.at("complete"), false);
   EXPECT_EQ(summary.at("frames").get<std::size_t>() + 1,
             lines_of(read_text(path("out/track.csv"))).size());
+}
+
+TEST(InterruptGuardDeathTest, EndsAProgramThatDoesNotAnswerASignal) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  const auto hang = [] {
+    const app::InterruptGuard guard(1);
+    raise(SIGTERM);
+    while (true) pause();
+  };
+  EXPECT_EXIT(hang(), testing::ExitedWithCode(130), "was told to stop and did not answer");
+}
+
+TEST(InterruptGuard, LeavesAProgramAloneThatAnswers) {
+  const app::InterruptGuard guard(1);
+  raise(SIGTERM);
+  EXPECT_TRUE(guard.interrupted());
+  EXPECT_EQ(alarm(0), 0U);  // nothing is scheduled any more
 }
 
 TEST_F(InterruptTest, AClosedTerminalFinishesTheFrameAndTheFiles) {
@@ -169,7 +188,7 @@ TEST_F(FailingPluginTest, AnExceptionKeepsTheFramesSoFar) {
 TEST_F(FailingPluginTest, AnythingThrownIsReported) {
   const Outcome outcome = fail("{type: failing, frames: 1, how: int}");
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_THAT(outcome.err, HasSubstr("a plugin threw something that is no std::exception"));
+  EXPECT_THAT(outcome.err, HasSubstr("threw int, which is no std::exception"));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(2));
 }
 

@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -20,18 +19,13 @@ class FileSizeLimit {
     if (bytes <= 0) return;
     const rlimit limit{static_cast<rlim_t>(bytes), before_.rlim_max};
     setrlimit(RLIMIT_FSIZE, &limit);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
   }
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
   FileSizeLimit(const FileSizeLimit&) = delete;
   FileSizeLimit& operator=(const FileSizeLimit&) = delete;
 
  private:
   rlimit before_{};
-  void (*handler_)(int) = SIG_DFL;
 };
 
 Subprocess::Command command_of(const Start& start, const std::filesystem::path& folder) {

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -25,7 +28,7 @@ class RunTest : public AppTest {
       rows.emplace_back();
       std::istringstream cells(line);
       for (std::string cell; std::getline(cells, cell, ',');)
-        rows.back().push_back(cell == "tracked" ? 0 : std::stod(cell));
+        rows.back().push_back(std::isalpha(cell[0]) && cell != "nan" ? 0 : std::stod(cell));
     }
     return rows;
   }
@@ -106,6 +109,46 @@ TEST_F(RunTest, ErrorsAndMetricsAreThoseOfTheTables) {
   EXPECT_NEAR(metrics.at("mean_error_mm").get<double>(), sum / 5, 1e-9);
   EXPECT_NEAR(metrics.at("models").at("box").get<double>(), sum / 5, 1e-9);
   EXPECT_THAT(metrics.at("landmarks"), SizeIs(3));
+}
+
+TEST_F(RunTest, EveryNumberPrintedIsThatOfItsFile) {
+  // Some errors are below 5 mm, some between 5 and 10 mm, some above.
+  const Outcome outcome = run(box_scene(), {"--set", "tracker.recovery.enabled=false"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto json_of = [&](const char* name) {
+    return nlohmann::json::parse(read_text(path("out") / name));
+  };
+  const auto metrics = json_of("metrics.json"), summary = json_of("summary.json");
+  const auto number = [](const nlohmann::json& json, const char* key) {
+    return json.at(key).get<double>();
+  };
+  int below_10 = 0;
+  const auto errors = numbers_in(path("out/errors.csv"));
+  for (const auto& row : errors) below_10 += row[3] < 10;
+  EXPECT_EQ(number(metrics, "success_10mm"), below_10 / static_cast<double>(errors.size()));
+  ASSERT_NE(number(metrics, "success_10mm"), number(metrics, "success_5mm"));
+  EXPECT_THAT(
+      outcome.out,
+      HasSubstr(fmt::format(
+          "{} frames ({} tracked, {} uncertain, {} lost, {} absent, {} missing) at {:.1f} fps "
+          "({:.1f} by the clock), {:.0f} evaluations/s, {}\n",
+          summary.at("frames").get<int>(), summary.at("tracked_frames").get<int>(),
+          summary.at("uncertain_frames").get<int>(), summary.at("said_lost_frames").get<int>(),
+          summary.at("absent_frames").get<int>(), summary.at("missing_frames").get<int>(),
+          number(summary, "fps"), number(summary.at("clock"), "fps"),
+          number(summary, "evaluations_per_second"), summary.at("backend").get<std::string>())));
+  EXPECT_THAT(outcome.out,
+              HasSubstr(fmt::format(
+                  "joint error: mean {:.2f} mm, median {:.2f} mm, 95 % below "
+                  "{:.2f} mm, {:.1f} % of the frames below 10 mm\n",
+                  number(metrics, "mean_error_mm"), number(metrics, "median_error_mm"),
+                  number(metrics, "p95_error_mm"), 100 * number(metrics, "success_10mm"))));
+  EXPECT_THAT(outcome.out,
+              HasSubstr(fmt::format("tracked: {:.2f} % of these frames are off by more than 20 mm",
+                                    100 * number(metrics, "false_tracked_share"))));
+  EXPECT_THAT(outcome.out,
+              HasSubstr(fmt::format("within 10 mm: {:.1f} % of these frames are tracked",
+                                    100 * number(metrics, "right_tracked_share"))));
 }
 
 TEST_F(RunTest, TrueStatesAreThoseOfTheScene) {

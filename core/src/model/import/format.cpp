@@ -14,6 +14,7 @@
 
 #include "hypotrack/error.hpp"
 #include "model/import/ply_header.hpp"
+#include "model/import/text_mesh.hpp"
 
 namespace hypotrack {
 namespace {
@@ -41,6 +42,15 @@ std::uint32_t little_endian(const FileHead& file, std::size_t offset) {
 
 bool is_text(const FileHead& file) { return file.head.find('\0') == std::string::npos; }
 
+/// Fails if a function finds something wrong with a text file's lines.
+void check_text(const FileHead& file, std::string_view format,
+                std::string (*problem_of)(std::istream&)) {
+  std::ifstream in(file.name, std::ios::binary);
+  const std::string problem = problem_of(in);
+  if (problem.empty()) return;
+  fail(file, fmt::format("the {} file is damaged: {}; copy or export it again", format, problem));
+}
+
 void check_glb(const FileHead& file) {
   if (file.size < 20 || !file.head.starts_with("glTF")) {
     fail(file, "this is no GLB file: it does not begin with 'glTF'");
@@ -65,7 +75,7 @@ void check_gltf(const FileHead& file) {
 void check_stl(const FileHead& file) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
-  if (solid && is_text(file)) return;
+  if (solid && is_text(file)) return check_text(file, "STL", problem_of_text_stl);
   if (file.size < 84) fail(file, "this is no STL file: it is too short for the binary header");
   const std::uint64_t triangles = little_endian(file, 80);
   if (file.size < 84 + 50 * triangles) {
@@ -82,6 +92,7 @@ void check_obj(const FileHead& file) {
       fail(file, fmt::format("this is no OBJ file: it begins with '{}'", other.substr(0, 3)));
     }
   }
+  check_text(file, "OBJ", problem_of_obj);
 }
 
 void check_ply(const FileHead& file) {

@@ -1,0 +1,168 @@
+#include "model/import/text_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hypotrack {
+namespace {
+
+constexpr std::string_view kSpaces = " \t\r\v\f";
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t begin = 0;;) {
+    begin = line.find_first_not_of(kSpaces, begin);
+    if (begin == line.npos) return words;
+    const std::size_t end = std::min(line.find_first_of(kSpaces, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = end;
+  }
+}
+
+template <class Number>
+bool parse_whole(std::string_view word, Number& number) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  const char* const end = word.data() + word.size();
+  const auto [at, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && at == end;
+}
+
+/// Returns what is wrong with a list of at least `least` coordinates; empty if nothing is.
+std::string problem_of_numbers(std::span<const std::string_view> words, std::size_t least) {
+  if (words.size() < least)
+    return fmt::format("has {} numbers, expected {}; the file may be cut off", words.size(), least);
+  for (const std::string_view word : words) {
+    double number = 0;
+    if (!parse_whole(word, number) || !std::isfinite(number))
+      return fmt::format("'{}' is no number: every coordinate must be finite", word);
+  }
+  return {};
+}
+
+/// Reads the lines of an OBJ file.
+class ObjReader {
+ public:
+  std::string problem_of_line(const std::vector<std::string_view>& words) {
+    constexpr std::array<std::pair<std::string_view, std::size_t>, kElements> kLeast = {
+        {{"v", 3}, {"vt", 1}, {"vn", 3}}};
+    if (words.empty()) return {};
+    if (words[0] == "f") return problem_of_face(words);
+    for (std::size_t e = 0; e < kElements; ++e) {
+      if (words[0] != kLeast[e].first) continue;
+      ++counts_[e];
+      const std::string problem = problem_of_numbers(std::span(words).subspan(1), kLeast[e].second);
+      return problem.empty() ? problem : fmt::format("{} {}", words[0], problem);
+    }
+    return {};
+  }
+
+  /// Returns what is wrong with the indices, which may name later lines; empty if nothing is.
+  std::string problem_at_end() const {
+    for (std::size_t e = 0; e < kElements; ++e) {
+      if (largest_[e].index > counts_[e])
+        return fmt::format(
+            "line {}: the face names {} {}, but there are {}; the file may be cut off",
+            largest_[e].line, kNames[e], largest_[e].index, counts_[e]);
+    }
+    return {};
+  }
+
+  int line = 0;
+
+ private:
+  static constexpr std::size_t kElements = 3;  // of a corner: v/vt/vn
+  static constexpr std::array<const char*, kElements> kNames = {"vertex", "texture coordinate",
+                                                                "normal"};
+  struct Named {
+    std::int64_t index = 0;
+    int line = 0;
+  };
+
+  std::string problem_of_face(const std::vector<std::string_view>& words) {
+    if (words.size() < 4)
+      return fmt::format(
+          "the face has {} corners, expected three at least; the file may be cut off",
+          words.size() - 1);
+    for (const std::string_view corner : std::span(words).subspan(1)) {
+      std::string_view rest = corner;
+      for (std::size_t e = 0; e < kElements; ++e) {
+        const std::size_t end = std::min(rest.find('/'), rest.size());
+        const std::string_view word = rest.substr(0, end);
+        const bool last = end == rest.size();
+        if (!(word.empty() && e == 1 && !last) && !take_index(word, e))
+          return fmt::format("the face's corner '{}' names no {}", corner, kNames[e]);
+        if (last) break;
+        if (e + 1 == kElements) return fmt::format("the face's corner '{}' has too many /", corner);
+        rest.remove_prefix(end + 1);
+      }
+    }
+    return {};
+  }
+
+  bool take_index(std::string_view word, std::size_t element) {
+    std::int64_t index = 0;
+    if (!parse_whole(word, index) || index == 0 || index < -counts_[element]) return false;
+    if (index > largest_[element].index) largest_[element] = {index, line};
+    return true;
+  }
+
+  std::array<std::int64_t, kElements> counts_{};
+  std::array<Named, kElements> largest_{};
+};
+
+}  // namespace
+
+std::string problem_of_obj(std::istream& in) {
+  ObjReader reader;
+  std::string text;
+  for (std::string line; std::getline(in, line);) {
+    ++reader.line;
+    if (line.ends_with('\r')) line.pop_back();
+    text += line.substr(0, line.find('#'));
+    if (text.ends_with('\\')) {  // goes on in the next line
+      text.back() = ' ';
+      continue;
+    }
+    const std::string problem = reader.problem_of_line(words_of(text));
+    if (!problem.empty()) return fmt::format("line {}: {}", reader.line, problem);
+    text.clear();
+  }
+  return reader.problem_at_end();
+}
+
+std::string problem_of_text_stl(std::istream& in) {
+  // The lines of a facet; `solid` and `endsolid` stand around any number of them.
+  constexpr std::array<std::string_view, 7> kFacet = {"facet",  "outer",   "vertex",  "vertex",
+                                                      "vertex", "endloop", "endfacet"};
+  bool in_solid = false;
+  std::size_t next = 0;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    const auto words = words_of(line);
+    if (words.empty()) continue;
+    if (next == 0 && words[0] == (in_solid ? "endsolid" : "solid")) {
+      in_solid = !in_solid;
+      continue;
+    }
+    if (!in_solid || words[0] != kFacet[next])
+      return fmt::format("line {}: begins with '{}', expected '{}'", number, words[0],
+                         in_solid ? kFacet[next] : "solid");
+    if (words[0] == "vertex") {
+      const std::string problem = problem_of_numbers(std::span(words).subspan(1), 3);
+      if (!problem.empty()) return fmt::format("line {}: vertex {}", number, problem);
+    }
+    next = (next + 1) % kFacet.size();
+  }
+  if (!in_solid) return {};
+  return fmt::format("line {}: ends without 'endsolid'; the file is cut off", number);
+}
+
+}  // namespace hypotrack

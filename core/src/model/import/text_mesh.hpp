@@ -1,0 +1,17 @@
+#pragma once
+
+#include <istream>
+#include <string>
+
+namespace hypotrack {
+
+/// Says what is wrong with an OBJ file that its importer would not notice: a number that is none, a
+/// face of fewer than three corners, an index that names nothing. Begins with `line N: `; empty if
+/// nothing is.
+std::string problem_of_obj(std::istream& in);
+
+/// Says where an STL file of text departs from its grammar, as one does that was cut off. Begins
+/// with `line N: `; empty if it does not.
+std::string problem_of_text_stl(std::istream& in);
+
+}  // namespace hypotrack

@@ -1,0 +1,63 @@
+#include "plugin/plugin_call.hpp"
+
+#include <cxxabi.h>
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <new>
+#include <typeinfo>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::detail {
+
+std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object) {
+  const std::string who =
+      fmt::format("{}: {} '{}'", config.where(), kind, config.get("type").scalar());
+  Dl_info library{};
+  const void* const vtable = *static_cast<const void* const*>(object);
+  if (dladdr(vtable, &library) == 0 || !library.dli_fname) return who;
+  return fmt::format("{} ({})", who, library.dli_fname);
+}
+
+void rethrow_from(const std::string& who) {
+  if (who.empty()) throw;
+  const auto message = [&](const std::exception& e) {
+    return fmt::format("{}: {}", who, e.what());
+  };
+  try {
+    throw;
+  } catch (const ConfigError& e) {
+    throw ConfigError(message(e));
+  } catch (const DataError& e) {
+    throw DataError(message(e));
+  } catch (const PluginError& e) {
+    throw PluginError(message(e));
+  } catch (const DeviceError& e) {
+    throw DeviceError(message(e));
+  } catch (const OutputError& e) {
+    throw OutputError(message(e));
+  } catch (const Error& e) {
+    throw Error(message(e));
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw PluginError(fmt::format("{}: threw {}: {}", who, current_exception_name(), e.what()));
+  } catch (...) {
+    throw PluginError(
+        fmt::format("{}: threw {}, which is no std::exception", who, current_exception_name()));
+  }
+}
+
+std::string current_exception_name() {
+  const std::type_info* type = abi::__cxa_current_exception_type();
+  if (!type) return "an unknown type";
+  int status = 0;
+  char* readable = abi::__cxa_demangle(type->name(), nullptr, nullptr, &status);
+  const std::string name = status == 0 ? readable : type->name();
+  std::free(readable);
+  return name;
+}
+
+}  // namespace hypotrack::detail

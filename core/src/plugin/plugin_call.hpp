@@ -1,0 +1,49 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "hypotrack/config.hpp"
+#include "hypotrack/error.hpp"
+#include "plugin/running_plugin.hpp"
+
+namespace hypotrack::detail {
+
+/// Names a plugin of a scene: its place there, kind, name and library.
+/// `a.yaml:7:3: optimizer 'pso' (/usr/lib/hypotrack/plugins/libhypotrack_optimizer_pso.so)`.
+/// `object`: what the plugin made; its class has virtual functions.
+std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object);
+
+/// Throws the exception being handled again, with `who` before its message. Other exceptions than
+/// Error become PluginError; std::bad_alloc stays. An empty `who` changes nothing.
+[[noreturn]] void rethrow_from(const std::string& who);
+
+/// Calls a function of a plugin. Names the plugin in what it throws, and if it crashes.
+template <class Function>
+decltype(auto) call_plugin(const std::string& who, Function&& function) {
+  const RunningPlugin running(who.empty() ? nullptr : who.c_str());
+  try {
+    return std::forward<Function>(function)();
+  } catch (...) {
+    rethrow_from(who);
+  }
+}
+
+/// Calls a function of a plugin whose Errors are complete messages, which pass through unchanged.
+template <class Function>
+decltype(auto) call_explaining_plugin(const std::string& who, Function&& function) {
+  const RunningPlugin running(who.empty() ? nullptr : who.c_str());
+  try {
+    return std::forward<Function>(function)();
+  } catch (const Error&) {
+    throw;
+  } catch (...) {
+    rethrow_from(who);
+  }
+}
+
+/// Returns the type name of the exception being handled: `int`.
+std::string current_exception_name();
+
+}  // namespace hypotrack::detail

@@ -1,0 +1,68 @@
+#include "plugin/running_plugin.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <charconv>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+namespace hypotrack::detail {
+namespace {
+
+// Of the calling thread. Initial-exec: a signal handler may not allocate thread-local memory.
+[[gnu::tls_model("initial-exec")]] thread_local const char* t_who = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local const char* t_how = "";
+
+constexpr int kNoFrame = -1;
+std::atomic<int> g_frame{kNoFrame};
+
+/// A text of limited length.
+class FixedText {
+ public:
+  FixedText& operator<<(std::string_view text) {
+    text = text.substr(0, text_.size() - length_);
+    std::copy(text.begin(), text.end(), text_.begin() + static_cast<std::ptrdiff_t>(length_));
+    length_ += text.size();
+    return *this;
+  }
+  FixedText& operator<<(int number) {
+    std::array<char, 16> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    return *this << std::string_view(digits.data(), end);
+  }
+  std::string_view text() const { return {text_.data(), length_}; }
+
+ private:
+  std::array<char, 4096> text_;
+  std::size_t length_ = 0;
+};
+
+}  // namespace
+
+RunningPlugin::RunningPlugin(const char* who, const char* how)
+    : who_(std::exchange(t_who, who)), how_(std::exchange(t_how, how)) {}
+
+RunningPlugin::~RunningPlugin() {
+  t_who = who_;
+  t_how = how_;
+}
+
+RunningFrame::RunningFrame(int index) { g_frame = index; }
+RunningFrame::~RunningFrame() { g_frame = kNoFrame; }
+
+void report_end(const char* ends) {
+  FixedText line;
+  line << "hypotrack: ";
+  const int frame = g_frame;
+  if (frame != kNoFrame) line << "frame " << frame << ": ";
+  if (t_who) line << t_who << ": ";
+  line << ends << t_how << "\n";
+  [[maybe_unused]] const ssize_t written =
+      write(STDERR_FILENO, line.text().data(), line.text().size());
+}
+
+}  // namespace hypotrack::detail

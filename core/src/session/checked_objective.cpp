@@ -1,0 +1,92 @@
+#include "session/checked_objective.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "hypotrack/cuda/device_objective.hpp"
+#include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
+
+namespace hypotrack {
+namespace {
+
+/// Returns whether all numbers are finite: times 0, others are NaN. Eigen sums with SIMD.
+bool all_finite(std::span<const float> numbers) {
+  const Eigen::Map<const Eigen::ArrayXf> all(numbers.data(), std::ssize(numbers));
+  return !std::isnan((all * 0.0F).sum());
+}
+
+}  // namespace
+
+CheckedObjective::CheckedObjective(std::unique_ptr<Objective> objective, std::string who)
+    : objective_(std::move(objective)), who_(std::move(who)) {
+  residuals_ = detail::call_plugin(who_, [&] { return objective_->residual_term(); });
+}
+
+void CheckedObjective::prepare(const Observation& observation) {
+  detail::call_plugin(who_, [&] { objective_->prepare(observation); });
+}
+
+double CheckedObjective::cost(const RenderedHypothesis& hypothesis) const {
+  return detail::call_plugin(who_, [&] { return objective_->cost(hypothesis); });
+}
+
+double CheckedObjective::cost_and_residuals(const RenderedHypothesis& hypothesis,
+                                            std::span<float> residuals) const {
+  const double cost = detail::call_plugin(
+      who_, [&] { return objective_->cost_and_residuals(hypothesis, residuals); });
+  if (std::isfinite(cost)) check_finite(residuals, "residuals");
+  return cost;
+}
+
+std::vector<PixelMap> CheckedObjective::maps(const RenderedHypothesis& hypothesis) const {
+  return detail::call_plugin(who_, [&] { return objective_->maps(hypothesis); });
+}
+
+std::unique_ptr<cuda::DeviceObjective> CheckedObjective::on_device() const {
+  return detail::call_plugin(who_, [&] { return objective_->on_device(); });
+}
+
+std::int64_t CheckedObjective::residual_count() const {
+  constexpr std::int64_t kMost = std::int64_t{1} << 30;
+  const std::int64_t count =
+      detail::call_plugin(who_, [&] { return residuals_->residual_count(); });
+  if (count < 0 || count > kMost)
+    throw PluginError(
+        fmt::format("{}: has {} residuals, expected 0 to {}; this is a bug in the objective", who_,
+                    count, kMost));
+  return count;
+}
+
+void CheckedObjective::write_residuals(const RenderedHypothesis& hypothesis,
+                                       std::span<float> residuals) const {
+  detail::call_plugin(who_, [&] { residuals_->write_residuals(hypothesis, residuals); });
+  check_finite(residuals, "residuals");
+}
+
+std::span<const int> CheckedObjective::pixel_views() const {
+  return detail::call_plugin(who_, [&] { return residuals_->pixel_views(); });
+}
+
+void CheckedObjective::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
+                                    std::span<float> residuals, std::span<float> slopes) const {
+  detail::call_plugin(who_, [&] { residuals_->write_slopes(hypothesis, i, residuals, slopes); });
+  check_finite(residuals, "residuals");
+  check_finite(slopes, "slopes of residuals");
+}
+
+void CheckedObjective::check_finite(std::span<const float> numbers, const char* what) const {
+  if (all_finite(numbers)) return;
+  std::size_t i = 0;
+  while (std::isfinite(numbers[i])) ++i;
+  throw PluginError(
+      fmt::format("{}: its {} have {} in place {} of {}, expected finite numbers; this is a bug in "
+                  "the objective",
+                  who_, what, numbers[i], i, numbers.size()));
+}
+
+}  // namespace hypotrack

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hypotrack/objective.hpp"
+
+namespace hypotrack {
+
+/// Wraps a plugin's objective: names it in what it throws and where it crashes, and checks its
+/// residuals.
+class CheckedObjective final : public Objective, public ResidualTerm {
+ public:
+  /// `who`: plugin_label() of the objective, which must not be null.
+  CheckedObjective(std::unique_ptr<Objective> objective, std::string who);
+
+  // Objective
+  bool needs_rendering() const override { return objective_->needs_rendering(); }
+  ImageUse image_use() const override { return objective_->image_use(); }
+  void prepare(const Observation& observation) override;
+  double cost(const RenderedHypothesis& hypothesis) const override;
+  const ResidualTerm* residual_term() const override { return residuals_ ? this : nullptr; }
+  /// Throws PluginError if a residual is not finite although the cost is.
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override;
+  bool has_maps() const override { return objective_->has_maps(); }
+  std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const override;
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override;
+
+  // ResidualTerm
+  /// Throws PluginError if the number is negative, or more than memory can hold.
+  std::int64_t residual_count() const override;
+  /// Throws PluginError if a residual is not finite. So does write_slopes().
+  void write_residuals(const RenderedHypothesis& hypothesis,
+                       std::span<float> residuals) const override;
+  bool has_slopes() const override { return residuals_->has_slopes(); }
+  std::span<const int> pixel_views() const override;
+  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
+                    std::span<float> slopes) const override;
+
+ private:
+  void check_finite(std::span<const float> numbers, const char* what) const;
+
+  std::unique_ptr<Objective> objective_;
+  const ResidualTerm* residuals_;  ///< of the objective; null: none
+  std::string who_;
+};
+
+}  // namespace hypotrack

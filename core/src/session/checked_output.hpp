@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hypotrack/output.hpp"
+
+namespace hypotrack {
+
+/// Wraps a plugin's output: names it where it crashes and in exceptions other than Error.
+class CheckedOutput final : public Output {
+ public:
+  /// `who`: plugin_label() of the output.
+  CheckedOutput(std::unique_ptr<Output> output, std::string who);
+
+  std::vector<std::string> file_names() const override;
+  void begin(OutputContext& run) override;
+  bool wants_search(const Frame& frame) const override;
+  void search(const Frame& frame, const Solution& solution, const SearchRecord& record) override;
+  void online(const Frame& frame, const Solution& solution) override;
+  void frame(const Frame& frame, const Solution& solution) override;
+  void finish(bool complete) override;
+
+ private:
+  std::unique_ptr<Output> output_;
+  std::string who_;
+};
+
+}  // namespace hypotrack

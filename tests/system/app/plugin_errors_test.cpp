@@ -1,0 +1,122 @@
+#include <csignal>
+
+#include "app_test.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Plugins that fail while a frame is searched.
+class PluginErrorsTest : public AppTest {
+ protected:
+  Outcome run_with(const std::string& text) const {
+    return run(text, {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string()});
+  }
+  /// Runs a scene whose optimizer works for one search.
+  Outcome run_optimizer(const std::string& how, int frames = 1) const {
+    return run_with(
+        replaced(box_scene(), "{type: pso, particles: 8, generations: 4}",
+                 "{type: failing, frames: " + std::to_string(frames) + ", how: " + how + "}"));
+  }
+  /// Runs a scene whose objective works for one frame.
+  Outcome run_objective(const std::string& how, const std::string& optimizer = "pso") const {
+    return run_with(replaced(replaced(box_scene(), "{type: pso, particles: 8, generations: 4}",
+                                      "{type: " + optimizer + "}"),
+                             "{type: stereo_color}",
+                             "{type: failing, frames: 1, how: " + how + "}"));
+  }
+  /// Expects one message with the place in the scene, the plugin and its library, and the frame.
+  void expect_named(const Outcome& outcome, const std::string& who, const std::string& library,
+                    const std::string& what) const {
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex("hypotrack: frame [0-4]: .*scene.yaml:[89]:12: " + who +
+                                       " \\(/.*" + library + "\\): .*"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(what), Not(HasSubstr("unexpected error"))));
+  }
+  void expect_optimizer_named(const std::string& how, const std::string& what) const {
+    expect_named(run_optimizer(how), "optimizer 'failing'", "libhypotrack_optimizer_failing.so",
+                 what);
+  }
+};
+
+TEST_F(PluginErrorsTest, AnExceptionOfAnOptimizerNamesItAndTheFrame) {
+  expect_optimizer_named("exception", "threw std::runtime_error: the search is broken");
+  expect_optimizer_named("int", "threw int, which is no std::exception");
+}
+
+TEST_F(PluginErrorsTest, AnExceptionOfAnObjectiveNamesItAndNotTheOptimizer) {
+  for (const auto& [how, what] :
+       {std::pair{"exception", "threw std::runtime_error: the cost is broken"},
+        std::pair{"int", "threw int, which is no std::exception"},
+        std::pair{"device", ": the device is lost"}}) {
+    const Outcome outcome = run_objective(how);
+    expect_named(outcome, "objective 'failing'", "libhypotrack_objective_failing.so", what);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("optimizer")));
+  }
+}
+
+TEST_F(PluginErrorsTest, ResidualsThatBreakTheContractAreRefused) {
+  expect_named(run_objective("nan_residual", "levenberg_marquardt"), "objective 'failing'",
+               "libhypotrack_objective_failing.so",
+               "its residuals have nan in place 0 of 1, expected finite numbers");
+  expect_named(run_objective("negative_count", "levenberg_marquardt"), "objective 'failing'",
+               "libhypotrack_objective_failing.so", "has -7 residuals, expected 0 to");
+}
+
+TEST_F(PluginErrorsTest, AnAnswerThatBreaksTheContractIsRefused) {
+  expect_optimizer_named("short_point", "its answer has 3 numbers, expected ");
+  expect_optimizer_named("outside", "number 0 of its answer is inf, expected ");
+  expect_optimizer_named("too_cheap", "but the lowest of the 1 points that it evaluated has");
+  expect_optimizer_named("minus_infinity", "its answer has cost -inf");
+  expect_optimizer_named("negative_count", "says that it made -5 evaluations");
+  expect_optimizer_named("over_budget", "made 97 evaluations, its budget is 2");
+}
+
+TEST_F(PluginErrorsTest, AMeshThatIsNoneNamesItsPlugin) {
+  const Outcome outcome =
+      run_with(replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]", "type: failing"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              testing::ContainsRegex("hypotrack: .*scene.yaml:1:10: model 'failing': vertex 0 "));
+}
+
+TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
+  const Outcome outcome = run_with(replaced(box_scene(), "stereo_color", "weighty"));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("scene.yaml:8:12: objective 'weighty' ("),
+                    HasSubstr("its parameter 'weight' has a name that scenes take for every")));
+}
+
+TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer reports crashes in its own way";
+#endif
+  for (const auto& [kind, outcome] : {std::pair{"optimizer", run_optimizer("segfault")},
+                                      std::pair{"objective", run_objective("segfault")}}) {
+    EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV) << kind;
+    EXPECT_THAT(outcome.err, testing::ContainsRegex(
+                                 std::string("hypotrack: frame [0-4]: .*scene.yaml:[89]:12: ") +
+                                 kind + " 'failing' .*_failing.so\\): crashed"));
+  }
+}
+
+TEST_F(PluginErrorsTest, AProgramThatAPluginEndsSaysSoAndFails) {
+  const Outcome late = run_optimizer("exit");
+  EXPECT_EQ(late.exit_code, 1);
+  EXPECT_THAT(late.err, testing::ContainsRegex("hypotrack: frame [0-4]: .*optimizer 'failing' .*: "
+                                               "ended the program by exit\\(\\) before"));
+  std::filesystem::remove_all(path("out"));
+  const Outcome early = run_optimizer("exit", -1);
+  EXPECT_EQ(early.exit_code, 1);
+  EXPECT_THAT(early.err,
+              AllOf(HasSubstr("scene.yaml:9:12: optimizer 'failing': ended the program by exit()"),
+                    HasSubstr("while it was made")));
+}
+
+}  // namespace
+}  // namespace hypotrack::test
