@@ -13,7 +13,8 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
     : source_(std::move(source)),
       plugin_(std::move(plugin)),
       parameters_(scene.dimension()),
-      landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())) {
+      landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())),
+      clock_(source_->frame_rate(), source_->live()) {
   if (source_->cameras().empty())
     throw DataError(fmt::format(
         "source '{}' has no camera, expected one at least; this is a bug in the source", plugin_));
@@ -36,6 +37,7 @@ std::optional<Frame> CheckedSource::next() {
   std::optional<Frame> frame = source_->next();
   if (!frame) return frame;
   check_order(*frame);
+  clock_.take(*frame);
   if (frame->truth) {
     check_truth(*frame, "numbers in the true state", frame->truth->state.size(), parameters_);
     check_truth(*frame, "true landmarks", frame->truth->landmarks.cols(), landmarks_);
@@ -44,13 +46,12 @@ std::optional<Frame> CheckedSource::next() {
 }
 
 void CheckedSource::check_order(const Frame& frame) {
-  if (!(frame.index > last_index_ && frame.time > last_time_ && std::isfinite(frame.time)))
+  if (frame.index <= last_index_ || !std::isfinite(frame.time))
     throw DataError(fmt::format(
-        "source '{}': frame {} at {} s follows frame {} at {} s, expected numbers from 0 on and "
-        "times that grow; this is a bug in the source",
-        plugin_, frame.index, frame.time, last_index_, last_time_));
+        "source '{}': frame {} at {} s follows frame {}, expected numbers from 0 on that grow, and "
+        "a time; this is a bug in the source",
+        plugin_, frame.index, frame.time, last_index_));
   last_index_ = frame.index;
-  last_time_ = frame.time;
 }
 
 void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Index found,

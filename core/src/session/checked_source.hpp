@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,11 +8,12 @@
 
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
+#include "session/frame_clock.hpp"
 
 namespace hypotrack {
 
 /// Wraps a plugin's source and checks its promises that no other part checks: cameras, frame rate,
-/// order of frames and sizes of the ground truth.
+/// order of frames and sizes of the ground truth. Corrects times that do not grow.
 class CheckedSource final : public Source {
  public:
   /// Throws DataError, naming the plugin.
@@ -24,6 +24,7 @@ class CheckedSource final : public Source {
   std::optional<int> frame_count() const override { return source_->frame_count(); }
   /// Returns the next frame. Throws DataError, naming the plugin and the frame.
   std::optional<Frame> next() override;
+  bool live() const override { return source_->live(); }
   std::vector<std::string> notes() const override { return source_->notes(); }
   std::vector<std::string> statistics() const override { return source_->statistics(); }
 
@@ -36,7 +37,7 @@ class CheckedSource final : public Source {
   std::string plugin_;
   Eigen::Index parameters_, landmarks_;
   int last_index_ = -1;
-  double last_time_ = -std::numeric_limits<double>::infinity();
+  FrameClock clock_;
 };
 
 }  // namespace hypotrack
