@@ -87,11 +87,6 @@ TEST_F(BadRecordingTest, ASecondCameraToTheLeftIsPointedOut) {
   EXPECT_THAT(run_program({"validate", recorded("scene.yaml").string()}).err, note);
 }
 
-TEST_F(BadRecordingTest, OnePictureForBothViewsIsPointedOut) {
-  EXPECT_THAT(track({"--set", "source.right=" + recorded("left_%06d.png").string()}).err,
-              HasSubstr("note: both views of frame 0 show the same picture"));
-}
-
 TEST_F(BadRecordingTest, ATruthOfOtherFramesIsRefused) {
   const std::string table = recorded("truth_landmarks.csv").string();
   const Outcome outcome = track({"--set", "source.truth_offset=100"});
