@@ -134,7 +134,9 @@ SceneTracker::~SceneTracker() {
 
 std::string SceneTracker::backend() const { return finder_.search().cost().backend(); }
 
-Observation SceneTracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
+Observation SceneTracker::seen(const Frame& frame) const {
+  return finder_.search().seen(brightness_.applied_to(frame));
+}
 
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
   Solution solution;
@@ -150,7 +152,8 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
     const auto [fault, view] = fault_of(frame);
     solution.fault = fault;
     solution.fault_view = view;
-    if (!spoils_pictures(fault)) find(frame, solution, record);
+    if (picture_checks_) brightness_.next(picture_checks_->jumps());
+    if (!spoils_pictures(fault)) find(brightness_.applied_to(frame), solution, record);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }

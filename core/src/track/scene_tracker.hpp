@@ -16,6 +16,7 @@
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
 #include "track/faults/picture_checks.hpp"
+#include "track/faults/steady_brightness.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
@@ -137,6 +138,7 @@ class SceneTracker {
   bool begins_by_looking_;  ///< `first_` is any state in view: the models are looked for
   CandidateFinder finder_;
   std::optional<PictureChecks> picture_checks_;
+  SteadyBrightness brightness_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;

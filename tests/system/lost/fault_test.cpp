@@ -46,7 +46,7 @@ std::vector<SpoiledFrame> track_spoiled(int frames, int last, const Spoil& spoil
     if (!tracker)
       tracker.emplace(scene, std::move(session.parts), initial_state(session, frame), session.seed);
     if (i >= kSpoiledFrom && i <= last) spoil(frame, before);
-    const Solution s = tracker->track_spoiled(frame);
+    const Solution s = tracker->track(frame);
     out.push_back(
         {s.status, s.fault, s.fault_view,
          1000 * frame_error(layout, scene.landmarks(s.state), scene.landmarks(frame.truth->state))
@@ -112,6 +112,47 @@ TEST(Fault, OnePictureInBothViewsIsNotSearched) {
   expect_skipped(FrameFault::same_picture, {}, kSpoiledFrom + 3, [](Frame& frame, const Frame&) {
     frame.views[1].color = frame.views[0].color.clone();
   });
+}
+
+constexpr int kLastBright = kSpoiledFrom + 9;
+constexpr int kAgain = 6;  // frames from a jump of brightness on in which the hand may be lost
+
+/// Tracks frames of which those from kSpoiledFrom to kLastBright have some views brighter, and
+/// expects both jumps to be named.
+std::vector<SpoiledFrame> track_brighter(double gain, std::size_t first_view) {
+  const auto frames = track_spoiled(kLastBright + 12, kLastBright, [&](Frame& frame, const Frame&) {
+    for (std::size_t v = first_view; v < 2; ++v) {
+      cv::Mat brighter;
+      frame.views[v].color.convertTo(brighter, -1, gain);
+      frame.views[v].color = brighter;
+    }
+  });
+  for (int i = 0; i < std::ssize(frames); ++i)
+    EXPECT_EQ(frames[static_cast<std::size_t>(i)].fault,
+              i == kSpoiledFrom || i == kLastBright + 1 ? FrameFault::brightness : FrameFault::none)
+        << "frame " << i << " of " << text_of_spoiled(frames);
+  return frames;
+}
+
+void expect_right(const std::vector<SpoiledFrame>& frames, int first, int last) {
+  for (int i = first; i <= last; ++i) {
+    const SpoiledFrame& f = frames[static_cast<std::size_t>(i)];
+    EXPECT_EQ(f.status, Status::tracked) << "frame " << i << " of " << text_of_spoiled(frames);
+    EXPECT_LT(f.error_mm, 5) << "frame " << i << " of " << text_of_spoiled(frames);
+  }
+}
+
+TEST(Fault, AHandIsTrackedAcrossJumpsOfBrightness) {
+  for (const std::size_t first_view : {0, 1}) {
+    const auto frames = track_brighter(1.0 / 3, first_view);
+    expect_right(frames, kSpoiledFrom + kAgain, kLastBright);
+    expect_right(frames, kLastBright + 1 + kAgain, kLastBright + 11);
+  }
+}
+
+TEST(Fault, AHandIsTrackedAgainBehindClippedPictures) {
+  for (const std::size_t first_view : {0, 1})
+    expect_right(track_brighter(3, first_view), kLastBright + 1 + kAgain, kLastBright + 11);
 }
 
 }  // namespace

@@ -30,14 +30,15 @@ bool is_same(const SmallPicture& a, const SmallPicture& b) {
   return beside >= kLeast * count && beside >= kTimes * between;
 }
 
-/// Returns whether a picture is far brighter or darker than the one before, most of its cells too.
-bool jumps(const SmallPicture& before, const SmallPicture& now) {
+/// Returns by how much a picture is brighter than the one before, if most of its cells are far
+/// brighter or darker; otherwise 1.
+float jump_between(const SmallPicture& before, const SmallPicture& now) {
   constexpr double kMean = 1.5;
   constexpr float kMost = 1.4F;
   const double ratio = (now.mean + 1) / (before.mean + 1);
-  if (ratio < kMean && ratio > 1 / kMean) return false;
+  if (ratio < kMean && ratio > 1 / kMean) return 1;
   const float gain = gain_between(before, now);
-  return gain > kMost || gain < 1 / kMost;
+  return gain > kMost || gain < 1 / kMost ? gain : 1;
 }
 
 }  // namespace
@@ -52,6 +53,7 @@ ViewFault PictureChecks::check(const Frame& frame) {
     now.push_back(view.color.empty() || !view.depth.empty() || view.color.type() != CV_8UC3
                       ? nullptr
                       : std::make_shared<const SmallPicture>(shrink(view.color)));
+  jumps_.assign(now.size(), 1);
   const ViewFault found = find(now);
   if (!spoils_pictures(found.fault)) good_ = std::move(now);
   return found;
@@ -82,12 +84,14 @@ std::optional<int> PictureChecks::empty_view(const SmallPictures& now,
   return std::nullopt;
 }
 
-std::optional<int> PictureChecks::jumping_view(const SmallPictures& now) const {
-  for (std::size_t v = 0; v < std::min(now.size(), good_.size()); ++v)
-    if (now[v] && good_[v] && now[v]->cells.size() == good_[v]->cells.size() &&
-        jumps(*good_[v], *now[v]))
-      return static_cast<int>(v);
-  return std::nullopt;
+std::optional<int> PictureChecks::jumping_view(const SmallPictures& now) {
+  std::optional<int> first;
+  for (std::size_t v = 0; v < std::min(now.size(), good_.size()); ++v) {
+    if (!now[v] || !good_[v] || now[v]->cells.size() != good_[v]->cells.size()) continue;
+    jumps_[v] = jump_between(*good_[v], *now[v]);
+    if (jumps_[v] != 1 && !first) first = static_cast<int>(v);
+  }
+  return first;
 }
 
 }  // namespace hypotrack

@@ -26,15 +26,20 @@ class PictureChecks {
   /// depth, which does not depend on the light. Call it with all frames that have views, in order.
   ViewFault check(const Frame& frame);
 
+  /// Returns by how much each view of the last frame became brighter; 1: it did not jump.
+  const std::vector<float>& jumps() const { return jumps_; }
+
  private:
   ViewFault find(const SmallPictures& now);
   /// Returns the first view whose share of black or white cells says that it shows nothing.
   std::optional<int> empty_view(const SmallPictures& now, double SmallPicture::*share) const;
-  std::optional<int> jumping_view(const SmallPictures& now) const;
+  /// Sets jumps_. Returns the first view that has one.
+  std::optional<int> jumping_view(const SmallPictures& now);
 
   FrozenViews frozen_;
   std::optional<ViewOrder> order_;  ///< of the first two views
   SmallPictures good_;              ///< of the last frame without such a fault; empty: none yet
+  std::vector<float> jumps_;
 };
 
 }  // namespace hypotrack

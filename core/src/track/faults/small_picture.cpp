@@ -62,10 +62,15 @@ SmallPicture shrink(const cv::Mat& color) {
 float gain_between(const SmallPicture& before, const SmallPicture& now) {
   constexpr std::size_t kStep = 7, kLeast = 4;  // a quarter of the cells
   constexpr int kDarkest = 16 * SmallPicture::kLevel;
-  std::vector<float> ratios;
-  for (std::size_t i = 0; i < now.cells.size(); i += kStep)
-    if (before.cells[i] >= kDarkest)
-      ratios.push_back(static_cast<float>(now.cells[i]) / static_cast<float>(before.cells[i]));
+  std::vector<float> clear, all;
+  for (std::size_t i = 0; i < now.cells.size(); i += kStep) {
+    if (before.cells[i] < kDarkest) continue;
+    const std::uint16_t brighter = std::max(before.cells[i], now.cells[i]);
+    all.push_back(static_cast<float>(now.cells[i]) / static_cast<float>(before.cells[i]));
+    if (brighter < kWhitest * SmallPicture::kLevel) clear.push_back(all.back());
+  }
+  // Clipped cells tell a bound only.
+  std::vector<float>& ratios = kLeast * clear.size() >= all.size() ? clear : all;
   const bool tells = kLeast * ratios.size() > now.cells.size() / kStep;
   return tells ? upper_median(std::move(ratios)) : 1.0F;
 }
