@@ -33,6 +33,7 @@ FrozenViews::FrozenViews(std::vector<Camera> cameras)
 
 std::optional<std::size_t> FrozenViews::next(const SmallPictures& now) {
   std::optional<std::size_t> frozen;
+  if (now.size() != cameras_.size()) return frozen;  // the search refuses such a frame
   for (std::size_t v = 0; v < now.size(); ++v) {
     if (!now[v]) continue;
     SmallPictures& since = since_[v];
@@ -74,7 +75,7 @@ const std::vector<bool>& FrozenViews::seen_by(std::size_t other, std::size_t vie
   // The nearest hands, and far behind them. What is seen there is also seen in between.
   constexpr std::array<double, 2> kDistances{0.25, 1000};
   std::vector<bool>& seen = seen_[view * cameras_.size() + other];
-  if (!seen.empty()) return seen;
+  if (seen.size() == now.cells.size()) return seen;
   Eigen::Matrix2Xd pixels(2, static_cast<Eigen::Index>(now.cells.size()));
   for (int y = 0; y < now.height; ++y)
     for (int x = 0; x < now.width; ++x)

@@ -1,5 +1,6 @@
 #include "track/faults/steady_brightness.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hypotrack {
@@ -15,7 +16,7 @@ void SteadyBrightness::next(std::span<const float> jumps) {
 
 Frame SteadyBrightness::applied_to(const Frame& frame) const {
   Frame out = frame;
-  for (std::size_t v = 0; v < gains_.size(); ++v) {
+  for (std::size_t v = 0; v < std::min(gains_.size(), out.views.size()); ++v) {
     if (gains_[v] == 1 || out.views[v].color.empty()) continue;
     cv::Mat steady;  // the source keeps its picture
     out.views[v].color.convertTo(steady, -1, 1 / gains_[v]);
