@@ -52,7 +52,7 @@ bool FrozenViews::moves(std::size_t view, std::size_t other, const SmallPicture&
   constexpr int kMotion = 6 * SmallPicture::kLevel;  // well above noise
   constexpr int kClipped = 250 * SmallPicture::kLevel;
   constexpr std::size_t kLeast = 700;  // one of so many cells, a finger's motion
-  if (before.cells.size() != now.cells.size()) return false;
+  if (before.cells.size() != now.cells.size() || is_still(before, now)) return false;
   const std::size_t enough = std::max<std::size_t>(4, now.cells.size() / kLeast);
   // A picture that becomes brighter does not move.
   const float gain = gain_between(before, now);
