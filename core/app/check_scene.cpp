@@ -59,6 +59,7 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
     if (draw && looks) draw_on_first(found_start(session, tracker, first));
     for (const std::string& note : session.notes) tell("note: {}\n", note);
     tell_notes(*session.source, tracker, first);
+    tell_faults(*session.source, tracker, first);
   }
   checked.backend = tracker.backend();
   checked.resolved = std::move(session.resolved);

@@ -12,7 +12,8 @@ ShownViews shown_views(const Frame& frame, const Solution& solution) {
   for (const View& view : frame.views) shown.images.push_back(picture_of(view));
   shown.state = solution.state;
   for (const Status status : solution.models)
-    shown.hidden.push_back(status == Status::lost || status == Status::absent);
+    shown.hidden.push_back(status == Status::lost || status == Status::absent ||
+                           status == Status::missing);
   return shown;
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "hypotrack/frame_fault.hpp"
+
 namespace hypotrack {
 
 /// The images of one camera as they came from the sensor (distorted, unrectified). A view has
@@ -37,6 +39,8 @@ struct Frame {
   std::string problem;  ///< why `views` is empty (missing file, damaged image), else empty
   /// When a live source took the pictures, on the clock of this machine; empty for recordings.
   std::optional<std::chrono::steady_clock::time_point> taken{};
+  /// What was wrong with the time, which is corrected. A run sets it; sources leave it as it is.
+  FrameFault fault = FrameFault::none;
 };
 
 }  // namespace hypotrack

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hypotrack/export.hpp"
+#include "hypotrack/frame_fault.hpp"
 
 namespace hypotrack {
 
@@ -38,6 +39,8 @@ struct Solution {
   Eigen::VectorXd sigma;
   /// Probability, by model, that its pose is right, judged by the pictures; NaN: unknown.
   std::vector<double> probabilities = {};
+  FrameFault fault = FrameFault::none;  ///< what is wrong with the frame's pictures or time
+  int fault_view = 0;                   ///< number of the view that has the fault
 };
 
 }  // namespace hypotrack

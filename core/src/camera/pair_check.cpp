@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <opencv2/core.hpp>
 
 namespace hypotrack {
 namespace {
@@ -11,20 +10,10 @@ namespace {
 /// Least cosine of the angle between optical axes of a pair with a left and a right camera.
 constexpr double kSameWay = 0.94;  // 20 degrees
 
-bool same_picture(const cv::Mat& a, const cv::Mat& b) {
-  return !a.empty() && a.size() == b.size() && a.type() == b.type() &&
-         cv::norm(a, b, cv::NORM_INF) == 0;
-}
-
 }  // namespace
 
-std::string problem_of_pair(std::span<const Camera> cameras, const Frame& frame) {
-  if (cameras.size() != 2 || frame.views.size() != 2) return {};
-  if (same_picture(frame.views[0].color, frame.views[1].color))
-    return fmt::format(
-        "both views of frame {} show the same picture, and nothing can be told from that about "
-        "depth; is the second view read from files of its own (source)?",
-        frame.index);
+std::string problem_of_pair(std::span<const Camera> cameras) {
+  if (cameras.size() != 2) return {};
   const Eigen::Isometry3d first_from_second =
       cameras[0].camera_from_world * cameras[1].camera_from_world.inverse();
   const Eigen::Vector3d second = first_from_second.translation();

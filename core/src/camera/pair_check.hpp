@@ -4,12 +4,11 @@
 #include <string>
 
 #include "hypotrack/camera.hpp"
-#include "hypotrack/frame.hpp"
 
 namespace hypotrack {
 
-/// Describes a likely mistake in a pair of views; empty if there is none. Either the second of two
-/// cameras with the same viewing direction is left of the first, or both views show the same image.
-std::string problem_of_pair(std::span<const Camera> cameras, const Frame& frame);
+/// Describes a likely mistake in the calibration of two cameras with the same viewing direction:
+/// the second is left of the first. Empty if there is none.
+std::string problem_of_pair(std::span<const Camera> cameras);
 
 }  // namespace hypotrack

@@ -38,6 +38,7 @@ void MetricsOutput::frame(const Frame& frame, const Solution& solution) {
   uncertainty_->add(solution, error.landmarks);
 
   ++frames_;
+  if (solution.fault != FrameFault::none) ++faults_[std::string(to_string(solution.fault))];
   seconds_ += solution.seconds;
   if (solution.status != Status::tracked && solution.status != Status::missing) {
     search_seconds_ += solution.seconds;
@@ -62,6 +63,7 @@ Summary MetricsOutput::summarize(bool complete) const {
   summary.complete = complete;
   summary.backend = backend_;
   summary.clock = clock_;
+  summary.faults = faults_;
   summary.metrics = metrics_->metrics();
   summary.mean_sigma = uncertainty_->mean_sigma();
   summary.reliability = uncertainty_->reliability();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +53,7 @@ class MetricsOutput final : public Output {
   double search_seconds_ = 0;  ///< of frames that are not tracked
   int searched_frames_ = 0;
   std::int64_t evaluations_ = 0;
+  std::map<std::string, int> faults_;
 };
 
 }  // namespace hypotrack

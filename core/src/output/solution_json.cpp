@@ -29,6 +29,7 @@ std::string solution_json(const Scene& scene, const Solution& solution) {
   json["time"] = solution.time;
   json["status"] = to_string(solution.status);
   json["cost"] = solution.cost;
+  json["fault"] = solution.fault == FrameFault::none ? Json() : Json(to_string(solution.fault));
   Json& models = json["models"] = Json::object();
   const Eigen::Matrix3Xd points = scene.landmarks(solution.state);
   Eigen::Index first = 0;

@@ -30,6 +30,7 @@ std::string to_json(const Summary& s) {
   json["said_lost_frames"] = status.said_lost_frames;
   json["absent_frames"] = status.absent_frames;
   json["missing_frames"] = s.metrics.missing_frames;
+  json["faults"] = s.faults;
   json["backend"] = s.backend;
   if (s.metrics.evaluated_frames > 0) {
     json["mean_joint_error_mm"] = s.metrics.mean_error_mm;

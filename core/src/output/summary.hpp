@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -27,7 +28,8 @@ struct Summary {
   ClockTimes clock;
   std::string backend;
   Metrics metrics;
-  std::optional<double> mean_sigma;  ///< metres; nothing if uncertainty is off
+  std::map<std::string, int> faults;  ///< number of frames, by what was wrong with them
+  std::optional<double> mean_sigma;   ///< metres; nothing if uncertainty is off
   Reliability reliability;
 };
 

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,7 @@
 #include "run/read_ahead.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/estimated_scene.hpp"
+#include "track/faults/fault_text.hpp"
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
@@ -187,6 +189,21 @@ class WatchedFrames {
   RunWatcher& watcher_;
 };
 
+/// Says each fault of a view once.
+class FaultNotes {
+ public:
+  explicit FaultNotes(RunWatcher& watcher) : watcher_(watcher) {}
+  void add(const Solution& solution) {
+    const auto& [fault, view] = std::pair(solution.fault, solution.fault_view);
+    if (fault != FrameFault::none && said_.emplace(fault, view).second)
+      watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
+  }
+
+ private:
+  RunWatcher& watcher_;
+  std::set<std::pair<FrameFault, int>> said_;
+};
+
 using SteadyClock = std::chrono::steady_clock;
 
 double seconds_since(SteadyClock::time_point begin) {
@@ -203,6 +220,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
+  FaultNotes notes(watcher);
   const int read = static_cast<int>(first.size());
   ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt);
   for (int done = 0; !limit || done < *limit; ++done) {
@@ -217,6 +235,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     const auto begin = SteadyClock::now();
     const Solution solution = tracker.track(*frame, record ? &*record : nullptr);
     clock.tracking += seconds_since(begin);
+    notes.add(solution);
     if (record) results->add_search(*frame, solution, *std::move(record));
     if (results) results->add(tracker, *frame, solution);
     const bool smooths = results && results->smooths();
@@ -265,8 +284,8 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   watcher.say(fmt::format("tracking with {}", tracker.backend()));
   for (const std::string& note : opened.notes) watcher.say("note: " + note);
   for (const std::string& note : opened.source->notes()) watcher.say("note: " + note);
-  for (const std::string& problem : {problem_of_pair(opened.source->cameras(), first.back()),
-                                     tracker.problem_of_start(first.back())})
+  for (const std::string& problem :
+       {problem_of_pair(opened.source->cameras()), tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
   RunResult result;
   ClockTimes clock;

@@ -16,7 +16,8 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
       plugin_(std::move(plugin)),
       who_(std::move(who)),
       parameters_(scene.dimension()),
-      landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())) {
+      landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())),
+      clock_(source_->frame_rate(), source_->live()) {
   if (source_->cameras().empty())
     throw DataError(fmt::format(
         "{} has no camera, expected one at least; this is a bug in the source", plugin_));
@@ -43,6 +44,7 @@ std::optional<Frame> CheckedSource::next() {
   if (frame->views.empty() && frame->problem.empty())
     frame->problem =
         fmt::format("{} gives no views and no reason; this is a bug in the source", plugin_);
+  clock_.take(*frame);
   if (frame->truth) {
     check_truth(*frame, "numbers in the true state", frame->truth->state.size(), parameters_);
     check_truth(*frame, "true landmarks", frame->truth->landmarks.cols(), landmarks_);
@@ -51,13 +53,12 @@ std::optional<Frame> CheckedSource::next() {
 }
 
 void CheckedSource::check_order(const Frame& frame) {
-  if (!(frame.index > last_index_ && frame.time > last_time_ && std::isfinite(frame.time)))
+  if (frame.index <= last_index_ || !std::isfinite(frame.time))
     throw DataError(
-        fmt::format("{}: frame {} at {} s follows frame {} at {} s, expected numbers from 0 on and "
-                    "times that grow; this is a bug in the source",
-                    plugin_, frame.index, frame.time, last_index_, last_time_));
+        fmt::format("{}: frame {} at {} s follows frame {}, expected numbers from 0 on that grow, "
+                    "and a time; this is a bug in the source",
+                    plugin_, frame.index, frame.time, last_index_));
   last_index_ = frame.index;
-  last_time_ = frame.time;
 }
 
 void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Index found,

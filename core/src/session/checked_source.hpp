@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,11 +8,12 @@
 
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
+#include "session/frame_clock.hpp"
 
 namespace hypotrack {
 
 /// Wraps a plugin's source and checks its promises that no other part checks: cameras, frame rate,
-/// order of frames and sizes of the ground truth.
+/// order of frames and sizes of the ground truth. Corrects times that do not grow.
 class CheckedSource final : public Source {
  public:
   /// `plugin`: its place in the scene and name: `a.yaml:2:9: source 'video'`. `who`: its
@@ -40,7 +40,7 @@ class CheckedSource final : public Source {
   std::string plugin_, who_;
   Eigen::Index parameters_, landmarks_;
   int last_index_ = -1;
-  double last_time_ = -std::numeric_limits<double>::infinity();
+  FrameClock clock_;
 };
 
 }  // namespace hypotrack

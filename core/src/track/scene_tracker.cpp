@@ -12,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "plugin/plugin_call.hpp"
+#include "track/faults/fault_text.hpp"
 #include "track/tangent.hpp"
 #include "track/term_maps.hpp"
 
@@ -115,6 +116,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       smoother_(scene, parts.one_euro),
       smoothing_(parts.one_euro.enabled),
       seed_(seed) {
+  if (settings_.check_pictures && look_at_pictures(terms_)) picture_checks_.emplace(parts.cameras);
   if (begins_by_looking_ && !recovers())
     throw ConfigError(
         "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "
@@ -144,25 +146,40 @@ SceneTracker::~SceneTracker() {
 
 std::string SceneTracker::backend() const { return finder_.search().cost().backend(); }
 
-Observation SceneTracker::seen(const Frame& frame) const { return finder_.search().seen(frame); }
+Observation SceneTracker::seen(const Frame& frame) const {
+  return finder_.search().seen(brightness_.applied_to(frame));
+}
 
 Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
   Solution solution;
   solution.frame = frame.index;
   solution.time = frame.time;
   solution.cost = kUnknown;
+  solution.fault = frame.fault;
   solution.models.assign(models_.size(), Status::missing);
   solution.probabilities.assign(models_.size(), kUnknown);
   if (uncertainty_) solution.sigma.setConstant(std::ssize(scene_.landmark_names()), kUnknown);
   if (!frame.views.empty()) {
     const auto begin = std::chrono::steady_clock::now();
-    naming(frame, [&] { find(frame, solution, record); });
+    const auto [fault, view] = fault_of(frame);
+    solution.fault = fault;
+    solution.fault_view = view;
+    if (picture_checks_) brightness_.next(picture_checks_->jumps());
+    if (!spoils_pictures(fault)) {
+      const Frame steady = brightness_.applied_to(frame);
+      naming(steady, [&] { find(steady, solution, record); });
+    }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
   solution.state = smoothed(solution);
   solution.landmarks = scene_.landmarks(solution.state);
   return solution;
+}
+
+ViewFault SceneTracker::fault_of(const Frame& frame) {
+  const ViewFault found = picture_checks_ ? picture_checks_->check(frame) : ViewFault{};
+  return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
 
 void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record) {

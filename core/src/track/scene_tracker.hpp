@@ -15,6 +15,8 @@
 #include "hypotrack/solution.hpp"
 #include "track/candidate_finder.hpp"
 #include "track/color/photometric.hpp"
+#include "track/faults/picture_checks.hpp"
+#include "track/faults/steady_brightness.hpp"
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
@@ -48,6 +50,10 @@ class SceneTracker {
   /// Prepares the frame as track() does, without a search. Throws if the cameras do not see the
   /// start or an objective cannot work with the frame.
   void check(const Frame& frame);
+
+  /// Returns what is wrong with a frame, as track() does, without a search. Call it with frames in
+  /// their order.
+  ViewFault fault_of(const Frame& frame);
 
   /// Returns a warning if frames like this one would count as lost or uncertain at the start; empty
   /// otherwise. The frame must be usable.
@@ -131,6 +137,8 @@ class SceneTracker {
   Eigen::VectorXd first_;   ///< start of the first search
   bool begins_by_looking_;  ///< `first_` is any state in view: the models are looked for
   CandidateFinder finder_;
+  std::optional<PictureChecks> picture_checks_;
+  SteadyBrightness brightness_;
   std::optional<PoseUncertainty> uncertainty_;
   Predictor predictor_;
   OneEuroFilter smoother_;

@@ -28,6 +28,7 @@ struct StatusSettings {
   double uncertain_sigma = 0.010;
   double lost_sigma = 0.040;
   UncertaintySettings uncertainty;
+  bool check_pictures = true;
   void visit(ParamVisitor& v) {
     v("evidence", evidence,
       {.help = "judge solutions by what both pictures show where the models are; off: by their "
@@ -76,6 +77,9 @@ struct StatusSettings {
     v("lost_sigma_mm", lost_sigma,
       {.help = "the same for lost", .min = 1e-3, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
     v("uncertainty", uncertainty, {.help = "how far off each landmark may be"});
+    v("check_pictures", check_pictures,
+      {.help = "do not search frames with frozen, exchanged, black, white or doubled views, and "
+               "report jumps of brightness"});
   }
 };
 

@@ -38,7 +38,8 @@ std::string status_text(const Scene& scene, const Solution& solution) {
 /// Flags the models that are not drawn, because their pose is unknown.
 std::vector<bool> unknown_models(const Solution& solution) {
   std::vector<bool> out;
-  for (const Status s : solution.models) out.push_back(s == Status::lost || s == Status::absent);
+  for (const Status s : solution.models)
+    out.push_back(s == Status::lost || s == Status::absent || s == Status::missing);
   return out;
 }
 
@@ -128,6 +129,8 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
       fmt::format("frame {}  {}", solution.frame, status_text(run_->scene(), solution));
   if (frame.views.empty())
     caption += ": " + frame.problem;
+  else if (solution.status == Status::missing)
+    caption += fmt::format(": {}", to_string(solution.fault));
   else
     caption += fmt::format("  cost {:.4g}", solution.cost);
   int left = 0;

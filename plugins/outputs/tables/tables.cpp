@@ -17,7 +17,7 @@ std::string track_header(const Scene& scene) {
     for (const Scene::Item& item : scene.items())
       line += fmt::format(",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) line += "," + p.name;
-  return line + "\n";
+  return line + ",fault\n";
 }
 
 /// Returns a line of track.csv.
@@ -30,6 +30,8 @@ std::string track_line(const Solution& solution) {
     line += fmt::format(",{:.3f}", solution.probabilities[m]);
   }
   for (const double value : solution.state) line += fmt::format(",{}", value);
+  line += ',';
+  if (solution.fault != FrameFault::none) line += to_string(solution.fault);
   return line + "\n";
 }
 

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "hypotrack/frame_fault.hpp"
+
+namespace hypotrack {
+
+/// Returns whether a frame with this fault has pictures that must not be searched.
+bool spoils_pictures(FrameFault fault);
+
+/// Describes a fault for the user: what was found, what the tracker does, and what to do. `view` is
+/// the view that has it. Empty for FrameFault::none.
+std::string describe(FrameFault fault, int view);
+
+}  // namespace hypotrack

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+#include "hypotrack/frame_fault.hpp"
+#include "track/faults/frozen_views.hpp"
+#include "track/faults/view_order.hpp"
+
+namespace hypotrack {
+
+/// A fault and the view that has it.
+struct ViewFault {
+  FrameFault fault = FrameFault::none;
+  int view = 0;
+};
+
+/// Looks for faults in the colour pictures of frames, by small grey copies of them.
+class PictureChecks {
+ public:
+  explicit PictureChecks(std::vector<Camera> cameras);
+
+  /// Returns the worst fault of the next frame. Views without colour have none, nor those with
+  /// depth, which does not depend on the light. Call it with all frames that have views, in order.
+  ViewFault check(const Frame& frame);
+
+  /// Returns by how much each view of the last frame became brighter; 1: it did not jump.
+  const std::vector<float>& jumps() const { return jumps_; }
+
+ private:
+  ViewFault find(const SmallPictures& now);
+  /// Returns the first view whose share of black or white cells says that it shows nothing.
+  std::optional<int> empty_view(const SmallPictures& now, double SmallPicture::*share) const;
+  /// Sets jumps_. Returns the first view that has one.
+  std::optional<int> jumping_view(const SmallPictures& now);
+
+  FrozenViews frozen_;
+  std::optional<ViewOrder> order_;  ///< of the first two views
+  SmallPictures good_;              ///< of the last frame without such a fault; empty: none yet
+  std::vector<float> jumps_;
+};
+
+}  // namespace hypotrack

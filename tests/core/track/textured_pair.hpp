@@ -1,0 +1,70 @@
+#pragma once
+
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+
+namespace hypotrack::test {
+
+/// A textured wall and a textured patch before it, seen by a rectified pair of cameras.
+class TexturedPair {
+ public:
+  static constexpr int kWidth = 640, kHeight = 360;
+  static constexpr int kWall = 42, kPatch = 84;  // disparities of 1 and 0.5 m
+  static constexpr int kSide = 120;              // of the patch, pixels
+
+  TexturedPair() {
+    const Camera camera{kWidth, kHeight, 350, 350, 319.5, 179.5, DistortionModel::none, {}, {}};
+    cameras = {camera, camera};
+    for (Camera& c : cameras) c.camera_from_world.setIdentity();
+    cameras[1].camera_from_world.translation().x() = -0.12;
+    wall_ = texture(3 * kWidth, kHeight, 1);
+    patch_ = texture(kSide, kSide, 2);
+  }
+
+  /// A frame with the patch's left edge at this x of the first view; outside: without the patch.
+  Frame frame(int x, int wall = kWall, int patch = kPatch) const {
+    Frame out;
+    out.index = 0;
+    out.views = {View{picture(0, x)}, View{picture(wall, x - patch)}};
+    return out;
+  }
+
+  std::vector<Camera> cameras;
+
+ private:
+  static cv::Mat texture(int width, int height, std::uint64_t seed) {
+    constexpr int kCoarse = 14;
+    cv::Mat small(height / kCoarse + 1, width / kCoarse + 1, CV_8UC3), out;
+    cv::RNG random(seed);
+    random.fill(small, cv::RNG::UNIFORM, 40, 180);
+    cv::resize(small, out, {width, height}, 0, 0, cv::INTER_CUBIC);
+    return out;
+  }
+
+  cv::Mat picture(int shift, int x) const {
+    cv::Mat out = wall_(cv::Rect(kWidth + shift, 0, kWidth, kHeight)).clone();
+    const cv::Rect place =
+        cv::Rect(x, (kHeight - kSide) / 2, kSide, kSide) & cv::Rect(0, 0, kWidth, kHeight);
+    if (!place.empty()) patch_(place - cv::Point(x, (kHeight - kSide) / 2)).copyTo(out(place));
+    return out;
+  }
+
+  cv::Mat wall_, patch_;
+};
+
+/// Adds normal noise to all pictures, as a sensor does.
+inline Frame noisy(Frame frame, double sigma, std::uint64_t seed) {
+  cv::RNG random(seed);
+  for (View& view : frame.views) {
+    cv::Mat noise(view.color.size(), CV_16SC3), sum;
+    random.fill(noise, cv::RNG::NORMAL, 0, sigma);
+    cv::add(view.color, noise, sum, cv::noArray(), CV_8U);
+    view.color = sum;
+  }
+  return frame;
+}
+
+}  // namespace hypotrack::test
