@@ -32,6 +32,14 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
   return all;
 }
 
+std::vector<NormalEquations> StateResiduals::linearize_each(
+    std::span<const StateNeighbours> states, double blur) {
+  std::vector<NormalEquations> out;
+  for (const StateNeighbours& one : states)
+    out.push_back(linearize(one.states, one.steps, blur));
+  return out;
+}
+
 Cost::Cost(const Scene& scene, std::vector<ObjectiveTerm> terms)
     : scene_(scene), terms_(std::move(terms)) {}
 

@@ -46,10 +46,20 @@ struct ResidualRows {
   Eigen::Index first = 0, count = 0;
 };
 
+/// A state and its neighbours, as points and steps of ResidualCost::linearize().
+struct StateNeighbours {
+  Eigen::MatrixXd states;
+  Eigen::VectorXd steps;
+};
+
 /// Residuals of states: ResidualCost with states (DxN) in place of search points. They need not be
 /// normalised.
 class StateResiduals : public ResidualCost {
  public:
+  /// Computes linearize() for each of several states, in parallel where the backend can.
+  virtual std::vector<NormalEquations> linearize_each(std::span<const StateNeighbours> states,
+                                                      double blur);
+
   /// Returns the residuals of terms that read no images, if other terms do.
   virtual std::vector<ResidualRows> pose_only() const = 0;
 };

@@ -40,6 +40,7 @@ class HostCost final : public Cost, public StateResiduals {
   HostCost(const Scene& scene, std::vector<ObjectiveTerm> all, const EvaluateSettings& settings,
            std::string why_here)
       : Cost(scene, std::move(all)),
+        scene_(scene),
         why_here_(std::move(why_here)),
         renderer_(make_renderer(scene, settings, any_draws(terms()))),
         arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
@@ -77,6 +78,24 @@ class HostCost final : public Cost, public StateResiduals {
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
     return linearizer_->linearize(normalized(states, steps.size() + 1), steps, blur);
   }
+  std::vector<NormalEquations> linearize_each(std::span<const StateNeighbours> states,
+                                              double blur) override {
+    prepare_serial_linearizers();
+    std::vector<Eigen::MatrixXd> batches;
+    for (const StateNeighbours& one : states)
+      batches.push_back(normalized(one.states, one.steps.size() + 1));
+    std::vector<NormalEquations> out(states.size());
+    arena_.execute([&] {
+      tbb::parallel_for(std::size_t{0}, states.size(), [&](std::size_t i) {
+        // As for hypotheses: a thread that waits must not start another state.
+        tbb::this_task_arena::isolate([&] {
+          const auto slot = static_cast<std::size_t>(tbb::this_task_arena::current_thread_index());
+          out[i] = serial_linearizers_[slot]->linearize(batches[i], states[i].steps, blur);
+        });
+      });
+    });
+    return out;
+  }
 
  protected:
   void prepare_images(const TileMaker& tiles, const Frame& frame, const TilePlan& plan) override {
@@ -93,6 +112,8 @@ class HostCost final : public Cost, public StateResiduals {
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
     if (linearizer_) linearizer_->prepare(observation);
+    observation_ = &observation;
+    serial_are_prepared_ = false;
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -150,6 +171,14 @@ class HostCost final : public Cost, public StateResiduals {
     Eigen::MatrixXd neighbours_;  // states of the last batch, if it was of normal_equations()
   };
 
+  void prepare_serial_linearizers() {
+    if (serial_are_prepared_) return;
+    for (int i = std::ssize(serial_linearizers_); i < arena_.max_concurrency(); ++i)
+      serial_linearizers_.push_back(std::make_unique<Linearizer>(scene_, terms(), 1));
+    for (const auto& linearizer : serial_linearizers_) linearizer->prepare(*observation_);
+    serial_are_prepared_ = true;
+  }
+
   /// Stores how the residuals of states (DxN) differ from those of one point; computes the costs.
   void fill(DifferenceBlocks& blocks, const Eigen::VectorXf& here,
             const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs) {
@@ -190,11 +219,16 @@ class HostCost final : public Cost, public StateResiduals {
     return sum;
   }
 
+  const Scene& scene_;
   std::string why_here_;
+  const Observation* observation_ = nullptr;  // of the prepared frame
   std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
-  tbb::task_arena arena_;                   // for work that is not on hypotheses
+  // One per slot of the arena, made when first used.
+  std::vector<std::unique_ptr<Linearizer>> serial_linearizers_;
+  bool serial_are_prepared_ = false;
+  tbb::task_arena arena_;  // for work that is not on hypotheses
   tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis
   DifferenceMemory difference_memory_;
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cost/cost.hpp"
@@ -24,12 +25,17 @@ class LeastSquares {
   /// cost must outlive the object.
   LeastSquares(const Scene& scene, Cost& cost, const std::vector<bool>& free);
 
-  /// Refines a state of known cost by at most `iterations` steps.
-  Refined refine(Refined from, int iterations);
+  /// Refines each of some states of known costs by at most `iterations` steps. The states take
+  /// their steps at the same time, in batches; none depends on another.
+  void refine(std::span<Refined> states, int iterations);
 
  private:
-  NormalEquations linearize(const SearchRegion& region, const Eigen::VectorXd& prior,
-                            Refined& state);
+  struct Descent;
+  void take_step(std::vector<Descent>& all);
+  std::vector<NormalEquations> linearize(std::vector<Descent>& all);
+  NormalEquations by_differences(Descent& one);
+  Eigen::VectorXd differences(const SearchRegion& region) const;
+  Eigen::MatrixXd trials(const Descent& one, const NormalEquations& equations) const;
 
   Cost& cost_;
   SearchSpace space_;

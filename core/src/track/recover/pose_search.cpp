@@ -145,11 +145,10 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   const auto by_cost = [](const Refined& a, const Refined& b) { return a.cost < b.cost; };
   if (cost.least_squares()) {
     LeastSquares least_squares(scene_, cost, free);
-    for (Refined& one : all) one = least_squares.refine(std::move(one), kIterations);
+    least_squares.refine(all, kIterations);
     std::ranges::stable_sort(all, by_cost);
-    for (std::size_t i = 0; i < std::min(all.size(), static_cast<std::size_t>(counts.improved));
-         ++i)
-      improve_limbs(least_squares, cost, all[i]);
+    const std::size_t improved = std::min(all.size(), static_cast<std::size_t>(counts.improved));
+    improve_limbs(least_squares, cost, {all.data(), improved});
   }
   std::ranges::stable_sort(all, by_cost);
   std::int64_t evaluations = states.cols();
@@ -158,23 +157,32 @@ std::vector<Refined> PoseSearch::find(FrameSearch& search, const Frame& frame,
   return all;
 }
 
-void PoseSearch::improve_limbs(LeastSquares& least_squares, Cost& cost, Refined& pose) const {
+void PoseSearch::improve_limbs(LeastSquares& least_squares, Cost& cost,
+                               std::span<Refined> poses) const {
   constexpr int kLimbIterations = 3;
   for (const Postures::Limb& limb : postures_.limbs()) {
-    Eigen::MatrixXd states = pose.state.replicate(1, std::ssize(limb.variants));
-    for (std::size_t i = 0; i < limb.variants.size(); ++i)
+    const auto variants = std::ssize(limb.variants), count = std::ssize(poses);
+    Eigen::MatrixXd states(scene_.dimension(), variants * count);
+    for (Eigen::Index i = 0; i < states.cols(); ++i) {
+      states.col(i) = poses[static_cast<std::size_t>(i / variants)].state;
+      const Eigen::VectorXd& values = limb.variants[static_cast<std::size_t>(i % variants)];
       for (std::size_t k = 0; k < limb.parameters.size(); ++k)
-        states(item_.offset + limb.parameters[k], static_cast<Eigen::Index>(i)) =
-            limb.variants[i][static_cast<Eigen::Index>(k)];
+        states(item_.offset + limb.parameters[k], i) = values[static_cast<Eigen::Index>(k)];
+    }
     Eigen::VectorXd costs(states.cols());
     cost.evaluate(states, costs);
-    Eigen::Index best = 0;
-    Refined other{{}, costs.minCoeff(&best), 0};
-    other.state = states.col(best);
-    other = least_squares.refine(std::move(other), kLimbIterations);
-    const std::int64_t evaluations = pose.evaluations + states.cols() + other.evaluations;
-    if (other.cost < pose.cost) pose = std::move(other);
-    pose.evaluations = evaluations;
+    std::vector<Refined> others;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      Eigen::Index best = 0;
+      const double least = costs.segment(i * variants, variants).minCoeff(&best);
+      others.push_back({states.col(i * variants + best), least, variants});
+    }
+    least_squares.refine(others, kLimbIterations);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const std::int64_t evaluations = poses[i].evaluations + others[i].evaluations;
+      if (others[i].cost < poses[i].cost) poses[i] = std::move(others[i]);
+      poses[i].evaluations = evaluations;
+    }
   }
 }
 

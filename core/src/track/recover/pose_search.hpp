@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "hypotrack/camera.hpp"
@@ -67,8 +68,9 @@ class PoseSearch {
   double radius() const { return radius_; }
 
  private:
-  /// Tries each limb straight, half bent and bent. Keeps a change if its refined cost is lower.
-  void improve_limbs(LeastSquares& least_squares, Cost& cost, Refined& pose) const;
+  /// Tries each limb of some poses straight, half bent and bent. Keeps a change if its refined cost
+  /// is lower.
+  void improve_limbs(LeastSquares& least_squares, Cost& cost, std::span<Refined> poses) const;
   Eigen::MatrixXd hypotheses(const PoseGuess& guess, int count, std::mt19937_64& random) const;
   void take_in(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
                const Eigen::VectorXd& hypothesis);
