@@ -174,7 +174,7 @@ class HostCost final : public Cost, public StateResiduals {
   void prepare_serial_linearizers() {
     if (serial_are_prepared_) return;
     for (int i = std::ssize(serial_linearizers_); i < arena_.max_concurrency(); ++i)
-      serial_linearizers_.push_back(std::make_unique<Linearizer>(scene_, terms(), 1));
+      serial_linearizers_.push_back(std::make_unique<Linearizer>(scene_, terms(), 1, 1));
     for (const auto& linearizer : serial_linearizers_) linearizer->prepare(*observation_);
     serial_are_prepared_ = true;
   }
