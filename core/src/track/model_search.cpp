@@ -15,8 +15,6 @@
 namespace hypotrack {
 namespace {
 
-// A candidate of this probability ends the search for other poses.
-constexpr double kSure = 0.95;
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
@@ -123,7 +121,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   if (!may_be_anywhere && !is_within(finder_.scene_, reach, request_.kept,
                                      with_own_part(request_.kept, one.found.state)))
     return;
-  sure_ = sure_ || one.probability() >= kSure;
+  sure_ = sure_ || one.is_sure();
   found_.push_back(std::move(one));
 }
 
@@ -135,7 +133,10 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
     const Candidates places = finder_.recovery_.find(task_, guess, effort, finder_.settings_.motion,
                                                      seed_of_part(seed_, part_++));
     best_.found.evaluations += places.evaluations;
-    for (const Eigen::VectorXd& state : places.states) take(state);
+    for (const Eigen::VectorXd& state : places.states) {
+      if (enough()) return;
+      take(state);
+    }
   }
 }
 

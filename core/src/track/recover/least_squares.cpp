@@ -65,7 +65,7 @@ NormalEquations LeastSquares::by_differences(Descent& one) {
   Eigen::VectorXd at_start(1), costs(d);
   residuals->evaluate(one.region.start, at_start);
   residuals->move_to(0);
-  one.at->evaluations += d + 1;
+  evaluations_ += d + 1;
   const Eigen::VectorXd scale = steps.unaryExpr([](double s) { return s == 0 ? 0.0 : 1 / s; });
   return residuals->normal_equations(points, scale, costs);
 }
@@ -82,8 +82,8 @@ std::vector<NormalEquations> LeastSquares::linearize(std::vector<Descent>& all) 
     Eigen::MatrixXd points = one.region.start.replicate(1, steps.size() + 1);
     points.rightCols(steps.size()).diagonal() += steps;
     states.push_back({space_.states(points, one.at->state), steps});
-    ++one.at->evaluations;
   }
+  evaluations_ += std::ssize(all);
   return cost_.least_squares()->linearize_each(states, kBlur);
 }
 
@@ -121,11 +121,11 @@ void LeastSquares::take_step(std::vector<Descent>& all) {
   }
   Eigen::VectorXd costs(states.cols());
   cost_.evaluate(states, costs);
+  evaluations_ += states.cols();
   for (std::size_t i = 0; i < all.size(); ++i) {
     Descent& one = all[i];
     if (one.ended) continue;
     const Eigen::Index first = kTrials * static_cast<Eigen::Index>(i);
-    one.at->evaluations += kTrials;
     Eigen::Index best = 0;
     const double cost = costs.segment(first, kTrials).minCoeff(&best);
     if (!(cost < one.at->cost)) {

@@ -11,14 +11,13 @@
 
 namespace hypotrack {
 
-/// A state, its cost, and the evaluations that it took.
+/// A state and its cost.
 struct Refined {
   Eigen::VectorXd state;
   double cost = 0;
-  std::int64_t evaluations = 0;
 };
 
-/// Refines states by a few Levenberg-Marquardt steps on the residuals of a prepared frame.
+/// Refines states by a few Levenberg-Marquardt steps on the residuals of the prepared frame.
 class LeastSquares {
  public:
   /// Moves only the models flagged in `free`. The cost must have residuals. The scene and the
@@ -28,6 +27,9 @@ class LeastSquares {
   /// Refines each of some states of known costs by at most `iterations` steps. The states take
   /// their steps at the same time, in batches; none depends on another.
   void refine(std::span<Refined> states, int iterations);
+
+  /// Returns the number of evaluations so far.
+  std::int64_t evaluations() const { return evaluations_; }
 
  private:
   struct Descent;
@@ -40,6 +42,7 @@ class LeastSquares {
   Cost& cost_;
   SearchSpace space_;
   Eigen::VectorXd step_;  ///< of the finite differences, 0 where a dimension does not move
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace hypotrack

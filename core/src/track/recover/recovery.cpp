@@ -33,25 +33,6 @@ constexpr Eigen::Index kSurfacePoints = 2000;  // that show the colours of a tex
 constexpr double kTexel = 0.002;               // metres, as pictures show a texture
 constexpr double kHides = 0.35;  // share of another model that a candidate may newly hide
 
-/// Returns the first states that are `near` metres or more apart (mean over landmarks), at most
-/// `count`.
-std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, double near,
-                              std::size_t count) {
-  std::vector<Refined> out;
-  std::vector<Eigen::Matrix3Xd> landmarks;
-  for (Refined& one : all) {
-    if (out.size() >= count) break;
-    const Eigen::Matrix3Xd here = scene.landmarks(one.state);
-    const bool known = std::ranges::any_of(landmarks, [&](const Eigen::Matrix3Xd& other) {
-      return (here - other).colwise().norm().mean() < near;
-    });
-    if (known) continue;
-    landmarks.push_back(here);
-    out.push_back(std::move(one));
-  }
-  return out;
-}
-
 }  // namespace
 
 std::span<const std::string_view> enum_names(RecoveryRun) {
@@ -230,22 +211,19 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   const auto or_usual = [&](int wanted, int usual, int unknown) {
     return wanted > 0 ? wanted : usual * (is_known ? 1 : unknown);
   };
-  const int refined = or_usual(effort.refined, settings_.refined, kUnknownEffort);
   const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses, kUnknownEffort),
-                                refined, (refined + 3) / 4};
+                                or_usual(effort.refined, settings_.refined, kUnknownEffort)};
   ModelVerifier& verifier = task.verifier.model(task.model);
   const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
-  Candidates out;
+  FoundPoses found = searches_[task.model]->find(task.search, task.frame, base, task.hidden,
+                                                 task.held, guess, counts, seed);
+  Candidates out{{}, found.evaluations};
   std::vector<Refined> seen;
-  for (Refined& one : searches_[task.model]->find(task.search, task.frame, base, task.hidden,
-                                                  task.held, guess, counts, seed)) {
-    out.evaluations += std::exchange(one.evaluations, 0);
+  for (Refined& one : found.poses) {
     const Evidence evidence = verifier.measure_evidence(task.frame, one.state, colors);
     // Behind another model any pose fits.
     if (evidence.covered > guess.covered || hides_others(task, one.state, colors)) continue;
-    // The pictures' evidence tells more than costs in a coarse tile.
-    one.cost = -verifier.log_odds(evidence);
-    if (one.cost > kHopeless) continue;
+    if (-verifier.log_odds(evidence) > kHopeless) continue;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());
@@ -258,13 +236,11 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
     one.state = std::move(state);
     seen.push_back(std::move(one));
   }
-  std::ranges::stable_sort(seen,
-                           [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
-  const double near = kDistinct / static_cast<double>(scene_.items().size());
-  for (Refined& one : distinct(scene_, std::move(seen), near,
-                               static_cast<std::size_t>(or_usual(
-                                   effort.searched, settings_.searched, kUnknownSearched))))
-    out.states.push_back(std::move(one.state));
+  leave_distinct(
+      scene_, kDistinct / static_cast<double>(scene_.items().size()),
+      static_cast<std::size_t>(or_usual(effort.searched, settings_.searched, kUnknownSearched)),
+      seen);
+  for (Refined& one : seen) out.states.push_back(std::move(one.state));
   return out;
 }
 
