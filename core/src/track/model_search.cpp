@@ -104,11 +104,27 @@ bool CandidateFinder::ModelSearch::enough() const {
   return sure_ || (is_recent && finder_.has_confirmed(found_, model_));
 }
 
+void CandidateFinder::ModelSearch::improve_limbs(Candidate& one) {
+  FrameSearch& search = finder_.search_;
+  if (search.tiles().visible_share(one.found.state) == 0) return;
+  const auto better = finder_.recovery_.search(model_).with_better_limbs(
+      search.cost(), search.drawn(one.found.state), moving_, one.found.evaluations);
+  if (!better) return;
+  for (std::size_t m = 0; m < moving_.size(); ++m) {
+    if (!moving_[m]) continue;
+    const Scene::Item& item = finder_.scene_.items()[m];
+    const Eigen::Index size = item.model->dimension();
+    one.found.state.segment(item.offset, size) = better->segment(item.offset, size);
+  }
+  one = finder_.go_on(frame_, one, seed_of_part(seed_, part_++));
+}
+
 void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   FrameSearch& search = finder_.search_;
   search.show(shown_, moving_);
   if (search.tiles().visible_share(state) == 0) return;
   Candidate one = finder_.searched_from(frame_, state, seed_of_part(seed_, part_++));
+  improve_limbs(one);
   const Eigen::VectorXd turned = finder_.verifier_.model(model_).turned_to_texture(
       frame_, one.found.state, search.second_view_colors());
   if (turned != one.found.state) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -46,8 +47,8 @@ struct FoundPoses {
   std::int64_t evaluations = 0;
 };
 
-/// Sorts poses by their costs. Leaves the first ones that are `near` metres or more apart (mean over
-/// landmarks), at most `count`.
+/// Sorts poses by their costs. Leaves the first ones that are `near` metres or more apart (mean
+/// over landmarks), at most `count`.
 void leave_distinct(const Scene& scene, double near, std::size_t count,
                     std::vector<Refined>& poses);
 
@@ -66,6 +67,13 @@ class PoseSearch {
   FoundPoses find(FrameSearch& search, const Frame& frame, const Eigen::VectorXd& base,
                   const std::vector<bool>& hidden, const std::vector<HeldModel>& held,
                   const PoseGuess& guess, const HypothesisCounts& counts, std::uint64_t seed);
+
+  /// Tries each limb straight, half bent and bent in the prepared frame; `moving` flags the models
+  /// that least squares moves. Returns nothing if that hardly lowers the cost of the state. Adds to
+  /// `evaluations`.
+  std::optional<Eigen::VectorXd> with_better_limbs(Cost& cost, const Eigen::VectorXd& state,
+                                                   const std::vector<bool>& moving,
+                                                   std::int64_t& evaluations) const;
 
   /// Returns the state with the hidden models and the sought one moved behind the camera, where
   /// nothing draws them.

@@ -25,7 +25,7 @@ constexpr double kHintTurn = 0.5;  // radians
 constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
 // Factors where a model was never seen: of the poses that are scored and refined, of those
 // searched, and of the places.
-constexpr int kUnknownEffort = 6, kUnknownSearched = 3, kUnknownPlaces = 2;
+constexpr int kUnknownEffort = 6, kUnknownSearched = 2, kUnknownPlaces = 2;
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
