@@ -223,7 +223,10 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
     const Evidence evidence = verifier.measure_evidence(task.frame, one.state, colors);
     // Behind another model any pose fits.
     if (evidence.covered > guess.covered || hides_others(task, one.state, colors)) continue;
-    if (-verifier.log_odds(evidence) > kHopeless) continue;
+    const double odds = verifier.log_odds(evidence);
+    if (-odds > kHopeless) continue;
+    // With learned colours the pictures' evidence tells more than costs, without them less.
+    if (verifier.experienced()) one.cost = -odds;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());
