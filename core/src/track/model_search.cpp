@@ -124,7 +124,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   search.show(shown_, moving_);
   if (search.tiles().visible_share(state) == 0) return;
   Candidate one = finder_.searched_from(frame_, state, seed_of_part(seed_, part_++));
-  improve_limbs(one);
+  if (!std::isfinite(task_.last.seconds)) improve_limbs(one);
   const Eigen::VectorXd turned = finder_.verifier_.model(model_).turned_to_texture(
       frame_, one.found.state, search.second_view_colors());
   if (turned != one.found.state) {

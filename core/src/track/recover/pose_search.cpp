@@ -17,12 +17,11 @@ constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
 constexpr int kFiner = 2;             // pixels of the fine tile per pixel of the coarse one
 constexpr int kFineIterations = 6;
 constexpr std::size_t kImproved = 20;     // most poses that are improved limb by limb
-constexpr std::size_t kFine = 16;         // most poses that are refined in the fine tile
 constexpr std::size_t kFineImproved = 4;  // most that are improved limb by limb there
 constexpr double kApart = 0.006;          // metres between those, mean over the landmarks
 
 /// Steps of least squares that poses take before only a share of them goes on, but no fewer than
-/// kImproved.
+/// are kept.
 struct Round {
   int iterations;
   double share;
@@ -196,10 +195,11 @@ FoundPoses PoseSearch::find(FrameSearch& search, const Frame& frame, const Eigen
   std::vector<bool> free(hidden.size(), false);
   free[model_] = true;
   for (const HeldModel& one : held) free[one.model] = true;
+  const auto kept = static_cast<std::size_t>(counts.kept);
   std::optional<LeastSquares> least_squares;
   if (cost.least_squares())
-    refine_coarsely(least_squares.emplace(scene_, cost, free), cost, out.poses);
-  leave_distinct(scene_, kApart / static_cast<double>(scene_.items().size()), kFine, out.poses);
+    refine_coarsely(least_squares.emplace(scene_, cost, free), cost, kept, out.poses);
+  leave_distinct(scene_, kApart / static_cast<double>(scene_.items().size()), kept, out.poses);
   if (out.poses.empty()) return out;
 
   first = out.poses.front().state.segment(item_.offset, own.rows());
@@ -218,14 +218,14 @@ FoundPoses PoseSearch::find(FrameSearch& search, const Frame& frame, const Eigen
   return out;
 }
 
-void PoseSearch::refine_coarsely(LeastSquares& least_squares, Cost& cost,
+void PoseSearch::refine_coarsely(LeastSquares& least_squares, Cost& cost, std::size_t kept,
                                  std::vector<Refined>& poses) const {
   for (const Round& round : kRounds) {
     least_squares.refine(poses, round.iterations);
     sort_by_cost(poses);
     const auto left =
         static_cast<std::size_t>(std::ceil(round.share * static_cast<double>(poses.size())));
-    poses.resize(std::min(poses.size(), std::max(left, kImproved)));
+    poses.resize(std::min(poses.size(), std::max(left, std::max(kept, kImproved))));
   }
   const std::size_t improved = std::min(poses.size(), kImproved);
   improve_limbs(least_squares, cost, {poses.data(), improved});

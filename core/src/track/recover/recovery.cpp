@@ -26,6 +26,8 @@ constexpr double kHopeless = 4;    // -log odds: no search makes such a candidat
 // Factors where a model was never seen: of the poses that are scored and refined, of those
 // searched, and of the places.
 constexpr int kUnknownEffort = 6, kUnknownSearched = 2, kUnknownPlaces = 2;
+// Poses that the costs alone choose among many where a model was never seen.
+constexpr int kUnknownKept = 16;
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
@@ -211,8 +213,9 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   const auto or_usual = [&](int wanted, int usual, int unknown) {
     return wanted > 0 ? wanted : usual * (is_known ? 1 : unknown);
   };
+  const int refined = or_usual(effort.refined, settings_.refined, kUnknownEffort);
   const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses, kUnknownEffort),
-                                or_usual(effort.refined, settings_.refined, kUnknownEffort)};
+                                refined, is_known ? refined : kUnknownKept};
   ModelVerifier& verifier = task.verifier.model(task.model);
   const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
   FoundPoses found = searches_[task.model]->find(task.search, task.frame, base, task.hidden,
