@@ -32,11 +32,10 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
   return all;
 }
 
-std::vector<NormalEquations> StateResiduals::linearize_each(
-    std::span<const StateNeighbours> states, double blur) {
+std::vector<NormalEquations> StateResiduals::linearize_each(std::span<const StateNeighbours> states,
+                                                            double blur) {
   std::vector<NormalEquations> out;
-  for (const StateNeighbours& one : states)
-    out.push_back(linearize(one.states, one.steps, blur));
+  for (const StateNeighbours& one : states) out.push_back(linearize(one.states, one.steps, blur));
   return out;
 }
 

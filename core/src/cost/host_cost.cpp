@@ -222,7 +222,7 @@ class HostCost final : public Cost, public StateResiduals {
   const Scene& scene_;
   std::string why_here_;
   const Observation* observation_ = nullptr;  // of the prepared frame
-  std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
+  std::optional<TermResiduals> residuals_;    // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   std::unique_ptr<Linearizer> linearizer_;  // set if the terms can be linearised
   // One per slot of the arena, made when first used.

@@ -13,10 +13,7 @@
 #include "cost/posed_neighbours.hpp"
 
 namespace hypotrack {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 struct Linearizer::Impl {
   /// The pixels of a view in one term.
@@ -42,8 +39,8 @@ struct Linearizer::Impl {
   struct ViewPart {
     std::size_t view = 0;
     std::vector<PixelPart> parts = {};
-    std::vector<PixelSlopes> slopes = {};      // of the parts
-    std::vector<PixelRows> bands;              // of the tile's rows
+    std::vector<PixelSlopes> slopes = {};  // of the parts
+    std::vector<PixelRows> bands;          // of the tile's rows
   };
 
   struct StatePart {
@@ -79,7 +76,8 @@ struct Linearizer::Impl {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const auto view = static_cast<std::size_t>(wanted[i]);
       auto found = std::ranges::find(views, view, &ViewPart::view);
-      if (found == views.end()) found = views.insert(found, {.view = view, .bands = std::vector<PixelRows>(bands)});
+      if (found == views.end())
+        found = views.insert(found, {.view = view, .bands = std::vector<PixelRows>(bands)});
       found->parts.push_back({own, i, static_cast<float>(std::sqrt(term.weight))});
     }
   }

@@ -23,8 +23,8 @@ class Linearizer {
   /// follow that of the threads, as the sums would then depend on it.
   static constexpr int kBands = 8;
 
-  /// The scene must outlive it. `threads` 0 means one per core. Fewer `bands` take less time in all,
-  /// and leave less to do at the same time.
+  /// The scene must outlive it. `threads` 0 means one per core. Fewer `bands` take less time in
+  /// all, and leave less to do at the same time.
   Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
              int bands = kBands);
   ~Linearizer();
