@@ -46,6 +46,7 @@ const std::vector<MetricInfo>& known_metrics() {
       {"frames_to_loss", "frames to loss", "", 1, 0, Better::neither},
       {"jitter_mm", "jitter", "mm", 1, 2, Better::lower},
       {"fps", "speed", "frames/s", 1, 1, Better::neither},
+      {"frame_seconds", "time of a frame", "s", 1, 2, Better::neither},
       {"search_fps", "speed while not tracked", "frames/s", 1, 1, Better::neither},
       {"evaluations_per_second", "evaluations per second", "", 1, 0, Better::neither}};
   return known;
@@ -84,7 +85,8 @@ const std::vector<std::string>& table_metrics() {
                                                 "auc_20_50",
                                                 "time_to_loss_s",
                                                 "jitter_mm",
-                                                "fps"};
+                                                "fps",
+                                                "frame_seconds"};
   return columns;
 }
 

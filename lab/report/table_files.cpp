@@ -17,7 +17,9 @@ std::string cell(const Json& value) {
 }
 
 /// Leaves out speed: it differs between runs of the same study, and tables should not.
-bool is_repeatable(const Json& column) { return column["key"] != "fps"; }
+bool is_repeatable(const Json& column) {
+  return column["key"] != "fps" && column["key"] != "frame_seconds";
+}
 
 std::string table_csv(const Json& table) {
   const Json& columns = table["columns"];

@@ -200,7 +200,8 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
 void check_metric(const ConfigNode& node, const std::string& name) {
   if (name.empty()) fail_at(node, "required key is missing: the metric to draw");
   std::vector<std::string> known = metric_names();
-  known.insert(known.end(), {"uncertain_frames", "fps", "search_fps", "evaluations_per_second"});
+  known.insert(known.end(), {"uncertain_frames", "fps", "frame_seconds", "search_fps",
+                             "evaluations_per_second"});
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   fail_at(node, fmt::format("'{}' is no metric of a run{}; there are: {}", name,
                             did_you_mean(name, known), fmt::join(known, ", ")));

@@ -45,9 +45,11 @@ class HostCost final : public Cost, public StateResiduals {
         arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
     if (TermResiduals::why_none(terms()).empty()) residuals_.emplace(terms());
     if (residuals_ && Linearizer::can_linearize(terms())) {
-      linearizers_.emplace([this, &scene] {
-        return std::make_unique<Linearizer>(scene, terms(), arena_.max_concurrency());
-      });
+      const auto make = [this, &scene](int bands) {
+        return std::make_unique<Linearizer>(scene, terms(), arena_.max_concurrency(), bands);
+      };
+      linearizers_.emplace([make] { return make(Linearizer::kBands); });
+      narrow_linearizers_.emplace([make] { return make(1); });
     }
   }
 
@@ -85,10 +87,12 @@ class HostCost final : public Cost, public StateResiduals {
     for (const Neighbourhood& at : points) {
       states.push_back(normalized(at.points, at.steps.size() + 1));
     }
+    constexpr std::size_t kMany = 8;  // points keep the threads busy without bands
+    LinearizerPool& pool = points.size() < kMany ? *linearizers_ : *narrow_linearizers_;
     std::vector<NormalEquations> out(points.size());
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-        linearizers_->use([&](Linearizer& linearizer) {
+        pool.use([&](Linearizer& linearizer) {
           out[i] = linearizer.linearize(states[i], points[i].steps, points[i].blur);
         });
       });
@@ -110,7 +114,9 @@ class HostCost final : public Cost, public StateResiduals {
   void prepare_only_drawing(const Observation& observation) override {
     if (residuals_) residuals_->prepare();
     renderer_->prepare(observation);
-    if (linearizers_) linearizers_->prepare(observation);
+    if (!linearizers_) return;
+    linearizers_->prepare(observation);
+    narrow_linearizers_->prepare(observation);
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
@@ -211,8 +217,9 @@ class HostCost final : public Cost, public StateResiduals {
   std::string why_here_;
   std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
-  tbb::task_arena arena_;                      // for work that is not on hypotheses
-  std::optional<LinearizerPool> linearizers_;  // set if the terms can be linearised
+  tbb::task_arena arena_;  // for work that is not on hypotheses
+  // Set if the terms can be linearised: for a few points at a time, and for many.
+  std::optional<LinearizerPool> linearizers_, narrow_linearizers_;
   tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis
   DifferenceMemory difference_memory_;
 };

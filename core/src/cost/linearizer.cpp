@@ -3,7 +3,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,14 +10,6 @@
 #include "cost/posed_neighbours.hpp"
 
 namespace hypotrack {
-namespace {
-
-// A view's rows are summed in this many parts at the same time. The number is fixed, so that the
-// sums do not depend on the number of threads.
-constexpr std::size_t kBands = 8;
-
-}  // namespace
-
 struct Linearizer::Impl {
   /// The pixels of a view in one term.
   struct PixelPart {
@@ -43,8 +34,8 @@ struct Linearizer::Impl {
   struct ViewPart {
     std::size_t view = 0;
     std::vector<PixelPart> parts = {};
-    std::vector<PixelSlopes> slopes = {};      // of the parts
-    std::array<PixelRows, kBands> bands = {};  // of the tile's rows
+    std::vector<PixelSlopes> slopes = {};  // of the parts
+    std::vector<PixelRows> bands;          // of the tile's rows
   };
 
   struct StatePart {
@@ -52,8 +43,12 @@ struct Linearizer::Impl {
     double weight;
   };
 
-  Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads)
-      : plan(scene), terms(scene_terms), neighbours(plan, threads) {}
+  Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads,
+       int band_count)
+      : plan(scene),
+        terms(scene_terms),
+        bands(static_cast<std::size_t>(band_count)),
+        neighbours(plan, threads) {}
 
   /// Collects what the terms read in the prepared frame.
   void take_terms() {
@@ -75,7 +70,8 @@ struct Linearizer::Impl {
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const auto view = static_cast<std::size_t>(wanted[i]);
       auto found = std::ranges::find(views, view, &ViewPart::view);
-      if (found == views.end()) found = views.insert(found, ViewPart{view});
+      if (found == views.end())
+        found = views.insert(found, {.view = view, .bands = std::vector<PixelRows>(bands)});
       found->parts.push_back({own, i, static_cast<float>(std::sqrt(term.weight))});
     }
   }
@@ -103,13 +99,13 @@ struct Linearizer::Impl {
   /// Sums the products of the pixels' rows, in bands of every view.
   void sum_rows(const RenderedHypothesis& hypothesis, const std::vector<float>& per_step,
                 float blur) {
-    tbb::parallel_for(std::size_t{0}, views.size() * kBands, [&](std::size_t i) {
-      ViewPart& part = views[i / kBands];
-      const std::size_t band = i % kBands;
+    tbb::parallel_for(std::size_t{0}, views.size() * bands, [&](std::size_t i) {
+      ViewPart& part = views[i / bands];
+      const std::size_t band = i % bands;
       const HypothesisDrawer& centre = neighbours.centre();
       const DepthTile& tile = hypothesis.views[part.view];
       const auto row = [&](std::size_t of) {
-        return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(kBands);
+        return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(bands);
       };
       part.bands[band].sum(
           {&plan, &frame.views[part.view], &centre.visible(part.view), frame.pair && part.view == 1,
@@ -141,6 +137,7 @@ struct Linearizer::Impl {
 
   ScenePlan plan;
   std::vector<ObjectiveTerm> terms;
+  std::size_t bands;
   FrameProjection frame;
   PosedNeighbours neighbours;
   std::vector<ViewPart> views;
@@ -171,8 +168,9 @@ bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   });
 }
 
-Linearizer::Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads)
-    : impl_(std::make_unique<Impl>(scene, terms, threads)) {}
+Linearizer::Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
+                       int bands)
+    : impl_(std::make_unique<Impl>(scene, terms, threads, bands)) {}
 
 Linearizer::~Linearizer() = default;
 

@@ -19,8 +19,14 @@ class Linearizer {
   /// Returns true if every term (of a sum of squares) needs no rendering or has slopes.
   static bool can_linearize(const std::vector<ObjectiveTerm>& terms);
 
-  /// The scene must outlive it. It is called in an arena of at most `threads` slots.
-  Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads);
+  /// Rows of a tile are summed in this many parts at the same time by default. The number does not
+  /// follow that of the threads, as the sums would then depend on it.
+  static constexpr int kBands = 8;
+
+  /// The scene must outlive it. It is called in an arena of at most `threads` slots. Fewer `bands`
+  /// take less time in all, and leave less to do at the same time.
+  Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
+             int bands = kBands);
   ~Linearizer();
 
   /// Sets the cameras of a frame's tiles. The terms must be prepared for that frame.

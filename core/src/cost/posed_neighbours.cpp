@@ -17,14 +17,22 @@ std::size_t block_count(const ScenePlan& plan) {
 
 }  // namespace
 
-PosedNeighbours::PosedNeighbours(const ScenePlan& plan, int threads) : plan_(plan), centre_(plan) {
-  for (int i = 0; i < threads; ++i) posers_.push_back(std::make_unique<HypothesisDrawer>(plan));
-}
+PosedNeighbours::PosedNeighbours(const ScenePlan& plan, int threads)
+    : plan_(plan), posers_(static_cast<std::size_t>(threads)), centre_(plan) {}
 
 void PosedNeighbours::prepare(const FrameProjection& frame) {
   frame_ = &frame;
   centre_.prepare(frame);
-  for (const auto& poser : posers_) poser->prepare(frame);
+  for (Poser& poser : posers_) poser.is_prepared = false;
+}
+
+HypothesisDrawer& PosedNeighbours::poser_of_thread() {
+  const int slot = tbb::this_task_arena::current_thread_index();
+  Poser& own = posers_[static_cast<std::size_t>(slot)];
+  if (!own.drawer) own.drawer = std::make_unique<HypothesisDrawer>(plan_);
+  if (!own.is_prepared) own.drawer->prepare(*frame_);
+  own.is_prepared = true;
+  return *own.drawer;
 }
 
 void PosedNeighbours::draw(const Eigen::MatrixXd& states,
@@ -47,8 +55,7 @@ void PosedNeighbours::draw(const Eigen::MatrixXd& states,
       centre_.fill();
       return;
     }
-    const int slot = tbb::this_task_arena::current_thread_index();
-    HypothesisDrawer& poser = *posers_[static_cast<std::size_t>(slot)];
+    HypothesisDrawer& poser = poser_of_thread();
     poser.pose(state(1 + dimensions[i]));
     poser.project();
     for (std::size_t s = 0; s < sets; ++s) {

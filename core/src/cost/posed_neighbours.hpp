@@ -38,7 +38,14 @@ class PosedNeighbours {
 
   const ScenePlan& plan_;
   const FrameProjection* frame_ = nullptr;
-  std::vector<std::unique_ptr<HypothesisDrawer>> posers_;  // one per slot of the arena
+  /// Made and prepared when a thread first needs it.
+  struct Poser {
+    std::unique_ptr<HypothesisDrawer> drawer;
+    bool is_prepared = false;
+  };
+  HypothesisDrawer& poser_of_thread();
+
+  std::vector<Poser> posers_;  // one per slot of the arena
   HypothesisDrawer centre_;
   std::vector<float> records_;
   // Per set of vertices:

@@ -47,6 +47,8 @@ struct Candidate {
   bool answers() const { return std::isfinite(found.cost); }
   /// Returns the smallest probability of the models shown; NaN if none is known.
   double probability() const;
+  /// Returns whether it is so probable that no other pose has to be searched.
+  bool is_sure() const { return probability() >= 0.95; }
   /// Returns whether a start has recognised the model there lately.
   bool is_recognized(std::size_t model) const { return unseen[model] <= kRemembered; }
   /// Returns whether a model's pose is worth following: likely enough, or recognised.

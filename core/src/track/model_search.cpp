@@ -15,8 +15,6 @@
 namespace hypotrack {
 namespace {
 
-// A candidate of this probability ends the search for other poses.
-constexpr double kSure = 0.95;
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
 // search. Later they may both be wrong.
 constexpr double kRecent = 0.15;
@@ -106,11 +104,27 @@ bool CandidateFinder::ModelSearch::enough() const {
   return sure_ || (is_recent && finder_.has_confirmed(found_, model_));
 }
 
+void CandidateFinder::ModelSearch::improve_limbs(Candidate& one) {
+  FrameSearch& search = finder_.search_;
+  if (search.tiles().visible_share(one.found.state) == 0) return;
+  const auto better = finder_.recovery_.search(model_).with_better_limbs(
+      search.cost(), search.drawn(one.found.state), moving_, one.found.evaluations);
+  if (!better) return;
+  for (std::size_t m = 0; m < moving_.size(); ++m) {
+    if (!moving_[m]) continue;
+    const Scene::Item& item = finder_.scene_.items()[m];
+    const Eigen::Index size = item.model->dimension();
+    one.found.state.segment(item.offset, size) = better->segment(item.offset, size);
+  }
+  one = finder_.go_on(frame_, one, seed_of_part(seed_, part_++));
+}
+
 void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   FrameSearch& search = finder_.search_;
   search.show(shown_, moving_);
   if (search.tiles().visible_share(state) == 0) return;
   Candidate one = finder_.searched_from(frame_, state, seed_of_part(seed_, part_++));
+  if (!std::isfinite(task_.last.seconds)) improve_limbs(one);
   const Eigen::VectorXd turned = finder_.verifier_.model(model_).turned_to_texture(
       frame_, one.found.state, search.second_view_colors());
   if (turned != one.found.state) {
@@ -123,7 +137,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   if (!may_be_anywhere && !is_within(finder_.scene_, reach, request_.kept,
                                      with_own_part(request_.kept, one.found.state)))
     return;
-  sure_ = sure_ || one.probability() >= kSure;
+  sure_ = sure_ || one.is_sure();
   found_.push_back(std::move(one));
 }
 
@@ -135,7 +149,10 @@ void CandidateFinder::ModelSearch::search_places(const GlobalSearchSettings& eff
     const Candidates places = finder_.recovery_.find(task_, guess, effort, finder_.settings_.motion,
                                                      seed_of_part(seed_, part_++));
     best_.found.evaluations += places.evaluations;
-    for (const Eigen::VectorXd& state : places.states) take(state);
+    for (const Eigen::VectorXd& state : places.states) {
+      if (enough()) return;
+      take(state);
+    }
   }
 }
 

@@ -33,6 +33,8 @@ class CandidateFinder::ModelSearch {
   bool enough() const;
   /// Searches from a state of the scene and adds what was found.
   void add(const Eigen::VectorXd& state);
+  /// Searches again from where limbs lie elsewhere, if the pictures support that better.
+  void improve_limbs(Candidate& one);
   /// Searches the first places of the guesses. Calls `take` with states of the scene.
   template <class Take>
   void search_places(const GlobalSearchSettings& effort, std::size_t most, const Take& take);

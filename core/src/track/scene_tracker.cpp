@@ -295,7 +295,7 @@ bool SceneTracker::complete(const Frame& frame, Candidate& best) {
   // From here on it is as if this pose had been given as the start.
   if (begins_by_looking_ && !finder_.verifier().experienced() &&
       std::ranges::find(best.shown, false) == best.shown.end() &&
-      best.probability() >= settings_.uncertain_above)
+      best.probability() >= settings_.uncertain_above && !best.is_sure())
     finder_.begin_again(frame, best.found.state, settings_.recovery.first_starts,
                         seed_of_part(seed, 8), best);
   return true;

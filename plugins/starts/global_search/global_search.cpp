@@ -20,7 +20,7 @@ class Global final : public Start {
          .max = 1e4});
       v("searched", settings.searched,
         {.help = "best of those searched by the scene's optimizer; 0: as tracker.recovery says, "
-                 "and three times that for a model that was never seen",
+                 "and twice that for a model that was never seen",
          .min = 0,
          .max = 100});
     }

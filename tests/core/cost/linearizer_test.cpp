@@ -275,6 +275,48 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(Linearizer, OfABatchIsThatOfEachStateWithAnyNumberOfThreads) {
+  const Scene scene = test::hand_scene();
+  const Observation frame = test::rectified_pair(scene);
+  const Eigen::VectorXd steps = metres_and_radians(scene.dimension() - 1, 2e-4, 2e-3);
+  std::vector<Neighbourhood> batch;
+  for (int i = 0; i < 9; ++i) {
+    Eigen::VectorXd state = hand_state(scene);
+    state[0] += 2e-3 * i;
+    batch.push_back({moved_states(scene, state, steps), steps, 1});
+  }
+  std::vector<NormalEquations> expected;
+  for (const int threads : {1, 3}) {
+    const auto cost = make_cost(
+        scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f)}, {2, std::make_shared<Position>()}},
+        {.backend = Backend::cpu, .threads = threads}, {.least_squares = true});
+    cost->prepare(frame);
+    const auto found = cost->least_squares()->linearize_each(batch);
+    ASSERT_EQ(found.size(), batch.size());
+    if (threads == 1) expected = found;
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const NormalEquations one = cost->least_squares()->linearize(batch[i].points, steps, 1);
+      EXPECT_TRUE(found[i].a.isApprox(one.a, 1e-4));
+      EXPECT_TRUE(found[i].g.isApprox(one.g, 1e-4));
+      EXPECT_EQ(found[i].a, expected[i].a);
+      EXPECT_EQ(found[i].g, expected[i].g);
+    }
+  }
+}
+
+TEST(Linearizer, OfABatchFollowsTheFrameThatIsPrepared) {
+  const Scene scene = test::hand_scene();
+  const Observation frame = test::rectified_pair(scene), other = test::general_pair(scene);
+  const auto cost = pattern_cost(scene, frame);
+  const Eigen::VectorXd steps = metres_and_radians(scene.dimension() - 1, 2e-4, 2e-3);
+  const std::vector<Neighbourhood> batch{{moved_states(scene, hand_state(scene), steps), steps, 1}};
+  cost->least_squares()->linearize_each(batch);
+  cost->prepare(other);
+  const NormalEquations found = cost->least_squares()->linearize_each(batch).front();
+  const NormalEquations expected = linearize(*cost, scene, hand_state(scene));
+  EXPECT_TRUE(found.a.isApprox(expected.a, 1e-4));
+}
+
 TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);

@@ -217,6 +217,11 @@ TEST_F(StudyTest, PlotsOfErrorsAreEmptyWhereNoTruthIsKnown) {
   EXPECT_EQ(table_data(data)[0]["columns"][0]["key"], "fps");
 }
 
+TEST_F(StudyTest, RunsHaveTheTimeOfAFrameToo) {
+  const StudyRun run = study().runs[0];
+  EXPECT_DOUBLE_EQ(run.number("frame_seconds"), 1 / run.number("fps"));
+}
+
 TEST_F(StudyTest, AStudyWithoutPlotsGetsSomeThatFitItsAxes) {
   std::vector<std::string> kinds;
   for (const PlotRequest& plot : default_plots(study())) kinds.push_back(plot.kind);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cost/cost.hpp"
@@ -10,30 +11,38 @@
 
 namespace hypotrack {
 
-/// A state, its cost, and the evaluations that it took.
+/// A state and its cost.
 struct Refined {
   Eigen::VectorXd state;
   double cost = 0;
-  std::int64_t evaluations = 0;
 };
 
-/// Refines states by a few Levenberg-Marquardt steps on the residuals of a prepared frame.
+/// Refines states by a few Levenberg-Marquardt steps on the residuals of the prepared frame.
 class LeastSquares {
  public:
   /// Moves only the models flagged in `free`. The cost must have residuals. The scene and the
   /// cost must outlive the object.
   LeastSquares(const Scene& scene, Cost& cost, const std::vector<bool>& free);
 
-  /// Refines a state of known cost by at most `iterations` steps.
-  Refined refine(Refined from, int iterations);
+  /// Refines each of some states of known costs by at most `iterations` steps. The states take
+  /// their steps at the same time, in batches; none depends on another.
+  void refine(std::span<Refined> states, int iterations);
+
+  /// Returns the number of evaluations so far.
+  std::int64_t evaluations() const { return evaluations_; }
 
  private:
-  NormalEquations linearize(const SearchRegion& region, const Eigen::VectorXd& prior,
-                            Refined& state);
+  struct Descent;
+  void take_step(std::vector<Descent>& all);
+  std::vector<NormalEquations> linearize(std::vector<Descent>& all);
+  NormalEquations by_differences(Descent& one);
+  Eigen::VectorXd differences(const SearchRegion& region) const;
+  Eigen::MatrixXd trials(const Descent& one, const NormalEquations& equations) const;
 
   Cost& cost_;
   SearchSpace space_;
   Eigen::VectorXd step_;  ///< of the finite differences, 0 where a dimension does not move
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace hypotrack

@@ -25,32 +25,15 @@ constexpr double kHintTurn = 0.5;  // radians
 constexpr double kHopeless = 4;    // -log odds: no search makes such a candidate right
 // Factors where a model was never seen: of the poses that are scored and refined, of those
 // searched, and of the places.
-constexpr int kUnknownEffort = 6, kUnknownSearched = 3, kUnknownPlaces = 2;
+constexpr int kUnknownEffort = 6, kUnknownSearched = 2, kUnknownPlaces = 2;
+// Poses that the costs alone choose among many where a model was never seen.
+constexpr int kUnknownKept = 16;
 constexpr double kPlaceScatter = 0.02, kUnknownScatter = 0.03;  // metres
 constexpr double kHeldCovered = 0.7;  // largest hidden share of a held model
 constexpr double kDistinct = 0.012;   // metres between candidates, mean over the model's landmarks
 constexpr Eigen::Index kSurfacePoints = 2000;  // that show the colours of a texture
 constexpr double kTexel = 0.002;               // metres, as pictures show a texture
 constexpr double kHides = 0.35;  // share of another model that a candidate may newly hide
-
-/// Returns the first states that are `near` metres or more apart (mean over landmarks), at most
-/// `count`.
-std::vector<Refined> distinct(const Scene& scene, std::vector<Refined> all, double near,
-                              std::size_t count) {
-  std::vector<Refined> out;
-  std::vector<Eigen::Matrix3Xd> landmarks;
-  for (Refined& one : all) {
-    if (out.size() >= count) break;
-    const Eigen::Matrix3Xd here = scene.landmarks(one.state);
-    const bool known = std::ranges::any_of(landmarks, [&](const Eigen::Matrix3Xd& other) {
-      return (here - other).colwise().norm().mean() < near;
-    });
-    if (known) continue;
-    landmarks.push_back(here);
-    out.push_back(std::move(one));
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -229,20 +212,21 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   };
   const int refined = or_usual(effort.refined, settings_.refined, kUnknownEffort);
   const HypothesisCounts counts{or_usual(effort.hypotheses, settings_.hypotheses, kUnknownEffort),
-                                refined, (refined + 3) / 4};
+                                refined, is_known ? refined : kUnknownKept};
   ModelVerifier& verifier = task.verifier.model(task.model);
   const Reach reach = reach_within(limits, is_known ? task.last.seconds : 1);
-  Candidates out;
+  FoundPoses found = searches_[task.model]->find(task.search, task.frame, base, task.hidden,
+                                                 task.held, guess, counts, seed);
+  Candidates out{{}, found.evaluations};
   std::vector<Refined> seen;
-  for (Refined& one : searches_[task.model]->find(task.search, task.frame, base, task.hidden,
-                                                  task.held, guess, counts, seed)) {
-    out.evaluations += std::exchange(one.evaluations, 0);
+  for (Refined& one : found.poses) {
     const Evidence evidence = verifier.measure_evidence(task.frame, one.state, colors);
     // Behind another model any pose fits.
     if (evidence.covered > guess.covered || hides_others(task, one.state, colors)) continue;
-    // The pictures' evidence tells more than costs in a coarse tile.
-    one.cost = -verifier.log_odds(evidence);
-    if (one.cost > kHopeless) continue;
+    const double odds = verifier.log_odds(evidence);
+    if (-odds > kHopeless) continue;
+    // With learned colours the pictures' evidence tells more than costs, without them less.
+    if (verifier.experienced()) one.cost = -odds;
     Eigen::VectorXd state = base;
     state.segment(item.offset, item.model->dimension()) =
         one.state.segment(item.offset, item.model->dimension());
@@ -255,13 +239,11 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
     one.state = std::move(state);
     seen.push_back(std::move(one));
   }
-  std::ranges::stable_sort(seen,
-                           [](const Refined& a, const Refined& b) { return a.cost < b.cost; });
-  const double near = kDistinct / static_cast<double>(scene_.items().size());
-  for (Refined& one : distinct(scene_, std::move(seen), near,
-                               static_cast<std::size_t>(or_usual(
-                                   effort.searched, settings_.searched, kUnknownSearched))))
-    out.states.push_back(std::move(one.state));
+  leave_distinct(
+      scene_, kDistinct / static_cast<double>(scene_.items().size()),
+      static_cast<std::size_t>(or_usual(effort.searched, settings_.searched, kUnknownSearched)),
+      seen);
+  for (Refined& one : seen) out.states.push_back(std::move(one.state));
   return out;
 }
 

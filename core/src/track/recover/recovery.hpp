@@ -74,6 +74,9 @@ class Recovery {
   Candidates find(const Task& task, const PoseGuess& guess, const GlobalSearchSettings& effort,
                   const MotionLimits& limits, std::uint64_t seed);
 
+  /// Returns the search for poses of a model.
+  const PoseSearch& search(std::size_t model) const { return *searches_[model]; }
+
   /// Learns the postures of the models with `tracked`, which are surely right.
   void remember(const Eigen::VectorXd& state, const std::vector<bool>& tracked);
   /// Learns the background, where all models are surely right: a lost one may be anywhere in it.
