@@ -110,8 +110,8 @@ class HYPOTRACK_API DeviceObjective {
 
   /// Returns true if enqueue_slopes() is available; the answer never changes.
   virtual bool has_slopes() const { return false; }
-  /// Enqueues the computation of ResidualTerm::write_slopes() for drawn hypotheses. Pixels without a
-  /// residual get 0. Throws Error if there are none.
+  /// Enqueues the computation of ResidualTerm::write_slopes() for drawn hypotheses. Pixels without
+  /// a residual get 0. Throws Error if there are none.
   virtual void enqueue_slopes(const SceneLayout& scene, const DrawnBatch& drawn,
                               const SlopeLayout& slopes, Stream stream);
 

@@ -20,8 +20,8 @@ class DeviceLinearizer {
   /// Both must outlive it; `cost` normalises states.
   DeviceLinearizer(Cost& cost, FrameOnDevice& frame) : cost_(cost), frame_(frame) {}
 
-  /// Computes the normal equations as ResidualCost::linearize_each(), for states. Throws DeviceError
-  /// if there is too little memory.
+  /// Computes the normal equations as ResidualCost::linearize_each(), for states. Throws
+  /// DeviceError if there is too little memory.
   std::vector<NormalEquations> linearize(std::span<const Neighbourhood> points);
 
  private:
