@@ -83,9 +83,9 @@ T atomicAdd(T* at, std::type_identity_t<T> value) {
   return __atomic_fetch_add(at, value, __ATOMIC_RELAXED);
 }
 namespace cuda_on_cpu {
-template <class IsBetter>
-int keep_better(int* at, int value, const IsBetter& is_better) {
-  int old = __atomic_load_n(at, __ATOMIC_RELAXED);
+template <class Integer, class IsBetter>
+Integer keep_better(Integer* at, Integer value, const IsBetter& is_better) {
+  Integer old = __atomic_load_n(at, __ATOMIC_RELAXED);
   while (is_better(value, old) &&
          !__atomic_compare_exchange_n(at, &old, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
@@ -97,6 +97,9 @@ inline int atomicMax(int* at, int value) {
 }
 inline int atomicMin(int* at, int value) {
   return cuda_on_cpu::keep_better(at, value, [](int a, int b) { return a < b; });
+}
+inline unsigned atomicMin(unsigned* at, unsigned value) {
+  return cuda_on_cpu::keep_better(at, value, [](unsigned a, unsigned b) { return a < b; });
 }
 
 template <class T>
