@@ -66,9 +66,10 @@ std::string text_of_spoiled(const std::vector<SpoiledFrame>& frames) {
 
 /// Expects a fault of frames kSpoiledFrom to `last`, of the view if one is given, and nothing of
 /// the others, which are tracked about as well as without it.
-void expect_skipped(FrameFault fault, std::optional<int> view, int last, const Spoil& spoil) {
+void expect_skipped(FrameFault fault, std::optional<int> view, int last, const Spoil& spoil,
+                    std::vector<std::string> overrides = {}) {
   constexpr int kBack = 6;  // frames after which the hand is tracked again
-  const auto frames = track_spoiled(last + 12, last, spoil);
+  const auto frames = track_spoiled(last + 12, last, spoil, std::move(overrides));
   const std::string text = text_of_spoiled(frames);
   for (int i = 0; i < std::ssize(frames); ++i) {
     const SpoiledFrame& f = frames[static_cast<std::size_t>(i)];
@@ -87,8 +88,10 @@ void expect_skipped(FrameFault fault, std::optional<int> view, int last, const S
 
 void freeze(Frame& frame, const Frame& before) { frame.views[1] = before.views[1]; }
 
+// The recommended tracker also looks for fingers that have moved meanwhile.
 TEST(Fault, AViewThatIsFrozenForASecondIsNotSearched) {
-  expect_skipped(FrameFault::frozen, 1, kSpoiledFrom + 29, freeze);
+  expect_skipped(FrameFault::frozen, 1, kSpoiledFrom + 29, freeze,
+                 {"tracker=@trackers/recommended"});
 }
 
 TEST(Fault, ViewsThatAreExchangedForFiveFramesAreNotSearched) {
