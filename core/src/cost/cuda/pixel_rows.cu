@@ -16,7 +16,8 @@ constexpr int kTriangleThreads = 256;
 constexpr int kRowThreads = 256;
 constexpr int kRowWarps = kRowThreads / kWarp;
 constexpr int kPixelsPerWarp = 8;  // few, so that many warps share the rows
-constexpr int kMostRowBlocks = 512, kLeastRowBlocks = 64, kAllRowBlocks = 1024;
+// Blocks that share the pixels of a point: about 1,024 for all points together.
+constexpr int kAllRowBlocks = 1024, kLeastRowBlocks = 64, kMostRowBlocks = 512;
 constexpr int kJoinWarps = 8;
 constexpr std::uint32_t kNoTriangle = ~0u;
 
