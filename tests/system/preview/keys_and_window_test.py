@@ -38,7 +38,7 @@ output: {overlay: false, worst_frames: 0}
 
 
 def xdotool(*words):
-    return subprocess.run(("xdotool", *words), capture_output=True, text=True, check=False).stdout
+    return subprocess.run(("xdotool", *words), capture_output=True, text=True, check=False, timeout=30).stdout
 
 
 def close_by_mouse(window):
@@ -74,10 +74,17 @@ class PreviewTest(unittest.TestCase):
                                           "--preview", *more), stdout=subprocess.DEVNULL, stderr=err)
         self.addCleanup(self.run_.wait)
         self.addCleanup(self.run_.kill)
-        found = self.until(lambda: xdotool("search", "--onlyvisible", "--name", "^hypotrack run$").split())
-        self.window = found[-1]
         self.until(lambda: self.frames() > 2)
-        xdotool("windowfocus", "--sync", self.window)
+        self.window = self.until(self.focused)
+
+    @staticmethod
+    def focused():
+        """Gives the run's window the keys and returns it; None while there is none or it has not got them."""
+        found = xdotool("search", "--onlyvisible", "--name", "^hypotrack run$").split()
+        if not found:
+            return None
+        xdotool("windowfocus", found[-1])
+        return found[-1] if xdotool("getwindowfocus", "-f").strip() == found[-1] else None
 
     def until(self, found):
         """Waits until something is true, and returns it."""
