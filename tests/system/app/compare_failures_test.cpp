@@ -87,19 +87,19 @@ TEST_F(CompareFailureTest, APluginThatEndsTheProgramIsFoundBeforeAnythingRuns) {
 }
 
 TEST_F(CompareFailureTest, ARunThatNeverReturnsIsEndedAtTheTimeLimit) {
-  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"});
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "12"});
   EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
   const auto results = lines_of(table("results.csv"));
   ASSERT_THAT(results, SizeIs(5));
   for (const int bad : {3, 4})
     EXPECT_THAT(results[static_cast<std::size_t>(bad)],
-                AllOf(HasSubstr(",failed,"), HasSubstr("did not end within 4 s (--time-limit)")));
+                AllOf(HasSubstr(",failed,"), HasSubstr("did not end within 12 s (--time-limit)")));
 }
 
 TEST_F(CompareFailureTest, ACheckThatNeverReturnsIsEndedAtTheTimeLimit) {
-  const Outcome outcome = compare_failing("hang", {"--time-limit", "4"}, -1);
+  const Outcome outcome = compare_failing("hang", {"--time-limit", "12"}, -1);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("method bad: did not end within 4 s (--time-limit)"),
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("method bad: did not end within 12 s (--time-limit)"),
                                  HasSubstr("nothing was run")));
 }
 
