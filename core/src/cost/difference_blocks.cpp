@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace hypotrack {
 namespace {
@@ -18,8 +19,8 @@ std::size_t block_count(std::size_t rows) { return (rows + kRows - 1) / kRows; }
 }  // namespace
 
 void DifferenceBlocks::begin(std::span<const float> here, Eigen::Index columns) {
-  here_.assign(block_count(here.size()) * kRows, 0.0f);
-  std::ranges::copy(here, here_.begin());
+  here_.resize(block_count(here.size()) * kRows);
+  std::fill(std::ranges::copy(here, here_.begin()).out, here_.end(), 0.0f);
   columns_.resize(static_cast<std::size_t>(columns));
   for (Column& column : columns_) {
     column.blocks.clear();
@@ -103,13 +104,31 @@ class DifferenceBlocks::Sum {
   std::vector<Eigen::Index> present_;  // dimensions of the columns of j_
 };
 
+std::vector<std::size_t> DifferenceBlocks::equal_parts(std::size_t count) const {
+  std::vector<std::size_t> work(here_.size() / kRows + 1);  // then: work before a block
+  for (const Column& column : columns_) {
+    for (const std::uint32_t block : column.blocks) ++work[block];
+  }
+  std::size_t sum = 0;
+  for (std::size_t& of_block : work) {
+    const std::size_t columns = std::exchange(of_block, sum);
+    sum += columns * (columns + 4);
+  }
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto at = std::ranges::lower_bound(work, i * sum / count);
+    first.push_back(static_cast<std::size_t>(at - work.begin()));
+  }
+  first.push_back(work.size() - 1);
+  return first;
+}
+
 NormalEquations DifferenceBlocks::normal_equations(
     const Eigen::Ref<const Eigen::VectorXd>& scale) const {
-  const std::size_t blocks = here_.size() / kRows;
+  const std::vector<std::size_t> first = equal_parts(kParts);
   std::vector<Sum> parts(kParts);
-  tbb::parallel_for(std::size_t{0}, kParts, [&](std::size_t i) {
-    parts[i] = Sum(*this, scale, i * blocks / kParts, (i + 1) * blocks / kParts);
-  });
+  tbb::parallel_for(std::size_t{0}, kParts,
+                    [&](std::size_t i) { parts[i] = Sum(*this, scale, first[i], first[i + 1]); });
   NormalEquations sums = parts[0].sums();
   for (std::size_t i = 1; i < kParts; ++i) {
     sums.a += parts[i].sums().a;

@@ -31,6 +31,9 @@ class DifferenceBlocks {
   };
   class Sum;
 
+  /// Returns the first blocks of `count` parts of about equal work, and the last part's end.
+  std::vector<std::size_t> equal_parts(std::size_t count) const;
+
   std::vector<float> here_;  // padded with zeros to whole blocks
   std::vector<Column> columns_;
 };

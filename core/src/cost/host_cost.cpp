@@ -69,7 +69,7 @@ class HostCost final : public Cost, public StateResiduals {
     const Eigen::MatrixXd& batch = normalized(states, costs.size());
     check_room(residuals, count(), batch.cols());
     const auto rows = static_cast<std::size_t>(residuals.rows());
-    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       costs[index] = write_residuals(index, hypothesis, {residuals.col(index).data(), rows});
     });
   }
@@ -120,7 +120,7 @@ class HostCost final : public Cost, public StateResiduals {
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
-    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
         return terms()[t].objective->cost(drawn);
       });
@@ -174,13 +174,20 @@ class HostCost final : public Cost, public StateResiduals {
     Eigen::MatrixXd neighbours_;  // states of the last batch, if it was of normal_equations()
   };
 
+  /// Draws states; the terms of a hypothesis are scored at the same time if its batch leaves
+  /// threads without work.
+  void render(const Eigen::MatrixXd& states, const HypothesisRenderer::Visit& visit) {
+    terms_at_once_ = 2 * states.cols() <= arena_.max_concurrency();
+    renderer_->render(states, visit);
+  }
+
   /// Stores how the residuals of states (DxN) differ from those of one point; computes the costs.
   void fill(DifferenceBlocks& blocks, const Eigen::VectorXf& here,
             const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs) {
     const Eigen::MatrixXd& batch = normalized(states, costs.size());
     const auto rows = static_cast<std::size_t>(here.size());
     blocks.begin({here.data(), rows}, batch.cols());
-    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       std::vector<float>& residuals = residual_memory_.local();
       residuals.resize(rows);
       costs[index] = write_residuals(index, hypothesis, residuals);
@@ -201,12 +208,23 @@ class HostCost final : public Cost, public StateResiduals {
   template <class CostOf>
   double sum_up(Eigen::Index index, const RenderedHypothesis& hypothesis,
                 const CostOf& cost_of) const {
-    double sum = 0;
-    for (std::size_t t = 0; t < terms().size(); ++t) {
+    std::vector<double> costs(terms().size());
+    const auto find_cost = [&](std::size_t t) {
       const ObjectiveTerm& term = terms()[t];
-      if (term.weight == 0) continue;  // also avoids 0 * infinity
+      if (term.weight == 0) return;  // also avoids 0 * infinity
       const bool draws = term.objective->needs_rendering();
-      const double cost = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
+      costs[t] = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
+    };
+    if (terms_at_once_) {
+      tbb::parallel_for(std::size_t{0}, costs.size(), find_cost);
+    } else {
+      for (std::size_t t = 0; t < costs.size(); ++t) find_cost(t);
+    }
+    double sum = 0;
+    for (std::size_t t = 0; t < costs.size(); ++t) {
+      const ObjectiveTerm& term = terms()[t];
+      if (term.weight == 0) continue;
+      const double cost = costs[t];
       sum += term.weight * cost;
       if (std::isnan(cost)) refuse_cost(term, index, "returned NaN");
       if (std::isnan(sum)) refuse_cost(term, index, "adds an infinity to its opposite");
@@ -218,6 +236,7 @@ class HostCost final : public Cost, public StateResiduals {
   std::optional<TermResiduals> residuals_;  // set if the terms are a sum of squares
   std::unique_ptr<HypothesisRenderer> renderer_;
   tbb::task_arena arena_;  // for work that is not on hypotheses
+  bool terms_at_once_ = false;
   // Set if the terms can be linearised: for a few points at a time, and for many.
   std::optional<LinearizerPool> linearizers_, narrow_linearizers_;
   tbb::enumerable_thread_specific<std::vector<float>> residual_memory_;  // of one hypothesis

@@ -158,11 +158,13 @@ void HypothesisDrawer::cull() {
 }
 
 void HypothesisDrawer::fill() {
-  for (std::size_t i = 0; i < frame_->views.size(); ++i) {
-    const bool second = frame_->pair && i == 1;
-    draw_triangles(plan_->corners.data(), plan_->triangle_count - 1, records_[second ? 0 : i].get(),
-                   second, frame_->views[i], visible_[i], tile_storage_[i].get());
-  }
+  for (std::size_t i = 0; i < frame_->views.size(); ++i) fill(i);
+}
+
+void HypothesisDrawer::fill(std::size_t view) {
+  const bool second = frame_->pair && view == 1;
+  draw_triangles(plan_->corners.data(), plan_->triangle_count - 1, records(view), second,
+                 frame_->views[view], visible_[view], tile_storage_[view].get());
 }
 
 }  // namespace hypotrack

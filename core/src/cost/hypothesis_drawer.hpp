@@ -45,6 +45,7 @@ class HypothesisDrawer {
   void project();
   void cull();
   void fill();
+  void fill(std::size_t view);  ///< may run for several views at once
 
  private:
   void set_bounds(std::size_t view, const PixelRange& range);

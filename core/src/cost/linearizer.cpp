@@ -1,6 +1,7 @@
 #include "cost/linearizer.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,35 @@
 #include "cost/posed_neighbours.hpp"
 
 namespace hypotrack {
+namespace {
+
+using Products = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Adds the sums of a band to those of other bands.
+void add(const PixelRows& rows, Products& sums) {
+  using Sums =
+      Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+  const auto columns = static_cast<Eigen::Index>(rows.columns());
+  if (sums.size() == 0) sums.setZero(columns, columns);
+  sums += Sums(rows.sums().data(), columns, columns).cast<double>();
+}
+
+/// Adds sums, whose columns are some dimensions and then the residual.
+void add(const Products& all, const std::vector<Eigen::Index>& dimensions, NormalEquations& sums) {
+  const auto d = static_cast<Eigen::Index>(dimensions.size());
+  for (Eigen::Index i = 0; i < d; ++i) {
+    const Eigen::Index row = dimensions[static_cast<std::size_t>(i)];
+    sums.g[row] += all(i, d);
+    for (Eigen::Index k = i; k < d; ++k) {
+      const Eigen::Index column = dimensions[static_cast<std::size_t>(k)];
+      sums.a(row, column) += all(i, k);
+      if (k != i) sums.a(column, row) += all(i, k);
+    }
+  }
+}
+
+}  // namespace
+
 struct Linearizer::Impl {
   /// The pixels of a view in one term.
   struct PixelPart {
@@ -55,12 +85,12 @@ struct Linearizer::Impl {
     others.clear();
     for (ViewPart& view : views) view.parts.clear();
     for (const ObjectiveTerm& term : terms) {
-      if (term.weight != 0) add(term);
+      if (term.weight != 0) add_term(term);
     }
     std::erase_if(views, [](const ViewPart& view) { return view.parts.empty(); });
   }
 
-  void add(const ObjectiveTerm& term) {
+  void add_term(const ObjectiveTerm& term) {
     const ResidualTerm* own = term.objective->residual_term();
     if (!term.objective->needs_rendering()) {
       others.push_back({own, term.weight});
@@ -96,23 +126,74 @@ struct Linearizer::Impl {
     }
   }
 
+  /// Returns the first rows of bands that show about equally many pixels of the scene, and the last
+  /// band's end.
+  std::vector<int> band_rows(const DepthTile& tile) const {
+    std::vector<int> seen;  // pixels above each row
+    int sum = 0;
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const float* row = tile.inverse_depth + std::ptrdiff_t{y} * tile.stride;
+      seen.push_back(sum);
+      sum += static_cast<int>(
+          std::count_if(row + tile.x0, row + tile.x1, [](float w) { return w > 0; }));
+    }
+    std::vector<int> rows;
+    for (std::size_t band = 0; band < bands; ++band) {
+      const auto before = static_cast<int>(band) * sum / static_cast<int>(bands);
+      rows.push_back(tile.y0 +
+                     static_cast<int>(std::ranges::lower_bound(seen, before) - seen.begin()));
+    }
+    rows.push_back(tile.y1);
+    return rows;
+  }
+
   /// Sums the products of the pixels' rows, in bands of every view.
   void sum_rows(const RenderedHypothesis& hypothesis, const std::vector<float>& per_step,
                 float blur) {
+    std::vector<std::vector<int>> rows(views.size());
+    for (std::size_t i = 0; i < views.size(); ++i)
+      rows[i] = band_rows(hypothesis.views[views[i].view]);
     tbb::parallel_for(std::size_t{0}, views.size() * bands, [&](std::size_t i) {
       ViewPart& part = views[i / bands];
       const std::size_t band = i % bands;
       const HypothesisDrawer& centre = neighbours.centre();
       const DepthTile& tile = hypothesis.views[part.view];
-      const auto row = [&](std::size_t of) {
-        return tile.y0 + static_cast<int>(of) * (tile.y1 - tile.y0) / static_cast<int>(bands);
-      };
       part.bands[band].sum(
           {&plan, &frame.views[part.view], &centre.visible(part.view), frame.pair && part.view == 1,
            tile.inverse_depth, centre.records(part.view), neighbours.records(part.view).data(),
            per_step.data(), static_cast<int>(per_step.size()), neighbours.movers(part.view)},
-          part.slopes, blur, {row(band), row(band + 1)});
+          part.slopes, blur, {rows[i / bands][band], rows[i / bands][band + 1]});
     });
+  }
+
+  /// Adds the terms that look at pixels, by the slopes of their residuals.
+  void add_pixels(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps, float blur,
+                  NormalEquations& sums) {
+    if (views.empty()) return;
+    std::vector<Eigen::Index> moved;
+    std::vector<float> per_step;
+    for (Eigen::Index i = 0; i < steps.size(); ++i) {
+      if (steps[i] == 0) continue;
+      moved.push_back(i);
+      per_step.push_back(static_cast<float>(1 / steps[i]));
+    }
+    neighbours.draw(states, moved);
+    const RenderedHypothesis hypothesis{
+        {states.col(0).data(), static_cast<std::size_t>(states.rows())},
+        neighbours.centre().tiles()};
+    write_slopes(hypothesis);
+    sum_rows(hypothesis, per_step, blur);
+    Products products;
+    for (const ViewPart& view : views) {
+      for (const PixelRows& rows : view.bands) add(rows, products);
+    }
+    add(products, moved, sums);
+  }
+
+  /// Adds the terms of the state alone.
+  void add_others(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
+                  NormalEquations& sums) const {
+    for (const StatePart& part : others) add_differences(part, states, steps, sums);
   }
 
   /// Adds a term of the state by differences.
@@ -144,22 +225,6 @@ struct Linearizer::Impl {
   std::vector<StatePart> others;
 };
 
-namespace {
-
-/// Adds the sums of a band, whose columns are some dimensions.
-void add(const PixelRows& rows, const std::vector<Eigen::Index>& dimensions,
-         NormalEquations& sums) {
-  const auto d = static_cast<Eigen::Index>(dimensions.size());
-  const auto columns = static_cast<Eigen::Index>(rows.columns());
-  const Eigen::Map<const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> all(
-      rows.sums().data(), columns, columns);
-  const Eigen::MatrixXd upper = all.topLeftCorner(d, d).cast<double>();
-  sums.a(dimensions, dimensions) += Eigen::MatrixXd(upper.selfadjointView<Eigen::Upper>());
-  sums.g(dimensions) += all.col(d).head(d).cast<double>();
-}
-
-}  // namespace
-
 bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   return std::ranges::all_of(terms, [](const ObjectiveTerm& term) {
     if (term.weight == 0) return true;
@@ -183,29 +248,12 @@ void Linearizer::prepare(const Observation& observation) {
 
 NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
                                       double blur) {
-  Impl& self = *impl_;
   const Eigen::Index d = steps.size();
-  NormalEquations sums{Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)};
-  std::vector<Eigen::Index> moved;
-  std::vector<float> per_step;
-  for (Eigen::Index i = 0; i < d; ++i) {
-    if (steps[i] == 0) continue;
-    moved.push_back(i);
-    per_step.push_back(static_cast<float>(1 / steps[i]));
-  }
-  if (!self.views.empty()) {
-    self.neighbours.draw(states, moved);
-    const RenderedHypothesis hypothesis{
-        {states.col(0).data(), static_cast<std::size_t>(states.rows())},
-        self.neighbours.centre().tiles()};
-    self.write_slopes(hypothesis);
-    self.sum_rows(hypothesis, per_step, static_cast<float>(blur));
-  }
-  for (const Impl::ViewPart& view : self.views) {
-    for (const PixelRows& rows : view.bands) add(rows, moved, sums);
-  }
-  for (const Impl::StatePart& part : self.others) self.add_differences(part, states, steps, sums);
-  return sums;
+  const NormalEquations nothing{Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)};
+  NormalEquations pixels = nothing, others = nothing;
+  tbb::parallel_invoke([&] { impl_->add_pixels(states, steps, static_cast<float>(blur), pixels); },
+                       [&] { impl_->add_others(states, steps, others); });
+  return {pixels.a + others.a, pixels.g + others.g};
 }
 
 }  // namespace hypotrack

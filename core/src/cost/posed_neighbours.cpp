@@ -50,22 +50,25 @@ void PosedNeighbours::draw(const Eigen::MatrixXd& states,
   centre_.pose(state(0));
   centre_.project();
   tbb::parallel_for(std::size_t{0}, count + 1, [&](std::size_t i) {
-    if (i == count) {
-      centre_.cull();
-      centre_.fill();
-      return;
-    }
+    if (i == 0) return draw_centre();  // first, because it takes longest
+    const std::size_t n = i - 1;
     HypothesisDrawer& poser = poser_of_thread();
-    poser.pose(state(1 + dimensions[i]));
+    poser.pose(state(1 + dimensions[n]));
     poser.project();
     for (std::size_t s = 0; s < sets; ++s) {
-      float* own = records_.data() + (s * count + i) * size;
+      float* own = records_.data() + (s * count + n) * size;
       std::copy_n(poser.records(s), size, own);
-      beside_[s][i] = own;
-      compare(s, i);
+      beside_[s][n] = own;
+      compare(s, n);
     }
   });
   list_movers();
+}
+
+void PosedNeighbours::draw_centre() {
+  centre_.cull();
+  tbb::parallel_for(std::size_t{0}, frame_->views.size(),
+                    [&](std::size_t view) { centre_.fill(view); });
 }
 
 void PosedNeighbours::compare(std::size_t set, std::size_t neighbour) {

@@ -33,6 +33,7 @@ class PosedNeighbours {
  private:
   /// Views of a rectified pair share one set of vertices.
   std::size_t set(std::size_t view) const { return frame_->pair ? 0 : view; }
+  void draw_centre();
   void compare(std::size_t set, std::size_t neighbour);
   void list_movers();
 

@@ -40,6 +40,7 @@ void TermResiduals::prepare() {
   for (Part& part : parts_) {
     if (part.factor == 0) continue;
     const std::int64_t count = part.objective->residual_term()->residual_count();
+    part.first = static_cast<std::size_t>(count_);
     part.count = static_cast<std::size_t>(count);
     count_ += count;
   }
@@ -66,10 +67,9 @@ std::vector<ResidualRows> TermResiduals::pose_only() const {
 }
 
 double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothesis,
-                            std::span<float>& rest) const {
+                            std::span<float> all) const {
   const Part& part = parts_[term];
-  const std::span<float> own = rest.first(part.count);
-  rest = rest.subspan(part.count);
+  const std::span<float> own = all.subspan(part.first, part.count);
   const double cost = part.objective->cost_and_residuals(hypothesis, own);
   if (part.factor != 1) {
     Eigen::Map<Eigen::ArrayXf>(own.data(), static_cast<Eigen::Index>(own.size())) *= part.factor;

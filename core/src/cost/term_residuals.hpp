@@ -34,16 +34,15 @@ class TermResiduals {
   Eigen::Index count() const { return count_; }
   /// See StateResiduals::pose_only().
   std::vector<ResidualRows> pose_only() const;
-  /// Writes one term's residuals to the front of `rest`, advances `rest`, and returns the term's
-  /// cost without its weight. May be called from several threads at once.
-  double write(std::size_t term, const RenderedHypothesis& hypothesis,
-               std::span<float>& rest) const;
+  /// Writes one term's residuals to their place among `all`, and returns the term's cost without
+  /// its weight. May be called from several threads at once.
+  double write(std::size_t term, const RenderedHypothesis& hypothesis, std::span<float> all) const;
 
  private:
   struct Part {
     const Objective* objective;
     float factor;
-    std::size_t count = 0;
+    std::size_t first = 0, count = 0;
   };
   std::vector<Part> parts_;  // one per term
   Eigen::Index count_ = 0;

@@ -1,6 +1,9 @@
 #include "skin.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "checks.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
@@ -30,10 +33,13 @@ void Skin::prepare(const Observation& observation) {
   view_numbers_.clear();
   check(observation, params_.foreground);
   while (estimators_.size() < observation.views.size()) estimators_.emplace_back(params_);
-  for (std::size_t i = 0; i < observation.views.size(); ++i) {
-    ViewForeground foreground = estimators_[i].estimate(observation, i);
-    if (foreground.pixels.width() == 0) continue;
-    views_.push_back({i, std::move(foreground), {}});
+  std::vector<ViewForeground> foregrounds(observation.views.size());
+  tbb::parallel_for(std::size_t{0}, foregrounds.size(), [&](std::size_t i) {
+    foregrounds[i] = estimators_[i].estimate(observation, i);
+  });
+  for (std::size_t i = 0; i < foregrounds.size(); ++i) {
+    if (foregrounds[i].pixels.width() == 0) continue;
+    views_.push_back({i, std::move(foregrounds[i]), {}});
     view_numbers_.push_back(static_cast<int>(i));
   }
   for (PreparedView& view : views_) {

@@ -61,11 +61,12 @@ HYPOTRACK_PIXEL void look_up_row(const VolumeJob& job, float inverse_depth, int 
   }
 }
 
-/// Warps the view. `out` has the first view's size; NaN where the plane does not show a valid
-/// pixel.
-HYPOTRACK_PIXEL void warp(const VolumeJob& job, float inverse_depth, PixelPlane<float>& out) {
+/// Warps the view for rows `first` to `end` - 1 of the first view. `out` has that view's size; NaN
+/// where the plane does not show a valid pixel.
+HYPOTRACK_PIXEL void warp(const VolumeJob& job, float inverse_depth, int first, int end,
+                          PixelPlane<float>& out) {
   const int rows = std::min(out.height(), job.right.height());
-  for (int y = 0; y < out.height(); ++y) {
+  for (int y = first; y < end; ++y) {
     if (!job.map.rectified) {
       look_up_row(job, inverse_depth, y, out);
     } else if (y < rows) {

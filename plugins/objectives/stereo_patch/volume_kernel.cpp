@@ -1,5 +1,8 @@
 #include "volume_kernel.hpp"
 
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,14 +45,19 @@ class RowWriter {
   std::uint32_t* before_;
 };
 
-/// Fills all rows of one plane, from the second view warped by that plane.
+/// Rows `first` to `end` - 1 of the first view.
+struct Band {
+  int first, end;
+};
+
+/// Fills a band of one plane, from the second view warped by that plane.
 template <class Comparer>
-void fill_plane(const Settings& settings, const PixelPlane<float>& warped, int plane,
+void fill_plane(const Settings& settings, const PixelPlane<float>& warped, int plane, Band band,
                 Comparer& comparer, Volume& volume) {
   const int r = settings.radius;
   const int x0 = std::min(r, volume.width), x1 = std::max(volume.width - r, x0);
   const Lanes sharpness(static_cast<float>(settings.sharpness));
-  for (int y = 0; y < volume.height; ++y) {
+  for (int y = band.first; y < band.end; ++y) {
     const RowWriter out(volume, plane, y);
     if (y < r || y >= volume.height - r) {
       out.clear(0, volume.width);
@@ -65,14 +73,29 @@ void fill_plane(const Settings& settings, const PixelPlane<float>& warped, int p
   }
 }
 
+/// Fills a band of all planes.
 template <class Comparer>
-void fill_with(const VolumeJob& job, const Settings& settings, Comparer comparer, Volume& volume) {
+void fill_band(const VolumeJob& job, const Settings& settings, Band band, Comparer comparer,
+               Volume& volume) {
   PixelPlane<float> warped(volume.width, volume.height);
+  const int above = std::max(band.first - settings.radius, 0);
+  const int below = std::min(band.end + settings.radius, volume.height);
   for (int plane = 0; plane < volume.planes.count; ++plane) {
     const float w = volume.planes.first + static_cast<float>(plane) * volume.planes.step;
-    warp(job, w, warped);
-    fill_plane(settings, warped, plane, comparer, volume);
+    warp(job, w, above, below, warped);
+    fill_plane(settings, warped, plane, band, comparer, volume);
   }
+}
+
+/// Fills all planes, with a band of rows per thread.
+template <class Comparer>
+void fill_with(const VolumeJob& job, const Settings& settings, const Comparer& comparer,
+               Volume& volume) {
+  const int bands = std::clamp(tbb::this_task_arena::max_concurrency(), 1, volume.height);
+  tbb::parallel_for(0, bands, [&](int i) {
+    const Band band{i * volume.height / bands, (i + 1) * volume.height / bands};
+    fill_band(job, settings, band, comparer, volume);
+  });
 }
 
 void fill_on_target(const VolumeJob& job, const Settings& settings, Volume& volume) {
