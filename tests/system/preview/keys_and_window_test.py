@@ -86,21 +86,36 @@ class PreviewTest(unittest.TestCase):
         xdotool("windowfocus", found[-1])
         return found[-1] if xdotool("getwindowfocus", "-f").strip() == found[-1] else None
 
-    def until(self, found):
-        """Waits until something is true, and returns it."""
-        for _ in range(600):
+    def within(self, seconds, found):
+        """Waits until something is true, and returns it; None if the time is over before."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            over = self.run_.poll() is not None
             value = found()
             if value:
                 return value
-            self.assertIsNone(self.run_.poll(), self.said())
+            self.assertFalse(over, self.said())
             time.sleep(0.05)
-        self.fail("waited for 30 s: " + self.said())
+        return None
+
+    def until(self, found):
+        """Waits until something is true, and returns it."""
+        value = self.within(30, found)
+        if not value:
+            self.fail("waited for 30 s: " + self.said())
+        return value
 
     def said(self):
         return (self.folder / "err").read_text()
 
-    def press(self, key):
-        xdotool("key", key)
+    def press(self, key, happened):
+        """Presses a key until something has happened, and returns that: a busy window may miss a key."""
+        for _ in range(5):
+            xdotool("key", key)
+            value = self.within(6, happened)
+            if value:
+                return value
+        self.fail(f"the key {key} does nothing: " + self.said())
 
     def frames(self):
         """Returns the number of frames whose results are written."""
@@ -108,15 +123,37 @@ class PreviewTest(unittest.TestCase):
         table = part if part.exists() else self.out / "track.csv"
         return len(table.read_text().splitlines()) - 1 if table.exists() else 0
 
+    def set(self, key):
+        """Presses a key whose effect shows at the next frame only."""
+        xdotool("key", key)
+        time.sleep(1)  # a window that is given two keys at once may miss the first
+
+    def stopped(self):
+        """Returns the number of frames if none is added for a while; a frame takes some milliseconds."""
+        before = self.frames()
+        time.sleep(1.5)
+        return before if self.frames() == before else None
+
     def pause(self):
         """Pauses and returns the number of frames then."""
-        self.press("space")
-        before, since = self.frames(), time.monotonic()
-        while time.monotonic() - since < 1.5:  # a frame takes some milliseconds
-            time.sleep(0.1)
-            if self.frames() != before:
-                before, since = self.frames(), time.monotonic()
-        return before
+        return self.press("space", self.stopped)
+
+    def step(self, key="n"):
+        """Advances a paused run by one frame."""
+        frames = self.frames()
+        self.press(key, lambda: self.frames() == frames + 1)
+
+    def end(self, frames, key="q"):
+        """Ends the run by a key; the files must hold the frames."""
+        self.press(key, self.ended)
+        self.expect_end(frames)
+
+    def ended(self):
+        try:
+            self.run_.wait(1)
+        except subprocess.TimeoutExpired:
+            return False
+        return True
 
     def expect_end(self, frames=None):
         """Waits for the end; the files must hold the frames."""
@@ -129,22 +166,17 @@ class PreviewTest(unittest.TestCase):
     def test_space_pauses_and_n_steps(self):
         self.start()
         frames = self.pause()
-        self.press("n")
-        self.until(lambda: self.frames() == frames + 1)
-        self.press("period")
-        self.until(lambda: self.frames() == frames + 2)
+        self.step()
+        self.step("period")
         time.sleep(0.3)
         self.assertEqual(self.frames(), frames + 2)
-        self.press("space")
-        self.until(lambda: self.frames() > frames + 5)
-        self.press("q")
-        self.expect_end()
+        self.press("space", lambda: self.frames() > frames + 5)
+        self.end(None)
 
     def test_escape_ends_a_paused_run(self):
         self.start()
         frames = self.pause()
-        self.press("Escape")
-        self.expect_end(frames)
+        self.end(frames, "Escape")
 
     def test_a_window_closed_by_the_mouse_ends_the_run(self):
         self.start()
@@ -168,8 +200,8 @@ class PreviewTest(unittest.TestCase):
         frames = self.pause()
         os.kill(self.window_process(), signal.SIGKILL)
         self.until(lambda: self.frames() > frames + 3)
-        self.assertIn("warning: the run goes on without a preview: the window's process ended with code 137",
-                      self.said())
+        warning = "warning: the run goes on without a preview: the window's process ended with code 137"
+        self.until(lambda: warning in self.said())
         self.run_.send_signal(signal.SIGINT)
         self.expect_end()
 
@@ -183,11 +215,9 @@ class PreviewTest(unittest.TestCase):
     def test_a_snapshot_has_views_and_pose(self):
         self.start()
         frames = self.pause()
-        self.press("s")
         name = f"snapshot_{frames - 1:06}"
-        self.until(lambda: name in self.said())
-        self.press("q")
-        self.expect_end(frames)
+        self.press("s", lambda: name in self.said())
+        self.end(frames)
         self.assertEqual((self.out / f"{name}.png").read_bytes()[1:4], b"PNG")
         init = f"init={{from: file, file: {self.out / (name + '.yaml')}}}"
         subprocess.run((PROGRAM, "validate", self.folder / "scene.yaml", "--set", init), check=True,
@@ -196,31 +226,24 @@ class PreviewTest(unittest.TestCase):
     def test_a_restarted_run_searches_anew(self):
         self.start()
         frames = self.pause()
-        self.press("r")
-        self.press("n")
-        self.until(lambda: self.frames() == frames + 1)
+        self.set("r")
+        self.step()
         evaluations = [int(line.split(",")[4]) for line in
                        (self.out / ".part.track.csv").read_text().splitlines()[1:]]
         self.assertGreater(evaluations[-1], 10 * min(evaluations[1:-1]))
-        self.press("q")
-        self.expect_end(frames + 1)
+        self.end(frames + 1)
 
     def test_recorded_pictures_can_be_tracked(self):
         self.start()
         frames = self.pause()
-        self.press("v")
-        for i in range(3):
-            self.press("n")
-            self.until(lambda: self.frames() == frames + 1 + i)
-        self.press("v")
-        self.until(lambda: "3 frames are recorded" in self.said())
-        self.press("n")
-        self.until(lambda: self.frames() == frames + 4)
-        self.press("v")
-        self.press("n")
-        self.until(lambda: self.frames() == frames + 5)
-        self.press("q")  # ends the second recording, too
-        self.expect_end(frames + 5)
+        self.set("v")
+        for _ in range(3):
+            self.step()
+        self.press("v", lambda: "3 frames are recorded" in self.said())
+        self.step()
+        self.set("v")
+        self.step()
+        self.end(frames + 5)  # ends the second recording, too
         for first, count in ((frames, 3), (frames + 4, 1)):
             recording = self.out / f"recording_{first:06}"
             again = self.folder / f"again_{first}"
@@ -245,15 +268,12 @@ class PreviewTest(unittest.TestCase):
 
         post("pause")
         self.until(lambda: run() == "paused")
-        self.press("space")
-        self.until(lambda: run() == "runs")
-        self.press("space")
-        self.until(lambda: run() == "paused")
+        self.press("space", lambda: run() == "runs")
+        self.press("space", lambda: run() == "paused")
         frames = self.frames()
         post("step")
         self.until(lambda: self.frames() == frames + 1)
-        self.press("q")
-        self.expect_end(frames + 1)
+        self.end(frames + 1)
 
     def test_without_a_display_nothing_is_written(self):
         for display, found in (("", "neither DISPLAY nor WAYLAND_DISPLAY is set"),
