@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "commands.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
 #include "interrupt.hpp"
 #include "live_pairs/take_pairs.hpp"
@@ -210,7 +210,7 @@ int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common)
   fmt::print("{}\n", verdict.summary);
   for (const std::string& advice : verdict.advice) fmt::print("- {}\n", advice);
   if (options.coverage &&
-      !cv::imwrite(options.coverage->string(), calibrate::draw_coverage(boards.pairs, found))) {
+      !write_image(options.coverage->string(), calibrate::draw_coverage(boards.pairs, found))) {
     throw OutputError(
         fmt::format("{}: the picture cannot be written; expected a .png in a folder that exists",
                     options.coverage->string()));

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/solution.hpp"
 
 namespace hypotrack::app {
@@ -35,8 +35,8 @@ void check_picture_file(const std::filesystem::path& file) {
 }
 
 void write_picture(const std::filesystem::path& file, const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", picture, bytes))
+  const std::vector<unsigned char> bytes = encode_image(".png", picture);
+  if (bytes.empty())
     throw OutputError(fmt::format("{}: the picture cannot be encoded as PNG", file.string()));
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   write_whole(file, text);

@@ -7,12 +7,11 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <string_view>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack::calibrate {
 namespace {
@@ -39,26 +38,25 @@ bool is_video(const std::string& file) {
 }
 
 cv::Mat read_picture(const std::string& file) {
-  cv::Mat out = cv::imread(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  cv::Mat out = read_image(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   if (out.empty())
     throw DataError(fmt::format("{}: cannot be read as a picture; is it damaged?", file));
   return out;
 }
 
-cv::VideoCapture open_video(const std::string& file) {
-  cv::VideoCapture out(file);
-  if (!out.isOpened()) throw DataError(fmt::format("{}: cannot be opened as a video", file));
-  out.set(cv::CAP_PROP_ORIENTATION_AUTO, 0);
-  return out;
+std::unique_ptr<VideoFile> opened(const std::string& file) {
+  auto video = open_video(file);
+  if (!video) throw DataError(fmt::format("{}: cannot be opened as a video", file));
+  return video;
 }
 
 void read_videos(const std::string& left, const std::string& right, int step,
                  const std::function<void(PicturePair)>& take) {
-  cv::VideoCapture first = open_video(left), second = open_video(right);
-  for (int i = 0; first.grab() && second.grab(); ++i) {
+  const auto first = opened(left), second = opened(right);
+  for (int i = 0; first->grab() && second->grab(); ++i) {
     if (i % step != 0) continue;
     PicturePair pair{fmt::format("frame {}", i), {}, {}};
-    if (first.retrieve(pair.left) && second.retrieve(pair.right)) take(std::move(pair));
+    if (first->retrieve(pair.left) && second->retrieve(pair.right)) take(std::move(pair));
   }
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "base/text_file.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/pose.hpp"
 #include "viewing/view_drawing.hpp"
 
@@ -15,8 +15,7 @@ namespace {
 
 /// Returns a picture as the content of a PNG file.
 std::string png(const cv::Mat& picture) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes);
+  const std::vector<unsigned char> bytes = encode_image(".png", picture);
   return {bytes.begin(), bytes.end()};
 }
 

@@ -1,8 +1,8 @@
 #include "lab/live/view_pictures.hpp"
 
 #include <algorithm>
-#include <opencv2/imgcodecs.hpp>
 
+#include "hypotrack/media.hpp"
 #include "viewing/yield_to_others.hpp"
 
 namespace hypotrack {
@@ -10,8 +10,7 @@ namespace {
 
 std::string jpeg(const cv::Mat& picture) {
   constexpr int kQuality = 80;
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  const auto bytes = encode_image(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   return {bytes.begin(), bytes.end()};
 }
 

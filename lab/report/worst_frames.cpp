@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <map>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 
@@ -29,7 +29,7 @@ int frame_of(const std::string& name) {
 }
 
 std::string inlined(const fs::path& file, const PictureLimits& limits) {
-  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
+  cv::Mat picture = read_image(file.string(), cv::IMREAD_COLOR);
   if (picture.empty())
     throw DataError(fmt::format(
         "{}: is no picture that can be read; repeat the run that wrote it, or remove it",
@@ -39,9 +39,8 @@ std::string inlined(const fs::path& file, const PictureLimits& limits) {
     const double scale = static_cast<double>(limits.longest_side) / longest;
     cv::resize(picture, picture, {}, scale, scale, cv::INTER_AREA);
   }
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, limits.quality});
-  return "data:image/jpeg;base64," + base64(bytes);
+  return "data:image/jpeg;base64," +
+         base64(encode_image(".jpg", picture, {cv::IMWRITE_JPEG_QUALITY, limits.quality}));
 }
 
 }  // namespace

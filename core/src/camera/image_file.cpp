@@ -8,10 +8,11 @@
 #include <fstream>
 #include <new>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 #include <vector>
+
+#include "hypotrack/media.hpp"
 
 namespace hypotrack {
 namespace {
@@ -43,7 +44,7 @@ ReadImage decode(const std::filesystem::path& file) {
   if (is_truncated(bytes)) return {{}, name + ": is cut off before its end"};
   ReadImage read;
   try {
-    read.image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
+    read.image = decode_image(cv::Mat(bytes, false).reshape(1, 1), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
     if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines

@@ -6,11 +6,11 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack {
 namespace {
@@ -27,10 +27,10 @@ std::vector<int> compression(const std::filesystem::path& file, const cv::Mat& i
   return {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
 }
 
-void write_image(const std::filesystem::path& file, const cv::Mat& image) {
+void write_or_throw(const std::filesystem::path& file, const cv::Mat& image) {
   bool written = false;
   try {
-    written = cv::imwrite(file.string(), image, compression(file, image));
+    written = write_image(file.string(), image, compression(file, image));
   } catch (const cv::Exception&) {
   }
   if (written) return;
@@ -46,7 +46,7 @@ struct ImageWriter::Impl {
   void write_now(const std::filesystem::path& file, const cv::Mat& image) {
     if (stopped) return;
     try {
-      write_image(file, image);
+      write_or_throw(file, image);
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!error) error = std::current_exception();

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack {
 namespace {
@@ -58,7 +58,7 @@ void WorstFrames::write(OutputContext& run) const {
     const auto file = run.file(fmt::format("worst_{}.jpg", worst.frame));
     bool written = false;
     try {
-      written = cv::imwrite(file.string(), picture, {cv::IMWRITE_JPEG_QUALITY, 90});
+      written = write_image(file.string(), picture, {cv::IMWRITE_JPEG_QUALITY, 90});
     } catch (const cv::Exception&) {
     }
     if (!written)

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "box.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack {
@@ -42,7 +42,7 @@ struct RigidBoxParams {
 cv::Mat read_picture(const RigidBoxParams& params, const ConfigNode& config) {
   cv::Mat picture;
   if (std::filesystem::is_regular_file(params.texture)) {
-    picture = cv::imread(params.texture.string(), cv::IMREAD_COLOR);
+    picture = read_image(params.texture.string(), cv::IMREAD_COLOR);
   }
   if (picture.empty()) {
     throw DataError(fmt::format("{}: the texture {} is missing or no image that OpenCV reads",

@@ -1,11 +1,11 @@
 #include "model_node.hpp"
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "drawn_mesh.hpp"
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack::gltf {
 namespace {
@@ -34,8 +34,7 @@ std::size_t add_material(GlbFile& file, const Mesh& mesh) {
   constexpr double kSkinRoughness = 0.8;
   Json surface = {{"metallicFactor", 0}, {"roughnessFactor", kSkinRoughness}};
   if (!mesh.texture.empty() && mesh.uv_triangles.cols() > 0) {
-    std::vector<unsigned char> png;
-    cv::imencode(".png", mesh.texture, png);
+    const std::vector<unsigned char> png = encode_image(".png", mesh.texture);
     const std::size_t image =
         file.add("images", {{"mimeType", "image/png"},
                             {"bufferView", file.add_bytes(png.data(), png.size(), Use::other)}});

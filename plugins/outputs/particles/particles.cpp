@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <optional>
 
+#include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
 #include "map_panels.hpp"
 #include "swarm_panels.hpp"
@@ -86,8 +86,7 @@ void Particles::search(const Frame& frame, const Solution& solution, const Searc
 
 void Particles::write(const std::string& name, const cv::Mat& picture) {
   const std::filesystem::path file = run_->file(name);
-  std::vector<unsigned char> bytes;
-  cv::imencode("." + extension(), picture, bytes);
+  const std::vector<unsigned char> bytes = encode_image("." + extension(), picture);
   std::ofstream out(file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()),
             static_cast<std::streamsize>(bytes.size()));

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/renderer.hpp"
 #include "surfaces.hpp"
 
@@ -69,7 +69,7 @@ std::vector<Mesh> image_meshes(const BackgroundParams& params, Eigen::AlignedBox
   }
   cv::Mat image;
   if (std::filesystem::is_regular_file(params.file)) {
-    image = cv::imread(params.file.string(), cv::IMREAD_COLOR);
+    image = read_image(params.file.string(), cv::IMREAD_COLOR);
   }
   if (image.empty()) {
     throw DataError(fmt::format("{}: is no readable image; a background needs a PNG or JPEG file",

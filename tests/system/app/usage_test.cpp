@@ -31,6 +31,14 @@ TEST_F(UsageTest, HelpAndVersionSucceed) {
   EXPECT_THAT(version.out, testing::ContainsRegex("hypotrack [0-9]+\\.[0-9]+.*plugin ABI"));
 }
 
+TEST_F(UsageTest, StartsWithoutTheLibrariesOfImagesAndVideos) {
+  Start start;
+  start.environment = {"LD_TRACE_LOADED_OBJECTS=1"};  // the loader prints what it would load
+  const Outcome outcome = run_program(start);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("libhypotrack.so"), Not(HasSubstr("imgcodecs")),
+                                 Not(HasSubstr("videoio"))));
+}
+
 TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
   const std::vector<std::vector<std::string>> mistakes = {
       {},

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack {
 namespace {
@@ -26,7 +26,7 @@ cv::Mat decode_embedded(const mesh_wire::Texture& texture, const std::string& wh
     } else if (!texture.bytes.empty()) {
       const cv::Mat bytes(1, static_cast<int>(texture.bytes.size()), CV_8UC1,
                           const_cast<char*>(texture.bytes.data()));
-      image = cv::imdecode(bytes, cv::IMREAD_COLOR);
+      image = decode_image(bytes, cv::IMREAD_COLOR);
     }
   } catch (const cv::Exception&) {
     image.release();
@@ -51,7 +51,7 @@ cv::Mat read_texture(const std::filesystem::path& image, const std::string& wher
   }
   cv::Mat pixels;
   try {
-    pixels = cv::imread(image.string(), cv::IMREAD_COLOR);
+    pixels = read_image(image.string(), cv::IMREAD_COLOR);
   } catch (const cv::Exception&) {
     pixels.release();
   }

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "hypotrack/media.hpp"
+
+namespace hypotrack {
+
+/// The functions of media.hpp, in the module that links against OpenCV's libraries.
+struct MediaLibrary {
+  cv::Mat (*read)(const std::string& file, int flags);
+  bool (*write)(const std::string& file, const cv::Mat& image, const std::vector<int>& parameters);
+  cv::Mat (*decode)(const cv::Mat& bytes, int flags);
+  std::vector<unsigned char> (*encode)(const std::string& extension, const cv::Mat& image,
+                                       const std::vector<int>& parameters);
+  std::unique_ptr<VideoFile> (*open_video)(const std::string& file);
+};
+
+/// Name of the module's function that returns its MediaLibrary.
+inline constexpr const char* kMediaLibrary = "hypotrack_media_library";
+using GetMediaLibrary = const MediaLibrary& (*)();
+
+}  // namespace hypotrack

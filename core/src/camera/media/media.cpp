@@ -1,0 +1,55 @@
+#include "hypotrack/media.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/installation.hpp"
+#include "camera/media/library.hpp"
+#include "hypotrack/error.hpp"
+
+namespace hypotrack {
+namespace {
+
+const MediaLibrary& load() {
+  const std::filesystem::path file =
+      detail::prefix_folder() / HYPOTRACK_LIBDIR / "hypotrack" / "libhypotrack_media.so";
+  void* module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  void* function = module ? dlsym(module, kMediaLibrary) : nullptr;
+  if (!function) {
+    const char* why = dlerror();
+    throw DeviceError(
+        fmt::format("images and videos need {}, which cannot be loaded: {}; install OpenCV's "
+                    "imgcodecs and videoio (libopencv-imgcodecs, libopencv-videoio)",
+                    file.string(), why ? why : "unknown reason"));
+  }
+  return reinterpret_cast<GetMediaLibrary>(function)();
+}
+
+const MediaLibrary& library() {
+  static const MediaLibrary& loaded = load();
+  return loaded;
+}
+
+}  // namespace
+
+cv::Mat read_image(const std::string& file, int flags) { return library().read(file, flags); }
+
+bool write_image(const std::string& file, const cv::Mat& image,
+                 const std::vector<int>& parameters) {
+  return library().write(file, image, parameters);
+}
+
+cv::Mat decode_image(const cv::Mat& bytes, int flags) { return library().decode(bytes, flags); }
+
+std::vector<unsigned char> encode_image(const std::string& extension, const cv::Mat& image,
+                                        const std::vector<int>& parameters) {
+  return library().encode(extension, image, parameters);
+}
+
+std::unique_ptr<VideoFile> open_video(const std::string& file) {
+  return library().open_video(file);
+}
+
+}  // namespace hypotrack
