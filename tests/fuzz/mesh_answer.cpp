@@ -26,6 +26,7 @@ HYPOTRACK_FUZZ_TARGET(mesh_answer, "mesh") {
   if (!soup.uvs.empty()) fill_uvs(soup, welded.triangles, imported.mesh);
   fill_appearance(file, imported.mesh);
   require(imported.mesh.vertices.allFinite(), "vertices are finite");
+  require(imported.mesh.bone_weights.allFinite(), "weights are finite");
   require(imported.mesh.triangles.maxCoeff() < imported.mesh.vertices.cols(), "corners are there");
 }
 
