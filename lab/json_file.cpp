@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20;
 
+constexpr int kMostLevels = 64;  // deep values would exhaust the stack where they are copied
+
 constexpr std::string_view kAdvice = "repeat the run that wrote it, or remove it";
 
 }  // namespace
@@ -28,7 +30,12 @@ Json read_json_object(const std::filesystem::path& file, std::string_view advice
   std::ifstream in(file, std::ios::binary);
   Json json;
   try {
-    json = Json::parse(in);
+    json = Json::parse(in, [&](int depth, Json::parse_event_t, const Json&) {
+      if (depth > kMostLevels)
+        throw DataError(fmt::format("{}: is nested more than {} levels deep; {}", file.string(),
+                                    kMostLevels, advice));
+      return true;
+    });
   } catch (const Json::exception& e) {
     throw DataError(fmt::format("{}: is no JSON ({}); {}", file.string(), e.what(), advice));
   }
@@ -45,6 +52,20 @@ double number_in(const Json& object, const char* key, const std::filesystem::pat
     throw DataError(fmt::format("{}: '{}' is a {}, expected a number; {}", file.string(), key,
                                 it->type_name(), kAdvice));
   return it->get<double>();
+}
+
+std::int64_t integer_in(const Json& object, const char* key, const std::filesystem::path& file) {
+  const auto it = object.find(key);
+  const bool found = it != object.end();
+  constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();
+  if (found && it->is_number_integer() &&
+      !(it->is_number_unsigned() && it->get<std::uint64_t>() > kMost))
+    return it->get<std::int64_t>();
+  throw DataError(fmt::format("{}: '{}' is {}, expected a whole number; {}", file.string(), key,
+                              !found            ? "missing"
+                              : it->is_number() ? it->dump()
+                                                : it->type_name(),
+                              kAdvice));
 }
 
 std::string text_in(const Json& object, const char* key, const std::filesystem::path& file) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -10,13 +11,15 @@ namespace hypotrack {
 using Json = nlohmann::ordered_json;
 
 /// Reads a JSON object, its keys in the file's order. Throws DataError, naming the file and the
-/// position, if the file does not exist, is larger than 64 MiB, is no JSON or is anything but an
-/// object. Messages end with `advice`.
+/// position, if the file does not exist, is larger than 64 MiB, is no JSON, is nested more than 64
+/// levels deep or is anything but an object. Messages end with `advice`.
 Json read_json_object(const std::filesystem::path& file, std::string_view advice = {});
 
 /// Returns a member as a number; NaN if it is null or absent. Throws DataError if it is anything
 /// else.
 double number_in(const Json& object, const char* key, const std::filesystem::path& file);
+/// Returns a member as a whole number. Throws DataError if it is absent or anything else.
+std::int64_t integer_in(const Json& object, const char* key, const std::filesystem::path& file);
 /// Returns a member as text. Throws DataError if it is absent or no string.
 std::string text_in(const Json& object, const char* key, const std::filesystem::path& file);
 

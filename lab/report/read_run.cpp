@@ -79,7 +79,7 @@ StudyRun read_study_run(const fs::path& directory) {
   StudyRun run;
   run.id = directory.filename().string();
   run.scene = text_in(cell, "scene", file);
-  run.seed = static_cast<long>(number_in(cell, "seed", file));
+  run.seed = integer_in(cell, "seed", file);
   const Json settings = cell.value("settings", Json::object());
   for (const auto& [key, value] : settings.items()) run.settings[key] = setting_text(value);
   read_results(directory, run);

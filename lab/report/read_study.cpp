@@ -56,11 +56,11 @@ void read_plots(const ConfigNode& plots, std::vector<PlotRequest>& requests) {
 }
 
 std::size_t seeds_of(const ConfigNode& seeds) {
+  constexpr double kMost = 10'000;  // as in study files
   if (seeds.is_list()) return seeds.size();
   double count = 1;
-  return seeds.is_scalar() && parse_number(seeds.scalar(), count) && count >= 1
-             ? static_cast<std::size_t>(count)
-             : 1;
+  const bool given = seeds.is_scalar() && parse_number(seeds.scalar(), count);
+  return given && count >= 1 && count <= kMost ? static_cast<std::size_t>(count) : 1;
 }
 
 void read_study_file(const fs::path& file, StudyData& study) {

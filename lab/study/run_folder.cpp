@@ -127,7 +127,11 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kFailureFile;
   if (!std::filesystem::exists(file)) return std::nullopt;
   const Json json = read_json_object(file, repair_advice(file));
-  return RunFailure{json.value("message", ""), json.value("exit_code", 0)};
+  RunFailure failure;
+  if (json.contains("message")) failure.message = text_in(json, "message", file);
+  if (json.contains("exit_code"))
+    failure.exit_code = static_cast<int>(integer_in(json, "exit_code", file));
+  return failure;
 }
 
 std::string failure_message(const std::filesystem::path& log, const Ended& ended) {

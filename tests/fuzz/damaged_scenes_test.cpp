@@ -1,9 +1,12 @@
+#include <gtest/gtest.h>
+
 #include <fstream>
-#include <random>
 #include <vector>
 
+#include "damage.hpp"
+#include "dictionary.hpp"
 #include "read_scene.hpp"
-#include "test_paths.hpp"
+#include "target.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -63,121 +66,20 @@ seed: 7
   return scenes;
 }
 
-/// Damages texts in the ways that typing, merging and malice do.
-class Damage {
- public:
-  explicit Damage(std::uint64_t seed) : random_(seed) {}
-
-  std::string damaged() {
-    std::string text = pick(valid_scenes());
-    for (auto n = 1 + below(6); n > 0; --n) change(text);
-    return text;
-  }
-
-  void change(std::string& text) {
-    const std::size_t at = below(text.size() + 1);
-    const std::size_t length = std::min(below(20), text.size() - at);
-    switch (below(7)) {
-      case 0:
-        text.insert(at, pick(tokens()));
-        break;
-      case 1:
-        text.erase(at, length);
-        break;
-      case 2:
-        text.insert(below(text.size() + 1), text.substr(at, length));
-        break;
-      case 3:
-        if (at < text.size()) text[at] = static_cast<char>(below(256));
-        break;
-      case 4:
-        text.replace(at, length, pick(tokens()));
-        break;
-      case 5: {  // another scene's end
-        const std::string& other = pick(valid_scenes());
-        text = text.substr(0, at) + other.substr(below(other.size()));
-        break;
-      }
-      default:  // a token many times
-        for (auto n = below(100); n > 0; --n) text.insert(at, pick(tokens()));
-    }
-  }
-
-  std::size_t below(std::size_t limit) { return limit ? random_() % limit : 0; }
-
-  template <class T>
-  const T& pick(const std::vector<T>& from) {
-    return from[below(from.size())];
-  }
-
- private:
-  static const std::vector<std::string>& tokens() {
-    static const std::vector<std::string> all = {"- ",
-                                                 "? ",
-                                                 ": ",
-                                                 ":",
-                                                 "---\n",
-                                                 "...\n",
-                                                 "&a ",
-                                                 "*a",
-                                                 "<<: ",
-                                                 "!!str ",
-                                                 "!",
-                                                 "|",
-                                                 ">",
-                                                 ">-",
-                                                 "~",
-                                                 "{",
-                                                 "}",
-                                                 "[",
-                                                 "]",
-                                                 "'",
-                                                 "\"",
-                                                 "\\",
-                                                 "#",
-                                                 " #",
-                                                 "\t",
-                                                 "\n",
-                                                 "\r\n",
-                                                 "  ",
-                                                 ",",
-                                                 "%",
-                                                 "%YAML 1.1\n---\n",
-                                                 "@",
-                                                 "`",
-                                                 "\n ",
-                                                 ".inf",
-                                                 ".nan",
-                                                 "1e999",
-                                                 "-0",
-                                                 "0x1f",
-                                                 "true",
-                                                 "null",
-                                                 "yes",
-                                                 "ü",
-                                                 "手",
-                                                 "\xFF",
-                                                 "\"@other.yaml\"",
-                                                 "\"@scene.yaml#models.0\"",
-                                                 "@",
-                                                 "\x04",
-                                                 "\xEF\xBB\xBF",
-                                                 "9223372036854775808",
-                                                 "\"\\x\"",
-                                                 "\"\\U00110000\""};
-    return all;
-  }
-
-  std::mt19937_64 random_;
-};
+/// Returns damaged copies of the valid scenes.
+fuzz::Damage damage_of_scenes(std::uint64_t seed) {
+  return fuzz::Damage(seed, valid_scenes(), fuzz::read_dictionary("yaml"));
+}
 
 class DamagedScenes : public ::testing::Test {
  protected:
-  DamagedScenes() { write_other_scene(folder_.path()); }
-  const std::filesystem::path& folder() const { return folder_.path(); }
+  DamagedScenes() : folder_(fuzz::scratch_file("damaged/scene.yaml", "").parent_path()) {
+    write_other_scene(folder_);
+  }
+  const std::filesystem::path& folder() const { return folder_; }
 
  private:
-  TemporaryDirectory folder_;
+  std::filesystem::path folder_;
 };
 
 TEST_F(DamagedScenes, ValidOnesAreRead) {
@@ -185,7 +87,7 @@ TEST_F(DamagedScenes, ValidOnesAreRead) {
 }
 
 TEST_F(DamagedScenes, AreReadOrRefusedWithTheirPosition) {
-  Damage damage(2017);
+  fuzz::Damage damage = damage_of_scenes(2017);
   int read = 0;
   constexpr int kCases = 6000;
   for (int i = 0; i < kCases; ++i) {
@@ -215,7 +117,7 @@ TEST_F(DamagedScenes, DamagedOverridesAreAppliedOrRefused) {
   const std::vector<std::string> valid = {"models.0.type=box", "optimizer.center=[1, 2, 3]",
                                           "models.2={type: a}", "source.left='x.png'",
                                           "optimizer=@" + (folder() / "other.yaml").string()};
-  Damage damage(7);
+  fuzz::Damage damage = damage_of_scenes(7);
   int applied = 0;
   for (int i = 0; i < 1000; ++i) {
     std::vector<std::string> overrides = {damage.pick(valid)};

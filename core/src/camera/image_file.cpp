@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "camera/picture_header.hpp"
 #include "hypotrack/media.hpp"
 
 namespace hypotrack {
@@ -19,9 +20,8 @@ namespace {
 
 constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
 
-/// Returns true if a JPEG or PNG has its end marker. Decoders fill truncated images with grey.
-bool is_truncated(const std::vector<unsigned char>& bytes) {
-  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+/// Returns true if a JPEG or PNG lacks its end marker. Decoders fill truncated images with grey.
+bool is_truncated(std::string_view all) {
   const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
   if (all.starts_with("\xFF\xD8\xFF")) return tail.find("\xFF\xD9") == std::string_view::npos;
   if (all.starts_with("\x89PNG\r\n")) return tail.find("IEND") == std::string_view::npos;
@@ -41,7 +41,10 @@ ReadImage decode(const std::filesystem::path& file) {
                                          std::istreambuf_iterator<char>());
   if (!in.good() && !in.eof()) return {{}, name + ": cannot be read; check its permissions"};
   if (bytes.empty()) return {{}, name + ": is empty"};
-  if (is_truncated(bytes)) return {{}, name + ": is cut off before its end"};
+  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (is_truncated(all)) return {{}, name + ": is cut off before its end"};
+  if (const std::string problem = problem_of_size(all); !problem.empty())
+    return {{}, name + ": " + problem};
   ReadImage read;
   try {
     read.image = decode_image(cv::Mat(bytes, false).reshape(1, 1), cv::IMREAD_UNCHANGED);

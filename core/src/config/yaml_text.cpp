@@ -89,10 +89,12 @@ std::string read_text_file(const std::filesystem::path& file) {
     throw ConfigError(fmt::format("{}: cannot be opened: {}", file.string(),
                                   std::generic_category().message(errno)));
   }
-  // One byte above the limit is enough to detect a file that is too large.
-  std::string text(kMaxYamlBytes + 4, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  std::string text;
+  std::array<char, 1 << 15> block;
+  while (in && text.size() <= kMaxYamlBytes + 3) {  // so much tells a file that is too large
+    in.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(in.gcount()));
+  }
   if (in.bad()) throw ConfigError(file.string() + ": cannot be read");
   return text;
 }

@@ -150,8 +150,9 @@ void cull(const std::uint32_t* corners, const TriangleRange& range, const float*
     const auto [a, b, c] = load_corners(records, InSequence{corners + 4 * std::size_t{t}});
     const auto numbers = hn::Iota(u32, t);
     // The views of a rectified pair have the same rows but not the same columns.
-    const Vec y0 = first_pixel(a.y, b.y, c.y);
-    const Vec high_y = hn::Max(hn::Max(a.y, b.y), c.y);
+    const Vec ay = a.y, by = b.y, cy = c.y;  // Clang's lambdas take no structured bindings
+    const Vec y0 = first_pixel(ay, by, cy);
+    const Vec high_y = hn::Max(hn::Max(ay, by), cy);
     const Vec last_y = hn::Set(f, static_cast<float>(views[0].height - 1));
     const Vec y1 = hn::Floor(hn::Min(high_y, last_y));
     const Mask whole_y = hn::Le(high_y, last_y);
@@ -159,7 +160,7 @@ void cull(const std::uint32_t* corners, const TriangleRange& range, const float*
         hn::And(hn::Le(y0, y1), hn::Gt(hn::Min(hn::Min(a.w, b.w), c.w), hn::Zero(f)));
     const auto view = [&](Vec ax, Vec bx, Vec cx, int width, VisibleTriangles& list) HWY_ATTR {
       // The area is negative if counter-clockwise from outside (y is down).
-      Vec area = hn::Neg(twice_area(ax, a.y, bx, b.y, cx, c.y));
+      Vec area = hn::Neg(twice_area(ax, ay, bx, by, cx, cy));
       if (range.two_sided) area = hn::Abs(area);
       const Vec x0 = first_pixel(ax, bx, cx);
       const Vec high_x = hn::Max(hn::Max(ax, bx), cx);

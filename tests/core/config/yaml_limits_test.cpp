@@ -1,5 +1,6 @@
 #include <fstream>
 
+#include "config/yaml_text.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
@@ -81,6 +82,15 @@ TEST(YamlLimits, ControlCharactersAndOtherEncodingsAreRefused) {
                                            "a\0:\0",
                                            6)),
               StartsWith("scene.yaml:1:1: no UTF-8: found byte 0xFF"));
+}
+
+TEST(YamlLimits, SmallFilesTakeLittleMemory) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "scene.yaml";
+  std::ofstream(file) << "a: 1\n";
+  const std::string text = detail::read_text_file(file);
+  EXPECT_EQ(text, "a: 1\n");
+  EXPECT_LT(text.capacity(), 1u << 17);
 }
 
 }  // namespace

@@ -31,6 +31,12 @@ TEST_F(DamagedMesh, WithoutFacesSaysSo) {
               HasSubstr("the mesh has no faces: all its triangles are degenerate"));
 }
 
+TEST_F(DamagedMesh, VertexFarOffIsNamed) {
+  EXPECT_THAT(error("a.obj", "v 0 0 0\nv 3e38 0 0\nv 0 -3e38 0\nf 1 2 3\n"),
+              AllOf(HasSubstr("a.obj: vertex 1 of mesh"),
+                    HasSubstr("lies 3e+38 m from the origin; expected at most 1e+09 m")));
+}
+
 TEST_F(DamagedMesh, NanVertexIsNamed) {
   GlbContent content;
   content.positions[2][1] = kNan;

@@ -21,6 +21,20 @@ TEST(ImportedSkin, HasBonesWithParentsAndBindPlaces) {
   EXPECT_TRUE(imported.bones[1].file_from_bone.translation().isApprox(Eigen::Vector3d(0, 1, 0)));
 }
 
+TEST(ImportedSkin, VerticesWithoutFacesMoveNoOthers) {
+  GlbContent content;
+  content.positions.push_back(content.positions[0]);  // which no face uses
+  content.joints.push_back({1});
+  content.weights.push_back({1, 0, 0, 0});
+  const ImportedMesh imported = import(content);
+  const Mesh& mesh = imported.mesh;
+  for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
+    if (!mesh.vertices.col(v).isZero()) continue;
+    EXPECT_EQ(mesh.bone_weights(0, v), 1);
+    EXPECT_EQ(imported.bones[static_cast<std::size_t>(mesh.bone_indices(0, v))].name, "root");
+  }
+}
+
 TEST(ImportedSkin, BoneScaleDoesNotStayInTheBindTransform) {
   GlbContent content;
   content.bones[0].scale = {100, 100, 100};

@@ -67,6 +67,19 @@ TEST_F(MeshTexture, ImageBesideTheFileIsRelativeToIt) {
   EXPECT_EQ(import_mesh(path).mesh.texture.rows, 4);
 }
 
+TEST_F(MeshTexture, HugeImagesAreRefusedBeforeTheyAreDecoded) {
+  std::string huge = picture();
+  huge.replace(16, 8, std::string_view("\0\1\0\0\0\1\0\0", 8));  // width and height
+  GlbContent content = textured();
+  content.image = huge;
+  constexpr const char* kWhy = ": the texture has 65536x65536 pixels; at most 134217728 are read";
+  EXPECT_THAT(import_error(file("a.glb", glb(content))), HasSubstr(std::string("a.glb") + kWhy));
+  content.image.clear();
+  content.image_uri = "skin.png";
+  file("skin.png", huge);
+  EXPECT_THAT(import_error(file("b.glb", glb(content))), HasSubstr(std::string("skin.png") + kWhy));
+}
+
 TEST_F(MeshTexture, OptionReplacesTheFilesOwn) {
   GlbContent content = textured();
   content.image_uri = "missing.png";

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -99,8 +100,29 @@ TEST_F(StudyTest, NamesTheDamagedFile) {
   overwrite(run / "metrics.json", "{}");
   overwrite(run / "cell.json", "{\"scene\": 3}");
   EXPECT_THAT(refusal(), HasSubstr("cell.json: 'scene' is number, expected a text"));
+  for (const char* seed : {"1e+300", "1.5", "18446744073709551615"}) {
+    overwrite(run / "cell.json", fmt::format("{{\"scene\": \"a\", \"seed\": {}}}", seed));
+    EXPECT_THAT(refusal(),
+                HasSubstr("cell.json: 'seed' is " + std::string(seed) + ", expected a whole"));
+  }
+  overwrite(run / "cell.json", R"({"scene": "a"})");
+  EXPECT_THAT(refusal(), HasSubstr("cell.json: 'seed' is missing, expected a whole number"));
   overwrite("study.yaml", "title: [");
   EXPECT_THAT(refusal(), HasSubstr("study.yaml:"));
+}
+
+TEST_F(StudyTest, RefusesFilesOfDeepNesting) {
+  study();
+  const std::string deep(1'000'000, '[');
+  overwrite("runs/stereo_p16_g16_s1/metrics.json",
+            "{\"models\": " + deep + std::string(deep.size(), ']') + "}");
+  EXPECT_THAT(refusal(), HasSubstr("s1/metrics.json: is nested more than 64 levels deep; repeat"));
+}
+
+TEST_F(StudyTest, PlansNoMoreSeedsThanAStudyMayHave) {
+  study();
+  overwrite("study.yaml", "title: a\nseeds: 1e300\nscenes: {stereo: {}}\n");
+  EXPECT_EQ(read_study(folder()).planned, 1U);
 }
 
 TEST_F(StudyTest, TablesMarkTheBestAndWhatSeedsDoNotSeparateFromIt) {

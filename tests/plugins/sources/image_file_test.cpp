@@ -1,6 +1,6 @@
 #include "hypotrack/image_file.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "test_paths.hpp"
 
@@ -38,6 +41,32 @@ TEST(ImageFileDeathTest, LackOfMemoryIsNotCalledDamage) {
   };
   EXPECT_EXIT(read_with_little(), testing::ExitedWithCode(0),
               "large.png: there is not enough memory to decode it");
+}
+
+/// Encodes a small picture and returns its bytes with another size in its header: 2 bytes for
+/// height and width each at some place behind a mark.
+std::string with_size(const char* format, std::string_view mark, std::size_t behind,
+                      std::string_view height, std::string_view width) {
+  std::vector<unsigned char> bytes;
+  cv::imencode(format, cv::Mat::zeros(8, 8, CV_8UC3), bytes);
+  std::string text(bytes.begin(), bytes.end());
+  const std::size_t at = text.find(mark) + mark.size() + behind;
+  return text.replace(at, height.size() + width.size(), std::string(height) + std::string(width));
+}
+
+TEST(ImageFile, RefusesHugePicturesBeforeDecodingThem) {
+  using namespace std::literals;
+  const test::TemporaryDirectory folder;
+  const auto problem_of = [&](const char* name, const std::string& bytes) {
+    std::ofstream(folder.path() / name, std::ios::binary) << bytes;
+    return read_color(folder.path() / name).problem;
+  };
+  // JPEG: 12,000 rows of 12,000. PNG, where the width comes first: 65,536 of 4,096.
+  EXPECT_THAT(problem_of("a.jpg", with_size(".jpg", "\xFF\xC0", 3, "\x2E\xE0", "\x2E\xE0")),
+              testing::EndsWith("a.jpg: has 12000x12000 pixels; at most 134217728 are read"));
+  EXPECT_THAT(problem_of("a.png", with_size(".png", "IHDR", 0, "\0\1\0\0"sv, "\0\0\x10\0"sv)),
+              testing::EndsWith("a.png: has 65536x4096 pixels; at most 134217728 are read"));
+  EXPECT_EQ(problem_of("b.jpg", with_size(".jpg", "\xFF\xC0", 3, "\0\x08"sv, "\0\x08"sv)), "");
 }
 
 }  // namespace

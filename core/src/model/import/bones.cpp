@@ -30,6 +30,11 @@ Eigen::Isometry3d bone_transform(const MeshFile& file, const mesh_wire::BoneNode
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();
   transform.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   transform.translation() = file.options.scale * matrix.topRightCorner<3, 1>();
+  if (const double farthest = transform.translation().cwiseAbs().maxCoeff();
+      farthest > kFarthestPoint) {
+    file.fail(fmt::format("bone '{}' lies {:.3g} m from the origin; expected at most {:.0e} m",
+                          node.name, farthest, kFarthestPoint));
+  }
   return transform;
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/import/steps.hpp"
@@ -16,6 +17,13 @@ void check_positions(const MeshFile& file, const MeshPart& part) {
       file.fail(
           fmt::format("vertex {} of mesh '{}' is ({}, {}, {}): every coordinate must be finite", i,
                       part.name, p[0], p[1], p[2]));
+    }
+    const double farthest =
+        file.options.scale * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    if (farthest > kFarthestPoint) {
+      file.fail(fmt::format(
+          "vertex {} of mesh '{}' lies {:.3g} m from the origin; expected at most {:.0e} m", i,
+          part.name, farthest, kFarthestPoint));
     }
   }
 }

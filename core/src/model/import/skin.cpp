@@ -1,6 +1,16 @@
 #include "model/import/steps.hpp"
 
 namespace hypotrack {
+namespace {
+
+/// Returns which points are corners of triangles. The weights of others are unchecked.
+std::vector<bool> used_points(const Soup& soup) {
+  std::vector<bool> used(static_cast<std::size_t>(soup.points.cols()));
+  for (const int corner : soup.triangles.reshaped()) used[static_cast<std::size_t>(corner)] = true;
+  return used;
+}
+
+}  // namespace
 
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh) {
   const Eigen::Index count = mesh.vertices.cols();
@@ -10,7 +20,9 @@ void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh) {
     return;
   }
   std::vector<std::vector<BoneWeight>> merged(static_cast<std::size_t>(count));
+  const std::vector<bool> used = used_points(soup);
   for (std::size_t i = 0; i < welded.same.size(); ++i) {
+    if (!used[i]) continue;
     const int vertex = welded.vertex[static_cast<std::size_t>(welded.same[i])];
     if (vertex < 0) continue;
     auto& all = merged[static_cast<std::size_t>(vertex)];

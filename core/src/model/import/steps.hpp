@@ -12,6 +12,8 @@
 // The steps of import_mesh() after the reader program has read the file, in their order.
 namespace hypotrack {
 
+inline constexpr double kFarthestPoint = 1e9;  ///< from the origin, along an axis, in metres
+
 struct MeshFile {
   std::filesystem::path path;
   MeshImportOptions options;
@@ -39,7 +41,8 @@ struct Welded {
 
 std::vector<ImportedBone> convert_bones(const MeshFile& file);
 
-/// Throws DataError on indices out of range, numbers that are not finite and negative weights.
+/// Throws DataError on indices out of range, numbers that are not finite, points far off and
+/// negative weights.
 void check_part(const MeshFile& file, const mesh_wire::MeshPart& part);
 
 /// Checks every part and concatenates them.
@@ -53,7 +56,8 @@ void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, co
 /// Fills the mesh's vertices and triangles and returns how they relate to the soup.
 Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
 
-/// Fills the bone influences; a welded vertex has the mean of its copies' influences.
+/// Fills the bone influences; a welded vertex has the mean of its copies' influences. Copies that
+/// no triangle uses do not count.
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
 /// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.

@@ -4,32 +4,44 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
+#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <string_view>
 
+#include "camera/picture_header.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 
 namespace hypotrack {
 namespace {
 
+/// Decodes a compressed image; returns an empty one if it is damaged. Throws DataError, naming
+/// `where`, if it is too large.
+cv::Mat decode(std::string_view bytes, const std::string& where) {
+  if (const std::string problem = problem_of_size(bytes); !problem.empty())
+    throw DataError(where + ": the texture " + problem);
+  if (bytes.empty()) return {};
+  try {
+    const cv::Mat raw(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
+    return decode_image(raw, cv::IMREAD_COLOR);
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 cv::Mat decode_embedded(const mesh_wire::Texture& texture, const std::string& where) {
   cv::Mat image;
-  try {
-    if (texture.width > 0) {
-      const std::size_t size = std::size_t{4} * texture.width * texture.height;
-      if (texture.bytes.size() == size && texture.width < 1 << 16 && texture.height < 1 << 16) {
-        const cv::Mat pixels(static_cast<int>(texture.height), static_cast<int>(texture.width),
-                             CV_8UC4, const_cast<char*>(texture.bytes.data()));
-        cv::cvtColor(pixels, image, cv::COLOR_BGRA2BGR);
-      }
-    } else if (!texture.bytes.empty()) {
-      const cv::Mat bytes(1, static_cast<int>(texture.bytes.size()), CV_8UC1,
-                          const_cast<char*>(texture.bytes.data()));
-      image = decode_image(bytes, cv::IMREAD_COLOR);
+  if (texture.width == 0) {
+    image = decode(texture.bytes, where);
+  } else {
+    const std::size_t size = std::size_t{4} * texture.width * texture.height;
+    if (texture.bytes.size() == size && texture.width < 1 << 16 && texture.height < 1 << 16) {
+      const cv::Mat pixels(static_cast<int>(texture.height), static_cast<int>(texture.width),
+                           CV_8UC4, const_cast<char*>(texture.bytes.data()));
+      if (!pixels.empty()) cv::cvtColor(pixels, image, cv::COLOR_BGRA2BGR);
     }
-  } catch (const cv::Exception&) {
-    image.release();
   }
   if (image.empty()) {
     throw DataError(where +
@@ -49,12 +61,9 @@ cv::Mat read_texture(const std::filesystem::path& image, const std::string& wher
                     "with `texture`",
                     where, image.string()));
   }
-  cv::Mat pixels;
-  try {
-    pixels = read_image(image.string(), cv::IMREAD_COLOR);
-  } catch (const cv::Exception&) {
-    pixels.release();
-  }
+  std::ifstream in(image, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  cv::Mat pixels = decode(bytes, fmt::format("{}: {}", where, image.string()));
   if (pixels.empty()) {
     throw DataError(fmt::format("{}: its texture {} is no image that OpenCV reads (PNG, JPEG, ...)",
                                 where, image.string()));

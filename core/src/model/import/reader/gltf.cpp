@@ -23,8 +23,14 @@ Json read_json(const std::string& file) {
   return Json::parse(bytes.substr(20, length));
 }
 
+/// Returns a value as a whole number. Throws std::runtime_error if it is anything else.
+std::uint64_t whole(const Json& value, const char* name) {
+  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+  throw std::runtime_error(std::string("a value of '") + name + "' is no whole number from 0 on");
+}
+
 /// glTF 2.0, "mesh.primitive.mode".
-std::uint64_t triangles_of(std::int64_t mode, std::uint64_t corners) {
+std::uint64_t triangles_of(std::uint64_t mode, std::uint64_t corners) {
   constexpr int kTriangles = 4;
   constexpr int kStrip = 5;
   constexpr int kFan = 6;
@@ -43,9 +49,9 @@ std::uint64_t count_gltf_triangles(const std::string& file) {
       const Json& corners = primitive.contains("indices")
                                 ? primitive.at("indices")
                                 : primitive.at("attributes").at("POSITION");
-      const Json& accessor = json.at("accessors").at(corners.get<std::size_t>());
-      triangles += triangles_of(primitive.value("mode", std::int64_t{4}),
-                                accessor.at("count").get<std::uint64_t>());
+      const Json& accessor = json.at("accessors").at(whole(corners, "indices or POSITION"));
+      const std::uint64_t mode = primitive.contains("mode") ? whole(primitive["mode"], "mode") : 4;
+      triangles += triangles_of(mode, whole(accessor.at("count"), "count"));
     }
   }
   return triangles;

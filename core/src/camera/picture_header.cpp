@@ -1,0 +1,66 @@
+#include "camera/picture_header.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace hypotrack {
+namespace {
+
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 27;
+
+struct Size {
+  std::uint64_t width = 0, height = 0;
+};
+
+/// Returns a big-endian number. The bytes must be there.
+std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::uint32_t value = 0;
+  for (const char c : bytes.substr(at, count)) value = value << 8 | static_cast<unsigned char>(c);
+  return value;
+}
+
+/// PNG, "11.2.2 IHDR Image header".
+std::optional<Size> png_size(std::string_view bytes) {
+  if (bytes.size() < 24) return std::nullopt;
+  return Size{number_at(bytes, 16, 4), number_at(bytes, 20, 4)};
+}
+
+/// ITU-T T.81, "B.2.2 Frame header syntax": a frame header is a segment C0 to CF, but for three.
+std::optional<Size> jpeg_size(std::string_view bytes) {
+  std::size_t at = 2;
+  while (true) {
+    at = bytes.find('\xFF', at);
+    if (at == std::string_view::npos || bytes.size() - at < 9) return std::nullopt;
+    const std::uint32_t marker = number_at(bytes, at + 1, 1);
+    const bool frame =
+        marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
+    if (frame) return Size{number_at(bytes, at + 7, 2), number_at(bytes, at + 5, 2)};
+    if (marker == 0xFF) {
+      ++at;  // fills up
+    } else if (marker == 0x00 || marker == 0x01 || (marker >= 0xD0 && marker <= 0xD9)) {
+      at += 2;  // stands alone
+    } else {
+      at += 2 + number_at(bytes, at + 2, 2);
+    }
+  }
+}
+
+std::optional<Size> size_in_header(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG\r\n")) return png_size(bytes);
+  if (bytes.starts_with("\xFF\xD8\xFF")) return jpeg_size(bytes);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string problem_of_size(std::string_view bytes) {
+  const std::optional<Size> size = size_in_header(bytes);
+  if (!size || size->width * size->height <= kMostPixels) return {};
+  return fmt::format("has {}x{} pixels; at most {} are read", size->width, size->height,
+                     kMostPixels);
+}
+
+}  // namespace hypotrack

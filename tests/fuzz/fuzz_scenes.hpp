@@ -1,0 +1,23 @@
+#pragma once
+
+#include <memory>
+
+#include "hypotrack/scene.hpp"
+#include "rig.hpp"
+#include "stick_hand.hpp"
+#include "target.hpp"
+#include "test_models.hpp"
+
+namespace hypotrack::fuzz {
+
+/// Returns a scene of `hand`, which is made of sticks, and `box`.
+inline const Scene& hand_and_box() {
+  static const Scene scene = [] {
+    const Rig rig = read_rig(fuzz_folder() / "corpus" / "rig" / "axes.yaml");
+    return Scene({{"hand", std::make_shared<Model>(rig_hand(test::stick_hand(), rig, "axes.yaml"))},
+                  {"box", std::make_shared<Model>(test::make_test_box())}});
+  }();
+  return scene;
+}
+
+}  // namespace hypotrack::fuzz
