@@ -59,7 +59,8 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms);
 
 /// Turns batches of states into costs: normalises, poses, skins, draws depth tiles of every view,
 /// and scores. Each backend is one implementation (make_cost()). It uses several threads; the
-/// result does not depend on their number.
+/// result does not depend on their number. Every function that draws calls check_stop(), on the CPU
+/// for every hypothesis.
 class Cost {
  public:
   virtual ~Cost();

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_scope.hpp"
 #include "cost/backends.hpp"
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
@@ -69,7 +70,7 @@ class HostCost final : public Cost, public StateResiduals {
     const Eigen::MatrixXd& batch = normalized(states, costs.size());
     check_room(residuals, count(), batch.cols());
     const auto rows = static_cast<std::size_t>(residuals.rows());
-    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       costs[index] = write_residuals(index, hypothesis, {residuals.col(index).data(), rows});
     });
   }
@@ -90,8 +91,10 @@ class HostCost final : public Cost, public StateResiduals {
     constexpr std::size_t kMany = 8;  // points keep the threads busy without bands
     LinearizerPool& pool = points.size() < kMany ? *linearizers_ : *narrow_linearizers_;
     std::vector<NormalEquations> out(points.size());
+    const StopCheck check;
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        check();
         pool.use([&](Linearizer& linearizer) {
           out[i] = linearizer.linearize(states[i], points[i].steps, points[i].blur);
         });
@@ -120,7 +123,7 @@ class HostCost final : public Cost, public StateResiduals {
   }
   void evaluate_normalized(const Eigen::MatrixXd& states,
                            Eigen::Ref<Eigen::VectorXd> costs) override {
-    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       costs[index] = sum_up(index, hypothesis, [&](std::size_t t, const RenderedHypothesis& drawn) {
         return terms()[t].objective->cost(drawn);
       });
@@ -174,13 +177,23 @@ class HostCost final : public Cost, public StateResiduals {
     Eigen::MatrixXd neighbours_;  // states of the last batch, if it was of normal_equations()
   };
 
+  /// Draws states and visits them until the search has to end.
+  template <class Visit>
+  void render(const Eigen::MatrixXd& states, const Visit& visit) {
+    const StopCheck check;
+    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      check();
+      visit(index, hypothesis);
+    });
+  }
+
   /// Stores how the residuals of states (DxN) differ from those of one point; computes the costs.
   void fill(DifferenceBlocks& blocks, const Eigen::VectorXf& here,
             const Eigen::Ref<const Eigen::MatrixXd>& states, Eigen::Ref<Eigen::VectorXd> costs) {
     const Eigen::MatrixXd& batch = normalized(states, costs.size());
     const auto rows = static_cast<std::size_t>(here.size());
     blocks.begin({here.data(), rows}, batch.cols());
-    renderer_->render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+    render(batch, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
       std::vector<float>& residuals = residual_memory_.local();
       residuals.resize(rows);
       costs[index] = write_residuals(index, hypothesis, residuals);

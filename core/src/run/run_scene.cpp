@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_scope.hpp"
 #include "camera/pair_check.hpp"
 #include "hypotrack/error.hpp"
 #include "output/fixed_lag_output.hpp"
@@ -31,12 +32,30 @@ class Latch {
  public:
   explicit Latch(RunWatcher& watcher) : watcher_(watcher) {}
   bool stopped() { return stopped_ = stopped_ || watcher_.stop(); }
+  /// Stops in the watcher's place, and tells it so by asking. Returns false.
+  bool end() {
+    stopped();
+    stopped_ = true;
+    return false;
+  }
   RunWatcher& watcher() { return watcher_; }
 
  private:
   RunWatcher& watcher_;
   bool stopped_ = false;
 };
+
+/// Calls a function that searches. Returns false if the test ended it.
+template <class Function>
+bool completes(const StopTest& stop, const Function& function) {
+  const StopScope scope(stop);
+  try {
+    function();
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
 
 /// Reads frames up to and including the first usable one. Throws DataError if none of the first
 /// `limit` frames is usable.
@@ -210,12 +229,13 @@ double seconds_since(SteadyClock::time_point begin) {
   return std::chrono::duration<double>(SteadyClock::now() - begin).count();
 }
 
-/// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
-/// frames. Returns false if the watcher ended it. Adds to `clock` how long reading and tracking
-/// took.
+/// Tracks `first`, which was read already, and then the rest of the source, as far as the options
+/// say. Returns false if they or the watcher ended it. Adds to `clock` how long reading and
+/// tracking took.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
-               const std::vector<Frame>& first, std::optional<int> limit, Latch& latch,
+               const std::vector<Frame>& first, const RunOptions& options, Latch& latch,
                const std::function<bool()>& searches_anew, ClockTimes& clock) {
+  const std::optional<int> limit = options.frames;
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
@@ -233,7 +253,10 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     std::optional<SearchRecord> record;
     if (results && results->want_search(*frame)) record.emplace();
     const auto begin = SteadyClock::now();
-    const Solution solution = tracker.track(*frame, record ? &*record : nullptr);
+    Solution solution;
+    if (!completes(options.stop_now,
+                   [&] { solution = tracker.track(*frame, record ? &*record : nullptr); }))
+      return latch.end();
     clock.tracking += seconds_since(begin);
     notes.add(solution);
     if (record) results->add_search(*frame, solution, *std::move(record));
@@ -267,7 +290,10 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
                     RunAdditions additions) {
   spare_scene(scene, options.out);
   Latch latch(watcher);
-  EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
+  EstimatedScene estimated;
+  if (!completes(options.stop_now,
+                 [&] { estimated = open_for_run(scene, overrides, plugins, latch); }))
+    latch.end();
   if (latch.stopped()) return {};
   OpenedScene& opened = estimated.scene;
   if (additions.opened) additions.opened(opened);
@@ -297,7 +323,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   };
   try {
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options.frames, latch, additions.searches_anew, clock);
+                                options, latch, additions.searches_anew, clock);
     if (results) results->settle();
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either

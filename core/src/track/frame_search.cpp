@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hypotrack/search.hpp"
+#include "hypotrack/stop.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/search_cost.hpp"
 
@@ -103,6 +104,7 @@ OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& regi
     if (cost.tally().failed) throw;
     detail::rethrow_from(optimizer_label_);
   }
+  check_stop();  // in case the optimizer caught it
   check_answer(answer, cost.tally(), region, budget, optimizer_label_);
   return answer;
 }
