@@ -34,7 +34,7 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       background_(joined_use(parts.objective).background
                       ? std::make_optional<StillBackground>(scene, parts.cameras)
                       : std::nullopt),
-      cost_(make_cost(scene, parts.objective, parts.evaluate, requirements_of(parts))),
+      cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
       optimizer_label_(parts.optimizer_label) {}
 

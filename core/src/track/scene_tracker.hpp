@@ -66,6 +66,8 @@ class SceneTracker {
 
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const;
+  /// Returns the error after which the CPU took the place of a device; empty: there was none.
+  const std::string& device_error() const { return finder_.search().device_error(); }
 
  private:
   /// Tracking state of one model.
@@ -93,6 +95,8 @@ class SceneTracker {
   };
 
   void find(const Frame& frame, Solution& solution, SearchRecord* record);
+  /// Calls find(), again on the CPU if the device failed and the settings ask for that.
+  void find_in_spite_of_device(const Frame& frame, Solution& solution, SearchRecord* record);
   /// Records the tiles, the answer drawn in them and the terms' maps of it.
   void describe(const Frame& frame, const Candidate& best, SearchRecord& record);
   /// Searches from the last state. Returns no pose while all models are lost.
