@@ -48,8 +48,10 @@ InterruptGuard::~InterruptGuard() {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
+bool InterruptGuard::signalled() { return g_interrupted != 0; }
+
 bool InterruptGuard::interrupted() const {
-  if (g_interrupted == 0) return false;
+  if (!signalled()) return false;
   alarm(0);  // somebody acts on it
   return true;
 }

@@ -16,7 +16,10 @@ class InterruptGuard {
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
+  /// Returns whether a signal came; the caller acts on it, so nothing ends the program any more.
   bool interrupted() const;
+  /// Returns whether a signal came. May be called from any thread.
+  static bool signalled();
 
  private:
   void (*of_broken_pipe_)(int);  ///< handler of SIGPIPE before

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "keeping_frames.hpp"
 #include "output/recording_writer.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
@@ -64,7 +65,7 @@ void record_frames(Source& source, const RecordOptions& options, const Interrupt
 
 void finish(RecordingWriter& writer, const FrameCounts& counts, const Source& source,
             const std::filesystem::path& out) {
-  writer.finish();
+  keeping_frames(writer, out, [&] { writer.finish(); });
   for (const std::string& line : source.statistics()) fmt::print("{}\n", line);
   fmt::print("{} frames ({} missing); recording in {}\n", counts.all, counts.missing, out.string());
 }
@@ -81,7 +82,8 @@ int record(const RecordOptions& options, const CommonOptions& common) {
   const InterruptGuard interrupt;
   FrameCounts counts;
   try {
-    record_frames(source, options, interrupt, writer, counts);
+    keeping_frames(writer, options.out,
+                   [&] { record_frames(source, options, interrupt, writer, counts); });
   } catch (const DataError&) {  // the camera is gone
     if (counts.all > counts.missing) finish(writer, counts, source, options.out);
     throw;

@@ -23,7 +23,7 @@ namespace {
 
 struct RunCommand {
   SceneOptions scene;
-  RunOptions options{.out = "out", .frames = {}};
+  RunOptions options{.out = "out", .frames = {}, .stop_now = InterruptGuard::signalled};
   std::optional<std::int64_t> seed;
   ViewerOptions viewers;
 };

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "keeping_frames.hpp"
 #include "output/recording_writer.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
@@ -37,7 +38,7 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     for (int done = 0; !options.frames || done < *options.frames; ++done) {
       const auto frame = session.source->next();
       if (!frame || interrupt.interrupted()) break;
-      writer.add(*frame);
+      keeping_frames(writer, options.out, [&] { writer.add(*frame); });
       progress.advance({});
     }
   }
@@ -45,7 +46,7 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  writer.finish();
+  keeping_frames(writer, options.out, [&] { writer.finish(); });
   fmt::print("{}", motion_text(writer.motion()));
   fmt::print("recording in {}\n", options.out.string());
   if (!interrupt.interrupted()) return 0;

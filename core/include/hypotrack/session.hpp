@@ -11,6 +11,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/solution.hpp"
+#include "hypotrack/stop.hpp"
 #include "hypotrack/tracker.hpp"
 
 namespace hypotrack {
@@ -25,6 +26,9 @@ struct SessionOptions {
 struct RunOptions {
   std::filesystem::path out;  ///< folder for tables, video and summary; empty: none are written
   std::optional<int> frames;  ///< stop after this many
+  /// Ends the run in the middle of a frame, within about 0.2 s. That frame is not written, those
+  /// before are.
+  StopTest stop_now = {};
 };
 
 /// Follows a run and may stop it. Every function may be left as it is.
@@ -68,7 +72,8 @@ class HYPOTRACK_API Session {
   /// `shape.estimate_s`, which needs a source.
   Tracker tracker(std::vector<Camera> cameras);
 
-  /// Tracks the frames of the scene's own source. Returns false if the watcher ended the run.
+  /// Tracks the frames of the scene's own source. Returns false if the watcher or
+  /// RunOptions::stop_now ended the run.
   /// Results of the frames so far are kept if an error ends it. Throws ConfigError if the scene
   /// names no source, and the errors of its parts.
   bool run(const RunOptions& options, RunWatcher& watcher);

@@ -9,6 +9,7 @@
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/solution.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack {
 
@@ -28,7 +29,10 @@ class HYPOTRACK_API Tracker {
   /// frame to frame. Throws DataError if the frame does not fit the cameras or the frames before.
   /// Throws ConfigError at the first frame if `init.from` is `truth` and it has none. A tracker
   /// that could not start refuses all further frames.
-  Solution track(const Frame& frame);
+  ///
+  /// Throws Stopped within about 0.2 s once `stop` returns true. The frame then counts as missing:
+  /// go on with a later one.
+  Solution track(const Frame& frame, const StopTest& stop = {});
 
   /// Returns the tracked models; names and order of a solution's state and landmarks are theirs.
   const Scene& scene() const;

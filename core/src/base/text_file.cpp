@@ -42,10 +42,11 @@ void expect_writable(const std::filesystem::path& file, std::string_view option)
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {
   const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
+  errno = 0;
   std::ofstream out(partial, std::ios::binary);
   out << text;
   out.close();
-  std::error_code error;
+  std::error_code error(out ? 0 : errno, std::generic_category());
   if (out) {
     std::filesystem::rename(partial, file, error);
     if (!error) return;

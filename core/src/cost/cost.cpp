@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack {
 namespace {
@@ -50,6 +51,7 @@ void Cost::prepare_drawing(const Observation& observation) {
 }
 
 void Cost::prepare(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
+  check_stop();
   prepared_ = false;
   plan_ = std::move(plan);
   frame_ = looked_at(frame, joined_use(terms_));
@@ -79,6 +81,7 @@ void Cost::check_prepared() const {
 
 const Eigen::MatrixXd& Cost::normalized(const Eigen::Ref<const Eigen::MatrixXd>& states,
                                         Eigen::Index costs) {
+  check_stop();
   check_prepared();
   if (states.rows() != scene_.dimension() || costs != states.cols()) {
     throw Error(

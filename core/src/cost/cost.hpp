@@ -17,11 +17,16 @@ namespace hypotrack {
 enum class Backend { automatic, cpu, egl, cuda };
 std::span<const std::string_view> enum_names(Backend);
 
+/// What happens after a GPU failed in the middle of a run.
+enum class OnDeviceLoss { stop, cpu };
+std::span<const std::string_view> enum_names(OnDeviceLoss);
+
 /// Parameters of a scene's `evaluate:` section.
 struct EvaluateSettings {
   Backend backend = Backend::automatic;
   int threads = 0;
   int device = 0;
+  OnDeviceLoss on_device_loss = OnDeviceLoss::stop;
   void visit(ParamVisitor& v) {
     v("backend", backend,
       {.help =
@@ -31,6 +36,10 @@ struct EvaluateSettings {
     v("threads", threads, {.help = "CPU threads; 0: one per core", .min = 0, .max = 1024});
     v("device", device,
       {.help = "number of the NVIDIA GPU, where there are several", .min = 0, .max = 1024});
+    v("on_device_loss", on_device_loss,
+      {.help =
+           "what a run does when the GPU fails: stop, and keep the frames so far; or cpu: say so "
+           "and search the frame again on the CPU, and all that follow"});
   }
 };
 
@@ -59,7 +68,8 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms);
 
 /// Turns batches of states into costs: normalises, poses, skins, draws depth tiles of every view,
 /// and scores. Each backend is one implementation (make_cost()). It uses several threads; the
-/// result does not depend on their number.
+/// result does not depend on their number. Every function that draws calls check_stop(), on the CPU
+/// for every hypothesis.
 class Cost {
  public:
   virtual ~Cost();

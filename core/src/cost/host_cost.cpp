@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_scope.hpp"
 #include "cost/backends.hpp"
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_renderer.hpp"
@@ -90,8 +91,10 @@ class HostCost final : public Cost, public StateResiduals {
     constexpr std::size_t kMany = 8;  // points keep the threads busy without bands
     LinearizerPool& pool = points.size() < kMany ? *linearizers_ : *narrow_linearizers_;
     std::vector<NormalEquations> out(points.size());
+    const StopCheck check;
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+        check();
         pool.use([&](Linearizer& linearizer) {
           out[i] = linearizer.linearize(states[i], points[i].steps, points[i].blur);
         });
@@ -174,11 +177,16 @@ class HostCost final : public Cost, public StateResiduals {
     Eigen::MatrixXd neighbours_;  // states of the last batch, if it was of normal_equations()
   };
 
-  /// Draws states; the terms of a hypothesis are scored at the same time if its batch leaves
-  /// threads without work.
-  void render(const Eigen::MatrixXd& states, const HypothesisRenderer::Visit& visit) {
+  /// Draws states and visits them until the search has to end. The terms of a hypothesis are scored
+  /// at the same time if its batch leaves threads without work.
+  template <class Visit>
+  void render(const Eigen::MatrixXd& states, const Visit& visit) {
     terms_at_once_ = 2 * states.cols() <= arena_.max_concurrency();
-    renderer_->render(states, visit);
+    const StopCheck check;
+    renderer_->render(states, [&](Eigen::Index index, const RenderedHypothesis& hypothesis) {
+      check();
+      visit(index, hypothesis);
+    });
   }
 
   /// Stores how the residuals of states (DxN) differ from those of one point; computes the costs.

@@ -75,6 +75,11 @@ std::span<const std::string_view> enum_names(Backend) {
   return kNames;
 }
 
+std::span<const std::string_view> enum_names(OnDeviceLoss) {
+  static constexpr std::array<std::string_view, 2> kNames{"stop", "cpu"};
+  return kNames;
+}
+
 std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> terms,
                                 const EvaluateSettings& settings,
                                 const Requirements& requirements) {

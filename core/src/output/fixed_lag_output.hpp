@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -28,6 +29,9 @@ class FixedLagOutput {
   void finish();
   /// Writes the frames that still wait as they are. Use it after an error.
   void finish_unchanged();
+
+  /// Returns the error after which smoothing left a device; empty: there was none.
+  std::string device_error() const { return smoother_ ? smoother_->device_error() : std::string(); }
 
  private:
   struct Waiting {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hypotrack/disk.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 
@@ -34,10 +35,13 @@ void write_or_throw(const std::filesystem::path& file, const cv::Mat& image) {
   } catch (const cv::Exception&) {
   }
   if (written) return;
+  const std::string why = why_not_written(file);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);  // half a picture
   throw OutputError(fmt::format(
-      "{}: the image cannot be written; check that there is space, or name another folder with "
+      "{}: the image cannot be written{}; check that there is space, or name another folder with "
       "--out",
-      file.string()));
+      file.string(), why.empty() ? "" : ": " + why));
 }
 
 }  // namespace

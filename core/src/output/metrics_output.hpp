@@ -32,6 +32,9 @@ class MetricsOutput final : public Output {
   /// Takes how long the run took. Call it before finish().
   void set_clock(const ClockTimes& clock) { clock_ = clock; }
 
+  /// Describes what evaluates hypotheses, after it changed.
+  void set_backend(std::string backend) { backend_ = std::move(backend); }
+
   /// Returns the summary of a finished run.
   const Summary& summary() const { return summary_; }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <system_error>
@@ -9,6 +10,7 @@
 
 #include "base/text_file.hpp"
 #include "config/yaml.hpp"
+#include "hypotrack/disk.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 #include "output/start_files.hpp"
@@ -68,7 +70,53 @@ void RecordingWriter::write_image(const std::string& name, int index, cv::Mat im
   extensions_[name] = extension;
   if (first_image_ < 0) first_image_ = index;
   last_image_ = index;
-  images_->write(part_ / fmt::format("{}_{:06}{}", name, index, extension), std::move(image));
+  if (frames_.empty() || frames_.back().first != index) frames_.push_back({index, {}});
+  std::vector<std::filesystem::path>& files = frames_.back().second;
+  files.push_back(part_ / fmt::format("{}_{:06}{}", name, index, extension));
+  images_->write(files.back(), std::move(image));
+}
+
+void RecordingWriter::drop_last() {
+  const auto [index, files] = std::move(frames_.back());
+  frames_.pop_back();
+  std::error_code ignored;
+  for (const auto& file : files) std::filesystem::remove(file, ignored);
+  const auto is_later = [index](const auto& row) { return row.frame >= index; };
+  std::erase_if(states_, is_later);
+  std::erase_if(seen_, is_later);
+  std::erase_if(landmarks_, is_later);
+  last_ = last_image_ = frames_.empty() ? -1 : frames_.back().first;
+  times_.resize(static_cast<std::size_t>(frames_.empty() ? 0 : last_ - first_ + 1));
+}
+
+int RecordingWriter::finish_after_error() {
+  images_.emplace();  // drops the images that wait
+  const auto is_whole = [](const std::filesystem::path& file) {
+    return std::filesystem::exists(file);
+  };
+  const auto cut = std::ranges::find_if_not(
+      frames_, [&](const auto& frame) { return std::ranges::all_of(frame.second, is_whole); });
+  const auto whole = static_cast<std::size_t>(cut - frames_.begin());
+  while (frames_.size() > whole) drop_last();
+  return finish_where_it_fits();
+}
+
+int RecordingWriter::finish_where_it_fits() {
+  while (!frames_.empty()) {
+    try {
+      finish();
+      break;
+    } catch (const OutputError&) {
+      // Tables and scene need room, too.
+      if (frames_.size() > 1 && !why_not_written(part_ / "scene.yaml").empty()) {
+        for (std::size_t drop = frames_.size() / 10 + 1; drop > 0; --drop) drop_last();
+        continue;
+      }
+      part_.clear();  // leaves the images where they are
+      throw;
+    }
+  }
+  return static_cast<int>(frames_.size());
 }
 
 /// Spreads frames whose numbers are left out evenly.

@@ -48,11 +48,19 @@ class RecordingWriter {
   void add(const Frame& frame);
   /// Completes the folder. Throws OutputError, also if no frame was added.
   void finish();
+  /// Completes the folder with the frames before the first whose images are not whole, after add()
+  /// or finish() threw OutputError. Returns their number; without any it leaves nothing. Throws
+  /// OutputError, and leaves the images in the unfinished folder then.
+  int finish_after_error();
   bool empty() const { return first_ < 0; }
   /// Returns the true speeds so far (motion.json), over frames with all models; empty if unknown.
   std::vector<ModelSpeeds> motion() const;
 
  private:
+  /// Completes the folder with as many of its frames as there is room for. Returns their number.
+  int finish_where_it_fits();
+  /// Drops the last frame that has images, and those after it.
+  void drop_last();
   void write_image(const std::string& name, int index, cv::Mat image,
                    const char* extension = ".png");
   void note_time(const Frame& frame);
@@ -69,6 +77,8 @@ class RecordingWriter {
   std::filesystem::path directory_;
   PictureFormat format_;
   std::filesystem::path part_;  ///< folder under construction; removed if never finished
+  /// Frames with images, and the files of each.
+  std::vector<std::pair<int, std::vector<std::filesystem::path>>> frames_;
   std::vector<StateRow> states_;
   std::vector<StateRow> seen_;  ///< the states in which no model is absent
   std::vector<LandmarkRow> landmarks_;

@@ -60,6 +60,9 @@ class RunOutput {
   /// Adds a frame. With fixed-lag smoothing its pictures may be gone.
   void add(const Frame& frame, const Solution& solution, Outputs which = Outputs::all);
 
+  /// Describes what evaluates hypotheses, after it changed, for the summary.
+  void set_backend(std::string backend) { metrics_->set_backend(std::move(backend)); }
+
   /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
   /// frame was added.
   Summary finish(bool complete, const ClockTimes& clock = {});

@@ -9,6 +9,7 @@
 #include <typeinfo>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack::detail {
 
@@ -27,6 +28,8 @@ void rethrow_from(const std::string& who) {
     return fmt::format("{}: {}", who, e.what());
   };
   try {
+    throw;
+  } catch (const Stopped&) {
     throw;
   } catch (const ConfigError& e) {
     throw ConfigError(message(e));

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop_scope.hpp"
 #include "camera/pair_check.hpp"
 #include "hypotrack/error.hpp"
 #include "output/fixed_lag_output.hpp"
@@ -31,12 +32,30 @@ class Latch {
  public:
   explicit Latch(RunWatcher& watcher) : watcher_(watcher) {}
   bool stopped() { return stopped_ = stopped_ || watcher_.stop(); }
+  /// Stops in the watcher's place, and tells it so by asking. Returns false.
+  bool end() {
+    stopped();
+    stopped_ = true;
+    return false;
+  }
   RunWatcher& watcher() { return watcher_; }
 
  private:
   RunWatcher& watcher_;
   bool stopped_ = false;
 };
+
+/// Calls a function that searches. Returns false if the test ended it.
+template <class Function>
+bool completes(const StopTest& stop, const Function& function) {
+  const StopScope scope(stop);
+  try {
+    function();
+    return true;
+  } catch (const Stopped&) {
+    return false;
+  }
+}
 
 /// Reads frames up to and including the first usable one. Throws DataError if none of the first
 /// `limit` frames is usable.
@@ -96,6 +115,7 @@ class Results {
           const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
       : watcher_(watcher),
         folder_(folder),
+        backend_(backend),
         smooths_(smoother != nullptr),
         output_(*scene.scene, scene.source->cameras(),
                 {.directory = folder,
@@ -121,6 +141,13 @@ class Results {
   void settle() {
     frames_.finish();
     queue_.settle();
+  }
+
+  /// Returns the error after which smoothing left a device; empty: there was none.
+  std::string device_error() const { return frames_.device_error(); }
+  /// Notes for the summary that the CPU took the place of a device.
+  void add_device_error(const std::string& error) {
+    output_.set_backend(fmt::format("{}, then the CPU after: {}", backend_, error));
   }
 
   /// Returns true if frames are smoothed before they are written.
@@ -162,6 +189,7 @@ class Results {
  private:
   RunWatcher& watcher_;
   std::filesystem::path folder_;
+  std::string backend_;
   bool smooths_;
   RunOutput output_;
   OutputQueue queue_;
@@ -204,18 +232,40 @@ class FaultNotes {
   std::set<std::pair<FrameFault, int>> said_;
 };
 
+/// Says once that the CPU took the place of a device, whether it failed in tracking or in
+/// smoothing.
+class DeviceNotes {
+ public:
+  DeviceNotes(RunWatcher& watcher, const SceneTracker& tracker, Results* results)
+      : watcher_(watcher), tracker_(tracker), results_(results) {}
+  void look(const std::string& where) {
+    std::string error = tracker_.device_error();
+    if (error.empty() && results_) error = results_->device_error();
+    if (error.empty() || std::exchange(said_, true)) return;
+    watcher_.say(fmt::format("note: {}: {}; the run goes on with the CPU", where, error));
+    if (results_) results_->add_device_error(error);
+  }
+
+ private:
+  RunWatcher& watcher_;
+  const SceneTracker& tracker_;
+  Results* results_;
+  bool said_ = false;
+};
+
 using SteadyClock = std::chrono::steady_clock;
 
 double seconds_since(SteadyClock::time_point begin) {
   return std::chrono::duration<double>(SteadyClock::now() - begin).count();
 }
 
-/// Tracks `first`, which was read already, and then the rest of the source. Stops after `limit`
-/// frames. Returns false if the watcher ended it. Adds to `clock` how long reading and tracking
-/// took.
+/// Tracks `first`, which was read already, and then the rest of the source, as far as the options
+/// say. Returns false if they or the watcher ended it. Adds to `clock` how long reading and
+/// tracking took.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
-               const std::vector<Frame>& first, std::optional<int> limit, Latch& latch,
-               const std::function<bool()>& searches_anew, ClockTimes& clock) {
+               const std::vector<Frame>& first, const RunOptions& options, Latch& latch,
+               const std::function<bool()>& searches_anew, DeviceNotes& device, ClockTimes& clock) {
+  const std::optional<int> limit = options.frames;
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
@@ -233,11 +283,15 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     std::optional<SearchRecord> record;
     if (results && results->want_search(*frame)) record.emplace();
     const auto begin = SteadyClock::now();
-    const Solution solution = tracker.track(*frame, record ? &*record : nullptr);
+    Solution solution;
+    if (!completes(options.stop_now,
+                   [&] { solution = tracker.track(*frame, record ? &*record : nullptr); }))
+      return latch.end();
     clock.tracking += seconds_since(begin);
     notes.add(solution);
     if (record) results->add_search(*frame, solution, *std::move(record));
     if (results) results->add(tracker, *frame, solution);
+    device.look(fmt::format("frame {}", frame->index));
     const bool smooths = results && results->smooths();
     watcher.frame(
         *frame, solution,
@@ -267,7 +321,10 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
                     RunAdditions additions) {
   spare_scene(scene, options.out);
   Latch latch(watcher);
-  EstimatedScene estimated = open_for_run(scene, overrides, plugins, latch);
+  EstimatedScene estimated;
+  if (!completes(options.stop_now,
+                 [&] { estimated = open_for_run(scene, overrides, plugins, latch); }))
+    latch.end();
   if (latch.stopped()) return {};
   OpenedScene& opened = estimated.scene;
   if (additions.opened) additions.opened(opened);
@@ -287,6 +344,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   for (const std::string& problem :
        {problem_of_pair(opened.source->cameras()), tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
+  DeviceNotes device(watcher, tracker, results.get());
   RunResult result;
   ClockTimes clock;
   const auto begin = SteadyClock::now();
@@ -297,8 +355,9 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   };
   try {
     result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options.frames, latch, additions.searches_anew, clock);
+                                options, latch, additions.searches_anew, device, clock);
     if (results) results->settle();
+    device.look("smoothing");
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
     if (results) results->tell_of_parts();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/stop_scope.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
 #include "run/tracker_impl.hpp"
@@ -104,16 +105,26 @@ Tracker::Tracker(Tracker&&) noexcept = default;
 Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 Tracker::~Tracker() = default;
 
-Solution Tracker::track(const Frame& frame) {
+void Tracker::Impl::pass(const Frame& frame) {
+  last_index = frame.index;
+  last_time = frame.time;
+}
+
+Solution Tracker::track(const Frame& frame, const StopTest& stop) {
   Impl& self = *impl_;
   self.check_order(frame);
   self.check_views(frame);
-  if (!self.tracker && !frame.views.empty()) self.begin(frame);
-  Solution solution =
-      self.tracker ? self.tracker->track(frame) : missing(self.scene, self.start, frame);
-  self.last_index = frame.index;
-  self.last_time = frame.time;
-  return solution;
+  const StopScope scope(stop);
+  try {
+    if (!self.tracker && !frame.views.empty()) self.begin(frame);
+    Solution solution =
+        self.tracker ? self.tracker->track(frame) : missing(self.scene, self.start, frame);
+    self.pass(frame);
+    return solution;
+  } catch (const Stopped&) {
+    self.pass(frame);
+    throw;
+  }
 }
 
 const Scene& Tracker::scene() const { return *impl_->scene.scene; }

@@ -19,6 +19,8 @@ struct Tracker::Impl {
   // Throw DataError.
   void check_order(const Frame& frame) const;
   void check_views(const Frame& frame) const;
+  /// Expects later frames than this one from now on.
+  void pass(const Frame& frame);
 
   OpenedScene scene;
   std::vector<Camera> cameras;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hypotrack/search.hpp"
+#include "hypotrack/stop.hpp"
 #include "plugin/plugin_call.hpp"
 #include "track/search_cost.hpp"
 
@@ -33,7 +34,7 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       background_(joined_use(parts.objective).background
                       ? std::make_optional<StillBackground>(scene, parts.cameras)
                       : std::nullopt),
-      cost_(make_cost(scene, parts.objective, parts.evaluate, requirements_of(parts))),
+      cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
       optimizer_label_(parts.optimizer_label) {}
 
@@ -103,6 +104,7 @@ OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& regi
     if (cost.tally().failed) throw;
     detail::rethrow_from(optimizer_label_);
   }
+  check_stop();  // in case the optimizer caught it
   check_answer(answer, cost.tally(), region, budget, optimizer_label_);
   return answer;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cost/cost.hpp"
+#include "cost/fallback_cost.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/search_record.hpp"
@@ -85,6 +85,10 @@ class FrameSearch {
   const TileMaker& tiles() const { return tiles_; }
   /// Returns the cost of the prepared frame's states.
   Cost& cost() const { return *cost_; }
+  /// Searches on the CPU after an error of the device, which is being handled, or throws it again.
+  void leave_device(const DeviceError& error) { cost_.leave_device(error); }
+  /// Returns why the device was left; empty: it was not.
+  const std::string& device_error() const { return cost_.device_error(); }
   const PhotometricMatch& photometric() const { return photometric_; }
   /// Returns the map from the second view's colours to the first's.
   ColorMap second_view_colors() const { return photometric_.colors(1); }
@@ -103,7 +107,7 @@ class FrameSearch {
   PhotometricMatch photometric_;
   SearchSpace space_;
   std::optional<StillBackground> background_;  ///< if any term reads it
-  std::unique_ptr<Cost> cost_;
+  FallbackCost cost_;
   std::unique_ptr<Optimizer> optimizer_;
   std::string optimizer_label_;
   TilePlan plan_;                                  ///< of the last frame

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/stop_scope.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "plugin/plugin_call.hpp"
@@ -140,9 +141,7 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
     reserve_for(uncertainty_.emplace(scene, settings_.uncertainty), finder_.budget());
 }
 
-SceneTracker::~SceneTracker() {
-  if (job_.valid()) job_.wait();
-}
+SceneTracker::~SceneTracker() { end_job(); }
 
 std::string SceneTracker::backend() const { return finder_.search().cost().backend(); }
 
@@ -167,7 +166,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
     if (picture_checks_) brightness_.next(picture_checks_->jumps());
     if (!spoils_pictures(fault)) {
       const Frame steady = brightness_.applied_to(frame);
-      naming(steady, [&] { find(steady, solution, record); });
+      naming(steady, [&] { find_in_spite_of_device(steady, solution, record); });
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -182,9 +181,22 @@ ViewFault SceneTracker::fault_of(const Frame& frame) {
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
 
+void SceneTracker::find_in_spite_of_device(const Frame& frame, Solution& solution,
+                                           SearchRecord* record) {
+  const Solution before = solution;
+  try {
+    return find(frame, solution, record);
+  } catch (const DeviceError& error) {
+    finder_.search().leave_device(error);
+  }
+  solution = before;
+  if (record) *record = SearchRecord();
+  find(frame, solution, record);
+}
+
 void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record) {
   if (job_.valid()) return wait_for_job(frame, solution);
-  if (record) finder_.search().record(&record->searches);
+  finder_.search().record(record ? &record->searches : nullptr);
   Candidate best = follow(frame);
   const bool answered = complete(frame, best);
   if (!job_.valid()) finder_.search().record(nullptr);
@@ -206,8 +218,10 @@ Candidate SceneTracker::follow(const Frame& frame) {
   const std::uint64_t seed = frame_seed(seed_, frame.index);
   if (!found_any_ && !begins_by_looking_) {
     const bool several = recovers() && begun_ < kPatientFrames;
+    Candidate best =
+        finder_.begin(frame, first_, several ? settings_.recovery.first_starts : 1, seed);
     ++begun_;
-    return finder_.begin(frame, first_, several ? settings_.recovery.first_starts : 1, seed);
+    return best;
   }
   const ModelFlags models = followed();
   if (!any(models)) {
@@ -327,11 +341,21 @@ void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
   }
   finder_.search().record(nullptr);
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
+  job_unwanted_ = false;
   job_ = std::async(std::launch::async,
                     [this, copy = std::move(copy), request, seed, from = best]() mutable {
+                      const StopTest unwanted = [this] { return job_unwanted_.load(); };
+                      const StopScope scope(unwanted);
                       finder_.recover(copy, request, from, seed);
                       return from;
                     });
+}
+
+void SceneTracker::end_job() {
+  if (!job_.valid()) return;
+  job_unwanted_ = true;
+  job_.wait();
+  job_ = {};
 }
 
 void SceneTracker::wait_for_job(const Frame& frame, Solution& solution) {
@@ -503,7 +527,7 @@ Eigen::VectorXd SceneTracker::smoothed(const Solution& solution) {
 }
 
 void SceneTracker::search_anew() {
-  if (job_.valid()) job_.get();
+  end_job();
   for (std::size_t m = 0; m < models_.size(); ++m) {
     ModelTrack& model = models_[m];
     model.status = Status::lost;

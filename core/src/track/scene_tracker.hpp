@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <atomic>
 #include <cstdint>
 #include <future>
 #include <limits>
@@ -40,7 +41,8 @@ class SceneTracker {
   SceneTracker& operator=(const SceneTracker&) = delete;
 
   /// Finds the scene in the next frame. `record`, if given, receives how. It stays empty while a
-  /// search runs in the background.
+  /// search runs in the background. Throws Stopped by check_stop(); the tracker can go on with the
+  /// next frame.
   Solution track(const Frame& frame, SearchRecord* record = nullptr);
 
   /// Forgets where the models are: the next frame looks for them again. Without recovery the search
@@ -64,6 +66,8 @@ class SceneTracker {
 
   /// Returns the name of the backend that evaluates hypotheses, for the run's log.
   std::string backend() const;
+  /// Returns the error after which the CPU took the place of a device; empty: there was none.
+  const std::string& device_error() const { return finder_.search().device_error(); }
 
  private:
   /// Tracking state of one model.
@@ -91,6 +95,8 @@ class SceneTracker {
   };
 
   void find(const Frame& frame, Solution& solution, SearchRecord* record);
+  /// Calls find(), again on the CPU if the device failed and the settings ask for that.
+  void find_in_spite_of_device(const Frame& frame, Solution& solution, SearchRecord* record);
   /// Records the tiles, the answer drawn in them and the terms' maps of it.
   void describe(const Frame& frame, const Candidate& best, SearchRecord& record);
   /// Searches from the last state. Returns no pose while all models are lost.
@@ -109,6 +115,8 @@ class SceneTracker {
   void start_job(const Frame& frame, const RecoveryRequest& request, const Candidate& best);
   void wait_for_job(const Frame& frame, Solution& solution);
   void stay_lost(const Frame& frame, Solution& solution);
+  /// Ends a running job and drops what it found.
+  void end_job();
 
   bool recovers() const { return settings_.recovery.enabled && settings_.evidence; }
   /// Returns whether a model that was never surely found is looked for in pictures.
@@ -156,6 +164,7 @@ class SceneTracker {
   std::size_t checks_ = 0;    ///< number of these checks, which take turns among the models
   unsigned doubts_ = 0;       ///< recent count of doubtful poses
   std::uint64_t seed_;
+  std::atomic<bool> job_unwanted_ = false;  ///< tells the job to end
   std::future<Candidate> job_;
 };
 

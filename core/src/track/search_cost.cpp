@@ -1,5 +1,6 @@
 #include "track/search_cost.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace hypotrack {
@@ -50,10 +51,15 @@ class SearchDifferences final : public ResidualDifferences {
 
 void SearchCost::evaluate(const Eigen::Ref<const Eigen::MatrixXd>& points,
                           Eigen::Ref<Eigen::VectorXd> costs) {
-  const Eigen::MatrixXd states = space_.states(points, prior_);
-  tally_.count(states.cols(), [&] { cost_.evaluate(states, costs); });
-  tally_.add(costs);
-  add_to(record_, states, costs);
+  constexpr Eigen::Index kMost = 1 << 14;  // points between two looks whether the search has to end
+  for (Eigen::Index first = 0; first < points.cols(); first += kMost) {
+    const Eigen::Index count = std::min(kMost, points.cols() - first);
+    const Eigen::MatrixXd states = space_.states(points.middleCols(first, count), prior_);
+    auto own = costs.segment(first, count);
+    tally_.count(count, [&] { cost_.evaluate(states, own); });
+    tally_.add(own);
+    add_to(record_, states, own);
+  }
 }
 
 cuda::DeviceCost* SearchCost::device() {

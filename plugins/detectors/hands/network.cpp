@@ -5,6 +5,7 @@
 #include <opencv2/dnn/shape_utils.hpp>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack::hands {
 namespace {
@@ -54,6 +55,7 @@ void Network::check_shapes() {
 }
 
 std::vector<std::vector<float>> Network::run(const cv::Mat& picture) {
+  check_stop();
   std::vector<cv::String> names;
   for (const NetworkOutput& output : outputs_) names.push_back(output.name);
   std::vector<cv::Mat> blobs;

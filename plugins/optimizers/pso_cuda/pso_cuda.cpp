@@ -7,6 +7,7 @@
 #include "constriction.hpp"
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/search.hpp"
+#include "hypotrack/stop.hpp"
 #include "search_graph.hpp"
 #include "swarm_memory.hpp"
 
@@ -17,8 +18,9 @@ using cuda::DeviceCost;
 using cuda::Stream;
 using cuda::SwarmLayout;
 
-constexpr std::int64_t kMostCaptured =
-    1024;  // generations; a graph's memory and the time of what cannot be interrupted grow with it
+// Limits of a search that is enqueued at once and cannot be interrupted: generations, which a
+// graph's memory grows with, and evaluations.
+constexpr std::int64_t kMostCaptured = 1024, kMostUninterrupted = 1 << 16;
 
 /// Generations of `particles` evaluations; the last one may be partial.
 struct Schedule {
@@ -28,6 +30,10 @@ struct Schedule {
   std::int64_t generations() const { return (evaluations + particles - 1) / particles; }
   std::int64_t count(std::int64_t generation) const {
     return std::min(particles, evaluations - generation * particles);
+  }
+  /// Returns whether the search is short enough to be enqueued at once.
+  bool at_once() const {
+    return generations() <= kMostCaptured && evaluations <= kMostUninterrupted;
   }
   /// Returns whether the last generation is complete.
   bool whole() const { return evaluations % particles == 0; }
@@ -61,6 +67,7 @@ class Search {
   }
   Stream stream() const { return stream_; }
   std::int64_t generations() const { return schedule_.generations(); }
+  std::int64_t particles() const { return schedule_.particles; }
 
   /// Enqueues all generations, or until `enough()` returns true between two. Returns their number.
   template <class Enough>
@@ -97,13 +104,18 @@ void wait_for(Stream stream) {
   cuda::check(cudaStreamSynchronize(cuda::native(stream)), "a search of pso_cuda");
 }
 
-/// Runs a search without a graph, until the deadline if there is one.
+/// Runs a search without a graph, until the deadline if there is one. Waits for the GPU now and
+/// then, so that the search can be ended.
 std::int64_t run_directly(Search& search, const Deadline* deadline) {
   try {
+    std::int64_t enqueued = 0;  // evaluations since the last wait
     return search.enqueue(cuda::most_blocks(), [&] {
-      if (!deadline) return false;
+      check_stop();
+      enqueued += search.particles();
+      if (!deadline && enqueued < kMostUninterrupted) return false;
+      enqueued = 0;
       wait_for(search.stream());
-      return deadline->passed();
+      return deadline && deadline->passed();
     });
   } catch (...) {
     (void)cudaStreamSynchronize(cuda::native(search.stream()));  // before the memory is used again
@@ -122,7 +134,7 @@ struct PsoCuda::OnDevice {
   bool enqueue_as_one(DeviceCost& cost, const SwarmLayout& swarm, const Schedule& schedule,
                       const cuda::SwarmSettings& how, const StartDistribution& start,
                       const SearchRegion& region, std::uint64_t seed) {
-    if (!schedule.whole() || schedule.generations() > kMostCaptured) return false;
+    if (!schedule.whole() || !schedule.at_once()) return false;
     if (swarm.dimension > cuda::kMostSwarmDimensions) return false;
     cuda::SwarmSearch search = memory.search(swarm, schedule.generations(), region, seed);
     search.constriction = how.constriction;
@@ -177,7 +189,7 @@ OptimizerResult PsoCuda::minimize(CostFunction& cost, const SearchRegion& region
       !on_device_->enqueue_as_one(*device, swarm, schedule, how, params_.start, region, seed)) {
     on_device_->memory.write(region, seed);
     Search search(*device, swarm, schedule, how, params_.start);
-    if (timed || generations > kMostCaptured) {
+    if (timed || !schedule.at_once()) {
       generations = run_directly(search, timed ? &deadline : nullptr);
     } else {
       on_device_->run_captured(search);

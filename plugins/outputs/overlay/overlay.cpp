@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "hypotrack/disk.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/picture.hpp"
 #include "hypotrack/plugin.hpp"
@@ -78,7 +79,7 @@ class Overlay final : public Output {
   void begin(OutputContext& run) override;
   void online(const Frame& frame, const Solution& solution) override;
   void frame(const Frame& /*frame*/, const Solution& /*solution*/) override {}
-  void finish(bool /*complete*/) override { writer_.release(); }
+  void finish(bool complete) override;
 
  private:
   /// Draws the solution on the picture of one view.
@@ -90,10 +91,13 @@ class Overlay final : public Output {
   std::vector<Camera> cameras_;  ///< of the views that are drawn
   cv::Size size_;                ///< of the video
   cv::VideoWriter writer_;
+  std::filesystem::path file_;
+  int written_ = 0;  ///< frames
 };
 
 void Overlay::begin(OutputContext& run) {
   const std::filesystem::path file = run.file("overlay.mp4");
+  file_ = file;
   run_ = &run;
   renderer_ = &run.renderer();
   cameras_ = run.cameras();
@@ -141,6 +145,21 @@ void Overlay::online(const Frame& frame, const Solution& solution) {
   }
   write_caption(image, caption);
   writer_.write(image);
+  ++written_;
+}
+
+/// Closes the video and reads it back: OpenCV does not say whether it could write.
+void Overlay::finish(bool /*complete*/) {
+  writer_.release();
+  if (written_ == 0) return;
+  const std::string why = why_not_written(file_);
+  const cv::VideoCapture video(file_.string());
+  const bool whole =
+      video.isOpened() && std::lround(video.get(cv::CAP_PROP_FRAME_COUNT)) == written_;
+  if (whole && why.empty()) return;
+  throw OutputError(fmt::format(
+      "{}: the video is cut off and may not play{}; make room or name another folder with --out",
+      file_.string(), why.empty() ? "" : ": " + why));
 }
 
 }  // namespace

@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "expect_error.hpp"
@@ -184,6 +187,17 @@ TEST_F(SessionTest, RefusesAShapeThatNeedsTheSource) {
               HasSubstr("hypotrack fit-shape"));
 }
 
+TEST_F(SessionTest, ATrackerThatIsStoppedInAFrameTracksTheNext) {
+  const std::vector<Frame> given = frames();
+  Session session(scene(std::string(kRest) + kStart));
+  Tracker tracker = session.tracker(cameras_);
+  std::atomic<int> asked = 0;
+  EXPECT_THROW(tracker.track(given[0], [&] { return ++asked > 40; }), Stopped);
+  EXPECT_THAT(message_of<DataError>([&] { tracker.track(given[0]); }),
+              HasSubstr("frame 0 comes after frame 0"));
+  EXPECT_EQ(tracker.track(given[1]).status, Status::tracked);
+}
+
 TEST_F(SessionTest, WithoutASourceTracksButDoesNotRun) {
   Session session(scene(std::string(kRest) + kStart));
   RunWatcher nobody;
@@ -220,6 +234,19 @@ TEST_F(SessionTest, RunsEndBeforeTheFirstFrameAndWriteNothing) {
   EXPECT_FALSE(session.run({.out = path("result"), .frames = {}}, recorder));
   EXPECT_TRUE(recorder.states.empty());
   EXPECT_FALSE(std::filesystem::exists(path("result")));
+}
+
+TEST_F(SessionTest, RunsEndInTheMiddleOfAFrameAndKeepThoseBefore) {
+  Session session(scene(std::string(kRest) + kSource + kStart));
+  Recorder recorder;
+  std::atomic<int> asked = 0;
+  const auto in_third = [&] { return recorder.states.size() == 2 && ++asked > 40; };
+  EXPECT_FALSE(session.run({.out = path("result"), .frames = {}, .stop_now = in_third}, recorder));
+  EXPECT_EQ(recorder.states.size(), 2U);
+  EXPECT_EQ(recorder.ends, 1);
+  std::ifstream table(path("result") / "track.csv");
+  const auto lines = std::count(std::istreambuf_iterator<char>(table), {}, '\n');
+  EXPECT_EQ(lines, 3) << "the header and two frames";
 }
 
 TEST_F(SessionTest, RunsEndWhereTheWatcherWantsIt) {

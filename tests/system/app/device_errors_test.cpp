@@ -69,6 +69,28 @@ TEST_F(LostDeviceTest, TheNextRunTakesTheResultsPlace) {
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
 }
 
+TEST_F(LostDeviceTest, TheRunGoesOnWithTheCpuIfAskedTo) {
+  // The objective's device works again after one failure.
+  const std::string once = replaced(lost_after(2), "frames: 2", "frames: 2, failures: 1");
+  const Outcome outcome = run_lost(once + "evaluate: {on_device_loss: cpu}\n");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto lines = lines_of(outcome.err);
+  EXPECT_EQ(std::ranges::count_if(lines,
+                                  [](const std::string& line) {
+                                    return line.starts_with("note: frame 2: ") &&
+                                           line.ends_with(
+                                               "the device is lost; the run goes on "
+                                               "with the CPU");
+                                  }),
+            1)
+      << outcome.err;
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), true);
+  EXPECT_THAT(summary.at("backend").get<std::string>(),
+              AllOf(HasSubstr(", then the CPU after: "), HasSubstr("the device is lost")));
+}
+
 TEST_F(LostDeviceTest, LostOnTheFirstFrameItLeavesNothing) {
   expect_refusal(run_lost(lost_after(0)), {"the device is lost"});
 }

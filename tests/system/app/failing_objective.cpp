@@ -20,9 +20,11 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
  public:
   struct Params {
     int frames = 2;
+    int failures = 1'000'000;
     How how = How::kDevice;
     void visit(hypotrack::ParamVisitor& v) {
       v("frames", frames, {.help = "that work", .min = 0});
+      v("failures", failures, {.help = "frames after them that fail", .min = 0});
       v("how", how, {.help = "it fails then"});
     }
   };
@@ -52,7 +54,10 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
   bool has_residuals() const {
     return params_.how == How::kNanResidual || params_.how == How::kNegativeCount;
   }
-  bool fails() const { return frames_ > params_.frames; }
+  bool fails() const {
+    const int after = frames_ - params_.frames;
+    return after > 0 && after <= params_.failures;
+  }
   void fail() const {
     if (params_.how == How::kDevice) throw hypotrack::DeviceError("the device is lost");
     if (params_.how == How::kException) throw std::runtime_error("the cost is broken");

@@ -26,13 +26,15 @@ enum class How {
   kMinusInfinity,
   kNegativeCount,
   kOverBudget,
+  kEndless,
+  kLongBatch,
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 13> kNames = {
-      "exception",  "int",         "segfault", "exit",      "underscore_exit", "interrupted_code",
-      "hang",       "short_point", "outside",  "too_cheap", "minus_infinity",  "negative_count",
-      "over_budget"};
+  static constexpr std::array<std::string_view, 15> kNames = {
+      "exception",   "int",         "segfault",  "exit",      "underscore_exit", "interrupted_code",
+      "hang",        "short_point", "outside",   "too_cheap", "minus_infinity",  "negative_count",
+      "over_budget", "endless",     "long_batch"};
   return kNames;
 }
 
@@ -59,6 +61,7 @@ class Failing : public hypotrack::Optimizer {
     if (!works) fail();
     Eigen::VectorXd costs(1);
     cost.evaluate(region.start, costs);
+    while (!works && params_.how == How::kEndless) cost.evaluate(region.start, costs);
     hypotrack::OptimizerResult answer{region.start, costs[0], 1};
     if (!works) spoil(answer, cost, region);
     return answer;
@@ -84,6 +87,10 @@ class Failing : public hypotrack::Optimizer {
     if (params_.how == How::kNegativeCount) answer.evaluations = -5;
     if (params_.how == How::kOverBudget) {
       Eigen::VectorXd costs(96);
+      cost.evaluate(region.start.replicate(1, costs.size()), costs);
+    }
+    if (params_.how == How::kLongBatch) {
+      Eigen::VectorXd costs(1 << 22);  // minutes
       cost.evaluate(region.start.replicate(1, costs.size()), costs);
     }
   }

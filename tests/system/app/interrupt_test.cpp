@@ -168,11 +168,40 @@ TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
 class FailingPluginTest : public InterruptTest {
  protected:
   Outcome fail(const std::string& optimizer) const {
-    return run(replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer),
-               {"--plugin-path", (build_dir() / "tests/plugin_fixtures/app").string(), "--set",
-                "tracker.recovery.enabled=false"});
+    return run(with_optimizer(optimizer),
+               {"--plugin-path", fixtures(), "--set", "tracker.recovery.enabled=false"});
   }
+  static std::string with_optimizer(const std::string& optimizer) {
+    return replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", optimizer);
+  }
+  static std::string fixtures() { return (build_dir() / "tests/plugin_fixtures/app").string(); }
 };
+
+/// Ctrl-C in the middle of the third frame, which would take more than a minute.
+class LongFrameTest : public FailingPluginTest, public testing::WithParamInterface<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Interrupt, LongFrameTest, testing::Values("endless", "long_batch"));
+
+TEST_P(LongFrameTest, CtrlCEndsTheFrameAndKeepsThoseBefore) {
+  Start start = long_run();
+  scene(with_optimizer(std::string("{type: failing, frames: 2, how: ") + GetParam() + "}"));
+  start.arguments.insert(start.arguments.begin(), {"--plugin-path", fixtures()});
+  start.arguments.insert(start.arguments.end(), {"--set", "tracker.recovery.enabled=false"});
+  Program program(start);
+  wait_for_lines(program, "out/.part.track.csv", 3);
+  const auto begin = std::chrono::steady_clock::now();
+  program.signal(SIGINT);
+  const Outcome outcome = program.wait();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+  EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("interrupted; the files hold the frames so far"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("failing")));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+  expect_whole_lines(path("out/joints.csv"));
+  const auto summary = nlohmann::json::parse(read_text(path("out/summary.json")));
+  EXPECT_EQ(summary.at("complete"), false);
+  EXPECT_EQ(summary.at("frames"), 2);
+}
 
 TEST_F(FailingPluginTest, AnExceptionKeepsTheFramesSoFar) {
   const Outcome outcome = fail("{type: failing, frames: 2}");

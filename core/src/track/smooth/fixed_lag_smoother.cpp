@@ -40,9 +40,10 @@ constexpr int kTurns = 2;            // windows that a frame may be in
 FixedLagSmoother::FixedLagSmoother(const Scene& scene, std::vector<ObjectiveTerm> terms,
                                    const EvaluateSettings& evaluate,
                                    const FixedLagSettings& settings, bool highlights)
-    : settings_(checked(settings, terms)),
-      cost_(make_cost(scene, with_prior(std::move(terms), settings.prior), evaluate,
-                      {.least_squares = true, .jacobian = Linearization::welcome})),
+    : scene_(scene),
+      settings_(checked(settings, terms)),
+      cost_(scene, with_prior(std::move(terms), settings.prior), evaluate,
+            {.least_squares = true, .jacobian = Linearization::welcome}),
       motion_(scene, settings),
       highlights_(highlights ? std::make_optional<TileHighlights>(scene) : std::nullopt),
       fit_(scene, *cost_, motion_, highlights_ ? &*highlights_ : nullptr) {
@@ -69,8 +70,21 @@ void FixedLagSmoother::add(FrameTiles tiles, const TimedState& found) {
   settle(static_cast<std::size_t>(recent - states_.begin()));
 }
 
+std::int64_t FixedLagSmoother::improve() {
+  const auto once = [&] {
+    return fit_.improve(states_, tiles_, fixed_, settings_.evaluations / kTurns);
+  };
+  try {
+    return once();
+  } catch (const DeviceError& error) {
+    cost_.leave_device(error);
+  }
+  fit_ = TrajectoryFit(scene_, *cost_, motion_, highlights_ ? &*highlights_ : nullptr);
+  return once();
+}
+
 void FixedLagSmoother::settle(std::size_t count) {
-  const std::int64_t taken = fit_.improve(states_, tiles_, fixed_, settings_.evaluations / kTurns);
+  const std::int64_t taken = improve();
   for (std::size_t i = fixed_; i < states_.size(); ++i)
     if (tiles_[i]) evaluations_[i] += taken;
   for (std::size_t i = fixed_; i < count; ++i)

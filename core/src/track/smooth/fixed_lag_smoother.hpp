@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "cost/cost.hpp"
+#include "cost/fallback_cost.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/motion_prior.hpp"
@@ -40,11 +41,18 @@ class FixedLagSmoother {
   /// Settles and returns the remaining states, when no more frames come.
   std::vector<Settled> finish();
 
+  /// Returns why the device was left; empty: it was not.
+  const std::string& device_error() const { return cost_.device_error(); }
+
  private:
   void settle(std::size_t count);
+  /// Improves the states that wait. Returns the evaluations spent on each frame.
+  std::int64_t improve();
+
+  const Scene& scene_;
 
   FixedLagSettings settings_;
-  std::unique_ptr<Cost> cost_;
+  FallbackCost cost_;
   MotionPrior motion_;
   std::optional<TileHighlights> highlights_;
   TrajectoryFit fit_;

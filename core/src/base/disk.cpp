@@ -1,0 +1,27 @@
+#include "hypotrack/disk.hpp"
+
+#include <sys/resource.h>
+#include <sys/statvfs.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+
+namespace hypotrack {
+
+std::string why_not_written(const std::filesystem::path& file) {
+  constexpr std::uintmax_t kFull = 1 << 16;  // bytes that are left
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  struct statvfs disk {};
+  if (statvfs(folder.c_str(), &disk) == 0) {
+    if (disk.f_flag & ST_RDONLY) return std::strerror(EROFS);
+    if (std::uintmax_t{disk.f_bavail} * disk.f_frsize < kFull) return std::strerror(ENOSPC);
+  }
+  rlimit limit{};
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  const bool too_large = !error && getrlimit(RLIMIT_FSIZE, &limit) == 0 && size >= limit.rlim_cur;
+  return too_large ? std::strerror(EFBIG) : "";
+}
+
+}  // namespace hypotrack
