@@ -7,6 +7,7 @@
 #include "hypotrack/params.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/start_sample.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack {
 
@@ -49,6 +50,7 @@ class StartPoints {
   Eigen::MatrixXd points(std::int64_t first, std::int64_t count) const {
     Eigen::MatrixXd points = region_.start.replicate(1, count);
     for (std::int64_t i = first == 0 ? 1 : 0; i < count; ++i) {
+      if (i % 4096 == 0) check_stop();
       for (Eigen::Index d = 0; d < points.rows(); ++d) {
         points(d, i) = sample(d, static_cast<std::uint32_t>(first + i));
       }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/stop_scope.hpp"
+#include "hypotrack/start_points.hpp"
 #include "test_models.hpp"
 #include "track/scene_tracker.hpp"
 
@@ -124,6 +125,18 @@ TEST(Stop, IsNotWantedOutsideAScope) {
     EXPECT_NO_THROW(std::thread([] { check_stop(); }).join()) << "is of one thread";
   }
   check_stop();
+}
+
+TEST(Stop, EndsTheMakingOfManyPoints) {
+  SearchRegion region;
+  region.start = Eigen::VectorXd::Zero(2);
+  region.upper = region.spread = Eigen::VectorXd::Ones(2);
+  region.lower = -region.upper;
+  const StartPoints points(region, {}, 1);
+  std::atomic<int> asked = 0;
+  const StopTest soon = [&] { return ++asked > 2; };
+  const StopScope scope(soon);
+  EXPECT_THROW(points.points(0, 1 << 20), Stopped);
 }
 
 TEST(Stop, EndsAFrameWithinItsBatchAndTheNextFrameIsTracked) {

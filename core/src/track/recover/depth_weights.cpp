@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/back_project.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack {
 namespace {
@@ -51,7 +52,7 @@ DepthWeights::DepthWeights(const std::vector<Camera>& cameras, std::array<int, 2
 
 void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
   if (!planes_[view].empty() && planes_[view].front().other.size() == size) return;
-  planes_[view].clear();
+  std::vector<Plane> planes;
   const Camera &own = cameras_[view], &other = cameras_[1 - view];
   const int by = reductions_[view], by_other = reductions_[1 - view];
   const Eigen::Isometry3d world_from_own = own.camera_from_world.inverse();
@@ -62,6 +63,7 @@ void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
   const Eigen::Matrix3Xd rays = back_project(own, pixels);
   const double first = 1 / (kBefore * nearest_), last = 1 / (kBeyond * farthest_);
   for (int k = 0; k < kPlanes; ++k) {
+    check_stop();
     const double depth = 1 / (first + (last - first) * k / (kPlanes - 1));
     Plane plane{depth >= nearest_ && depth <= farthest_, cv::Mat2f(size)};
     for (Eigen::Index i = 0; i < rays.cols(); ++i) {
@@ -73,8 +75,9 @@ void DepthWeights::make_planes(std::size_t view, const cv::Size& size) {
                            static_cast<float>((there.y() + 0.5) / by_other - 0.5))
                : cv::Vec2f(-1e4f, -1e4f);
     }
-    planes_[view].push_back(std::move(plane));
+    planes.push_back(std::move(plane));
   }
+  planes_[view] = std::move(planes);
 }
 
 std::array<cv::Mat1f, 2> DepthWeights::weights(const std::array<cv::Mat3b, 2>& pictures) {
@@ -86,6 +89,7 @@ std::array<cv::Mat1f, 2> DepthWeights::weights(const std::array<cv::Mat3b, 2>& p
     const cv::Mat1f other = gray_of(pictures[1 - i]);
     cv::Mat1f in_range = cv::Mat1f::zeros(pictures[i].size()), all = in_range.clone();
     for (const Plane& plane : planes_[i]) {
+      check_stop();
       cv::Mat1f warped, likelihood;
       cv::remap(other, warped, plane.other, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
       cv::exp(kSharpness * correlation(own, Windows(warped)), likelihood);

@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "hypotrack/stop.hpp"
+
 namespace hypotrack {
 /// A reduced view.
 struct ReducedView {
@@ -186,6 +188,7 @@ std::vector<PlaceFinder::Candidate> PlaceFinder::sweep(const Views& views, doubl
   std::vector<Candidate> found;
   double most[2] = {0, 0};
   for (const Point& point : points_) {
+    check_stop();
     double share[2];
     for (std::size_t i = 0; i < 2; ++i) {
       const Window& w = point.windows[i];
