@@ -15,7 +15,7 @@ namespace hypotrack {
 // they are loaded by the first call. All throw DeviceError if that fails.
 
 /// Reads an image file as cv::imread does: an empty image if it cannot be read.
-HYPOTRACK_API cv::Mat read_image(const std::string& file, int flags);
+HYPOTRACK_API cv::Mat read_image(const std::string& file, int flags = cv::IMREAD_COLOR);
 
 /// Writes an image file as cv::imwrite does: false, or a cv::Exception, if it cannot be written.
 HYPOTRACK_API bool write_image(const std::string& file, const cv::Mat& image,

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "hypotrack/media.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "mesh_files.hpp"
 
@@ -16,8 +16,7 @@ using ::testing::HasSubstr;
 std::string picture() {
   cv::Mat image(4, 4, CV_8UC3, cv::Scalar(0, 0, 255));
   image.rowRange(2, 4).setTo(cv::Scalar(255, 0, 0));
-  std::vector<unsigned char> bytes;
-  cv::imencode(".png", image, bytes);
+  const std::vector<unsigned char> bytes = encode_image(".png", image);
   return std::string(bytes.begin(), bytes.end());
 }
 

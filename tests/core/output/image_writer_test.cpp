@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -29,7 +29,7 @@ TEST(ImageWriter, WritesEveryImageAsItIs) {
   for (int i = 0; i < kImages; ++i) writer.write(file(i), random_image(types[i % 3], i));
   writer.wait();
   for (int i = 0; i < kImages; ++i) {
-    const cv::Mat read = cv::imread(file(i).string(), cv::IMREAD_UNCHANGED);
+    const cv::Mat read = read_image(file(i).string(), cv::IMREAD_UNCHANGED);
     const cv::Mat written = random_image(types[i % 3], i);
     ASSERT_EQ(read.type(), written.type()) << i;
     EXPECT_EQ(cv::norm(read, written, cv::NORM_INF), 0) << i;
@@ -60,7 +60,7 @@ TEST(ImageWriter, LeavesNoHalfFileWhenItIsDropped) {
     }
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
-    EXPECT_FALSE(cv::imread(entry.path().string()).empty()) << entry.path();
+    EXPECT_FALSE(read_image(entry.path().string()).empty()) << entry.path();
   }
 }
 

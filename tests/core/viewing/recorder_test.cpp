@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hypotrack/config.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/pose.hpp"
 #include "live_world.hpp"
 #include "test_paths.hpp"
@@ -64,7 +64,7 @@ TEST_F(RecorderTest, ARecordingHoldsTheFramesUntilItIsStopped) {
   const ConfigNode source = scene("recording_000007").get("source");
   EXPECT_EQ(source.get("start").scalar(), "7");
   EXPECT_EQ(source.get("count").scalar(), "3");
-  EXPECT_EQ(cv::imread(folder_.path() / "recording_000007" / "right_000009.png").size(),
+  EXPECT_EQ(read_image(folder_.path() / "recording_000007" / "right_000009.png").size(),
             cv::Size(320, 240));
 }
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/tables.hpp"
 
@@ -138,7 +138,7 @@ void write_pictures(const fs::path& directory, int count) {
   for (int i = 0; i < count; ++i) {
     cv::Mat picture(180, 240, CV_8UC3, cv::Scalar(90, 80, 70));
     cv::circle(picture, {60 + 50 * i, 90}, 40, cv::Scalar(60, 120, 230), 4);
-    cv::imwrite((directory / fmt::format("worst_{:06}.jpg", 1 + 10 * i)).string(), picture);
+    write_image((directory / fmt::format("worst_{:06}.jpg", 1 + 10 * i)).string(), picture);
   }
 }
 

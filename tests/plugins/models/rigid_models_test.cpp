@@ -3,8 +3,8 @@
 #include <cmath>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
+#include "hypotrack/media.hpp"
 #include "model_plugins.hpp"
 
 namespace hypotrack::test {
@@ -118,7 +118,7 @@ TEST(RigidBox, TakesAColourOrAPicture) {
       << "recoveries look for the texture's colours";
   TemporaryDirectory folder;
   const std::string file = (folder.path() / "label.png").string();
-  cv::imwrite(file, cv::Mat(10, 20, CV_8UC3, cv::Scalar(1, 2, 3)));
+  write_image(file, cv::Mat(10, 20, CV_8UC3, cv::Scalar(1, 2, 3)));
   const auto printed = make_model("{type: rigid_box, texture: " + file + "}");
   EXPECT_EQ(printed->data().mesh.texture.size(), cv::Size(60, 20));
 }

@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 
 #include "expect_error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/session.hpp"
 #include "output_run.hpp"
 #include "test_models.hpp"
@@ -48,7 +48,7 @@ class ParticlesTest : public ::testing::Test {
     std::ranges::sort(names);
     return names;
   }
-  cv::Mat picture(const std::string& name) const { return cv::imread((out() / name).string()); }
+  cv::Mat picture(const std::string& name) const { return read_image((out() / name).string()); }
   std::filesystem::path out() const { return folder_.path() / "out"; }
 
  private:

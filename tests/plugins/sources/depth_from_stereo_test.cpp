@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/renderer.hpp"
 #include "source_fixture.hpp"
 
@@ -134,7 +134,7 @@ TEST_F(DepthFromStereo, PassesDamagedFramesOn) {
   calibrate(64, 48, 2);
   for (const char* side : {"l", "r"}) {
     for (const int i : {0, 2}) {
-      cv::imwrite(file(cv::format("%s_%d.png", side, i)).string(), picture(i, 0));
+      write_image(file(cv::format("%s_%d.png", side, i)).string(), picture(i, 0));
     }
   }
   const auto source = wrap(
@@ -190,7 +190,7 @@ TEST_F(DepthFromStereo, IsRecordedWithTheSourceInsideIt) {
 TEST_F(DepthFromStereo, FindsTheDisparitiesOfARealPair) {
   HYPOTRACK_NEEDS_SHARED_DATA();
   const auto folder = test::shared_data() / "images";
-  const cv::Mat truth = cv::imread((folder / "aloeGT.png").string(), cv::IMREAD_GRAYSCALE);
+  const cv::Mat truth = read_image((folder / "aloeGT.png").string(), cv::IMREAD_GRAYSCALE);
   ASSERT_FALSE(truth.empty());
   // The pair comes without a calibration; any focal length and baseline give back disparities.
   const double focal = 3740, baseline = 0.16;

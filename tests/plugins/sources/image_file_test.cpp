@@ -7,11 +7,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
@@ -32,7 +32,7 @@ TEST(ImageFileDeathTest, LackOfMemoryIsNotCalledDamage) {
 #endif
   const test::TemporaryDirectory folder;
   const auto file = folder.path() / "large.png";
-  ASSERT_TRUE(cv::imwrite(file.string(), cv::Mat::zeros(6000, 8000, CV_8U)));
+  ASSERT_TRUE(write_image(file.string(), cv::Mat::zeros(6000, 8000, CV_8U)));
   EXPECT_EQ(read_color(file).problem, "");
   const auto read_with_little = [&] {
     leave_memory(rlim_t{16} << 20);
@@ -47,8 +47,7 @@ TEST(ImageFileDeathTest, LackOfMemoryIsNotCalledDamage) {
 /// height and width each at some place behind a mark.
 std::string with_size(const char* format, std::string_view mark, std::size_t behind,
                       std::string_view height, std::string_view width) {
-  std::vector<unsigned char> bytes;
-  cv::imencode(format, cv::Mat::zeros(8, 8, CV_8UC3), bytes);
+  const std::vector<unsigned char> bytes = encode_image(format, cv::Mat::zeros(8, 8, CV_8UC3));
   std::string text(bytes.begin(), bytes.end());
   const std::size_t at = text.find(mark) + mark.size() + behind;
   return text.replace(at, height.size() + width.size(), std::string(height) + std::string(width));

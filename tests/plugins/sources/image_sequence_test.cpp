@@ -1,10 +1,10 @@
 #include <gmock/gmock.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <random>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/tables.hpp"
 #include "source_fixture.hpp"
 
@@ -19,7 +19,7 @@ class ImageSequence : public test::SourceFixture {
  protected:
   void write_pair(int number, const char* extension = "png") {
     for (int v = 0; v < 2; ++v) {
-      cv::imwrite(file(cv::format("%s_%04d.%s", v ? "right" : "left", number, extension)).string(),
+      write_image(file(cv::format("%s_%04d.%s", v ? "right" : "left", number, extension)).string(),
                   picture(number, v));
     }
   }
@@ -108,7 +108,7 @@ TEST_F(ImageSequence, ReportsImagesThatCannotBeUsedAndGoesOn) {
   write("left_0001.png", "this is no picture");
   write("right_0002.png", "");
   std::filesystem::resize_file(file("left_0003.png"), 100);
-  cv::imwrite(file("right_0004.png").string(), picture(4, 1, {32, 24}));
+  write_image(file("right_0004.png").string(), picture(4, 1, {32, 24}));
   std::filesystem::remove(file("left_0005.png"));
   std::filesystem::create_directory(file("left_0005.png"));
   const auto source = make(numbered());
@@ -154,8 +154,8 @@ TEST_F(ImageSequence, NeverEndsEarlyOrThrowsWhateverBytesAreDamaged) {
 
 TEST_F(ImageSequence, SortsGlobsByTheirNumbers) {
   for (const int i : {2, 9, 10, 1}) {
-    cv::imwrite(file(cv::format("a%d.png", i)).string(), picture(i, 0));
-    cv::imwrite(file(cv::format("b%d.png", i)).string(), picture(i, 1));
+    write_image(file(cv::format("a%d.png", i)).string(), picture(i, 0));
+    write_image(file(cv::format("b%d.png", i)).string(), picture(i, 1));
   }
   const std::string yaml =
       "type: image_sequence\nleft: a*.png\nright: b?*.png\ncalibration: {file: rig.yml}\n";
@@ -174,7 +174,7 @@ TEST_F(ImageSequence, SortsGlobsByTheirNumbers) {
 
 TEST_F(ImageSequence, ReadsOneFileAndOneView) {
   calibrate(64, 48, 1);
-  cv::imwrite(file("100%.png").string(), picture(7, 0));
+  write_image(file("100%.png").string(), picture(7, 0));
   const auto source = make("type: image_sequence\nleft: 100%%.png\ncalibration: {file: rig.yml}\n");
   const auto frame = source->next();
   ASSERT_TRUE(frame);
@@ -185,7 +185,7 @@ TEST_F(ImageSequence, ReadsOneFileAndOneView) {
 TEST_F(ImageSequence, SaysThatTimeStampsAreNoNumbersOfFrames) {
   for (const char* stamp : {"1690000000123456789", "1690000000156789000"})
     for (int v = 0; v < 2; ++v)
-      cv::imwrite(file(cv::format("%s_%s.png", v ? "right" : "left", stamp)).string(),
+      write_image(file(cv::format("%s_%s.png", v ? "right" : "left", stamp)).string(),
                   picture(0, v));
   const auto yaml = [](const std::string& number) {
     return "type: image_sequence\nleft: left_" + number + ".png\nright: right_" + number +
@@ -206,7 +206,7 @@ TEST_F(ImageSequence, RefusesAPatternThatFindsMasksAmongThePictures) {
       "calibration: {file: rig.yml}\n";
   EXPECT_EQ(make(yaml)->frame_count(), 2);
   for (const char* other : {"left_mask_0000.png", "left_depth_0000.png"}) {
-    cv::imwrite(file(other).string(), picture(0, 0));
+    write_image(file(other).string(), picture(0, 0));
     EXPECT_THAT(making(yaml), ThrowsMessage<DataError>(
                                   AllOf(HasSubstr("left_*.png finds left_0000.png and "),
                                         HasSubstr(other), HasSubstr("Use a number instead of *"))));
@@ -218,8 +218,8 @@ TEST_F(ImageSequence, FindsNumberedFolders) {
   for (int i = 8; i < 12; ++i) {
     const auto folder = file(cv::format("%d", i));
     std::filesystem::create_directory(folder);
-    cv::imwrite((folder / "left.png").string(), picture(i, 0));
-    cv::imwrite((folder / "right.png").string(), picture(i, 1));
+    write_image((folder / "left.png").string(), picture(i, 0));
+    write_image((folder / "right.png").string(), picture(i, 1));
   }
   const auto source = make(
       "type: image_sequence\nleft: \"%d/left.png\"\nright: \"%d/right.png\"\n"
@@ -231,7 +231,7 @@ TEST_F(ImageSequence, FindsNumberedFolders) {
 TEST_F(ImageSequence, ReadsFormatsBesidePng) {
   for (const char* extension : {"webp", "bmp", "tiff", "ppm"}) {
     for (int v = 0; v < 2; ++v)
-      cv::imwrite(file(cv::format("%s_0000.%s", v ? "right" : "left", extension)).string(),
+      write_image(file(cv::format("%s_0000.%s", v ? "right" : "left", extension)).string(),
                   picture(0, v), {cv::IMWRITE_WEBP_QUALITY, 101});  // lossless
     const auto frame =
         make(cv::format("type: image_sequence\nleft: left_%%04d.%s\nright: right_%%04d.%s\n"
@@ -247,11 +247,11 @@ TEST_F(ImageSequence, ReadsFormatsBesidePng) {
 
 TEST_F(ImageSequence, MakesEightBitColourOfEverything) {
   const cv::Mat grey(48, 64, CV_8U, cv::Scalar(77));
-  cv::imwrite(file("left_0000.png").string(), grey);
-  cv::imwrite(file("right_0000.png").string(),
+  write_image(file("left_0000.png").string(), grey);
+  write_image(file("right_0000.png").string(),
               cv::Mat(48, 64, CV_16UC3, cv::Scalar(65535, 32768, 0)));
-  cv::imwrite(file("left_0001.png").string(), cv::Mat(48, 64, CV_8UC4, cv::Scalar(1, 2, 3, 0)));
-  cv::imwrite(file("right_0001.png").string(), cv::Mat(48, 64, CV_16U, cv::Scalar(4095)));
+  write_image(file("left_0001.png").string(), cv::Mat(48, 64, CV_8UC4, cv::Scalar(1, 2, 3, 0)));
+  write_image(file("right_0001.png").string(), cv::Mat(48, 64, CV_16U, cv::Scalar(4095)));
   const auto source = make(numbered());
   auto frame = source->next();
   ASSERT_EQ(frame->problem, "");
@@ -263,8 +263,8 @@ TEST_F(ImageSequence, MakesEightBitColourOfEverything) {
   const auto scaled = make(numbered("bits: 12\nstart: 1\n"))->next();
   EXPECT_EQ(scaled->views[1].color.at<cv::Vec3b>(0, 0), cv::Vec3b(255, 255, 255));
 
-  cv::imwrite(file("left_0000.tiff").string(), grey);
-  cv::imwrite(file("left_0001.tiff").string(), cv::Mat(48, 64, CV_32F, cv::Scalar(0.5)));
+  write_image(file("left_0000.tiff").string(), grey);
+  write_image(file("left_0001.tiff").string(), cv::Mat(48, 64, CV_32F, cv::Scalar(0.5)));
   calibrate(64, 48, 1);
   const auto mixed =
       make("type: image_sequence\nleft: left_%04d.tiff\ncalibration: {file: rig.yml}\n");
@@ -277,8 +277,8 @@ TEST_F(ImageSequence, ReadsMasks) {
   cv::Mat mask = cv::Mat::zeros(48, 64, CV_8U);
   mask.colRange(0, 10) = 1;
   for (int i = 0; i < 2; ++i) {
-    cv::imwrite(file(cv::format("ml_%04d.png", i)).string(), mask);
-    cv::imwrite(file(cv::format("mr_%04d.png", i)).string(), mask);
+    write_image(file(cv::format("ml_%04d.png", i)).string(), mask);
+    write_image(file(cv::format("mr_%04d.png", i)).string(), mask);
   }
   const auto source = make(numbered("left_mask: ml_%04d.png\nright_mask: mr_%04d.png\n"));
   const auto frame = source->next();
@@ -296,7 +296,7 @@ TEST_F(ImageSequence, ReadsDepthInMetresBesideColour) {
     write_pair(i);
     cv::Mat depth(48, 64, CV_16U, cv::Scalar(4000));  // eighths of a millimetre: 0.5 m
     depth.row(0) = 0;
-    cv::imwrite(file(cv::format("d_%04d.png", i)).string(), depth);
+    write_image(file(cv::format("d_%04d.png", i)).string(), depth);
   }
   const auto source = make(numbered("left_depth: d_%04d.png\ndepth_units_mm: 0.125\n"));
   const auto frame = source->next();
@@ -312,12 +312,12 @@ TEST_F(ImageSequence, ReadsDepthInMetresBesideColour) {
 TEST_F(ImageSequence, ReadsDepthWithoutColour) {
   calibrate(64, 48, 1);
   for (int i = 0; i < 6; ++i) {
-    cv::imwrite(file(cv::format("%d.png", 10 * i)).string(),
+    write_image(file(cv::format("%d.png", 10 * i)).string(),
                 cv::Mat(48, 64, CV_16U, cv::Scalar(500 + i)));
   }
-  cv::imwrite(file("20.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(50)));
-  cv::imwrite(file("30.png").string(), cv::Mat(48, 64, CV_16UC3, cv::Scalar(50, 50, 50)));
-  cv::imwrite(file("40.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
+  write_image(file("20.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(50)));
+  write_image(file("30.png").string(), cv::Mat(48, 64, CV_16UC3, cv::Scalar(50, 50, 50)));
+  write_image(file("40.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
   const auto source =
       make("type: image_sequence\nleft_depth: \"*.png\"\ncalibration: {file: rig.yml}\n");
   for (int i = 0; i < 2; ++i) {
@@ -344,7 +344,7 @@ TEST_F(ImageSequence, SaysWhichPicturesAreMissingFromTheScene) {
   EXPECT_THAT(making(numbered("right_depth: right_%04d.png\n")),
               ThrowsMessage<DataError>(AllOf(HasSubstr("no image can be read"),
                                              HasSubstr("right_0000.png: has 8-bit pixels"))));
-  cv::imwrite(file("d_0000.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
+  write_image(file("d_0000.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(50)));
   EXPECT_THAT(making(numbered("left_depth: d_%04d.png\n")),
               ThrowsMessage<DataError>(AllOf(HasSubstr("d_0000.png"), HasSubstr("32x24"))));
 }
@@ -415,8 +415,8 @@ TEST_F(ImageSequence, SaysWhatItDidNotFind) {
   EXPECT_THAT(making("type: image_sequence\nleft: left_%04d.png\nright: right_*.png\n"
                      "calibration: {file: rig.yml}\n"),
               ThrowsMessage<DataError>(HasSubstr("only one of the patterns has a number")));
-  cv::imwrite(file("sparse_1.png").string(), picture(0, 0));
-  cv::imwrite(file("sparse_2000000000.png").string(), picture(0, 0));
+  write_image(file("sparse_1.png").string(), picture(0, 0));
+  write_image(file("sparse_2000000000.png").string(), picture(0, 0));
   EXPECT_THAT(making("type: image_sequence\nleft: sparse_%d.png\ncalibration: {file: rig.yml}\n"),
               ThrowsMessage<DataError>(HasSubstr("most frames would be missing")));
 }

@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {
@@ -17,14 +16,14 @@ class ImageTimestamps : public test::SourceFixture {
   void write_pictures(const std::string& folder, const std::vector<std::string>& names, int view) {
     std::filesystem::create_directories(file(folder));
     for (std::size_t i = 0; i < names.size(); ++i)
-      cv::imwrite(file(folder + "/" + names[i] + ".png").string(),
+      write_image(file(folder + "/" + names[i] + ".png").string(),
                   picture(static_cast<int>(i), view));
   }
   /// Pairs left_0000.png, right_0000.png and so on.
   void write_pairs(int count) {
     for (int i = 0; i < count; ++i)
       for (int v = 0; v < 2; ++v)
-        cv::imwrite(file(cv::format("%s_%04d.png", v ? "right" : "left", i)).string(),
+        write_image(file(cv::format("%s_%04d.png", v ? "right" : "left", i)).string(),
                     picture(i, v));
   }
   static std::string numbered(const std::string& timestamps) {
@@ -216,7 +215,7 @@ TEST_F(ImageTimestamps, InNamesThatDifferPairTheNearestWithinATolerance) {
 TEST_F(ImageTimestamps, InNamesSortByTimeAndMayHaveFractions) {
   calibrate(64, 48, 1);
   for (const char* name : {"l_9.95.png", "l_10.png", "l_10.05.png"})
-    cv::imwrite(file(name).string(), picture(0, 0));
+    write_image(file(name).string(), picture(0, 0));
   const std::string yaml =
       "type: image_sequence\nleft: l_*.png\ncalibration: {file: rig.yml}\n"
       "timestamps: {from: names, unit: s}\n";
@@ -225,7 +224,7 @@ TEST_F(ImageTimestamps, InNamesSortByTimeAndMayHaveFractions) {
               testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 0.05}));
   EXPECT_THAT(making(yaml + "start: 3\n"),
               ThrowsMessage<DataError>(HasSubstr("expected more than `start: 3`")));
-  cv::imwrite(file("l_10.0.png").string(), picture(0, 0));
+  write_image(file("l_10.0.png").string(), picture(0, 0));
   EXPECT_THAT(making(yaml), ThrowsMessage<DataError>(HasSubstr("have the same time")));
 }
 

@@ -1,9 +1,9 @@
 #include <gmock/gmock.h>
 
-#include <opencv2/imgcodecs.hpp>
 #include <random>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/tables.hpp"
 #include "source_fixture.hpp"
 
@@ -23,13 +23,13 @@ class Rgbd : public test::SourceFixture {
     if (color_time >= 0) {
       const std::string name = cv::format("rgb/%d.png", number);
       std::filesystem::create_directory(file("rgb"));
-      cv::imwrite(file(name).string(), picture(number, 0));
+      write_image(file(name).string(), picture(number, 0));
       color_list_ += cv::format("%.4f %s\n", color_time, name.c_str());
     }
     if (depth_time >= 0) {
       const std::string name = cv::format("depth/%d.png", number);
       std::filesystem::create_directory(file("depth"));
-      cv::imwrite(file(name).string(), cv::Mat(48, 64, CV_16U, cv::Scalar(2500 + 5 * number)));
+      write_image(file(name).string(), cv::Mat(48, 64, CV_16U, cv::Scalar(2500 + 5 * number)));
       depth_list_ += cv::format("%.4f %s\n", depth_time, name.c_str());
     }
     write("rgb.txt", color_list_);
@@ -103,9 +103,9 @@ TEST_F(Rgbd, ReportsImagesThatCannotBeUsedAndGoesOn) {
   for (int i = 0; i < 7; ++i) add(i, i, i);
   std::filesystem::remove(file("rgb/1.png"));
   std::filesystem::remove(file("depth/2.png"));
-  cv::imwrite(file("depth/3.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
-  cv::imwrite(file("depth/4.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(9)));
-  cv::imwrite(file("rgb/5.png").string(), picture(0, 0, {32, 24}));
+  write_image(file("depth/3.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
+  write_image(file("depth/4.png").string(), cv::Mat(24, 32, CV_16U, cv::Scalar(9)));
+  write_image(file("rgb/5.png").string(), picture(0, 0, {32, 24}));
   const auto source = make(yaml());
   EXPECT_EQ(source->next()->problem, "");
   EXPECT_THAT(source->next()->problem, HasSubstr("rgb/1.png: is missing"));
@@ -168,7 +168,7 @@ TEST_F(Rgbd, SaysWhatDoesNotFitTogether) {
   calibrate(320, 240, 1);
   EXPECT_THAT(making(yaml()), ThrowsMessage<DataError>(HasSubstr("calibrated for 320x240")));
   calibrate(64, 48, 1);
-  cv::imwrite(file("depth/1.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
+  write_image(file("depth/1.png").string(), cv::Mat(48, 64, CV_8U, cv::Scalar(9)));
   EXPECT_THAT(making(yaml()),
               ThrowsMessage<DataError>(AllOf(HasSubstr("no image can be read"),
                                              HasSubstr("depth/1.png: has 8-bit pixels"))));

@@ -1,7 +1,7 @@
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "app_test.hpp"
+#include "hypotrack/media.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -54,8 +54,8 @@ TEST_F(CalibrationCommandsTest, CheckTellsExchangedPictures) {
                cv::Scalar(random.uniform(0, 255), random.uniform(0, 255), random.uniform(0, 255)),
                cv::FILLED);
   const std::string left = path("left.png").string(), right = path("right.png").string();
-  cv::imwrite(left, wall(cv::Rect(60, 0, 640, 480)));
-  cv::imwrite(right, wall(cv::Rect(120, 0, 640, 480)));
+  write_image(left, wall(cv::Rect(60, 0, 640, 480)));
+  write_image(right, wall(cv::Rect(120, 0, 640, 480)));
   const std::string file = cameras();
   const Outcome good =
       run_program({"calibration", "check", file, "--left", left, "--right", right});
@@ -69,8 +69,8 @@ TEST_F(CalibrationCommandsTest, CheckTellsExchangedPictures) {
 
 TEST_F(CalibrationCommandsTest, CalibrateRefusesWhatShowsNoBoard) {
   const std::string left = path("left.png").string(), right = path("right.png").string();
-  cv::imwrite(left, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
-  cv::imwrite(right, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
+  write_image(left, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
+  write_image(right, cv::Mat3b(480, 640, cv::Vec3b(90, 90, 90)));
   const std::string out = path("out").string();
   const auto calibrate = [&](const std::string& of, std::vector<std::string> more) {
     more.insert(more.begin(), {"calibrate", "--left", of, "--right", right, "--out", out});
@@ -82,7 +82,7 @@ TEST_F(CalibrationCommandsTest, CalibrateRefusesWhatShowsNoBoard) {
   expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25"}), {"--square is '25'"});
   expect_refusal(calibrate(path("none*.jpg").string(), {"--board", "9x6", "--square", "25mm"}),
                  {"none*.jpg: no such picture"});
-  cv::imwrite(left, cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
+  write_image(left, cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
   expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25mm"}), {"320 x 240", "640"});
 }
 
@@ -95,7 +95,7 @@ TEST_F(CalibrationCommandsTest, RealPicturesAreCalibrated) {
                                        "--out", out, "--coverage", path("coverage.png").string()});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("good: 0.2"));
-  EXPECT_EQ(cv::imread(path("coverage.png").string()).size(), cv::Size(1280, 480));
+  EXPECT_EQ(read_image(path("coverage.png").string()).size(), cv::Size(1280, 480));
   const Outcome info = run_program({"calibration", "info", out});
   EXPECT_THAT(info.out, HasSubstr("baseline 83.18 mm"));
 }

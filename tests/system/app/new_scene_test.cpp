@@ -1,10 +1,10 @@
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "app_test.hpp"
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
 #include "new_scene/find_recording.hpp"
 
 namespace hypotrack::test {
@@ -44,7 +44,7 @@ class NewSceneTest : public AppTest {
     for (const std::string frame : {"_000000.png", "_000001.png"}) {
       std::vector<cv::Mat> pictures;
       for (const std::string& view : views)
-        pictures.push_back(cv::imread(path("recording/" + view + frame).string()));
+        pictures.push_back(read_image(path("recording/" + view + frame).string()));
       cv::Mat all;
       cv::hconcat(pictures, all);
       if (!writer.isOpened())

@@ -4,11 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <sstream>
 
 #include "app_test.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -165,7 +165,7 @@ TEST_F(RunTest, TheWorstFrameIsDrawnUnlessItShouldNotBe) {
   const auto worst = std::max_element(errors.begin(), errors.end(),
                                       [](const auto& a, const auto& b) { return a[3] < b[3]; });
   const cv::Mat picture =
-      cv::imread(path("out/worst_" + std::to_string(worst - errors.begin()) + ".jpg").string());
+      read_image(path("out/worst_" + std::to_string(worst - errors.begin()) + ".jpg").string());
   ASSERT_FALSE(picture.empty());
   EXPECT_EQ(std::max(picture.cols, picture.rows - 56), 640);  // enlarged, over a legend
   ASSERT_EQ(run(box_scene(), {"--set", "output.worst_frames=0"}).exit_code, 0);

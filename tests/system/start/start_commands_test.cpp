@@ -1,6 +1,6 @@
-#include <opencv2/imgcodecs.hpp>
 
 #include "app_test.hpp"
+#include "hypotrack/media.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -31,7 +31,7 @@ TEST_F(StartCommands, DrawTheStartOverBothViews) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("ok"));
   EXPECT_THAT(outcome.err, HasSubstr("start.png: frame 0, start: truth"));
-  const cv::Mat picture = cv::imread(path("start.png").string());
+  const cv::Mat picture = read_image(path("start.png").string());
   EXPECT_EQ(picture.cols, 320);
   EXPECT_GT(picture.rows, 120);
 }
@@ -42,7 +42,7 @@ TEST_F(StartCommands, DrawAStartThatIsRefusedBecauseItIsBehindTheCamera) {
   const Outcome outcome = draw(text);
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("lies at or behind camera 0"));
-  EXPECT_EQ(cv::imread(path("start.png").string()).cols, 320);
+  EXPECT_EQ(read_image(path("start.png").string()).cols, 320);
 }
 
 TEST_F(StartCommands, DrawWhatIsFoundAlsoWhereSearchesAreInTheBackground) {
@@ -63,8 +63,8 @@ TEST_F(StartCommands, DrawWhatIsFoundOrSayThatNothingIs) {
       "nothing.png");
   EXPECT_EQ(nothing.exit_code, 0) << nothing.err;
   EXPECT_THAT(nothing.err, HasSubstr("start: global_search; box not found"));
-  const cv::Mat with = cv::imread(path("start.png").string());
-  const cv::Mat without = cv::imread(path("nothing.png").string());
+  const cv::Mat with = read_image(path("start.png").string());
+  const cv::Mat without = read_image(path("nothing.png").string());
   EXPECT_GT(with.rows, without.rows) << "the share in view and the legend of what is drawn";
 }
 

@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <opencv2/imgcodecs.hpp>
 #include <regex>
 #include <thread>
 
+#include "hypotrack/media.hpp"
 #include "served_run.hpp"
 
 namespace hypotrack::test {
@@ -47,8 +47,9 @@ class LivePageTest : public ServedRun {
     const std::string text = read_stream(
         address, [&](const std::string& so_far) { return so_far.find(kEnd) != std::string::npos; });
     const std::size_t begin = text.find("\r\n\r\n") + 4;
-    const std::string jpeg = text.substr(begin, text.find(kEnd) - begin);
-    return cv::imdecode(std::vector<unsigned char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR);
+    std::string jpeg = text.substr(begin, text.find(kEnd) - begin);
+    return decode_image(cv::Mat(1, static_cast<int>(jpeg.size()), CV_8UC1, jpeg.data()),
+                        cv::IMREAD_COLOR);
   }
 };
 

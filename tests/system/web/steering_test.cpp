@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include <csignal>
-#include <opencv2/imgcodecs.hpp>
 
+#include "hypotrack/media.hpp"
 #include "served_run.hpp"
 
 namespace hypotrack::test {
@@ -41,7 +41,7 @@ TEST_F(SteeringTest, SnapshotsAreWrittenWithTheResults) {
   program().signal(SIGINT);
   program().wait();
   const std::string name = path("out/" + fmt::format("snapshot_{:06}.png", frame)).string();
-  EXPECT_EQ(cv::imread(name).size(), cv::Size(320, 120));
+  EXPECT_EQ(read_image(name).size(), cv::Size(320, 120));
   EXPECT_THAT(read_text(path("out/" + fmt::format("snapshot_{:06}.yaml", frame))),
               HasSubstr("position_mm"));
 }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/renderer.hpp"
 #include "synthetic_fixture.hpp"
 #include "test_paths.hpp"
@@ -113,7 +113,7 @@ TEST(Synthetic, PutsAPictureUprightOnTheWall) {
   cv::Mat picture(100, 160, CV_8UC3, cv::Scalar(0, 0, 200));
   picture.rowRange(50, 100).setTo(cv::Scalar(0, 200, 0));
   picture.colRange(0, 80).setTo(cv::Scalar(200, 0, 0));
-  cv::imwrite((folder.path() / "wall.png").string(), picture);
+  write_image((folder.path() / "wall.png").string(), picture);
   const std::string yaml =
       std::string(kCameras) + kQuiet + kMotion + "frames: 1\n" +
       "background: {kind: image, distance_mm: 1e5, file: " + (folder.path() / "wall.png").string() +
