@@ -222,15 +222,20 @@ struct ModelsTracked {
 };
 
 /// Tracks frames of a scene of configs/ with the terms and the optimizer of real_time.yaml.
+/// Adds overrides that take the real-time tracker.
+std::vector<std::string> in_real_time(std::vector<std::string> overrides) {
+  const std::string scene = (test::source_dir() / "configs/scenes/real_time.yaml").string();
+  overrides.insert(overrides.end(), {"objective=@" + scene, "optimizer=@" + scene,
+                                     "budget.evaluations=60", "tile.size=128"});
+  return overrides;
+}
+
 std::vector<ModelsTracked> track_models(const std::string& scene_file, int frames,
                                         std::vector<std::string> overrides) {
   PluginLoader plugins;
-  const std::string real_time = (test::source_dir() / "configs/scenes/real_time.yaml").string();
   overrides.insert(overrides.end(),
                    {"evaluate.backend=cpu",
-                    "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}",
-                    "objective=@" + real_time, "optimizer=@" + real_time, "budget.evaluations=60",
-                    "tile.size=128"});
+                    "source.cameras={width: 640, height: 360, focal_px: 350, baseline_mm: 120}"});
   OpenedScene session =
       open_scene(test::source_dir() / "configs/scenes" / scene_file, overrides, plugins);
   const Scene& scene = *session.scene;
@@ -251,8 +256,9 @@ std::vector<ModelsTracked> track_models(const std::string& scene_file, int frame
 }
 
 TEST(Lost, FollowsOneHandWhileTheOtherIsAway) {
-  const auto frames = track_models(
-      "two_hands.yaml", 24, {"source.faults=[{frames: [6, 13], kind: absent, model: left}]"});
+  const auto frames =
+      track_models("two_hands.yaml", 24,
+                   in_real_time({"source.faults=[{frames: [6, 13], kind: absent, model: left}]"}));
   for (std::size_t i = 0; i < frames.size(); ++i) {
     EXPECT_EQ(frames[i].status[0], Status::tracked) << "frame " << i;
     EXPECT_LT(frames[i].error_mm[0], 15) << "frame " << i;
@@ -265,8 +271,10 @@ TEST(Lost, FollowsOneHandWhileTheOtherIsAway) {
 }
 
 TEST(Lost, FindsABoxInTheHandThatHeldIt) {
-  const auto frames =
-      track_models("hand_and_box.yaml", 30, {"source.faults=[{frames: [8, 19], kind: absent}]"});
+  // The real-time tracker stays at a box that is off along itself, as it is in one of five returns.
+  const auto frames = track_models(
+      "hand_and_box.yaml", 30,
+      {"source.faults=[{frames: [8, 19], kind: absent}]", "tracker=@trackers/recommended"});
   constexpr std::size_t kAway = 8, kBack = 20;
   for (std::size_t m = 0; m < 2; ++m) {
     for (std::size_t i = kAway; i < kBack; ++i) {
@@ -274,9 +282,9 @@ TEST(Lost, FindsABoxInTheHandThatHeldIt) {
     }
     for (std::size_t i = kBack; i < frames.size(); ++i) {
       EXPECT_EQ(frames[i].status[m], Status::tracked) << "model " << m << ", frame " << i;
-      EXPECT_LT(frames[i].error_mm[m], 15) << "model " << m << ", frame " << i;
+      EXPECT_LT(frames[i].error_mm[m], 10) << "model " << m << ", frame " << i;
     }
-    EXPECT_LT(frames.back().error_mm[m], 10) << "model " << m;
+    EXPECT_LT(frames.back().error_mm[m], 3) << "model " << m;
   }
 }
 
