@@ -118,7 +118,7 @@ TEST_F(LeastSquaresOnDevice, LooksForOneOfTwoHands) {
     const Solution solution = tracker->track(frame);
     EXPECT_EQ(solution.models[0], Status::tracked) << "frame " << i;
     if (i == 5) {
-      EXPECT_EQ(solution.models[1], Status::lost);
+      EXPECT_NE(solution.models[1], Status::tracked);
     }
     if (i == 9) {
       const Eigen::VectorXd apart = solution.state - frame.truth->state;
