@@ -1,6 +1,7 @@
 // Terms as a sum of squares.
 #include <gmock/gmock.h>
 
+#include "cost/cuda/device.hpp"
 #include "cost_fixture.hpp"
 #include "expect_error.hpp"
 
@@ -56,6 +57,8 @@ TEST_F(CostResiduals, RefusesResidualsOfTermsThatHaveNone) {
 }
 
 TEST_F(CostResiduals, RefusesAnalyticJacobiansOnAGpuOfTermsWithoutSlopesThere) {
+  if (const std::string why = cuda::why_no_device(); why.ends_with("built without CUDA"))
+    GTEST_SKIP() << why;
   const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<DrawnSquares>(3), "squares"}};
   EXPECT_EQ(message_of<ConfigError>([&] {
               make_cost(scene_, terms, {.backend = Backend::cuda},
