@@ -224,7 +224,10 @@ class HostCost final : public Cost, public StateResiduals {
       costs[t] = cost_of(t, draws ? hypothesis : RenderedHypothesis{hypothesis.state, {}});
     };
     if (terms_at_once_) {
-      tbb::parallel_for(std::size_t{0}, costs.size(), find_cost);
+      // A thread that waits here must not begin another hypothesis: it would write to the same
+      // residual_memory_.
+      tbb::this_task_arena::isolate(
+          [&] { tbb::parallel_for(std::size_t{0}, costs.size(), find_cost); });
     } else {
       for (std::size_t t = 0; t < costs.size(); ++t) find_cost(t);
     }
