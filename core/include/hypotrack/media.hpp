@@ -10,9 +10,9 @@
 
 namespace hypotrack {
 
-// OpenCV's libraries of image and video files load more than two hundred others, which takes longer
-// than to start a program. Those who call these functions in their place do not link against them:
-// they are loaded by the first call. All throw DeviceError if that fails.
+// Images and videos without linking against OpenCV's imgcodecs and videoio. These need two hundred
+// further libraries, so a program that links against them starts slowly. Here the first call loads
+// them; it throws DeviceError if that fails.
 
 /// Reads an image file as cv::imread does: an empty image if it cannot be read.
 HYPOTRACK_API cv::Mat read_image(const std::string& file, int flags = cv::IMREAD_COLOR);
