@@ -166,7 +166,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
     if (picture_checks_) brightness_.next(picture_checks_->jumps());
     if (!spoils_pictures(fault)) {
       const Frame steady = brightness_.applied_to(frame);
-      naming(steady, [&] { find_in_spite_of_device(steady, solution, record); });
+      naming(steady, [&] { find_or_leave_device(steady, solution, record); });
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -181,8 +181,8 @@ ViewFault SceneTracker::fault_of(const Frame& frame) {
   return found.fault == FrameFault::none ? ViewFault{frame.fault} : found;
 }
 
-void SceneTracker::find_in_spite_of_device(const Frame& frame, Solution& solution,
-                                           SearchRecord* record) {
+void SceneTracker::find_or_leave_device(const Frame& frame, Solution& solution,
+                                        SearchRecord* record) {
   const Solution before = solution;
   try {
     return find(frame, solution, record);

@@ -96,7 +96,7 @@ class SceneTracker {
 
   void find(const Frame& frame, Solution& solution, SearchRecord* record);
   /// Calls find(), again on the CPU if the device failed and the settings ask for that.
-  void find_in_spite_of_device(const Frame& frame, Solution& solution, SearchRecord* record);
+  void find_or_leave_device(const Frame& frame, Solution& solution, SearchRecord* record);
   /// Records the tiles, the answer drawn in them and the terms' maps of it.
   void describe(const Frame& frame, const Candidate& best, SearchRecord& record);
   /// Searches from the last state. Returns no pose while all models are lost.
