@@ -1,7 +1,7 @@
 'use strict';
 /* The live view: shows what LiveServer (live_server.hpp) sends and passes on the buttons. */
 (function () {
-  var kMostSamples = 3000, kSampled = 0.1;
+  var kMostSamples = 3000, kSampled = 0.1, kAttempts = 3;
   var byId = function (id) { return document.getElementById(id); };
   var samples = [], plots = [], stage = null, motions = [], modelRows = [];
   var frames = null, newest = null, drawn = false, ended = false;
@@ -10,8 +10,17 @@
     return value === null || value === undefined ? '–' : value.toFixed(digits) + (unit || '');
   }
 
-  function post(command) {
-    return fetch(command, {method: 'POST'}).catch(function () {});
+  function showNoConnection() {
+    byId('run').textContent = 'no connection';
+    byId('run').className = 'badge broken';
+  }
+
+  /** Sends a command, again if its connection broke. */
+  function post(command, attempts) {
+    fetch(command, {method: 'POST'}).catch(function () {
+      if (attempts === 0) return showNoConnection();
+      setTimeout(function () { post(command, attempts - 1); }, 200);
+    });
   }
 
   function connectPictures() {
@@ -194,10 +203,7 @@
       if (newest.run === 'ended') events.close();
       requestAnimationFrame(show);
     };
-    events.onerror = function () {
-      byId('run').textContent = 'no connection';
-      byId('run').className = 'badge broken';
-    };
+    events.onerror = showNoConnection;
   }
 
   function load(address) {
@@ -214,10 +220,10 @@
   }
 
   byId('pause').addEventListener('click', function () {
-    post(byId('pause').textContent === 'Pause' ? 'pause' : 'resume');
+    post(byId('pause').textContent === 'Pause' ? 'pause' : 'resume', kAttempts);
   });
   ['step', 'restart', 'snapshot'].forEach(function (command) {
-    byId(command).addEventListener('click', function () { post(command); });
+    byId(command).addEventListener('click', function () { post(command, kAttempts); });
   });
   whenOpen().then(function (scene) {
     makeScene(scene);
@@ -228,8 +234,7 @@
     samples = history.samples;
     connectStates();
   }).catch(function (error) {
-    byId('run').textContent = 'no connection';
-    byId('run').className = 'badge broken';
+    showNoConnection();
     throw error;
   });
 })();

@@ -18,7 +18,8 @@ import unittest
 PROGRAM = sys.argv[1]
 sys.path.insert(0, sys.argv[2])
 sys.dont_write_bytecode = True
-from browser_test import SKIPPED, By, WebDriverWait, start_browser  # noqa: E402
+from browser_test import (  # noqa: E402
+    SKIPPED, By, TimeoutException, WebDriverWait, start_browser)
 
 SCENE = """
 models: [{name: box, type: rigid_box, size_mm: [90, 60, 40]}]
@@ -32,6 +33,7 @@ source:
 objective: {type: stereo_color}
 optimizer: {type: pso, particles: 8, generations: 4}
 tile: {size: 32}
+evaluate: {threads: 1}  # leaves processors to the browser
 init: {from: truth}
 output: {overlay: false, worst_frames: 0}
 """
@@ -83,7 +85,13 @@ class LiveViewTest(unittest.TestCase):
         return self.browser.execute_script(text, *arguments)
 
     def until(self, condition):
-        return WebDriverWait(self.browser, 60).until(lambda _: condition())
+        try:
+            return WebDriverWait(self.browser, 120).until(lambda _: condition())
+        except TimeoutException:
+            log = (pathlib.Path(self.folder.name) / "err").read_text()
+            self.fail(f"waited in vain: the page says {self.text('run')!r} in frame "
+                      f"{self.frame()}, the browser {self.browser.get_log('browser')}, "
+                      f"the run {log!r}")
 
     def text(self, name):
         return self.script("return (document.getElementById(arguments[0]) || {}).textContent", name)
@@ -129,6 +137,13 @@ class LiveViewTest(unittest.TestCase):
         self.until(lambda: self.frame() > frame + 3)
         self.assertEqual(self.text("run"), "running")
         self.assert_quiet()
+
+    def test_a_command_is_sent_again_when_its_connection_breaks(self):
+        self.open()
+        self.script("var real = fetch; window.fetch = function () {"
+                    "  window.fetch = real; return Promise.reject(new TypeError('broken')); };")
+        self.press("pause")
+        self.until(lambda: self.text("run") == "paused")
 
     def test_a_narrow_page_has_the_views_below_each_other(self):
         self.open(width=400)
