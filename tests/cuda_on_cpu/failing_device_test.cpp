@@ -69,7 +69,9 @@ TEST_P(FailingDeviceTest, IsSaidOnceAndTheFramesBeforeStay) {
   }
   EXPECT_EQ(frames(), kFrames);
   EXPECT_GT(failed, 3);
-  if (GetParam().fault == std::string("lost")) EXPECT_GT(kept, 0);
+  if (GetParam().fault == std::string("lost")) {
+    EXPECT_GT(kept, 0);
+  }
 }
 
 TEST_P(FailingDeviceTest, OnceFramesWereTrackedTheCpuGoesOnIfAskedTo) {
