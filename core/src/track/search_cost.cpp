@@ -94,7 +94,8 @@ std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbou
   for (const Neighbourhood& at : points) {
     states.push_back({space_.states(at.points, prior_), at.steps, at.blur});
   }
-  return cost_.least_squares()->linearize_each(states);
+  return tally_.count(std::ssize(states),
+                      [&] { return cost_.least_squares()->linearize_each(states); });
 }
 
 }  // namespace hypotrack
