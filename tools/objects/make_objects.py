@@ -100,9 +100,10 @@ def scissor_blade(side):
 
 def spray_bottle():
     """A surface of revolution about y: body, shoulder, neck and head; 185 mm high."""
-    profile = [(0, 0), (29, 0), (33, 3), (33.5, 8), (33, 95), (31, 110), (25, 124), (15, 135),
-               (12, 139), (12, 147), (16, 148), (17, 152), (17, 172), (14, 182), (8, 185), (0, 185)]
-    profile = [(r / 1000, y / 1000 - 0.09) for r, y in profile]
+    profile = [(0, 0), (23, 0), (26, 3), (26.5, 8), (26.5, 95), (25, 110), (20, 124), (13, 134),
+               (10.5, 139), (10.5, 147), (14, 148), (15, 152), (15, 172), (12, 182), (7, 185),
+               (0, 185)]
+    profile = [(r / 1000, y / 1000 - 0.055) for r, y in profile]
     along = [0]
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         along.append(along[-1] + math.hypot(r1 - r0, y1 - y0))
