@@ -91,7 +91,7 @@ def scissor_blade(side):
 
     fill(obj, placed([(-0.001, 0.09), (-0.009, 0.012), (-0.009, -0.012), (0.009, -0.012),
                       (0.010, 0.012)]), bottom, top, uv_of)
-    fill(obj, placed([(-0.009, -0.012), (0.007, -0.040), (0.018, -0.036), (0.009, -0.012)]),
+    fill(obj, placed([(-0.008, -0.011), (0.007, -0.040), (0.018, -0.036), (0.008, -0.011)]),
          bottom, top, uv_of)
     extrude(obj, (placed(circle(0.019, -0.064, 0.019, 0.028)),
                   placed(circle(0.019, -0.064, 0.012, 0.021))), bottom - 0.002, top + 0.002, uv_of)
@@ -130,18 +130,14 @@ def bar(start, end, width, depth, bone, uv):
     corners = [(sx * width / 2, y, sz * depth / 2)
                for y in (start, end) for sx, sz in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
     left, bottom, right, top = uv
-    faces = []
-    for a, b in ((0, 1), (1, 2), (2, 3), (3, 0)):
-        faces += [(a, 4 + a, 4 + b), (a, 4 + b, b)]
-    faces += [(0, 1, 2), (0, 2, 3), (4, 6, 5), (4, 7, 6)]
+    quads = [((k, 4 + k, 4 + (k + 1) % 4, (k + 1) % 4), k / 4, (k + 1) / 4) for k in range(4)]
+    quads += [((0, 1, 2, 3), 0, 1), ((4, 7, 6, 5), 0, 1)]
     points, coordinates, triangles = [], [], []
-    for face in faces:  # own corners per face, as flat textures need
-        for i in face:
-            along = (corners[i][1] - start) / (end - start)
-            around = (i % 4 if face != faces[6] and face != faces[7] else i % 4 or 4) / 4
-            triangles.append(len(points))
-            points.append(corners[i])
-            coordinates.append((left + (right - left) * around, 1 - bottom - (top - bottom) * along))
+    for quad, u0, u1 in quads:
+        triangles += [len(points) + i for i in (0, 1, 2, 0, 2, 3)]
+        points += [corners[i] for i in quad]
+        coordinates += [(left + (right - left) * u, bottom + (top - bottom) * v)
+                        for u, v in ((u0, 1), (u0, 0), (u1, 0), (u1, 1))]
     return points, coordinates, triangles, bone
 
 

@@ -103,7 +103,7 @@ TEST(ArticulatedModel, MirroredScalesKeepTheOutsideOutside) {
   const TemporaryDirectory folder;
   const auto file = folder.path() / "it.urdf";
   std::ofstream(folder.path() / "a.obj")
-      << "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+      << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
   std::ofstream(file)
       << "<robot name='it'><link name='a'><visual><geometry>"
          "<mesh filename='a.obj' scale='-1 2 1'/></geometry></visual></link></robot>";

