@@ -100,7 +100,7 @@ def scissor_blade(side):
 
 def spray_bottle():
     """A surface of revolution about y: body, shoulder, neck and head; 185 mm high."""
-    profile = [(0, 0), (23, 0), (26, 3), (26.5, 8), (26.5, 95), (25, 110), (20, 124), (13, 134),
+    profile = [(0, 0), (22, 0), (25, 3), (25.5, 8), (25.5, 95), (24.5, 110), (20, 124), (13, 134),
                (10.5, 139), (10.5, 147), (14, 148), (15, 152), (15, 172), (12, 182), (7, 185),
                (0, 185)]
     profile = [(r / 1000, y / 1000 - 0.055) for r, y in profile]

@@ -9,6 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
 #include "session/opened_scene.hpp"
 #include "test_models.hpp"
