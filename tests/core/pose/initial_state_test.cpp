@@ -78,8 +78,10 @@ TEST(InitialState, HasJointsOfAllKindsAsThePoseSaysAndWritesThem) {
     return message_of(session, {});
   };
   EXPECT_THAT(message("lengths_mm: {drawer: 81}"), HasSubstr("80"));
-  EXPECT_THAT(message("lengths_mm: {door: 1}"), HasSubstr("unknown key 'door'"));
-  EXPECT_THAT(message("angles_deg: {drawer: 1}"), HasSubstr("unknown key 'drawer'"));
+  EXPECT_THAT(message("lengths_mm: {door: 1}"),
+              HasSubstr("lengths_mm.door: unknown key. Allowed: drawer"));
+  EXPECT_THAT(message("angles_deg: {drawer: 1}"),
+              HasSubstr("angles_deg.drawer: unknown key. Allowed: door, knob"));
 }
 
 TEST(InitialState, RefusesAPoseThatIsNone) {
