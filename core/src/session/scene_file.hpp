@@ -50,7 +50,7 @@ struct InitSettings {
     v("frame", frame, {.help = "which frame of the table", .min = 0});
     v("pose", pose,
       {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg, quaternion or "
-               "rotation, angles_deg: {NAME: VALUE}}}"});
+               "rotation, angles_deg: {NAME: VALUE}, lengths_mm: {NAME: VALUE}}}"});
     v("away_mm", away,
       {.help =
            "moves every model of that state this far, in a direction that the seed decides: how "
