@@ -4,7 +4,8 @@
 #include <opencv2/core/version.hpp>
 
 // The build tag names all that core and a plugin must share before C++ objects may cross: C++
-// standard, compiler ABI, string ABI, Eigen and its alignment, OpenCV and sanitizer.
+// standard, compiler ABI, string ABI, Eigen and its alignment, OpenCV, containers (_GLIBCXX_DEBUG)
+// and sanitizer.
 #define HYPOTRACK_TAG_(x) #x
 #define HYPOTRACK_TAG(x) HYPOTRACK_TAG_(x)
 
@@ -23,6 +24,12 @@
 #define HYPOTRACK_TAG_SANITIZER "none"
 #endif
 
+#ifdef _GLIBCXX_DEBUG
+#define HYPOTRACK_TAG_CONTAINERS "checked"
+#else
+#define HYPOTRACK_TAG_CONTAINERS "plain"
+#endif
+
 namespace hypotrack {
 
 // clang-format off
@@ -34,6 +41,7 @@ inline constexpr const char* kBuildTag =
     HYPOTRACK_TAG(EIGEN_MINOR_VERSION)
     ", eigen-align " HYPOTRACK_TAG(EIGEN_MAX_ALIGN_BYTES)
     ", opencv " CV_VERSION
+    ", containers " HYPOTRACK_TAG_CONTAINERS
     ", sanitizer " HYPOTRACK_TAG_SANITIZER;
 // clang-format on
 

@@ -208,10 +208,15 @@ void ParamVisitor::operator()(std::string_view key, T& value, const ParamInfo& i
     on_doubles(key, items, static_cast<std::size_t>(T::SizeAtCompileTime), info);
     value = Eigen::Map<const T>(items.data());
   } else {
-    static_assert(ParamStruct<T>, "no type that a parameter can have");
-    if (enter_section(key, info)) {
-      value.visit(*this);
-      leave_section();
+    static_assert(ParamStruct<T>,
+                  "a parameter cannot have this type: use bool, integers, double, std::string, "
+                  "std::filesystem::path, an enum with enum_names(), a fixed-size Eigen vector of "
+                  "double, a struct with visit(), std::vector or std::optional of these");
+    if constexpr (ParamStruct<T>) {
+      if (enter_section(key, info)) {
+        value.visit(*this);
+        leave_section();
+      }
     }
   }
 }

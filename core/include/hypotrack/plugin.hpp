@@ -143,17 +143,63 @@ inline constexpr std::string_view kPluginMagic = "hypotrack plugin";  // 16 char
 inline constexpr const char* kPluginEntry = "hypotrack_plugin";
 
 namespace detail {
+
+/// Says at compile time what a plugin's class lacks: one message, and what to write. Returns false
+/// then.
+template <class Kind, class T>
+consteval bool is_plugin_class() {
+  constexpr bool kDerived = std::derived_from<T, Kind>;
+  static_assert(kDerived,
+                "HYPOTRACK_PLUGIN: the class does not derive from the interface of its kind. Write "
+                "`class Mine : public hypotrack::Optimizer` (or Model, Objective, Source, Start, "
+                "Output), the KIND that CMake's hypotrack_add_plugin() gets");
+  constexpr bool kHasParams = requires { typename T::Params; };
+  static_assert(
+      kHasParams,
+      "HYPOTRACK_PLUGIN: the class has no public type Params. Write "
+      "`struct Params { void visit(hypotrack::ParamVisitor& v) {} };` in its public part");
+  if constexpr (kDerived && kHasParams) {
+    using Params = typename T::Params;
+    constexpr bool kVisits = ParamStruct<Params> && std::default_initializable<Params>;
+    static_assert(
+        kVisits,
+        "HYPOTRACK_PLUGIN: Params has no public `void visit(hypotrack::ParamVisitor& v)` "
+        "or no default values. Write "
+        "`int size = 4; void visit(hypotrack::ParamVisitor& v) { v(\"size\", size, {}); }`");
+    constexpr bool kMade = std::is_abstract_v<T> ||
+                           std::constructible_from<T, const Params&, PluginContext&> ||
+                           std::constructible_from<T, const Params&>;
+    static_assert(kMade,
+                  "HYPOTRACK_PLUGIN: the class cannot be made from its parameters. Write a public "
+                  "`explicit Mine(const Params& params)` or "
+                  "`Mine(const Params& params, hypotrack::PluginContext& context)`");
+    return kVisits && kMade;
+  }
+  return false;
+}
+
 template <class Kind, class T>
 void* create_plugin(PluginContext& context) {
-  static_assert(std::derived_from<T, Kind>, "the class does not implement its plugin kind");
-  auto params = context.template read<typename T::Params>();
-  std::unique_ptr<Kind> object;
-  if constexpr (std::constructible_from<T, const typename T::Params&, PluginContext&>) {
-    object = std::make_unique<T>(params, context);
+  if constexpr (is_plugin_class<Kind, T>()) {
+    const auto params = context.template read<typename T::Params>();
+    std::unique_ptr<Kind> object;
+    // `new`: the compiler's message of an abstract class is short and names what is missing.
+    if constexpr (std::constructible_from<T, const typename T::Params&, PluginContext&>)
+      object.reset(new T(params, context));
+    else
+      object.reset(new T(params));
+    return object.release();
   } else {
-    object = std::make_unique<T>(params);
+    return nullptr;
   }
-  return object.release();
+}
+
+template <class Kind, class T>
+std::string describe_plugin() {
+  if constexpr (is_plugin_class<Kind, T>())
+    return describe_params<typename T::Params>();
+  else
+    return {};
 }
 
 using model = Model;
@@ -173,21 +219,21 @@ using output = Output;
 /// Objective, Optimizer, Source, Start or Output and has a nested ParamStruct `Params`. It is
 /// constructible from (const Params&) or (const Params&, PluginContext&). hypotrack_add_plugin() in
 /// CMake gives kind, name, version and licence.
-#define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                          \
-  extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*         \
-  hypotrack_plugin() {                                                                          \
-    static const ::hypotrack::HypotrackPlugin plugin = {                                        \
-        {'h', 'y', 'p', 'o', 't', 'r', 'a', 'c', 'k', ' ', 'p', 'l', 'u', 'g', 'i', 'n'},       \
-        sizeof(::hypotrack::HypotrackPlugin),                                                   \
-        ::hypotrack::kAbiVersion,                                                               \
-        ::hypotrack::kBuildTag,                                                                 \
-        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_KIND),                                             \
-        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_NAME),                                             \
-        HYPOTRACK_PLUGIN_VERSION,                                                               \
-        Summary,                                                                                \
-        HYPOTRACK_PLUGIN_LICENCE,                                                               \
-        Capabilities,                                                                           \
-        &::hypotrack::detail::create_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>, \
-        +[]() { return ::hypotrack::describe_params<Class::Params>(); }};                       \
-    return &plugin;                                                                             \
+#define HYPOTRACK_PLUGIN(Class, Summary, Capabilities)                                             \
+  extern "C" __attribute__((visibility("default"))) const ::hypotrack::HypotrackPlugin*            \
+  hypotrack_plugin() {                                                                             \
+    static const ::hypotrack::HypotrackPlugin plugin = {                                           \
+        {'h', 'y', 'p', 'o', 't', 'r', 'a', 'c', 'k', ' ', 'p', 'l', 'u', 'g', 'i', 'n'},          \
+        sizeof(::hypotrack::HypotrackPlugin),                                                      \
+        ::hypotrack::kAbiVersion,                                                                  \
+        ::hypotrack::kBuildTag,                                                                    \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_KIND),                                                \
+        HYPOTRACK_STRINGIZE(HYPOTRACK_PLUGIN_NAME),                                                \
+        HYPOTRACK_PLUGIN_VERSION,                                                                  \
+        Summary,                                                                                   \
+        HYPOTRACK_PLUGIN_LICENCE,                                                                  \
+        Capabilities,                                                                              \
+        &::hypotrack::detail::create_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>,    \
+        &::hypotrack::detail::describe_plugin<::hypotrack::detail::HYPOTRACK_PLUGIN_KIND, Class>}; \
+    return &plugin;                                                                                \
   }
