@@ -32,6 +32,7 @@ void add_evaluate_command(const Command& root, int& exit_code);
 void add_reliability_command(const Command& root, int& exit_code);
 void add_compare_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_bench_command(const Command& root, CommonOptions& common, int& exit_code);
+void add_landscape_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_report_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_calibrate_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_calibration_command(const Command& root, int& exit_code);

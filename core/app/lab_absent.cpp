@@ -48,6 +48,9 @@ void add_compare_command(const Command& root, CommonOptions&, int&) {
 void add_bench_command(const Command& root, CommonOptions&, int&) {
   add_absent(root, "bench", "Measure how fast scenes are tracked");
 }
+void add_landscape_command(const Command& root, CommonOptions&, int&) {
+  add_absent(root, "landscape", "Draw slices of the cost around the true or tracked pose");
+}
 void add_report_command(const Command& root, CommonOptions&, int&) {
   add_absent(root, "report", "Write one page about a study or a run");
 }

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   add_compare_command(root, common, exit_code);
   add_bench_command(root, common, exit_code);
   add_report_command(root, common, exit_code);
+  add_landscape_command(root, common, exit_code);
   add_calibrate_command(root, common, exit_code);
   add_calibration_command(root, exit_code);
   add_plugins_command(root, common, exit_code);

@@ -25,6 +25,7 @@ struct RunCommand {
   SceneOptions scene;
   RunOptions options{.out = "out", .frames = {}, .stop_now = InterruptGuard::signalled};
   std::optional<std::int64_t> seed;
+  bool trace = false;
   ViewerOptions viewers;
 };
 
@@ -109,6 +110,7 @@ class Console final : public RunWatcher {
 int run(const RunCommand& command, const CommonOptions& common) {
   std::vector<std::string> overrides = command.scene.set;
   if (command.seed) overrides.push_back(fmt::format("seed={}", *command.seed));
+  if (command.trace) overrides.emplace_back("output.trace=true");
   PluginLoader plugins(common.plugin_path);
   Console console(command.options.out);
   open_viewers(command.viewers, console.live());
@@ -136,6 +138,8 @@ void add_run_command(const Command& root, CommonOptions& common, int& exit_code)
               {.check = whole_number(1)});
   command.add("--seed", &given->seed, "Seed of all random numbers",
               {.check = whole_number(0, std::numeric_limits<std::int64_t>::max())});
+  command.add("--trace", &given->trace,
+              "Write trace.csv: how the searches of every frame converge");
   add_viewer_options(command, given->viewers);
   command.on_call([=, &common, &exit_code] { exit_code = run(*given, common); });
 }

@@ -5,58 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "base/statistics.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
+#include "lab/report/number_json.hpp"
+#include "lab/report/plot_parts.hpp"
+#include "lab/report/trace/trace_plots.hpp"
 
 namespace hypotrack {
 namespace {
 
-using Runs = std::vector<const StudyRun*>;
-
 constexpr const char* kMeanError = "mean_error_mm";
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
-/// Returns numeric values as numbers, so that an axis can be to scale.
-Json value_json(const StudyData& study, std::string_view key, const std::string& value) {
-  double number = 0;
-  if (study.is_numeric(key) && parse_number(value, number)) return number;
-  return study.value_label(key, value);
-}
-
-Json dimension(const StudyData& study, const std::string& key, const std::string& label) {
-  if (key.empty()) return nullptr;
-  Json json;
-  json["label"] = label.empty() ? study.axis_label(key) : label;
-  json["numeric"] = study.is_numeric(key);
-  json["values"] = Json::array();
-  for (const std::string& value : study.values_of(key))
-    json["values"].push_back(value_json(study, key, value));
-  return json;
-}
-
-/// Returns the runs with a value on an axis; all runs if `key` is empty.
-Runs with_value(const Runs& runs, const std::string& key, const std::string& value) {
-  Runs found;
-  for (const StudyRun* run : runs)
-    if (key.empty() || run->on_axis(key) == value) found.push_back(run);
-  return found;
-}
-
-/// Calls `use(value, runs)` for each value on an axis that has runs, in the study's order. If `key`
-/// is empty, calls it once with all runs.
-void for_each_value(const StudyData& study, const Runs& runs, const std::string& key,
-                    const std::function<void(const std::string&, const Runs&)>& use) {
-  if (key.empty()) return use("", runs);
-  for (const std::string& value : study.values_of(key)) {
-    const Runs here = with_value(runs, key, value);
-    if (!here.empty()) use(value, here);
-  }
-}
 
 /// Adds mean, sd and n to a row. Returns false if there is no finite number.
 bool add_statistics(Json& row, const std::vector<double>& numbers) {
@@ -145,12 +106,15 @@ void require_metric(const StudyData& study, const PlotRequest& request, const st
 
 void check(const StudyData& study, const PlotRequest& request) {
   constexpr std::array<std::string_view, 4> kKinds{"curve", "success", "heatmap", "bars"};
-  if (std::find(kKinds.begin(), kKinds.end(), request.kind) == kKinds.end())
+  const bool traced = is_traced(request.kind);
+  if (!traced && std::find(kKinds.begin(), kKinds.end(), request.kind) == kKinds.end())
     throw DataError(
-        fmt::format("study.yaml: '{}' is no kind of plot; expected curve, success, heatmap or bars",
+        fmt::format("study.yaml: '{}' is no kind of plot; expected curve, success, heatmap, bars, "
+                    "convergence, targets, performance_profile, data_profile or "
+                    "expected_running_time",
                     request.kind));
   const bool heatmap = request.kind == "heatmap";
-  if (request.kind != "success") {
+  if (request.kind != "success" && !traced) {
     require_axis(study, request, "x", request.x);
     require_metric(study, request, heatmap ? request.value : request.y);
   }
@@ -206,18 +170,20 @@ void add_labels(const StudyData& study, const PlotRequest& request, Json& plot) 
 Json one_plot(const StudyData& study, const PlotRequest& request, std::size_t index) {
   check(study, request);
   Json plot{{"id", fmt::format("plot-{}-{}", index + 1, request.kind)}, {"kind", request.kind}};
-  add_labels(study, request, plot);
-  plot["color"] = dimension(study, request.color, "");
-  plot["facets"] = Json::array();
   Runs finished;
   for (const StudyRun& run : study.runs)
     if (!run.failed) finished.push_back(&run);
+  if (is_traced(request.kind)) {
+    plot.update(traced_plot(study, request, finished));
+    return plot;
+  }
+  add_labels(study, request, plot);
+  plot["color"] = dimension(study, request.color, "");
+  plot["facets"] = Json::array();
   Rows rows(study, request);
   for_each_value(study, finished, request.facet, [&](const std::string& facet, const Runs& runs) {
-    Json label = request.facet.empty() ? Json("") : Json(study.value_label(request.facet, facet));
-    if (!request.facet.empty() && request.facet != "scene")
-      label = study.axis_label(request.facet) + " " + facet;
-    plot["facets"].push_back({{"label", std::move(label)}, {"rows", rows.of(runs)}});
+    plot["facets"].push_back(
+        {{"label", facet_label(study, request.facet, facet)}, {"rows", rows.of(runs)}});
   });
   return plot;
 }
@@ -246,6 +212,12 @@ std::vector<PlotRequest> default_plots(const StudyData& study) {
     plots.back().value = metric;
   }
   add("success", "", first);
+  if (std::ranges::any_of(study.runs, has_trace)) {
+    plots.push_back({.kind = "convergence", .color = first, .facet = facet});
+    for (const char* kind :
+         {"targets", "performance_profile", "data_profile", "expected_running_time"})
+      plots.push_back({.kind = kind, .color = first});
+  }
   return plots;
 }
 

@@ -13,8 +13,9 @@ namespace hypotrack {
 ///   {id, kind, title, note, x: {label, values, numeric}, y: {label, ...}, color: {...} or null,
 ///    facets: [{label, rows: [{x, y, color, mean, sd, n}, ...]}, ...]}
 ///
-/// Each row is the mean over the runs with the same x, y and color. Without plots in the study it
-/// uses default_plots(). Throws DataError if a plot asks for something that does not exist.
+/// Each row is the mean over the runs with the same x, y and color. Plots of how searches converge
+/// are those of traced_plot(). Without plots in the study it uses default_plots(). Throws DataError
+/// if a plot asks for something that does not exist.
 nlohmann::ordered_json plot_data(const StudyData& study);
 
 /// Returns the plots of a study that asks for none.

@@ -55,6 +55,14 @@ void read_plots(const ConfigNode& plots, std::vector<PlotRequest>& requests) {
   }
 }
 
+void read_tolerances(const ConfigNode& list, std::vector<double>& tolerances) {
+  if (!list.is_list()) return;
+  tolerances.clear();
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (double number = 0; list.at(i).is_scalar() && parse_number(list.at(i).scalar(), number))
+      tolerances.push_back(number);
+}
+
 std::size_t seeds_of(const ConfigNode& seeds) {
   constexpr double kMost = 10'000;  // as in study files
   if (seeds.is_list()) return seeds.size();
@@ -79,6 +87,7 @@ void read_study_file(const fs::path& file, StudyData& study) {
     study.planned *= study.axes.back().values.size();
   }
   study.table_per = text_of(root, "table_per");
+  read_tolerances(root.get("tolerances"), study.tolerances);
   read_plots(root.get("plots"), study.plots);
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lab/svg.hpp"
+
 namespace hypotrack {
 namespace {
 
@@ -17,46 +19,22 @@ double along(double mm) {
 double x_of(double mm) { return kLeft + kSide * along(mm); }
 double y_of(double mm) { return kTop + kSide * (1 - along(mm)); }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-std::string line(double x1, double y1, double x2, double y2, const char* style) {
-  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)"
-                     "\n",
-                     x1, y1, x2, y2, style);
-}
-
-std::string text(double x, double y, const std::string& what, const char* more = "") {
-  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="middle" {}>{}</text>)"
-                     "\n",
-                     x, y, more, what);
-}
-
 std::string axes() {
   std::string out;
   for (double mm = kLow; mm <= kHigh; mm *= 2) {
     constexpr const char* kGrid = R"(stroke="#e4e4e4")";
-    out += line(x_of(mm), y_of(kLow), x_of(mm), y_of(kHigh), kGrid);
-    out += line(x_of(kLow), y_of(mm), x_of(kHigh), y_of(mm), kGrid);
-    out += text(x_of(mm), y_of(kLow) + 16, fmt::format("{:g}", mm));
-    out += text(x_of(kLow) - 22, y_of(mm) + 4, fmt::format("{:g}", mm));
+    out += svg_line(x_of(mm), y_of(kLow), x_of(mm), y_of(kHigh), kGrid);
+    out += svg_line(x_of(kLow), y_of(mm), x_of(kHigh), y_of(mm), kGrid);
+    out += svg_text(x_of(mm), y_of(kLow) + 16, fmt::format("{:g}", mm));
+    out += svg_text(x_of(kLow) - 22, y_of(mm) + 4, fmt::format("{:g}", mm));
   }
-  out += line(x_of(kLow), y_of(kLow), x_of(kHigh), y_of(kHigh),
-              R"(stroke="#888" stroke-dasharray="5 4")");
-  out += text(kLeft + kSide / 2, kTop + kSide + 36, "sigma, root mean square (mm)");
+  out += svg_line(x_of(kLow), y_of(kLow), x_of(kHigh), y_of(kHigh),
+                  R"(stroke="#888" stroke-dasharray="5 4")");
+  out += svg_text(kLeft + kSide / 2, kTop + kSide + 36, "sigma, root mean square (mm)");
   const double middle = kTop + kSide / 2;
-  out += text(16, middle, "error, root mean square (mm)",
-              fmt::format(R"x(transform="rotate(-90 16 {:.1f})")x", middle).c_str());
+  out +=
+      svg_text(16, middle, "error, root mean square (mm)",
+               fmt::format(R"x(text-anchor="middle" transform="rotate(-90 16 {:.1f})")x", middle));
   return out;
 }
 
@@ -90,8 +68,9 @@ std::string reliability_svg(const Reliability& reliability, const std::string& t
                      R"(viewBox="0 0 {0} {1}" font-family="sans-serif" font-size="11">)"
                      "\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
                      width, height) +
-         text(kLeft + kSide / 2, 18, escaped(title), R"(font-size="14")") +
-         text(kLeft + kSide / 2, 34, shares) + axes() + dots(reliability) + "</svg>\n";
+         svg_text(kLeft + kSide / 2, 18, svg_escaped(title),
+                  R"(text-anchor="middle" font-size="14")") +
+         svg_text(kLeft + kSide / 2, 34, shares) + axes() + dots(reliability) + "</svg>\n";
 }
 
 }  // namespace hypotrack

@@ -77,7 +77,8 @@ ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) 
   const Workshop workshop(summary.page);
   const ReportData data = report_data(study, options.replays, plugins);
   TextFile(workshop / "report.html").write(report_page(data.page));
-  if (study.is_study) write_table_files(study, data.tables, workshop / "tables");
+  if (study.is_study)
+    write_table_files(study, data.tables, data.page["plots"], workshop / "tables");
   if (options.plot_files != PlotFiles::none)
     summary.skipped = write_plot_files(data.page, workshop / "plots");
   if (options.plot_files == PlotFiles::required && !summary.skipped.empty())

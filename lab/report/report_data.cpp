@@ -9,6 +9,7 @@
 
 #include "lab/json_file.hpp"
 #include "lab/report/metric_info.hpp"
+#include "lab/report/number_json.hpp"
 #include "lab/report/plot_data.hpp"
 #include "lab/report/replay.hpp"
 #include "lab/report/run_series.hpp"
@@ -22,8 +23,6 @@ constexpr const char* kError = "mean_error_mm";
 
 // Pictures of a run without a replay.
 constexpr PictureLimits kFewPictures{.count = 1, .longest_side = 320, .quality = 75};
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json metrics_json(const StudyRun& run) {
   Json metrics = Json::object();

@@ -23,7 +23,7 @@ struct StudyScene {
 
 /// A plot that a study asks for. Empty: not given.
 struct PlotRequest {
-  std::string kind = {};  ///< curve, success, heatmap or bars
+  std::string kind = {};  ///< curve, success, heatmap, bars, or one of traced_plot()
   std::string x = {}, y = {}, value = {}, color = {}, facet = {};
   std::string title = {}, x_label = {}, y_label = {};
 };
@@ -63,6 +63,8 @@ struct StudyData {
   std::vector<StudyScene> scenes;
   std::vector<StudyAxis> axes;
   std::vector<PlotRequest> plots;
+  /// Targets of the plots of how searches converge: shares of the cost at the truth above it.
+  std::vector<double> tolerances = {0.01, 0.05, 0.2};
   std::string table_per;       ///< axis with a table for each value; empty: one for all
   std::vector<StudyRun> runs;  ///< by scene, then axis by axis, then seed
   std::size_t planned = 0;     ///< number of runs of the complete study

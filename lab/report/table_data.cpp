@@ -9,6 +9,7 @@
 #include "lab/json_file.hpp"
 #include "lab/report/comparison.hpp"
 #include "lab/report/metric_info.hpp"
+#include "lab/report/number_json.hpp"
 #include "lab/report/significance.hpp"
 
 namespace hypotrack {
@@ -53,8 +54,6 @@ Sample sample_of(const Runs& runs, const MetricInfo& metric) {
   }
   return sample;
 }
-
-Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json to_json(const Comparison& c) {
   return {{"mean", number_or_null(c.mean)},

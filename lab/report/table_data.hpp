@@ -19,9 +19,9 @@ namespace hypotrack {
 /// scenes), `same` one that the seeds do not separate from the best.
 nlohmann::ordered_json table_data(const StudyData& study);
 
-/// Writes DIRECTORY/<id>.csv for every table, and runs.csv with a row per run, with all digits.
-/// Throws OutputError.
+/// Writes DIRECTORY/<id>.csv for every table and every plot of how searches converge, and runs.csv
+/// with a row per run, with all digits. Throws OutputError.
 void write_table_files(const StudyData& study, const nlohmann::ordered_json& tables,
-                       const std::filesystem::path& directory);
+                       const nlohmann::ordered_json& plots, const std::filesystem::path& directory);
 
 }  // namespace hypotrack

@@ -7,6 +7,7 @@
 #include "base/text_file.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/table_data.hpp"
+#include "lab/report/trace/trace_plots.hpp"
 
 namespace hypotrack {
 namespace {
@@ -47,6 +48,22 @@ std::string table_csv(const Json& table) {
   return text;
 }
 
+/// Returns the lines of a plot of how searches converge as a table.
+std::string plot_csv(const Json& plot) {
+  const std::string color = plot["color"].is_null() ? "" : cell(plot["color"]["label"]);
+  std::string text =
+      fmt::format("panel,{}{}x,value,lower,upper,n\n", color, color.empty() ? "" : ",");
+  for (const Json& facet : plot["facets"])
+    for (const Json& row : facet["rows"]) {
+      text += cell(facet["label"]) + ",";
+      if (!color.empty()) text += cell(row["color"]) + ",";
+      text +=
+          fmt::format("{},{},{},{},{}\n", cell(row["x"]), cell(row["mean"]),
+                      cell(row.value("lo", Json())), cell(row.value("hi", Json())), cell(row["n"]));
+    }
+  return text;
+}
+
 std::string runs_csv(const StudyData& study) {
   std::vector<std::string> metrics;
   for (const StudyRun& run : study.runs)
@@ -74,8 +91,11 @@ std::string runs_csv(const StudyData& study) {
 
 }  // namespace
 
-void write_table_files(const StudyData& study, const Json& tables,
+void write_table_files(const StudyData& study, const Json& tables, const Json& plots,
                        const std::filesystem::path& directory) {
+  for (const Json& plot : plots)
+    if (is_traced(plot["kind"].get<std::string>()))
+      TextFile(directory / (plot["id"].get<std::string>() + ".csv")).write(plot_csv(plot));
   for (const Json& table : tables)
     TextFile(directory / (table["id"].get<std::string>() + ".csv")).write(table_csv(table));
   TextFile(directory / "runs.csv").write(runs_csv(study));

@@ -20,6 +20,7 @@ std::vector<std::string> scene_arguments(const std::string& subcommand,
   };
   set(fmt::format("evaluate.threads={}", launch.threads));
   set(fmt::format("output.overlay={}", plan.study.overlay));
+  if (plan.study.trace) set("output.trace=true");
   for (const Change& change : changes) set(change.assignment());
   return arguments;
 }

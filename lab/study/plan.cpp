@@ -65,6 +65,7 @@ std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
   }
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
   if (plan.study.recordings) hash.add("recordings");  // recordings may round depths
+  if (plan.study.trace) hash.add("trace");            // runs without one lack files
   return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, seed, hash.value());
 }
 

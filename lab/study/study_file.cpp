@@ -31,7 +31,8 @@ struct StudyKeys {
   std::string title, about;
   ConfigNode scenes, set, grid, seeds, variants;
   std::optional<int> frames;
-  bool overlay = false, recordings = false;
+  bool overlay = false, recordings = false, trace = false;
+  std::vector<double> tolerances;
   std::vector<Plot> plots;
   std::string table_per;
   std::filesystem::path directory;
@@ -48,6 +49,10 @@ struct StudyKeys {
     v("overlay", overlay, {.help = "whether every run writes overlay.mp4"});
     v("recordings", recordings,
       {.help = "whether every source is recorded once, and all runs read the recording"});
+    v("trace", trace, {.help = "whether every run writes trace.csv, how its searches converge"});
+    v("tolerances", tolerances,
+      {.help = "with trace: targets of the report, as shares of the cost at the truth above it",
+       .min = 0});
     v("plots", plots, {.help = "list of {kind, x, y, value, color, facet, title, ...}"});
     v("table_per", table_per,
       {.help = "axis with a table of its own for each value: rows are compared within it"});
@@ -207,6 +212,18 @@ void check_metric(const ConfigNode& node, const std::string& name) {
                             did_you_mean(name, known), fmt::join(known, ", ")));
 }
 
+/// Throws ConfigError unless the runs of a study have what a plot of how searches converge shows.
+void check_traced(const Study& study, const Plot& plot, const ConfigNode& node) {
+  if (!study.trace)
+    fail_at(node, fmt::format("a plot of kind {} needs `trace: true` in the study",
+                              enum_names(plot.kind)[static_cast<std::size_t>(plot.kind)]));
+  const std::vector<std::string> known{"evaluations", "cpu_seconds", "wall_seconds"};
+  if (!plot.x.empty() && std::find(known.begin(), known.end(), plot.x) == known.end())
+    fail_at(node.get("x"),
+            fmt::format("'{}' is nothing that a search spends{}; there are: {}", plot.x,
+                        did_you_mean(plot.x, known), fmt::join(known, ", ")));
+}
+
 /// What varies must be there to be drawn over, and what is drawn must be a metric.
 void check_plots(const Study& study, const ConfigNode& plots) {
   std::vector<std::string> known = names_of(study.axes);
@@ -221,7 +238,10 @@ void check_plots(const Study& study, const ConfigNode& plots) {
   for (std::size_t i = 0; i < study.plots.size(); ++i) {
     const Plot& plot = study.plots[i];
     const bool heatmap = plot.kind == PlotKind::heatmap;
-    check(i, "x", plot.x, plot.kind != PlotKind::success);
+    if (needs_trace(plot.kind))
+      check_traced(study, plot, plots.at(i));
+    else
+      check(i, "x", plot.x, plot.kind != PlotKind::success);
     check(i, "color", plot.color, false);
     check(i, "facet", plot.facet, false);
     if (heatmap) check(i, "y", plot.y, true);
@@ -243,16 +263,28 @@ void check_table_per(const Study& study, const ConfigNode& node) {
 }  // namespace
 
 std::span<const std::string_view> enum_names(PlotKind) {
-  static constexpr std::array<std::string_view, 4> names{"curve", "success", "heatmap", "bars"};
+  static constexpr std::array<std::string_view, 9> names{"curve",
+                                                         "success",
+                                                         "heatmap",
+                                                         "bars",
+                                                         "convergence",
+                                                         "targets",
+                                                         "performance_profile",
+                                                         "data_profile",
+                                                         "expected_running_time"};
   return names;
 }
+
+bool needs_trace(PlotKind kind) { return kind >= PlotKind::convergence; }
 
 void Plot::visit(ParamVisitor& v) {
   v("kind", kind,
     {.help = "curve: a metric over an axis; success: share of frames below an error; heatmap: a "
-             "metric over two axes; bars: a metric of each case",
+             "metric over two axes; bars: a metric of each case; with trace, convergence: the "
+             "cost over evaluations; targets, performance_profile, data_profile, "
+             "expected_running_time: what targets take",
      .required = true});
-  v("x", x, {.help = "axis along x"});
+  v("x", x, {.help = "axis along x; with trace: evaluations, cpu_seconds or wall_seconds"});
   v("y", y, {.help = "metric along y (heatmap: an axis)"});
   v("value", value, {.help = "metric of a heatmap"});
   v("color", color, {.help = "axis that tells lines or bars apart"});
@@ -279,6 +311,8 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.frames = keys.frames;
   study.overlay = keys.overlay;
   study.recordings = keys.recordings;
+  study.trace = keys.trace;
+  study.tolerances = keys.tolerances;
   study.plots = keys.plots;
   study.table_per = keys.table_per;
   study.directory = keys.directory.empty() ? root.directory() : keys.directory;

@@ -46,11 +46,24 @@ struct Axis {
   std::vector<Choice> choices;
 };
 
-enum class PlotKind { curve, success, heatmap, bars };
+enum class PlotKind {
+  curve,
+  success,
+  heatmap,
+  bars,
+  convergence,
+  targets,
+  performance_profile,
+  data_profile,
+  expected_running_time
+};
 std::span<const std::string_view> enum_names(PlotKind);
 
+/// Returns whether a plot shows how searches converge, which takes `trace: true`.
+bool needs_trace(PlotKind kind);
+
 /// One item of `plots:`, drawn by `hypotrack report`. `x`, `color` and `facet` are axes, `scene` or
-/// `seed`; `y` and `value` are metrics.
+/// `seed`; `y` and `value` are metrics. `x` of a plot that needs a trace is a column of trace.csv.
 struct Plot {
   PlotKind kind = PlotKind::curve;
   std::string x, y, value, color, facet, title, x_label, y_label;
@@ -63,9 +76,11 @@ struct Study {
   std::vector<StudyScene> scenes;
   std::vector<Axis> axes;
   std::vector<std::int64_t> seeds;
-  std::optional<int> frames;  ///< of each run; empty: the whole source
-  bool overlay = false;       ///< whether runs write overlay.mp4
-  bool recordings = false;    ///< whether sources are recorded once, for all runs
+  std::optional<int> frames;       ///< of each run; empty: the whole source
+  bool overlay = false;            ///< whether runs write overlay.mp4
+  bool recordings = false;         ///< whether sources are recorded once, for all runs
+  bool trace = false;              ///< whether runs write trace.csv
+  std::vector<double> tolerances;  ///< targets of the report; empty: its defaults
   std::vector<Plot> plots;
   std::string table_per;            ///< axis with a separate table for each value; may be empty
   std::filesystem::path directory;  ///< absolute; base of relative paths in changes

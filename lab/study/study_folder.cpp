@@ -46,7 +46,7 @@ std::string differences(const std::string& old_text, const Plan& plan) {
   const ConfigNode before = ConfigNode::parse(old_text, kStudyFile);
   const ConfigNode now = ConfigNode::parse(to_yaml(plan.study), kStudyFile);
   std::vector<std::string> keys;
-  for (const char* key : {"scenes", "grid", "seeds", "frames"})
+  for (const char* key : {"scenes", "grid", "seeds", "frames", "trace"})
     if (before.get(key).to_yaml() != now.get(key).to_yaml()) keys.emplace_back(key);
   if (keys.empty()) return "the content of its scene files differs";
   return fmt::format("they differ in: {}", fmt::join(keys, ", "));

@@ -49,10 +49,10 @@ ModelData make_data(Fault fault) {
   data.parameters = pose_parameters();
   data.parameters.push_back(
       {.name = "opening", .kind = ParameterKind::angle, .lower = 0, .upper = 1, .rest = 0});
-  data.rotations = {{.bone = 1,
-                     .parameter = 7,
-                     .axis = Eigen::Vector3d::UnitX(),
-                     .scale = fault == Fault::dead_angle ? 0.0 : 1.0}};
+  data.motions = {{.bone = 1,
+                   .parameter = 7,
+                   .axis = Eigen::Vector3d::UnitX(),
+                   .scale = fault == Fault::dead_angle ? 0.0 : 1.0}};
   data.landmarks = {{.name = "base"},
                     {.name = fault == Fault::two_of_one_name ? "base" : "lid", .bone = 1}};
   if (fault == Fault::no_landmarks) data.landmarks.clear();

@@ -22,6 +22,12 @@ Scene two_hands() {
                 {"left", std::make_shared<Model>(mirrored(test::make_test_hand()))}});
 }
 
+/// Joints that turn, slide and follow others, beside a hand.
+Scene hand_and_cabinet() {
+  return Scene({{"hand", std::make_shared<Model>(test::make_test_hand())},
+                {"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+}
+
 /// More vertices than shared memory holds.
 Scene fine_mesh() {
   ModelData ball = test::make_test_box({0.1, 0.1, 0.1});
@@ -90,7 +96,8 @@ class CudaCostTest : public testing::TestWithParam<int> {  // hypotheses in a ba
 };
 
 TEST_P(CudaCostTest, CoversTheCpusPixelsInEveryView) {
-  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
+  for (const Scene& scene :
+       {test::hand_scene(), test::hand_and_box_scene(), two_hands(), hand_and_cabinet()}) {
     expect_like_the_cpu(scene, test::rectified_pair(scene), covered_probe(), GetParam());
     expect_like_the_cpu(scene, test::general_pair(scene), covered_probe(), GetParam());
   }
@@ -98,7 +105,8 @@ TEST_P(CudaCostTest, CoversTheCpusPixelsInEveryView) {
 
 TEST_P(CudaCostTest, DrawsTheCpusPixelsToTheLastBit) {
   if (!test::fuses_products_and_sums()) GTEST_SKIP() << "this CPU has no fused multiply-add";
-  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
+  for (const Scene& scene :
+       {test::hand_scene(), test::hand_and_box_scene(), two_hands(), hand_and_cabinet()}) {
     const Eigen::MatrixXd states = random_states(scene, GetParam());
     for (const Observation& o : {test::rectified_pair(scene), test::general_pair(scene)}) {
       EXPECT_EQ(costs_on(Backend::cuda, scene, o, mark_probe(), states),
@@ -108,7 +116,8 @@ TEST_P(CudaCostTest, DrawsTheCpusPixelsToTheLastBit) {
 }
 
 TEST_P(CudaCostTest, SeesWhatTheCpuSeesInARectifiedPair) {
-  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
+  for (const Scene& scene :
+       {test::hand_scene(), test::hand_and_box_scene(), two_hands(), hand_and_cabinet()}) {
     for (const int size : {61, 128, 300}) {
       const Observation observation = test::rectified_pair(scene, size);
       expect_like_the_cpu(scene, observation, seen_probe(false), GetParam());
@@ -118,7 +127,8 @@ TEST_P(CudaCostTest, SeesWhatTheCpuSeesInARectifiedPair) {
 }
 
 TEST_P(CudaCostTest, SeesWhatTheCpuSeesInAGeneralPair) {
-  for (const Scene& scene : {test::hand_scene(), test::hand_and_box_scene(), two_hands()}) {
+  for (const Scene& scene :
+       {test::hand_scene(), test::hand_and_box_scene(), two_hands(), hand_and_cabinet()}) {
     const Observation observation = test::general_pair(scene);
     expect_like_the_cpu(scene, observation, seen_probe(false), GetParam());
     expect_like_the_cpu(scene, observation, seen_probe(true), GetParam());

@@ -66,13 +66,31 @@ const Description& description(cudaError_t error) {
   return found != std::end(kDescriptions) ? *found : kUnknown;
 }
 
+/// A fault on purpose, which the environment asks for: CUDA_ON_CPU_FAULT=NAME:N.
+class Fault {
+ public:
+  explicit Fault(const char* name) {
+    const char* wanted = std::getenv("CUDA_ON_CPU_FAULT");
+    const std::size_t length = std::strlen(name);
+    if (wanted != nullptr && std::strncmp(wanted, name, length) == 0 && wanted[length] == ':')
+      first_ = std::atol(wanted + length + 1);
+  }
+  /// Counts the calls of this function from 0. Returns true from the N-th on.
+  bool is_due() { return first_ >= 0 && calls_++ >= first_; }
+
+ private:
+  long first_ = -1;
+  std::atomic<long> calls_ = 0;
+};
+
 /// Every allocation, whether the device's own or page-locked.
 class Memory {
  public:
   cudaError_t reserve(void** memory, std::size_t bytes, cudaMemoryType type) {
     if (of_kernel != cudaSuccess) return result(of_kernel);
+    static Fault full("memory");
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (type == cudaMemoryTypeDevice && bytes > kMemory - used_) {
+    if (type == cudaMemoryTypeDevice && (full.is_due() || bytes > kMemory - used_)) {
       return result(cudaErrorMemoryAllocation);
     }
     const std::size_t room = (bytes + kAlignment - 1) / kAlignment * kAlignment;
@@ -124,6 +142,8 @@ Memory& memory() {
 /// Does it, or keeps it for the graph that a stream captures. An error of it is for the next call,
 /// as on a GPU, which has not done it yet.
 cudaError_t enqueue(cudaStream_t stream, std::function<void()> work) {
+  static Fault lost("lost");
+  if (lost.is_due()) of_kernel = cudaErrorLaunchFailure;
   if (of_kernel != cudaSuccess) return result(of_kernel);
   if (stream != nullptr && stream->captures) {
     stream->captured.push_back(std::move(work));

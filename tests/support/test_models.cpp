@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "hypotrack/kinematics.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -138,12 +141,12 @@ void add_finger(const Finger& finger, ModelData& hand, MeshBuilder& skin) {
     hand.bones.push_back({bone, first + i, joint});
   }
   hand.parameters.push_back({name + "_abduction", ParameterKind::angle, -0.3, 0.3, 0});
-  hand.rotations.push_back({first, angles, -Eigen::Vector3d::UnitZ(), 0, 1});
+  hand.motions.push_back({first, angles, -Eigen::Vector3d::UnitZ(), 0, 1});
   for (int i = 0; i < 3; ++i) {
     const double limit = name == "thumb" ? 1.0 : 1.6;
     hand.parameters.push_back(
         {name + "_flexion_" + std::to_string(i + 1), ParameterKind::angle, -0.2, limit, 0.1});
-    hand.rotations.push_back({first + i, angles + 1 + i, Eigen::Vector3d::UnitX(), 0, 1});
+    hand.motions.push_back({first + i, angles + 1 + i, Eigen::Vector3d::UnitX(), 0, 1});
   }
   for (int i = 0; i < 4; ++i) {
     hand.landmarks.push_back(
@@ -196,6 +199,51 @@ ModelData make_test_box(const Eigen::Vector3d& size) {
   return rigid_model(std::move(mesh));
 }
 
+ModelData make_test_cabinet() {
+  using Eigen::Vector3d;
+  constexpr double kEndless = std::numeric_limits<double>::infinity();
+  const auto at = [](double x, double y, double z) {
+    Eigen::Isometry3d pose(Eigen::Translation3d(x, y, z));
+    return pose.rotate(Eigen::AngleAxisd(0.4, Vector3d(1, -2, 2) / 3));
+  };
+  ModelData cabinet;
+  cabinet.bones = {{"body", -1, at(0, 0, 0)},          {"drawer", 0, at(0, -0.02, 0.01)},
+                   {"door", 0, at(0.02, 0.02, -0.03)}, {"knob", 2, at(0.02, 0, -0.01)},
+                   {"latch", 2, at(-0.02, 0.01, 0)},   {"shelf", 0, at(0, 0.02, 0.02)}};
+  cabinet.parameters = pose_parameters();
+  cabinet.parameters.push_back({"drawer", ParameterKind::length, -0.01, 0.08, 0});
+  cabinet.parameters.push_back({"door", ParameterKind::angle, 0, 1.5, 0.2});
+  cabinet.parameters.push_back({"knob", ParameterKind::angle, -kEndless, kEndless, 0});
+  const MotionKind slides = MotionKind::translation;
+  const Vector3d axis = Vector3d(2, 1, -2) / 3;
+  cabinet.motions = {{1, 7, axis, 0.01, 1, slides},
+                     {2, 8, Vector3d::UnitY()},
+                     {3, 9, Vector3d::UnitZ()},
+                     {4, 8, axis, 0.1, -2},
+                     {4, 8, Vector3d::UnitX(), 0.1, 0.02, slides},
+                     {5, 7, Vector3d::UnitZ(), 0, -0.5, slides}};
+  const std::vector<Eigen::Isometry3d> bind = bind_transforms(cabinet);
+  const Mesh box = make_test_box({0.05, 0.03, 0.04}).mesh;
+  const auto count = static_cast<Eigen::Index>(cabinet.bones.size());
+  const Eigen::Index corners = box.vertices.cols(), faces = box.triangles.cols();
+  Mesh& mesh = cabinet.mesh;
+  mesh.vertices.resize(3, count * corners);
+  mesh.triangles.resize(3, count * faces);
+  mesh.bone_indices = Eigen::Matrix4Xi::Zero(4, count * corners);
+  mesh.bone_weights = Eigen::Matrix4Xf::Zero(4, count * corners);
+  mesh.bone_weights.row(0).setOnes();
+  for (Eigen::Index b = 0; b < count; ++b) {
+    mesh.vertices.middleCols(b * corners, corners) =
+        bind[static_cast<std::size_t>(b)].cast<float>() * box.vertices;
+    mesh.triangles.middleCols(b * faces, faces) =
+        box.triangles.array() + static_cast<int>(b * corners);
+    mesh.bone_indices.row(0).segment(b * corners, corners).setConstant(static_cast<int>(b));
+    cabinet.landmarks.push_back({cabinet.bones[static_cast<std::size_t>(b)].name,
+                                 static_cast<int>(b), Vector3d(0.02, 0.01, 0.02)});
+  }
+  return cabinet;
+}
+
 ModelData make_test_ball(double radius) {
   constexpr int kRings = 32, kSides = 64;
   Mesh mesh;
@@ -228,9 +276,11 @@ Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
   Eigen::VectorXd state(scene.dimension());
   for (int i = 0; i < scene.dimension(); ++i) {
     const Parameter& parameter = scene.parameters()[static_cast<std::size_t>(i)];
-    state[i] = parameter.kind == ParameterKind::quaternion
-                   ? normal(random)
-                   : parameter.lower + (parameter.upper - parameter.lower) * unit(random);
+    constexpr double kTurn = 2 * kPi;
+    const double lower = std::max(parameter.lower, -kTurn),
+                 upper = std::min(parameter.upper, kTurn);
+    state[i] = parameter.kind == ParameterKind::quaternion ? normal(random)
+                                                           : lower + (upper - lower) * unit(random);
   }
   for (const Scene::Item& item : scene.items()) {
     for (int k = 0; k < 3; ++k) {

@@ -17,10 +17,16 @@ ModelData make_test_hand();
 /// Makes a box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
 ModelData make_test_box(const Eigen::Vector3d& size = {0.06, 0.04, 0.12});
 
+/// Makes a cabinet of boxes with joints of all kinds: a drawer that slides by `drawer` (m), a door
+/// that turns by `door` (rad), a knob on it that turns without end by `knob`, a latch that turns
+/// and slides with the door, and a shelf that slides against the drawer, half as far.
+ModelData make_test_cabinet();
+
 /// Makes a rigid ball about the model's origin, of 32 x 64 faces.
 ModelData make_test_ball(double radius);
 
-/// Returns a state of the scene with angles uniform within their bounds, rotations uniform, and
+/// Returns a state of the scene with joints uniform within their bounds (up to a turn each way
+/// without any), rotations uniform, and
 /// positions uniform within `radius` of `center` along each axis.
 Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
                              const Eigen::Vector3d& center = {0, 0, 0.5}, double radius = 0.05);

@@ -31,31 +31,44 @@ struct Bone {
   Eigen::Isometry3d parent_from_bone = Eigen::Isometry3d::Identity();  ///< at the bind pose
 };
 
-enum class ParameterKind { position, quaternion, angle };
+enum class ParameterKind { position, quaternion, angle, length };
+
+/// Returns whether a parameter moves joints: an angle or a length.
+inline bool is_joint(ParameterKind kind) {
+  return kind == ParameterKind::angle || kind == ParameterKind::length;
+}
+/// Returns whether a parameter is in metres.
+inline bool is_in_metres(ParameterKind kind) {
+  return kind == ParameterKind::position || kind == ParameterKind::length;
+}
 
 /// Number of parameters of a model's pose: position and quaternion, which come first in its state.
 inline constexpr int kPoseSize = 7;
 
 /// One number of a model's state. Every model begins with its pose, world_from_model: position x y
-/// z (metres) and a unit quaternion w x y z. Angles (radians) follow.
+/// z (metres) and a unit quaternion w x y z. Joints follow: angles (radians) and lengths (metres).
 struct Parameter {
   std::string name;
   ParameterKind kind = ParameterKind::angle;
-  double lower =
-      0;  ///< anatomical or mechanical bounds; infinite for positions, -1 .. 1 for quaternions
+  double lower = 0;  ///< anatomical or mechanical bounds; infinite for positions and for joints
+                     ///< that turn without end, -1 .. 1 for quaternions
   double upper = 0;
   double rest = 0;  ///< within the bounds; 1 0 0 0 for the quaternion
 };
 
-/// The rotation of a bone by a parameter: parent_from_bone(bind) * AngleAxis(scale * (value -
-/// zero), axis). Several rotations of one bone apply in the order of the list, each in the frame
-/// that the previous one produced.
-struct BoneRotation {
+enum class MotionKind { rotation, translation };
+
+/// The motion of a bone by a parameter: parent_from_bone(bind) * AngleAxis(scale * (value - zero),
+/// axis), or a translation by that amount along the axis. Several motions of one bone apply in the
+/// order of the list, each in the frame that the previous one produced. A parameter may move
+/// several bones, each with a scale and zero of its own (joints that mimic another).
+struct BoneMotion {
   int bone = 0;
-  int parameter = 0;  ///< index into ModelData::parameters, of kind angle
+  int parameter = 0;  ///< index into ModelData::parameters, of kind angle or length
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector in the bone's frame
   double zero = 0;                                  ///< value that gives the bind pose
-  double scale = 1;
+  double scale = 1;  ///< of the amount: radians or metres per unit of the parameter
+  MotionKind kind = MotionKind::rotation;
 };
 
 /// A named point for error metrics: a joint of a hand or an anchor of a rigid object.
@@ -81,7 +94,7 @@ struct ModelData {
   Mesh mesh;
   std::vector<Bone> bones;
   std::vector<Parameter> parameters;
-  std::vector<BoneRotation> rotations;
+  std::vector<BoneMotion> motions;
   std::vector<Landmark> landmarks;
 };
 
@@ -93,7 +106,7 @@ HYPOTRACK_API void validate(const ModelData& data, std::string_view where);
 /// Groups the parameters that move one part of a model together and returns their indices. The
 /// first group is the pose's seven. Each other group is a limb, such as a finger, or an arm from
 /// shoulder to hand. A limb is a chain of jointed bones up to where the skeleton forks into several
-/// jointed ones. A parameter that turns bones of several limbs joins them. A parameter that turns
+/// jointed ones. A parameter that moves bones of several limbs joins them. A parameter that moves
 /// no bone is a group of its own.
 HYPOTRACK_API std::vector<std::vector<int>> parameter_groups(const ModelData& data);
 
@@ -136,8 +149,12 @@ HYPOTRACK_API std::vector<Parameter> pose_parameters();
 /// names, meaning and bounds, so that a positive flexion still flexes.
 HYPOTRACK_API ModelData mirrored(const ModelData& data);
 
-/// Makes a rigid model of one bone and seven parameters. If `landmarks` is empty, it gets three
-/// anchors on the axes of the bounding box: its centre and the ends of its two longest half-axes.
+/// Returns the centre of the points' bounding box (`center`) and the ends of its two longest
+/// half-axes (`end_x` ...), on bone 0. Of equally long axes, the earlier one comes first.
+HYPOTRACK_API std::vector<Landmark> bounding_box_landmarks(const Eigen::Matrix3Xf& points);
+
+/// Makes a rigid model of one bone and seven parameters. If `landmarks` is empty, it gets
+/// bounding_box_landmarks().
 HYPOTRACK_API ModelData rigid_model(Mesh mesh, std::vector<Landmark> landmarks = {});
 
 }  // namespace hypotrack

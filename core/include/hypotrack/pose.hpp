@@ -20,21 +20,18 @@ namespace hypotrack {
 ///     quaternion: [1, 0, 0, 0]              # instead of rotation_deg: w x y z
 ///     rotation: {palm: to_camera, fingers: up}  # instead of it, for hands: where they point
 ///     angles_deg: {index_flexion_1: 30}     # any joint angles of the model
+///     lengths_mm: {drawer: 80}              # any lengths of joints that slide
 ///
 /// Every key is optional. A direction in `rotation` is [x, y, z] in the world or to_camera, away,
 /// left, right, up or down, as the first of `cameras` sees it (none: along the world's axes).
 /// Throws ConfigError with file:line:column on unknown models, keys and angles, wrong lengths, zero
-/// quaternions, directions that are not perpendicular and angles outside the model's bounds.
+/// quaternions, directions that are not perpendicular and joints outside the model's bounds.
 HYPOTRACK_API Eigen::VectorXd read_pose(const ConfigNode& node, const Scene& scene,
                                         Eigen::VectorXd base, std::span<const Camera> cameras = {});
 
 /// Writes the poses of some models (one flag each) as YAML, which read_pose() reads back within
-/// 0.001 mm and degrees. Angles at rest are left out.
+/// 0.001 mm and degrees. Joints at rest are left out.
 HYPOTRACK_API std::string pose_yaml(const Scene& scene, const Eigen::VectorXd& state,
                                     const std::vector<bool>& models);
-
-/// Sets joint angles of one model from a map of parameter names to degrees. Throws as read_pose().
-HYPOTRACK_API void read_angles(const ConfigNode& node, const Scene::Item& item,
-                               Eigen::Ref<Eigen::VectorXd> state);
 
 }  // namespace hypotrack

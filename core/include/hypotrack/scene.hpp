@@ -41,7 +41,7 @@ class HYPOTRACK_API Scene {
   /// normalises states.
   void normalize(Eigen::Ref<Eigen::VectorXd> state) const;
   /// Throws ConfigError, naming `where`, unless the state has the right length, is finite and has
-  /// its angles within bounds (tolerance 1e-6).
+  /// its joints within bounds (tolerance 1e-6).
   void check(const Eigen::VectorXd& state, const std::string& where) const;
 
  private:

@@ -23,7 +23,7 @@ struct HYPOTRACK_API Skeleton {
 
   std::vector<cuda::ModelLayout> models;
   std::vector<cuda::BoneLayout> bones;
-  std::vector<cuda::Turn> turns;
+  std::vector<cuda::JointMotion> motions;
   std::vector<std::int32_t> level;  ///< depth of every bone in the hierarchy; 0 for a root
 
  private:

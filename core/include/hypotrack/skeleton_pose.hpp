@@ -17,7 +17,7 @@ struct SkeletonLayout {
   const std::int32_t* level;  ///< depth of every bone in the hierarchy; 0 for a root
   const cuda::ModelLayout* models;
   const cuda::BoneLayout* bones;
-  const cuda::Turn* turns;
+  const cuda::JointMotion* motions;
 };
 
 /// A team of one thread. The CPU passes it where cuda::StateObjective passes a warp.
@@ -64,6 +64,14 @@ HYPOTRACK_PIXEL void turn(Placement& placement, const float* axis, float angle) 
   }
 }
 
+/// Moves the frame of a placement along a unit axis.
+HYPOTRACK_PIXEL void slide(Placement& placement, const float* axis, float length) {
+  for (int r = 0; r < 3; ++r) {
+    float* row = placement.m + 4 * r;
+    row[3] += length * (row[0] * axis[0] + row[1] * axis[1] + row[2] * axis[2]);
+  }
+}
+
 /// Returns world_from_model of a normalised pose: position x y z, then quaternion w x y z.
 HYPOTRACK_PIXEL Placement place_model(const double* pose) {
   const auto w = static_cast<float>(pose[3]), x = static_cast<float>(pose[4]);
@@ -74,15 +82,20 @@ HYPOTRACK_PIXEL Placement place_model(const double* pose) {
            2 * (y * z + w * x), 1 - 2 * (x * x + y * y), static_cast<float>(pose[2])}};
 }
 
-/// Returns parent_from_bone of a bone, with the rotations of the state applied.
+/// Returns parent_from_bone of a bone, with the motions of the state applied.
 HYPOTRACK_PIXEL Placement place_bone(const SkeletonLayout& skeleton, int bone,
                                      const double* state) {
   const cuda::BoneLayout& layout = skeleton.bones[bone];
   Placement local;
   for (int i = 0; i < 12; ++i) local.m[i] = layout.parent_from_bone[i];
-  for (int k = 0; k < layout.turn_count; ++k) {
-    const cuda::Turn& t = skeleton.turns[layout.first_turn + k];
-    turn(local, t.axis, t.scale * (static_cast<float>(state[t.parameter]) - t.zero));
+  for (int k = 0; k < layout.motion_count; ++k) {
+    const cuda::JointMotion& t = skeleton.motions[layout.first_motion + k];
+    const float amount = t.scale * (static_cast<float>(state[t.parameter]) - t.zero);
+    if (t.slides) {
+      slide(local, t.axis, amount);
+    } else {
+      turn(local, t.axis, amount);
+    }
   }
   return local;
 }

@@ -16,15 +16,20 @@ void require_size(std::span<const double> parameters, std::size_t expected) {
                               parameters.size(), expected));
 }
 
-// Returns parent_from_bone of every bone, with the parameters' rotations applied.
+// Returns parent_from_bone of every bone, with the parameters' motions applied.
 Bones parent_from_bones(const ModelData& data, std::span<const double> parameters) {
   Bones bones;
   bones.reserve(data.bones.size());
   for (const Bone& bone : data.bones) bones.push_back(bone.parent_from_bone);
-  for (const BoneRotation& rotation : data.rotations) {
-    const double value = parameters[static_cast<std::size_t>(rotation.parameter)];
-    const double angle = rotation.scale * (value - rotation.zero);
-    bones[static_cast<std::size_t>(rotation.bone)].rotate(Eigen::AngleAxisd(angle, rotation.axis));
+  for (const BoneMotion& motion : data.motions) {
+    const double value = parameters[static_cast<std::size_t>(motion.parameter)];
+    const double amount = motion.scale * (value - motion.zero);
+    Eigen::Isometry3d& bone = bones[static_cast<std::size_t>(motion.bone)];
+    if (motion.kind == MotionKind::translation) {
+      bone.translate(amount * motion.axis);
+    } else {
+      bone.rotate(Eigen::AngleAxisd(amount, motion.axis));
+    }
   }
   return bones;
 }

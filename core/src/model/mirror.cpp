@@ -26,7 +26,10 @@ ModelData mirrored(const ModelData& data) {
   }
   for (Bone& bone : result.bones) bone.parent_from_bone = mirrored_transform(bone.parent_from_bone);
   // A rotation axis is a pseudovector: M R(a, t) M = R(-M a, t), so angles keep their sign.
-  for (BoneRotation& rotation : result.rotations) rotation.axis = -(kMirror * rotation.axis);
+  for (BoneMotion& motion : result.motions) {
+    const double sign = motion.kind == MotionKind::rotation ? -1 : 1;
+    motion.axis = sign * (kMirror * motion.axis);
+  }
   for (Landmark& landmark : result.landmarks) landmark.position.x() *= -1;
   return result;
 }

@@ -29,13 +29,13 @@ class Sets {
   std::vector<int> leader_;
 };
 
-/// Returns one of the parameters that turn each bone, -1 for a rigid bone.
+/// Returns one of the parameters that move each bone, -1 for a rigid bone.
 std::vector<int> joint_of_bones(const ModelData& data, Sets& sets) {
   std::vector<int> joint(data.bones.size(), -1);
-  for (const BoneRotation& rotation : data.rotations) {
-    int& of_bone = joint[static_cast<std::size_t>(rotation.bone)];
-    if (of_bone < 0) of_bone = rotation.parameter;
-    sets.join(of_bone, rotation.parameter);
+  for (const BoneMotion& motion : data.motions) {
+    int& of_bone = joint[static_cast<std::size_t>(motion.bone)];
+    if (of_bone < 0) of_bone = motion.parameter;
+    sets.join(of_bone, motion.parameter);
   }
   return joint;
 }
@@ -61,7 +61,7 @@ void join_chains(const ModelData& data, const std::vector<int>& joint, Sets& set
 std::vector<std::vector<int>> parameter_groups(const ModelData& data) {
   Sets sets(data.parameters.size());
   for (int i = 1; i < static_cast<int>(data.parameters.size()); ++i) {
-    if (data.parameters[static_cast<std::size_t>(i)].kind != ParameterKind::angle) sets.join(0, i);
+    if (!is_joint(data.parameters[static_cast<std::size_t>(i)].kind)) sets.join(0, i);
   }
   join_chains(data, joint_of_bones(data, sets), sets);
   std::map<int, std::vector<int>> by_leader;  // the pose is first: parameter 0 leads it

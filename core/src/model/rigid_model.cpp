@@ -6,14 +6,11 @@
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
-namespace {
 
-// Returns the centre of the bounding box and the ends of its two longest half-axes. Of equally long
-// axes, the earlier one comes first.
-std::vector<Landmark> bounding_box_anchors(const Eigen::Matrix3Xf& vertices) {
-  if (vertices.cols() == 0) return {};
-  const Eigen::Vector3d low = vertices.rowwise().minCoeff().cast<double>();
-  const Eigen::Vector3d high = vertices.rowwise().maxCoeff().cast<double>();
+std::vector<Landmark> bounding_box_landmarks(const Eigen::Matrix3Xf& points) {
+  if (points.cols() == 0) return {};
+  const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>();
+  const Eigen::Vector3d high = points.rowwise().maxCoeff().cast<double>();
   const Eigen::Vector3d center = (low + high) / 2;
   const Eigen::Vector3d half = (high - low) / 2;
   std::array<int, 3> order{0, 1, 2};
@@ -28,15 +25,13 @@ std::vector<Landmark> bounding_box_anchors(const Eigen::Matrix3Xf& vertices) {
   return anchors;
 }
 
-}  // namespace
-
 ModelData rigid_model(Mesh mesh, std::vector<Landmark> landmarks) {
   ModelData data;
   const Eigen::Index vertices = mesh.vertices.cols();
   mesh.bone_indices = Eigen::Matrix4Xi::Zero(4, vertices);
   mesh.bone_weights = Eigen::Matrix4Xf::Zero(4, vertices);
   mesh.bone_weights.row(0).setOnes();
-  data.landmarks = landmarks.empty() ? bounding_box_anchors(mesh.vertices) : std::move(landmarks);
+  data.landmarks = landmarks.empty() ? bounding_box_landmarks(mesh.vertices) : std::move(landmarks);
   data.mesh = std::move(mesh);
   data.bones = {{"object", -1, Eigen::Isometry3d::Identity()}};
   data.parameters = pose_parameters();

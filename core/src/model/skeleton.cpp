@@ -8,19 +8,20 @@ namespace hypotrack {
 namespace {
 
 using cuda::BoneLayout;
-using cuda::Turn;
+using cuda::JointMotion;
 
 void store(const Eigen::Isometry3d& transform, float* matrix) {
   Eigen::Map<Eigen::Matrix<float, 3, 4, Eigen::RowMajor>> out(matrix);
   out = transform.matrix().topRows<3>().cast<float>();
 }
 
-Turn to_turn(const BoneRotation& rotation, int offset) {
-  const Eigen::Vector3f axis = rotation.axis.cast<float>();
+JointMotion to_layout(const BoneMotion& motion, int offset) {
+  const Eigen::Vector3f axis = motion.axis.cast<float>();
   return {{axis.x(), axis.y(), axis.z()},
-          static_cast<float>(rotation.scale),
-          static_cast<float>(rotation.zero),
-          offset + rotation.parameter};
+          static_cast<float>(motion.scale),
+          static_cast<float>(motion.zero),
+          offset + motion.parameter,
+          motion.kind == MotionKind::translation ? 1 : 0};
 }
 
 }  // namespace
@@ -41,11 +42,11 @@ void Skeleton::add(const ModelData& data, int offset) {
     BoneLayout out{};
     out.parent = bone.parent < 0 ? -1 : first + bone.parent;
     out.model = static_cast<int>(models.size());
-    out.first_turn = static_cast<int>(turns.size());
-    for (const BoneRotation& rotation : data.rotations) {
-      if (rotation.bone == static_cast<int>(b)) turns.push_back(to_turn(rotation, offset));
+    out.first_motion = static_cast<int>(motions.size());
+    for (const BoneMotion& motion : data.motions) {
+      if (motion.bone == static_cast<int>(b)) motions.push_back(to_layout(motion, offset));
     }
-    out.turn_count = static_cast<int>(turns.size()) - out.first_turn;
+    out.motion_count = static_cast<int>(motions.size()) - out.first_motion;
     store(bone.parent_from_bone, out.parent_from_bone);
     store(bind[b].inverse(), out.bone_from_model);
     bones.push_back(out);
@@ -60,7 +61,7 @@ SkeletonLayout Skeleton::layout() const {
           level.data(),
           models.data(),
           bones.data(),
-          turns.data()};
+          motions.data()};
 }
 
 }  // namespace hypotrack

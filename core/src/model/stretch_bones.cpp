@@ -31,6 +31,15 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
     }
     data.mesh.vertices.col(v) = moved.cast<float>();
   }
+  for (BoneMotion& motion : data.motions) {
+    const Bone& bone = data.bones[static_cast<std::size_t>(motion.bone)];
+    if (motion.kind != MotionKind::translation || bone.parent < 0) continue;
+    const Eigen::Matrix3d& turn = bone.parent_from_bone.linear();
+    const Eigen::Vector3d& factors = stretches[static_cast<std::size_t>(bone.parent)].factors;
+    const Eigen::Vector3d axis = turn.transpose() * factors.cwiseProduct(turn * motion.axis);
+    motion.scale *= axis.norm();
+    motion.axis = axis.normalized();
+  }
   for (Landmark& landmark : data.landmarks) {
     landmark.position = stretches[static_cast<std::size_t>(landmark.bone)](landmark.position);
   }
@@ -39,6 +48,9 @@ void stretch_bones(ModelData& data, std::span<const BoneStretch> stretches) {
 void scale_model(ModelData& data, double factor) {
   data.mesh.vertices *= static_cast<float>(factor);
   for (Bone& bone : data.bones) bone.parent_from_bone.translation() *= factor;
+  for (BoneMotion& motion : data.motions) {
+    if (motion.kind == MotionKind::translation) motion.scale *= factor;
+  }
   for (Landmark& landmark : data.landmarks) landmark.position *= factor;
 }
 

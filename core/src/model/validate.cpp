@@ -26,7 +26,7 @@ class Validator {
     check_weights();
     check_texture();
     check_parameters();
-    check_rotations();
+    check_motions();
     check_landmarks();
   }
 
@@ -73,7 +73,7 @@ class Validator {
   void check_texture() const;
   void check_parameters() const;
   void check_bounds(const Parameter& parameter) const;
-  void check_rotations() const;
+  void check_motions() const;
   void check_landmarks() const;
 
   const ModelData& data_;
@@ -169,13 +169,14 @@ void Validator::check_parameters() const {
   }
   check_column_names(parameters, "parameter");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const auto expected = i < 3   ? ParameterKind::position
-                          : i < 7 ? ParameterKind::quaternion
-                                  : ParameterKind::angle;
-    if (parameters[i].kind != expected) {
+    const ParameterKind kind = parameters[i].kind;
+    const bool expected = i < 3   ? kind == ParameterKind::position
+                          : i < 7 ? kind == ParameterKind::quaternion
+                                  : is_joint(kind);
+    if (!expected) {
       fail(
           "parameter {} ('{}') is of the wrong kind: a model's parameters are 3 of a position, 4 "
-          "of a quaternion, then angles",
+          "of a quaternion, then angles and lengths",
           i, parameters[i].name);
     }
     check_bounds(parameters[i]);
@@ -188,8 +189,12 @@ void Validator::check_bounds(const Parameter& parameter) const {
     fail("parameter '{}' has the lower bound {} and the upper bound {}: the wrong way round or NaN",
          name, lower, upper);
   }
-  if (kind == ParameterKind::angle && !(std::isfinite(lower) && std::isfinite(upper))) {
-    fail("parameter '{}' is an angle with an infinite bound", name);
+  const bool bounded = std::isfinite(lower) && std::isfinite(upper);
+  if (kind == ParameterKind::length && !bounded) {
+    fail("parameter '{}' is a length with an infinite bound", name);
+  }
+  if (kind == ParameterKind::angle && !bounded && !(std::isinf(lower) && std::isinf(upper))) {
+    fail("parameter '{}' is an angle with one infinite bound: give both, or none", name);
   }
   if (!std::isfinite(rest) || rest < lower || rest > upper) {
     fail("parameter '{}' has the rest value {}, expected a number from {} to {}", name, rest, lower,
@@ -197,21 +202,21 @@ void Validator::check_bounds(const Parameter& parameter) const {
   }
 }
 
-void Validator::check_rotations() const {
-  for (std::size_t i = 0; i < data_.rotations.size(); ++i) {
-    const BoneRotation& rotation = data_.rotations[i];
-    check_bone_index(rotation.bone, fmt::format("rotation {}", i));
+void Validator::check_motions() const {
+  for (std::size_t i = 0; i < data_.motions.size(); ++i) {
+    const BoneMotion& motion = data_.motions[i];
+    check_bone_index(motion.bone, fmt::format("motion {}", i));
     const int count = static_cast<int>(data_.parameters.size());
-    if (rotation.parameter < 7 || rotation.parameter >= count) {
-      fail("rotation {} refers to parameter {}, expected an angle (7 to {})", i, rotation.parameter,
+    if (motion.parameter < 7 || motion.parameter >= count) {
+      fail("motion {} refers to parameter {}, expected a joint (7 to {})", i, motion.parameter,
            count - 1);
     }
     // Negated, so that NaN fails.
-    if (!(std::abs(rotation.axis.norm() - 1) <= kTolerance)) {
-      fail("rotation {} has an axis of length {}, expected 1", i, rotation.axis.norm());
+    if (!(std::abs(motion.axis.norm() - 1) <= kTolerance)) {
+      fail("motion {} has an axis of length {}, expected 1", i, motion.axis.norm());
     }
-    if (!std::isfinite(rotation.zero) || !std::isfinite(rotation.scale)) {
-      fail("rotation {} has a zero or a scale that is NaN or infinite", i);
+    if (!std::isfinite(motion.zero) || !std::isfinite(motion.scale)) {
+      fail("motion {} has a zero or a scale that is NaN or infinite", i);
     }
   }
 }

@@ -10,8 +10,8 @@
 namespace hypotrack {
 
 std::vector<std::string> MetricsOutput::file_names() const {
-  return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",  "uncertainty.csv",
-          "worst_#.jpg",      "metrics.json",        "summary.json"};
+  return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",   "uncertainty.csv", "trace.csv",
+          "truth_costs.csv",  "worst_#.jpg",         "metrics.json", "summary.json"};
 }
 
 void MetricsOutput::begin(OutputContext& run) {
@@ -19,7 +19,10 @@ void MetricsOutput::begin(OutputContext& run) {
   metrics_.emplace(landmark_layout(run.scene().landmark_names()));
   truth_.emplace(metrics_->layout(), run);
   uncertainty_.emplace(run);
+  trace_.emplace(run);
 }
+
+void MetricsOutput::trace(int frame, const FrameTrace& trace) { trace_->add(frame, trace); }
 
 void MetricsOutput::frame(const Frame& frame, const Solution& solution) {
   const Scene& scene = run_->scene();
@@ -32,6 +35,8 @@ void MetricsOutput::frame(const Frame& frame, const Solution& solution) {
                     frame.truth ? frame.truth->absent : std::vector<bool>(), solution.sigma);
   if (truth) {
     truth_->add(frame, *truth, error, status);
+    if (frame.truth->state.size() > 0)
+      metrics_->add_outcome(trace_->judge(frame.index, 1000 * error.mean));
     if (!run_->fixed_lag())
       remember_if_bad(frame, solution, error.mean, {frame.truth->state, *truth}, landmarks);
   }

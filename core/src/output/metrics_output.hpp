@@ -10,6 +10,7 @@
 #include "hypotrack/output.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/summary.hpp"
+#include "output/trace_output.hpp"
 #include "output/truth_output.hpp"
 #include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"
@@ -17,7 +18,8 @@
 namespace hypotrack {
 
 /// Measures a run: summary.json and, with predicted uncertainty, uncertainty.csv. With ground
-/// truth: truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg.
+/// truth: truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg. Of
+/// traced frames: trace.csv and, with a true state, truth_costs.csv.
 class MetricsOutput final : public Output {
  public:
   /// `backend` describes what evaluates hypotheses.
@@ -28,6 +30,9 @@ class MetricsOutput final : public Output {
   void begin(OutputContext& run) override;
   void frame(const Frame& frame, const Solution& solution) override;
   void finish(bool complete) override;
+
+  /// Takes how the searches of a frame converged, before its solution. Throws OutputError.
+  void trace(int frame, const FrameTrace& trace);
 
   /// Takes how long the run took. Call it before finish().
   void set_clock(const ClockTimes& clock) { clock_ = clock; }
@@ -48,6 +53,7 @@ class MetricsOutput final : public Output {
   std::optional<MetricsCollector> metrics_;
   std::optional<TruthOutput> truth_;
   std::optional<UncertaintyOutput> uncertainty_;
+  std::optional<TraceOutput> trace_;
   WorstFrames worst_;
   Summary summary_;
   ClockTimes clock_;

@@ -51,6 +51,11 @@ void OutputQueue::add_search(Frame frame, Solution solution, SearchRecord record
           RunOutput& output, Outputs which) { output.add_search(frame, solution, record, which); });
 }
 
+void OutputQueue::add_trace(int frame, const FrameTrace& trace) {
+  rethrow();
+  write([&](RunOutput& output, Outputs) { output.add_trace(frame, trace); }, Outputs::plain);
+}
+
 void OutputQueue::add_online(Frame frame, Solution solution) {
   give([frame = std::move(frame), solution = std::move(solution)](
            RunOutput& output, Outputs which) { output.add_online(frame, solution, which); });

@@ -25,6 +25,7 @@ class OutputQueue {
   /// As those of RunOutput. Each throws what a drawing output threw for an earlier frame, once;
   /// nothing is drawn after that.
   void add_search(Frame frame, Solution solution, SearchRecord record);
+  void add_trace(int frame, const FrameTrace& trace);
   void add_online(Frame frame, Solution solution);
   void add(Frame frame, Solution solution);
 

@@ -54,6 +54,9 @@ class RunOutput {
   void add_search(const Frame& frame, const Solution& solution, const SearchRecord& record,
                   Outputs which = Outputs::all);
 
+  /// Adds how the searches of a frame converged, before its solution.
+  void add_trace(int frame, const FrameTrace& trace) { metrics_->trace(frame, trace); }
+
   /// Adds the unsmoothed solution of a frame. Call it with fixed-lag smoothing only.
   void add_online(const Frame& frame, const Solution& solution, Outputs which = Outputs::all);
 

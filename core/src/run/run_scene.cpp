@@ -117,6 +117,7 @@ class Results {
         folder_(folder),
         backend_(backend),
         smooths_(smoother != nullptr),
+        traces_(scene.output.trace),
         output_(*scene.scene, scene.source->cameras(),
                 {.directory = folder,
                  .worst_frames = scene.output.worst_frames,
@@ -132,6 +133,8 @@ class Results {
   void add_search(const Frame& frame, const Solution& solution, SearchRecord record) {
     queue_.add_search(frame, solution, std::move(record));
   }
+
+  void add_trace(int frame, const FrameTrace& trace) { queue_.add_trace(frame, trace); }
 
   void add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
     frames_.add(tracker, frame, solution);
@@ -150,6 +153,8 @@ class Results {
     output_.set_backend(fmt::format("{}, then the CPU after: {}", backend_, error));
   }
 
+  /// Returns true if the run writes how searches converge.
+  bool traces() const { return traces_; }
   /// Returns true if frames are smoothed before they are written.
   bool smooths() const { return smooths_; }
   /// Returns how long the outputs have worked, in seconds.
@@ -191,6 +196,7 @@ class Results {
   std::filesystem::path folder_;
   std::string backend_;
   bool smooths_;
+  bool traces_;
   RunOutput output_;
   OutputQueue queue_;
   FixedLagOutput frames_;
@@ -282,14 +288,18 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     if (!frame) break;
     std::optional<SearchRecord> record;
     if (results && results->want_search(*frame)) record.emplace();
+    std::optional<FrameTrace> trace;
+    if (results && results->traces()) trace.emplace();
     const auto begin = SteadyClock::now();
     Solution solution;
-    if (!completes(options.stop_now,
-                   [&] { solution = tracker.track(*frame, record ? &*record : nullptr); }))
+    if (!completes(options.stop_now, [&] {
+          solution = tracker.track(*frame, record ? &*record : nullptr, trace ? &*trace : nullptr);
+        }))
       return latch.end();
     clock.tracking += seconds_since(begin);
     notes.add(solution);
     if (record) results->add_search(*frame, solution, *std::move(record));
+    if (trace) results->add_trace(frame->index, *trace);
     if (results) results->add(tracker, *frame, solution);
     device.look(fmt::format("frame {}", frame->index));
     const bool smooths = results && results->smooths();

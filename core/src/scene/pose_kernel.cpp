@@ -79,7 +79,7 @@ HWY_INLINE Row model_row(const float* state, const float* f) {
 }
 
 // Computes a row of a transform whose frame is rotated about a unit axis.
-HWY_INLINE Row turned(const Row& row, const cuda::Turn& t, const SineCosine& angle) {
+HWY_INLINE Row turned(const Row& row, const cuda::JointMotion& t, const SineCosine& angle) {
   const float s = angle.sine, c = angle.cosine;
   const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
   const float dx = d * x, dy = d * y, dz = d * z;
@@ -88,16 +88,27 @@ HWY_INLINE Row turned(const Row& row, const cuda::Turn& t, const SineCosine& ang
           along(row, fma(dx, z, s * y), fma(dy, z, -s * x), fma(dz, z, c)), row.w};
 }
 
-// Computes parent_from_bone with all rotations of the bone.
+// Computes a row of a transform whose frame is moved along a unit axis.
+HWY_INLINE Row slid(const Row& row, const cuda::JointMotion& t, float length) {
+  const float x = length * t.axis[0], y = length * t.axis[1], z = length * t.axis[2];
+  return {row.x, row.y, row.z, fma(row.x, x, fma(row.y, y, fma(row.z, z, row.w)))};
+}
+
+// Computes parent_from_bone with all motions of the bone.
 HWY_INLINE void place(const SkeletonLayout& skeleton, const cuda::BoneLayout& bone,
                       const float* state, Row* rows) {
   for (int r = 0; r < 3; ++r) {
     const float* bind = bone.parent_from_bone + 4 * r;
     rows[r] = {bind[0], bind[1], bind[2], bind[3]};
   }
-  for (int k = 0; k < bone.turn_count; ++k) {
-    const cuda::Turn& t = skeleton.turns[bone.first_turn + k];
-    const SineCosine angle = sine_and_cosine(t.scale * (state[t.parameter] - t.zero));
+  for (int k = 0; k < bone.motion_count; ++k) {
+    const cuda::JointMotion& t = skeleton.motions[bone.first_motion + k];
+    const float amount = t.scale * (state[t.parameter] - t.zero);
+    if (t.slides) {
+      for (int r = 0; r < 3; ++r) rows[r] = slid(rows[r], t, amount);
+      continue;
+    }
+    const SineCosine angle = sine_and_cosine(amount);
     for (int r = 0; r < 3; ++r) rows[r] = turned(rows[r], t, angle);
   }
 }

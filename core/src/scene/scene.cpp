@@ -78,10 +78,11 @@ void Scene::check(const Eigen::VectorXd& state, const std::string& where) const 
       throw ConfigError(
           fmt::format("{}: {} is {}, expected a finite number", where, parameter.name, state[i]));
     }
-    const bool bounded = parameter.kind == ParameterKind::angle;
+    const bool bounded = is_joint(parameter.kind);
     if (bounded && (state[i] < parameter.lower - kSlack || state[i] > parameter.upper + kSlack)) {
-      throw ConfigError(fmt::format("{}: {} is {} rad, expected {} to {}", where, parameter.name,
-                                    state[i], parameter.lower, parameter.upper));
+      throw ConfigError(fmt::format("{}: {} is {} {}, expected {} to {}", where, parameter.name,
+                                    state[i], is_in_metres(parameter.kind) ? "m" : "rad",
+                                    parameter.lower, parameter.upper));
     }
   }
 }

@@ -18,7 +18,7 @@ namespace {
 
 struct PoseParams {
   std::vector<double> position, rotation, quaternion;
-  ConfigNode directions, angles;
+  ConfigNode directions, angles, lengths;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
       {.help = "x y z in the world", .min = -1e6, .max = 1e6, .unit = "mm", .to_si = kMillimetre});
@@ -33,21 +33,36 @@ struct PoseParams {
     v("rotation", directions,
       {.help = "{palm, fingers}, instead of rotation_deg: where a hand's palm and fingers point"});
     v("angles_deg", angles, {.help = "joint angles by name", .unit = "deg"});
+    v("lengths_mm", lengths, {.help = "how far joints slide, by name", .unit = "mm"});
   }
 };
 
-/// The angles of one model in degrees, with the model's names and bounds.
-struct Angles {
-  struct Angle {
+/// A kind of joint: its key in a pose and its unit there.
+struct JointKey {
+  ParameterKind kind;
+  const char* key;
+  const char* help;
+  const char* unit;
+  double to_si;
+};
+constexpr JointKey kAngles{ParameterKind::angle, "angles_deg", "joint angle", "deg", kDegree};
+constexpr JointKey kLengths{ParameterKind::length, "lengths_mm", "length of a joint that slides",
+                            "mm", kMillimetre};
+
+/// The joints of one model and kind, with the model's names and bounds.
+struct Joints {
+  struct Joint {
+    int index = 0;  // in the model's parameters
     double value = 0;
     std::string name;
-    double lower = 0, upper = 0;  // degrees
+    double lower = 0, upper = 0;  // in the key's unit
   };
-  std::vector<Angle> all;
+  const JointKey& key;
+  std::vector<Joint> all;
   void visit(ParamVisitor& v) {
-    for (Angle& a : all)
-      v(a.name, a.value,
-        {.help = "joint angle", .min = a.lower, .max = a.upper, .unit = "deg", .to_si = kDegree});
+    for (Joint& j : all)
+      v(j.name, j.value,
+        {.help = key.help, .min = j.lower, .max = j.upper, .unit = key.unit, .to_si = key.to_si});
   }
 };
 
@@ -95,23 +110,41 @@ const Scene::Item& find_item(const Scene& scene, const std::string& name, const 
                                 where.where(), name, known));
 }
 
-}  // namespace
-
-void read_angles(const ConfigNode& node, const Scene::Item& item,
-                 Eigen::Ref<Eigen::VectorXd> state) {
-  Angles angles;
+/// Sets joints of a kind from a map of names to numbers.
+void apply_joints(const ConfigNode& node, const JointKey& key, const Scene::Item& item,
+                  Eigen::Ref<Eigen::VectorXd> part) {
+  if (!node.defined()) return;
+  Joints joints{key, {}};
   const auto& parameters = item.model->data().parameters;
-  for (std::size_t i = kPoseSize; i < parameters.size(); ++i)
-    angles.all.push_back({state[item.offset + static_cast<int>(i)], parameters[i].name,
-                          parameters[i].lower / kDegree, parameters[i].upper / kDegree});
-  angles = ParamReader(node).read(std::move(angles));
-  for (std::size_t i = kPoseSize; i < parameters.size(); ++i)
-    state[item.offset + static_cast<int>(i)] = angles.all[i - 7].value;
+  for (int i = kPoseSize; i < item.model->dimension(); ++i) {
+    const Parameter& p = parameters[static_cast<std::size_t>(i)];
+    if (p.kind == key.kind)
+      joints.all.push_back({i, part[i], p.name, p.lower / key.to_si, p.upper / key.to_si});
+  }
+  for (const Joints::Joint& joint : ParamReader(node).read(joints).all)
+    part[joint.index] = joint.value;
 }
+
+/// Returns the joints of a kind that are not at rest, as a map below their key.
+std::string joints_yaml(const JointKey& key, const Scene::Item& item,
+                        const Eigen::Ref<const Eigen::VectorXd>& part) {
+  constexpr double kAtRest = 1e-3;  // degrees or millimetres
+  std::string out;
+  for (int i = kPoseSize; i < item.model->dimension(); ++i) {
+    const Parameter& p = item.model->data().parameters[static_cast<std::size_t>(i)];
+    const double value = part[i] / key.to_si;
+    if (p.kind != key.kind || std::abs(value - p.rest / key.to_si) < kAtRest) continue;
+    const double rounded = std::round(value * 1e4) / 1e4;
+    out += fmt::format("    {}: {}\n", p.name,
+                       std::clamp(rounded, p.lower / key.to_si, p.upper / key.to_si));
+  }
+  return out.empty() ? out : fmt::format("  {}:\n{}", key.key, out);
+}
+
+}  // namespace
 
 std::string pose_yaml(const Scene& scene, const Eigen::VectorXd& state,
                       const std::vector<bool>& models) {
-  constexpr double kAtRest = 1e-3;  // degrees
   std::string out;
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     if (!models[m]) continue;
@@ -122,17 +155,7 @@ std::string pose_yaml(const Scene& scene, const Eigen::VectorXd& state,
         "{:.8f}]\n",
         item.name, part[0] / kMillimetre, part[1] / kMillimetre, part[2] / kMillimetre, part[3],
         part[4], part[5], part[6]);
-    std::string angles;
-    const auto& parameters = item.model->data().parameters;
-    for (std::size_t i = kPoseSize; i < parameters.size(); ++i) {
-      const Parameter& p = parameters[i];
-      const double value = part[static_cast<Eigen::Index>(i)] / kDegree;
-      if (std::abs(value - p.rest / kDegree) < kAtRest) continue;
-      const double rounded = std::round(value * 1e4) / 1e4;
-      angles += fmt::format("    {}: {}\n", p.name,
-                            std::clamp(rounded, p.lower / kDegree, p.upper / kDegree));
-    }
-    if (!angles.empty()) out += "  angles_deg:\n" + angles;
+    for (const JointKey& key : {kAngles, kLengths}) out += joints_yaml(key, item, part);
   }
   return out;
 }
@@ -152,7 +175,8 @@ Eigen::VectorXd read_pose(const ConfigNode& node, const Scene& scene, Eigen::Vec
     if (!pose.position.empty())
       part.head<3>() << pose.position[0], pose.position[1], pose.position[2];
     apply_rotation(value, pose, item, cameras, part);
-    if (pose.angles.defined()) read_angles(pose.angles, item, base);
+    apply_joints(pose.angles, kAngles, item, part);
+    apply_joints(pose.lengths, kLengths, item, part);
   }
   return base;
 }

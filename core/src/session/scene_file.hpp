@@ -50,7 +50,7 @@ struct InitSettings {
     v("frame", frame, {.help = "which frame of the table", .min = 0});
     v("pose", pose,
       {.help = "what to change about that state: {MODEL: {position_mm, rotation_deg, quaternion or "
-               "rotation, angles_deg: {NAME: VALUE}}}"});
+               "rotation, angles_deg: {NAME: VALUE}, lengths_mm: {NAME: VALUE}}}"});
     v("away_mm", away,
       {.help =
            "moves every model of that state this far, in a direction that the seed decides: how "
@@ -97,6 +97,7 @@ struct BudgetSettings {
 struct OutputSettings {
   bool overlay = true;
   int worst_frames = 3;
+  bool trace = false;
   ConfigNode also;
   OneEuroSettings smoothing;
   void visit(ParamVisitor& v) {
@@ -106,6 +107,8 @@ struct OutputSettings {
                "largest error (worst_<frame>.jpg)",
        .min = 0,
        .max = 100});
+    v("trace", trace,
+      {.help = "write trace.csv, how the searches of every frame converged, batch by batch"});
     v("also", also, {.help = "further outputs: {type, ...}, or a list of them"});
     v("smoothing", smoothing, {.help = "how states are smoothed before they are written"});
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "hypotrack/search.hpp"
@@ -87,6 +88,19 @@ Eigen::VectorXd FrameSearch::costs(Eigen::MatrixXd states) {
   return out;
 }
 
+void FrameSearch::trace(FrameTrace* trace, const Frame* frame) {
+  trace_ = trace;
+  truth_ = frame && frame->truth && frame->truth->state.size() > 0 ? &*frame->truth : nullptr;
+}
+
+double FrameSearch::truth_cost() {
+  if (!truth_) return std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t m = 0; m < shown_.size(); ++m)
+    if (shown_[m] && !truth_->absent.empty() && truth_->absent[m])
+      return std::numeric_limits<double>::quiet_NaN();
+  return costs(truth_->state)[0];
+}
+
 Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
   if (states.cols() == 1) return states;
   Eigen::Index best = 0;
@@ -113,8 +127,17 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
                         const std::optional<Reach>& reach, std::uint64_t seed) {
   const Eigen::VectorXd posed = drawn(prior);
   RecordedSearch* record = record_ ? &record_->emplace_back() : nullptr;
-  SearchCost cost(*cost_, space_, posed, record);
+  TracedSearch* traced =
+      trace_ ? &trace_->searches.emplace_back(TracedSearch{.dimension = space_.dimension()})
+             : nullptr;
+  std::optional<SearchTracer> tracer;
+  if (traced) tracer.emplace(*traced);
+  SearchCost cost(*cost_, space_, posed, record, tracer ? &*tracer : nullptr);
   const OptimizerResult result = minimize(cost, space_.region(posed, reach), budget, seed);
+  if (traced) {
+    tracer->add(result.evaluations, result.cost);  // of a search in GPU memory, the only step
+    traced->truth_cost = truth_cost();
+  }
   Found found{space_.states(result.point, posed), result.cost, result.evaluations};
   if (record) {
     record->state = found.state;

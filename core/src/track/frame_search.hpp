@@ -15,6 +15,7 @@
 #include "track/color/photometric.hpp"
 #include "track/color/still_background.hpp"
 #include "track/search_space.hpp"
+#include "track/search_trace.hpp"
 #include "track/tracker_parts.hpp"
 
 namespace hypotrack {
@@ -58,6 +59,12 @@ class FrameSearch {
 
   /// Lets searches add themselves to `record`, which must outlive them; null: no more.
   void record(std::vector<RecordedSearch>* record) { record_ = record; }
+  /// Lets searches of `frame` add to `trace` how they converge. Both must outlive them; null: no
+  /// more.
+  void trace(FrameTrace* trace, const Frame* frame);
+  /// Returns the cost of the true state in the prepared frame, while searches are traced. NaN if it
+  /// is unknown, or a model that is shown is known to be out of view.
+  double truth_cost();
 
   /// Searches the prepared frame once, from `prior`.
   Found from(const Eigen::VectorXd& prior, const Budget& budget, const std::optional<Reach>& reach,
@@ -112,6 +119,8 @@ class FrameSearch {
   std::string optimizer_label_;
   TilePlan plan_;                                  ///< of the last frame
   std::vector<RecordedSearch>* record_ = nullptr;  ///< receives searches; null: nothing does
+  FrameTrace* trace_ = nullptr;                    ///< the same
+  const GroundTruth* truth_ = nullptr;             ///< of the traced frame; null: unknown
 };
 
 }  // namespace hypotrack

@@ -27,6 +27,8 @@ bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& fr
         return moved.norm() <= std::sqrt(3.0) * reach.rotation + kRounding;
       case ParameterKind::angle:
         return moved.cwiseAbs().maxCoeff() <= reach.angle + kRounding;
+      case ParameterKind::length:
+        return moved.cwiseAbs().maxCoeff() <= reach.position + kRounding;
     }
     return true;
   });

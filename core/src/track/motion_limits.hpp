@@ -9,7 +9,7 @@ namespace hypotrack {
 
 /// Largest change of a scene's pose that a search allows.
 struct Reach {
-  double position = 0;  ///< metres, of each model's origin
+  double position = 0;  ///< metres, of each model's origin and of each joint that slides
   double rotation = 0;  ///< radians, of each model
   double angle = 0;     ///< radians, of each joint angle
 };
@@ -20,7 +20,8 @@ struct MotionLimits {
   double turn = 2000 * kDegree;
   double bend = 2500 * kDegree;
   void visit(ParamVisitor& v) {
-    v("speed_m_s", speed, {.help = "fastest motion of a model", .min = 1e-3, .max = 1e6});
+    v("speed_m_s", speed,
+      {.help = "fastest motion of a model, or of a joint that slides", .min = 1e-3, .max = 1e6});
     v("turn_deg_s", turn,
       {.help = "fastest rotation of a model", .min = 1e-3, .max = 1e9, .to_si = kDegree});
     v("bend_deg_s", bend,

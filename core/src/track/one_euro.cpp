@@ -34,14 +34,13 @@ Eigen::VectorXd OneEuroFilter::filter(const Eigen::VectorXd& state, double time)
   for (const TangentPart& part : tangent_parts(*scene_)) {
     auto steps = step.segment(part.first, part.size);
     const auto speeds = speed_.segment(part.first, part.size);
-    if (part.kind == ParameterKind::angle) {
+    const double beta = is_in_metres(part.kind) ? settings_.position_beta : settings_.angle_beta;
+    if (is_joint(part.kind)) {
       for (Eigen::Index i = 0; i < part.size; ++i) {
-        steps[i] *= weight_of(cutoff(settings_.angle_beta, std::abs(speeds[i])), seconds);
+        steps[i] *= weight_of(cutoff(beta, std::abs(speeds[i])), seconds);
       }
       continue;
     }
-    const double beta =
-        part.kind == ParameterKind::position ? settings_.position_beta : settings_.angle_beta;
     steps *= weight_of(cutoff(beta, speeds.norm()), seconds);
   }
   found_ = state;

@@ -40,7 +40,7 @@ struct OneEuroSettings {
 
 /// Smooths states from frame to frame, more at rest than in motion. It is the filter of Casiez,
 /// Roussel and Vogel, "1 Euro Filter" (CHI 2012). A position and a rotation are each filtered as a
-/// whole, by the length of their speed, rotations along the shortest turn. Every joint angle is
+/// whole, by the length of their speed, rotations along the shortest turn. Every joint is
 /// filtered alone.
 class OneEuroFilter {
  public:

@@ -25,8 +25,7 @@ bool Predictor::is_gap(double seconds) const {
 Eigen::VectorXd Predictor::led(double seconds, double pose_share, double angle_share) const {
   Eigen::VectorXd motion = *velocity_ * seconds;
   for (const TangentPart& part : parts_) {
-    motion.segment(part.first, part.size) *=
-        part.kind == ParameterKind::angle ? angle_share : pose_share;
+    motion.segment(part.first, part.size) *= is_joint(part.kind) ? angle_share : pose_share;
   }
   return moved(*scene_, state_, motion);
 }

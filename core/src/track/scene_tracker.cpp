@@ -149,7 +149,7 @@ Observation SceneTracker::seen(const Frame& frame) const {
   return finder_.search().seen(brightness_.applied_to(frame));
 }
 
-Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
+Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrace* trace) {
   Solution solution;
   solution.frame = frame.index;
   solution.time = frame.time;
@@ -166,7 +166,7 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record) {
     if (picture_checks_) brightness_.next(picture_checks_->jumps());
     if (!spoils_pictures(fault)) {
       const Frame steady = brightness_.applied_to(frame);
-      naming(steady, [&] { find_or_leave_device(steady, solution, record); });
+      naming(steady, [&] { find_or_leave_device(steady, solution, record, trace); });
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
@@ -182,27 +182,43 @@ ViewFault SceneTracker::fault_of(const Frame& frame) {
 }
 
 void SceneTracker::find_or_leave_device(const Frame& frame, Solution& solution,
-                                        SearchRecord* record) {
+                                        SearchRecord* record, FrameTrace* trace) {
   const Solution before = solution;
   try {
-    return find(frame, solution, record);
+    return find(frame, solution, record, trace);
   } catch (const DeviceError& error) {
     finder_.search().leave_device(error);
   }
   solution = before;
   if (record) *record = SearchRecord();
-  find(frame, solution, record);
+  if (trace) *trace = FrameTrace();
+  find(frame, solution, record, trace);
 }
 
-void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record) {
+void SceneTracker::find(const Frame& frame, Solution& solution, SearchRecord* record,
+                        FrameTrace* trace) {
   if (job_.valid()) return wait_for_job(frame, solution);
   finder_.search().record(record ? &record->searches : nullptr);
+  finder_.search().trace(trace, trace ? &frame : nullptr);
   Candidate best = follow(frame);
   const bool answered = complete(frame, best);
-  if (!job_.valid()) finder_.search().record(nullptr);
+  if (answered && trace && best.answers()) compare_with_truth(best, *trace);
+  if (!job_.valid()) unwatch();
   if (!answered) return stay_lost(frame, solution);
   conclude(frame, best, solution);
   if (record && best.answers()) describe(frame, best, *record);
+}
+
+void SceneTracker::unwatch() {
+  finder_.search().record(nullptr);
+  finder_.search().trace(nullptr, nullptr);
+}
+
+void SceneTracker::compare_with_truth(const Candidate& best, FrameTrace& trace) {
+  FrameSearch& search = finder_.search();
+  search.show(best.shown);
+  trace.cost = search.costs(best.found.state)[0];
+  trace.truth_cost = search.truth_cost();
 }
 
 void SceneTracker::describe(const Frame& frame, const Candidate& best, SearchRecord& record) {
@@ -339,7 +355,7 @@ void SceneTracker::start_job(const Frame& frame, const RecoveryRequest& request,
     view.mask = view.mask.clone();
     view.depth = view.depth.clone();
   }
-  finder_.search().record(nullptr);
+  unwatch();
   const std::uint64_t seed = seed_of_part(frame_seed(seed_, frame.index), 7);
   job_unwanted_ = false;
   job_ = std::async(std::launch::async,

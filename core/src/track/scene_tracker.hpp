@@ -21,6 +21,7 @@
 #include "track/one_euro.hpp"
 #include "track/prediction.hpp"
 #include "track/search_space.hpp"
+#include "track/search_trace.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/status.hpp"
 #include "track/tracker_parts.hpp"
@@ -40,10 +41,10 @@ class SceneTracker {
   SceneTracker(const SceneTracker&) = delete;
   SceneTracker& operator=(const SceneTracker&) = delete;
 
-  /// Finds the scene in the next frame. `record`, if given, receives how. It stays empty while a
-  /// search runs in the background. Throws Stopped by check_stop(); the tracker can go on with the
-  /// next frame.
-  Solution track(const Frame& frame, SearchRecord* record = nullptr);
+  /// Finds the scene in the next frame. `record`, if given, receives how, and `trace` how the
+  /// searches converged. Both stay empty while a search runs in the background. Throws Stopped by
+  /// check_stop(); the tracker can go on with the next frame.
+  Solution track(const Frame& frame, SearchRecord* record = nullptr, FrameTrace* trace = nullptr);
 
   /// Forgets where the models are: the next frame looks for them again. Without recovery the search
   /// begins anew from the start.
@@ -94,9 +95,14 @@ class SceneTracker {
     }
   };
 
-  void find(const Frame& frame, Solution& solution, SearchRecord* record);
+  void find(const Frame& frame, Solution& solution, SearchRecord* record, FrameTrace* trace);
   /// Calls find(), again on the CPU if the device failed and the settings ask for that.
-  void find_or_leave_device(const Frame& frame, Solution& solution, SearchRecord* record);
+  void find_or_leave_device(const Frame& frame, Solution& solution, SearchRecord* record,
+                            FrameTrace* trace);
+  /// Ends the recording and tracing of searches.
+  void unwatch();
+  /// Evaluates the answer and the truth in the tiles of the answer.
+  void compare_with_truth(const Candidate& best, FrameTrace& trace);
   /// Records the tiles, the answer drawn in them and the terms' maps of it.
   void describe(const Frame& frame, const Candidate& best, SearchRecord& record);
   /// Searches from the last state. Returns no pose while all models are lost.

@@ -14,11 +14,13 @@ namespace hypotrack {
 /// The cost that optimizers minimise: converts search points to states, whose costs it returns.
 class SearchCost final : public CostFunction, public ResidualCost {
  public:
-  /// Points are those around `prior`. `record`, if given, receives what is evaluated.
-  /// All arguments must outlive the search cost.
+  /// Points are those around `prior`. `record`, if given, receives what is evaluated, and `tracer`
+  /// how the cost falls. All arguments must outlive the search cost.
   SearchCost(Cost& cost, const SearchSpace& space, const Eigen::VectorXd& prior,
-             RecordedSearch* record = nullptr)
-      : cost_(cost), space_(space), prior_(prior), record_(record) {}
+             RecordedSearch* record = nullptr, SearchTracer* tracer = nullptr)
+      : cost_(cost), space_(space), prior_(prior), record_(record) {
+    tally_.tracer = tracer;
+  }
 
   /// Returns what was evaluated so far.
   const SearchTally& tally() const { return tally_; }

@@ -84,12 +84,12 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
       k += 3;
       continue;
     }
-    const double spread = p.kind == ParameterKind::position     ? settings_.position
+    const double spread = is_in_metres(p.kind)                  ? settings_.position
                           : p.kind == ParameterKind::quaternion ? component
                                                                 : settings_.angle;
     double lower = p.lower, upper = p.upper;
     if (reach && p.kind != ParameterKind::quaternion) {
-      const double most = p.kind == ParameterKind::position ? reach->position : reach->angle;
+      const double most = is_in_metres(p.kind) ? reach->position : reach->angle;
       const double middle = std::clamp(prior[i], p.lower, p.upper);
       lower = std::max(lower, middle - most);
       upper = std::min(upper, middle + most);

@@ -31,7 +31,7 @@ struct SearchSettings {
   PredictionSettings prediction;
   void visit(ParamVisitor& v) {
     v("position_mm", position,
-      {.help = "spread of a model's position, each side",
+      {.help = "spread of a model's position, and of a joint that slides, each side",
        .min = 1e-3,
        .max = 1e4,
        .unit = "mm",
@@ -74,7 +74,7 @@ class SearchSpace {
   bool rotation_vectors() const { return settings_.rotation_as == RotationSearch::tangent; }
 
   /// Returns the search region around a prior state. Its groups are the models'
-  /// (parameter_groups()). Angles of the prior outside the models' bounds are moved onto them.
+  /// (parameter_groups()). Joints of the prior outside the models' bounds are moved onto them.
   /// `reach` limits the distance from the prior along every axis, except of quaternions.
   SearchRegion region(const Eigen::VectorXd& prior,
                       const std::optional<Reach>& reach = std::nullopt) const;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "hypotrack/optimizer.hpp"
+#include "track/search_trace.hpp"
 
 namespace hypotrack {
 
@@ -14,8 +15,9 @@ namespace hypotrack {
 struct SearchTally {
   std::int64_t evaluations = 0;
   double lowest = std::numeric_limits<double>::infinity();  ///< cost that was returned
-  bool on_device = false;  ///< the optimizer took costs in GPU memory, which nothing counts
-  bool failed = false;     ///< a cost threw
+  bool on_device = false;          ///< the optimizer took costs in GPU memory, which nothing counts
+  bool failed = false;             ///< a cost threw
+  SearchTracer* tracer = nullptr;  ///< gets a step after every batch; null: nothing does
 
   /// Calls a function that evaluates `points` points, and remembers if it throws.
   template <class Function>
@@ -28,8 +30,14 @@ struct SearchTally {
       throw;
     }
   }
+  /// Adds the costs of points that were counted.
   void add(const Eigen::Ref<const Eigen::VectorXd>& costs) {
     for (const double cost : costs) lowest = std::min(lowest, cost);
+    trace();
+  }
+  /// Traces what was counted so far.
+  void trace() {
+    if (tracer) tracer->add(evaluations, lowest);
   }
 };
 

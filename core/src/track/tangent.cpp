@@ -32,12 +32,12 @@ Eigen::VectorXd difference(const Scene& scene, const Eigen::VectorXd& from,
   Eigen::VectorXd out(scene.dimension() - static_cast<Eigen::Index>(scene.items().size()));
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPoseSize;
+    const Eigen::Index i = item.offset, joints = item.model->dimension() - kPoseSize;
     out.segment<3>(at) = to.segment<3>(i) - from.segment<3>(i);
     out.segment<3>(at + 3) = rotation_log(rotation_of(from, i).conjugate() * rotation_of(to, i));
-    out.segment(at + kTangentPose, angles) =
-        to.segment(i + kPoseSize, angles) - from.segment(i + kPoseSize, angles);
-    at += kTangentPose + angles;
+    out.segment(at + kTangentPose, joints) =
+        to.segment(i + kPoseSize, joints) - from.segment(i + kPoseSize, joints);
+    at += kTangentPose + joints;
   }
   return out;
 }
@@ -47,16 +47,16 @@ Eigen::VectorXd moved(const Scene& scene, const Eigen::VectorXd& from,
   Eigen::VectorXd out = from;
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index i = item.offset, angles = item.model->dimension() - kPoseSize;
+    const Eigen::Index i = item.offset, joints = item.model->dimension() - kPoseSize;
     out.segment<3>(i) += difference.segment<3>(at);
     const Eigen::Quaterniond q = rotation_of(from, i) * rotation_exp(difference.segment<3>(at + 3));
     out.segment<4>(i + 3) << q.w(), q.x(), q.y(), q.z();
-    for (Eigen::Index k = 0; k < angles; ++k) {
+    for (Eigen::Index k = 0; k < joints; ++k) {
       const Parameter& p = scene.parameters()[static_cast<std::size_t>(i + kPoseSize + k)];
-      double& angle = out[i + kPoseSize + k];
-      angle = std::clamp(angle + difference[at + kTangentPose + k], p.lower, p.upper);
+      double& value = out[i + kPoseSize + k];
+      value = std::clamp(value + difference[at + kTangentPose + k], p.lower, p.upper);
     }
-    at += kTangentPose + angles;
+    at += kTangentPose + joints;
   }
   scene.normalize(out);
   return out;
@@ -66,11 +66,17 @@ std::vector<TangentPart> tangent_parts(const Scene& scene) {
   std::vector<TangentPart> parts;
   Eigen::Index at = 0;
   for (const Scene::Item& item : scene.items()) {
-    const Eigen::Index angles = item.model->dimension() - kPoseSize;
     parts.push_back({ParameterKind::position, at, 3});
     parts.push_back({ParameterKind::quaternion, at + 3, 3});
-    if (angles > 0) parts.push_back({ParameterKind::angle, at + kTangentPose, angles});
-    at += kTangentPose + angles;
+    at += kTangentPose;
+    const std::vector<Parameter>& parameters = item.model->data().parameters;
+    for (std::size_t i = kPoseSize; i < parameters.size(); ++i, ++at) {
+      if (parts.back().kind == parameters[i].kind) {
+        ++parts.back().size;
+      } else {
+        parts.push_back({parameters[i].kind, at, 1});
+      }
+    }
   }
   return parts;
 }

@@ -19,18 +19,19 @@ Eigen::Vector3d rotation_log(const Eigen::Quaterniond& rotation);
 Eigen::VectorXd difference(const Scene& scene, const Eigen::VectorXd& from,
                            const Eigen::VectorXd& to);
 
-/// Returns the normalised state that a difference leads to. Clamps angles to the models' bounds.
+/// Returns the normalised state that a difference leads to. Clamps joints to the models' bounds.
 Eigen::VectorXd moved(const Scene& scene, const Eigen::VectorXd& from,
                       const Eigen::VectorXd& difference);
 
-/// A range of a difference: a model's position, its rotation vector (`quaternion`) or its angles.
+/// A range of a difference: a model's position, its rotation vector (`quaternion`), or neighbouring
+/// angles or lengths.
 struct TangentPart {
   ParameterKind kind = ParameterKind::position;
   Eigen::Index first = 0;
   Eigen::Index size = 0;
 };
 
-/// Returns all parts of a difference, in order. A rigid model has no part for angles.
+/// Returns all parts of a difference, in order. A rigid model has no part for joints.
 std::vector<TangentPart> tangent_parts(const Scene& scene);
 
 }  // namespace hypotrack

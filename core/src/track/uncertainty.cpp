@@ -21,7 +21,7 @@ Eigen::VectorXd per_kind(const Scene& scene, double position, double rotation, d
   const std::vector<TangentPart> parts = tangent_parts(scene);
   Eigen::VectorXd out(parts.back().first + parts.back().size);
   for (const TangentPart& part : parts) {
-    const double value = part.kind == ParameterKind::position     ? position
+    const double value = is_in_metres(part.kind)                  ? position
                          : part.kind == ParameterKind::quaternion ? rotation
                                                                   : angle;
     out.segment(part.first, part.size).setConstant(value);
@@ -29,16 +29,16 @@ Eigen::VectorXd per_kind(const Scene& scene, double position, double rotation, d
   return out;
 }
 
-/// Returns the prior standard deviation of every dimension. An angle's is at most that of a uniform
+/// Returns the prior standard deviation of every dimension. A joint's is at most that of a uniform
 /// distribution between its limits.
 Eigen::VectorXd prior_width(const Scene& scene, const UncertaintySettings& settings) {
   Eigen::VectorXd width = per_kind(scene, settings.position, settings.rotation, settings.angle);
   auto parameter = scene.parameters().begin();
-  const auto is_angle = [](const Parameter& p) { return p.kind == ParameterKind::angle; };
+  const auto moves_joints = [](const Parameter& p) { return is_joint(p.kind); };
   for (const TangentPart& part : tangent_parts(scene)) {
-    if (part.kind != ParameterKind::angle) continue;
+    if (!is_joint(part.kind)) continue;
     for (double& sigma : width.segment(part.first, part.size)) {
-      parameter = std::find_if(parameter, scene.parameters().end(), is_angle);
+      parameter = std::find_if(parameter, scene.parameters().end(), moves_joints);
       sigma = std::clamp((parameter->upper - parameter->lower) / std::sqrt(12.0), 1e-6, sigma);
       ++parameter;
     }

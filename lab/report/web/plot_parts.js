@@ -70,8 +70,10 @@ hypotrack.rangeOf = function (plot, read) {
   return lowest <= highest ? [lowest, highest] : [0, 1];
 };
 
-/** One standard deviation around the mean; of what is never negative it stays above zero. */
+/** The band of a row: its bounds or, without, one standard deviation around the mean. That of what
+    is never negative stays above zero. */
 hypotrack.band = function (row) {
+  if (row.lo !== undefined) return [row.lo, row.hi];
   var low = row.mean - (row.sd || 0);
   return [row.mean < 0 ? low : Math.max(0, low), row.mean + (row.sd || 0)];
 };
@@ -80,12 +82,13 @@ hypotrack.tip = function (plot, row) {
   var digits = plot.value ? plot.value.digits : 1;
   var text = '';
   if (plot.color) text += plot.color.label + ' ' + row.color + '; ';
-  text += plot.x.label + ' ' + row.x;
+  text += plot.x.label + ' ' + (plot.counted ? Number(row.x.toPrecision(3)) : row.x);
   if (row.y !== undefined) text += '; ' + plot.y.label + ' ' + row.y;
   text += ': ' + row.mean.toFixed(digits);
   if (row.sd !== null && row.sd !== undefined) text += ' ± ' + row.sd.toFixed(digits);
+  var counted = plot.counted || (row.n === 1 ? 'run' : 'runs');
   return text + ' ' + (plot.value ? plot.value.label : plot.y.label) +
-         ' (' + row.n + (row.n === 1 ? ' run)' : ' runs)');
+         ' (' + row.n + ' ' + counted + ')';
 };
 
 /** The rows of each facet as data sets, with the bounds of the band and a text to hover. */
@@ -154,15 +157,17 @@ hypotrack.axes = function (plot, values, ticks, yValues) {
   ];
 };
 
-/** Lines of the mean with bands of one standard deviation. */
-hypotrack.lineMarks = function (data, points) {
+/** Lines of the mean with bands; `interpolate` is Vega's way between points. */
+hypotrack.lineMarks = function (data, points, interpolate) {
   var x = {scale: 'x', field: 'x'}, color = {scale: 'color', field: 'color'};
+  var way = {value: interpolate || 'linear'};
   var inner = [
     {type: 'area', from: {data: 'series'}, encode: {update: {
       x: x, y: {scale: 'y', field: 'lo'}, y2: {scale: 'y', field: 'hi'},
-      fill: color, fillOpacity: {value: 0.18}}}},
+      interpolate: way, fill: color, fillOpacity: {value: 0.18}}}},
     {type: 'line', from: {data: 'series'}, encode: {update: {
-      x: x, y: {scale: 'y', field: 'mean'}, stroke: color, strokeWidth: {value: 2}}}},
+      x: x, y: {scale: 'y', field: 'mean'}, stroke: color, strokeWidth: {value: 2},
+      interpolate: way}}},
     {type: 'symbol', from: {data: 'series'}, encode: {update: {
       x: x, y: {scale: 'y', field: 'mean'}, fill: color, size: {value: points ? 50 : 60},
       shape: {scale: 'shape', field: 'color'}, opacity: {value: points ? 1 : 0},

@@ -43,6 +43,50 @@ hypotrack.successSpec = function (plot, options) {
       });
 };
 
+/** Marks of an axis on both sides of zero, 1, 2 and 5 times a power of ten. */
+hypotrack.symlogTicks = function (bounds) {
+  var most = Math.max(-bounds[0], bounds[1]);
+  var above = most < 1 ? [] : hypotrack.logTicks([1, most]);
+  var below = above.map(function (tick) { return -tick; }).reverse();
+  return below.concat([0], above).filter(function (tick) {
+    return tick >= bounds[0] && tick <= bounds[1];
+  });
+};
+
+/** How searches converge: bands over what they spend, distributions of it, or what a target takes
+    (trace_plots.hpp). */
+hypotrack.tracedSpec = function (plot, options) {
+  var size = hypotrack.panels(plot, options.width), targets = plot.kind === 'expected_running_time';
+  var bounds = hypotrack.rangeOf(plot, function (row) { return [row.x]; });
+  if (bounds[0] === bounds[1]) bounds[1] *= 2;
+  var x = {name: 'x', type: 'log', domain: bounds, range: [0, size.width]};
+  var y = {name: 'y', type: 'linear', domain: [0, 100], range: [size.height, 0]};
+  var xTicks = hypotrack.logTicks(bounds), yTicks = null;
+  if (targets) {
+    xTicks = [];
+    plot.facets.forEach(function (facet) {
+      facet.rows.forEach(function (row) { if (xTicks.indexOf(row.x) < 0) xTicks.push(row.x); });
+    });
+    xTicks.sort(function (a, b) { return a - b; });
+    Object.assign(x, {type: 'point', domain: xTicks, padding: 0.5});
+  }
+  if (plot.kind === 'convergence' || targets) {
+    y.domain = hypotrack.rangeOf(plot, hypotrack.band);
+    y.type = targets ? 'log' : plot.y.scale;
+    y.zero = false;
+    if (y.domain[0] === y.domain[1]) y.domain[1] = y.domain[0] + Math.abs(y.domain[0] || 1);
+    if (targets) yTicks = hypotrack.logTicks(y.domain);
+    if (y.type === 'symlog') yTicks = hypotrack.symlogTicks(y.domain);
+  }
+  return hypotrack.facetSpec(plot, options, size,
+      [x, y].concat(hypotrack.colorScales(plot, options.theme)), function (data) {
+        var axes = hypotrack.axes(plot, xTicks, 0, yTicks);
+        if (!targets) axes[0].format = '~r';
+        return {axes: axes,
+                marks: hypotrack.lineMarks(data, targets, targets ? 'linear' : 'step-after')};
+      });
+};
+
 /** Bars along `band` ('x' or 'y') as long as the mean, with a line of one standard deviation. */
 hypotrack.barMarks = function (data, band, theme) {
   var value = band === 'x' ? 'y' : 'x';
@@ -179,5 +223,8 @@ hypotrack.plotSpec = function (plot, options) {
   return {
     curve: hypotrack.curveSpec, success: hypotrack.successSpec, bars: hypotrack.barsSpec,
     heatmap: hypotrack.heatmapSpec, timeline: hypotrack.timelineSpec,
+    convergence: hypotrack.tracedSpec, targets: hypotrack.tracedSpec,
+    performance_profile: hypotrack.tracedSpec, data_profile: hypotrack.tracedSpec,
+    expected_running_time: hypotrack.tracedSpec,
   }[plot.kind](plot, options);
 };

@@ -40,7 +40,7 @@ std::size_t finger_of(const std::string& parameter) {
 /// descendants.
 std::vector<BoneStretch> stretches_of(const ModelData& hand, const HandShape& shape) {
   std::vector<const Parameter*> driver(hand.bones.size(), nullptr);
-  for (const BoneRotation& r : hand.rotations) {
+  for (const BoneMotion& r : hand.motions) {
     driver[static_cast<std::size_t>(r.bone)] =
         &hand.parameters[static_cast<std::size_t>(r.parameter)];
   }

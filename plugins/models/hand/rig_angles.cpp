@@ -45,9 +45,9 @@ void drive(Rigging& r, std::size_t index, const std::string& name, const Eigen::
                        r.rig_names[static_cast<std::size_t>(r.driven.at(name))], bone.name));
   }
   const auto bind = r.bind.find(name);
-  r.data.rotations.push_back({static_cast<int>(index),
-                              static_cast<int>(pose_parameters().size()) + angle, axis.normalized(),
-                              bind == r.bind.end() ? measured : bind->second, 1});
+  r.data.motions.push_back({static_cast<int>(index),
+                            static_cast<int>(pose_parameters().size()) + angle, axis.normalized(),
+                            bind == r.bind.end() ? measured : bind->second, 1});
 }
 
 }  // namespace hypotrack

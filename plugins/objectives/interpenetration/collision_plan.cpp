@@ -15,7 +15,7 @@ class RigidGroups {
  public:
   explicit RigidGroups(const Skeleton& skeleton) {
     for (const cuda::BoneLayout& bone : skeleton.bones) {
-      const bool moves = bone.parent < 0 || bone.turn_count > 0;
+      const bool moves = bone.parent < 0 || bone.motion_count > 0;
       const auto own = static_cast<std::int32_t>(of_bone_.size());
       of_bone_.push_back(moves ? own : of(bone.parent));
       above_.push_back(!moves            ? above_[index(bone.parent)]

@@ -15,16 +15,16 @@ class OnDevice final : public cuda::StateObjective<CollisionTerm> {
   CollisionTerm make_term(const cuda::DeviceObservation&, cuda::Stream) override {
     if (shapes_.data()) return term_on_device_;
     const SkeletonLayout& bones = host_.skeleton;
-    int models = 0, turns = 0;
+    int models = 0, motions = 0;
     for (int b = 0; b < bones.bone_count; ++b) {
       models = std::max(models, bones.bones[b].model + 1);
-      turns = std::max(turns, bones.bones[b].first_turn + bones.bones[b].turn_count);
+      motions = std::max(motions, bones.bones[b].first_motion + bones.bones[b].motion_count);
     }
     term_on_device_ = host_;
     term_on_device_.skeleton.level = upload(level_, bones.level, bones.bone_count);
     term_on_device_.skeleton.models = upload(models_, bones.models, models);
     term_on_device_.skeleton.bones = upload(bones_, bones.bones, bones.bone_count);
-    term_on_device_.skeleton.turns = upload(turns_, bones.turns, turns);
+    term_on_device_.skeleton.motions = upload(motions_, bones.motions, motions);
     term_on_device_.shapes = upload(shapes_, host_.shapes, host_.shape_count);
     term_on_device_.pairs = upload(pairs_, host_.pairs, host_.pair_count);
     return term_on_device_;
@@ -43,7 +43,7 @@ class OnDevice final : public cuda::StateObjective<CollisionTerm> {
   cuda::DeviceBuffer<std::int32_t> level_;
   cuda::DeviceBuffer<cuda::ModelLayout> models_;
   cuda::DeviceBuffer<cuda::BoneLayout> bones_;
-  cuda::DeviceBuffer<cuda::Turn> turns_;
+  cuda::DeviceBuffer<cuda::JointMotion> motions_;
   cuda::DeviceBuffer<Shape> shapes_;
   cuda::DeviceBuffer<Pair> pairs_;
 };

@@ -25,7 +25,7 @@ void write_joint(std::string& text, std::span<const Joint> joints, std::size_t i
   text += fmt::format("{0}{1} {2}\n{0}{{\n", indent, root ? "ROOT" : "JOINT", joint.name);
   offset(indent + "  ", joint.offset);
   text += fmt::format("{}  CHANNELS {}Zrotation Xrotation Yrotation\n", indent,
-                      root ? "6 Xposition Yposition Zposition " : "3 ");
+                      root || joint.slides ? "6 Xposition Yposition Zposition " : "3 ");
   bool leaf = true;
   for (std::size_t i = index + 1; i < joints.size(); ++i) {
     if (joints[i].parent != static_cast<int>(index)) continue;
@@ -66,12 +66,14 @@ BvhFile::BvhFile(std::filesystem::path path, std::vector<Joint> joints, double f
 }
 
 void BvhFile::add(const Pose& pose) {
-  std::string line =
-      fmt::format("{:.7f} {:.7f} {:.7f}", pose.root.x(), pose.root.y(), pose.root.z());
+  std::string line;
+  const auto append = [&](const Eigen::Vector3d& v, int digits) {
+    for (const double x : v) line += fmt::format("{}{:.{}f}", line.empty() ? "" : " ", x, digits);
+  };
   for (const std::size_t i : order_) {
+    if (joints_[i].parent < 0 || joints_[i].slides) append(pose.positions[i], 7);
     angles_[i] = zxy_angles(pose.rotations[i], angles_[i]);
-    const Eigen::Vector3d degrees = angles_[i] / kDegree;
-    line += fmt::format(" {:.6f} {:.6f} {:.6f}", degrees.x(), degrees.y(), degrees.z());
+    append(angles_[i] / kDegree, 6);
   }
   write(line + "\n");
   out_.seekp(count_at_);

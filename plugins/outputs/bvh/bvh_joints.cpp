@@ -45,6 +45,9 @@ std::vector<Joint> joints_of(const Scene::Item& item) {
       joint.offset = bind[i].translation();
     joint.model_from_bone = bind[i].linear();
     joint.end = bind[i].linear() * farthest_landmark(data, static_cast<int>(i));
+    joint.slides = std::ranges::any_of(data.motions, [&](const BoneMotion& motion) {
+      return motion.kind == MotionKind::translation && motion.bone == static_cast<int>(i);
+    });
     joints.push_back(std::move(joint));
   }
   return joints;
@@ -55,15 +58,20 @@ Pose pose_of(std::span<const Joint> joints, const Model& model,
   std::vector<Eigen::Isometry3d> world = world_from_bones(model.data(), parameters);
   if (world.size() < joints.size()) world.insert(world.begin(), world_from_model(parameters));
   const Eigen::Matrix3d turned = Eigen::Vector3d(1, -1, -1).asDiagonal();
-  Pose pose{.root = turned * world.front().translation()};
+  Pose pose;
   std::vector<Eigen::Matrix3d> file_from_joint;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     file_from_joint.push_back(turned * world[i].linear() * joints[i].model_from_bone.transpose());
-    const int parent = joints[i].parent;
-    pose.rotations.push_back(parent < 0
-                                 ? file_from_joint[i]
-                                 : file_from_joint[static_cast<std::size_t>(parent)].transpose() *
-                                       file_from_joint[i]);
+    if (joints[i].parent < 0) {
+      pose.positions.emplace_back(turned * world[i].translation());
+      pose.rotations.push_back(file_from_joint[i]);
+      continue;
+    }
+    const auto parent = static_cast<std::size_t>(joints[i].parent);
+    const Eigen::Matrix3d parent_from_file = file_from_joint[parent].transpose();
+    pose.positions.emplace_back(parent_from_file * turned *
+                                (world[i].translation() - world[parent].translation()));
+    pose.rotations.emplace_back(parent_from_file * file_from_joint[i]);
   }
   return pose;
 }

@@ -16,6 +16,7 @@ struct Joint {
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent at rest, metres
   Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< from here to the end site of a leaf
   Eigen::Matrix3d model_from_bone = Eigen::Matrix3d::Identity();  ///< rotation at the bind pose
+  bool slides = false;  ///< a parameter moves it along an axis
 };
 
 /// Returns the joints of a model: its bones and, if several have no parent, a root of the model's
@@ -24,8 +25,8 @@ std::vector<Joint> joints_of(const Scene::Item& item);
 
 /// Pose of the joints in one frame.
 struct Pose {
-  Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< position, metres
-  std::vector<Eigen::Matrix3d> rotations{};        ///< of each joint in its parent
+  std::vector<Eigen::Vector3d> positions{};  ///< of each joint in its parent, metres
+  std::vector<Eigen::Matrix3d> rotations{};  ///< of each joint in its parent
 };
 
 /// Returns the pose of a model's joints in the axes of BVH: x right, y up, z back. The world has y

@@ -1,7 +1,7 @@
 #include "model_node.hpp"
 
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "drawn_mesh.hpp"
 #include "hypotrack/kinematics.hpp"
@@ -60,15 +60,16 @@ void add_channel(GlbFile& file, Json& animation, std::size_t times, std::size_t 
 }  // namespace
 
 /// Takes the one of a rotation's two quaternions that is nearer to the last.
-void ModelNode::Turning::add(const Eigen::Matrix3d& rotation) {
-  Eigen::Vector4f q = quaternion(rotation);
+void ModelNode::Moving::add(const Eigen::Isometry3d& pose) {
+  Eigen::Vector4f q = quaternion(pose.linear());
   if (!rotations.empty() && q.dot(rotations.back()) < 0) q = -q;
   rotations.push_back(q);
+  positions.emplace_back(pose.translation().cast<float>());
 }
 
 ModelNode::ModelNode(GlbFile& file, const Scene::Item& item)
-    : item_(&item), root_(file.add("nodes", {{"name", item.name}})), pose_{root_, {}} {
-  const bool jointed = !item.model->data().rotations.empty();
+    : item_(&item), root_(file.add("nodes", {{"name", item.name}})), pose_{root_} {
+  const bool jointed = !item.model->data().motions.empty();
   if (jointed) add_bones(file);
   add_mesh(file, jointed);
 }
@@ -84,12 +85,11 @@ void ModelNode::add_bones(GlbFile& file) {
         bone.parent < 0 ? root_ : bones_[static_cast<std::size_t>(bone.parent)];
     file.at("nodes", above)["children"].push_back(bones_.back());
   }
-  std::set<int> jointed;
-  for (const BoneRotation& rotation : data.rotations) jointed.insert(rotation.bone);
-  for (const int bone : jointed) {
-    jointed_.push_back(bone);
-    turnings_.push_back({bones_[static_cast<std::size_t>(bone)], {}});
-  }
+  std::map<int, bool> slides;  // by jointed bone
+  for (const BoneMotion& motion : data.motions)
+    slides[motion.bone] |= motion.kind == MotionKind::translation;
+  for (const auto& [bone, its] : slides)
+    jointed_.push_back({bone, its, {bones_[static_cast<std::size_t>(bone)]}});
 }
 
 void ModelNode::add_mesh(GlbFile& file, bool skinned) {
@@ -134,22 +134,25 @@ std::size_t ModelNode::add_skin(GlbFile& file) const {
 void ModelNode::add(std::span<const double> parameters) {
   const ModelData& data = item_->model->data();
   const Eigen::Isometry3d pose = world_from_model(parameters);
-  positions_.emplace_back(pose.translation().cast<float>());
-  pose_.add(pose.linear());
+  pose_.add(pose);
   const std::vector<Eigen::Isometry3d> world = world_from_bones(data, parameters);
-  for (std::size_t i = 0; i < jointed_.size(); ++i) {
-    const auto bone = static_cast<std::size_t>(jointed_[i]);
+  for (Jointed& jointed : jointed_) {
+    const auto bone = static_cast<std::size_t>(jointed.bone);
     const int parent = data.bones[bone].parent;
     const Eigen::Isometry3d& above = parent < 0 ? pose : world[static_cast<std::size_t>(parent)];
-    turnings_[i].add(above.linear().transpose() * world[bone].linear());
+    jointed.moving.add(above.inverse() * world[bone]);
   }
 }
 
 void ModelNode::animate(GlbFile& file, Json& animation, std::size_t times) const {
-  add_channel(file, animation, times, root_, "translation", columns(positions_, 3));
+  add_channel(file, animation, times, root_, "translation", columns(pose_.positions, 3));
   add_channel(file, animation, times, root_, "rotation", columns(pose_.rotations, 4));
-  for (const Turning& turning : turnings_)
-    add_channel(file, animation, times, turning.node, "rotation", columns(turning.rotations, 4));
+  for (const Jointed& jointed : jointed_) {
+    const Moving& moving = jointed.moving;
+    add_channel(file, animation, times, moving.node, "rotation", columns(moving.rotations, 4));
+    if (jointed.slides)
+      add_channel(file, animation, times, moving.node, "translation", columns(moving.positions, 3));
+  }
 }
 
 }  // namespace hypotrack::gltf

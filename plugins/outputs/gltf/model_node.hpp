@@ -24,11 +24,12 @@ class ModelNode {
   void animate(GlbFile& file, Json& animation, std::size_t times) const;
 
  private:
-  /// A node that turns, and its rotations, 4 x frames: x y z w.
-  struct Turning {
+  /// A node that moves, with its rotations (x y z w) and positions, one per frame.
+  struct Moving {
     std::size_t node;
-    std::vector<Eigen::Vector4f> rotations;
-    void add(const Eigen::Matrix3d& rotation);
+    std::vector<Eigen::Vector4f> rotations{};
+    std::vector<Eigen::Vector3f> positions{};
+    void add(const Eigen::Isometry3d& pose);
   };
 
   void add_bones(GlbFile& file);
@@ -38,10 +39,14 @@ class ModelNode {
   const Scene::Item* item_;
   std::size_t root_;
   std::vector<std::size_t> bones_;  ///< nodes of the bones; empty without joints
-  std::vector<Eigen::Vector3f> positions_;
-  Turning pose_;
-  std::vector<int> jointed_;       ///< bones that parameters turn
-  std::vector<Turning> turnings_;  ///< of these
+  Moving pose_;
+  /// A bone that parameters move.
+  struct Jointed {
+    int bone;
+    bool slides;
+    Moving moving;
+  };
+  std::vector<Jointed> jointed_;
 };
 
 }  // namespace hypotrack::gltf

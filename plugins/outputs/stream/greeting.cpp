@@ -10,7 +10,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const char* unit_of(ParameterKind kind) {
-  if (kind == ParameterKind::position) return "m";
+  if (is_in_metres(kind)) return "m";
   return kind == ParameterKind::angle ? "rad" : "1";
 }
 

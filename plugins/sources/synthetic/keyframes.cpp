@@ -23,7 +23,8 @@ struct KeyframeParams {
     v("frame", frame, {.help = "instead of time: number of the frame", .min = 0});
     v("gesture", gesture, {.help = "name of a gesture, or a map of models to gestures"});
     v("pose", pose,
-      {.help = "map of models to position_mm, rotation_deg, quaternion, rotation, angles_deg"});
+      {.help = "map of models to position_mm, rotation_deg, quaternion, rotation, "
+               "angles_deg, lengths_mm"});
     v("hold", hold, {.help = "map of models to the model that holds them from now on"});
     v("release", release, {.help = "models that are no longer held"});
   }
@@ -112,7 +113,8 @@ class KeyframeReader {
       const std::vector<Parameter>& parameters = item.model->data().parameters;
       for (std::size_t i = kPoseSize; i < parameters.size(); ++i) {
         const int index = item.offset + static_cast<int>(i);
-        if (said.get("angles_deg").get(parameters[i].name).defined()) {
+        const char* key = is_in_metres(parameters[i].kind) ? "lengths_mm" : "angles_deg";
+        if (said.get(key).get(parameters[i].name).defined()) {
           keys.numbers[index] = state[index];
         }
       }

@@ -13,6 +13,7 @@
 namespace hypotrack::contract {
 namespace {
 
+constexpr double kTurn = 6.3;              // radians, for joints that turn without end
 constexpr double kVertexTolerance = 1e-5;  // metres; vertices are single precision
 
 /// A posed model: vertices and landmarks, metres.
@@ -54,9 +55,9 @@ std::vector<Eigen::VectorXd> typical_states(const Model& model) {
   std::vector<Eigen::VectorXd> states(3, rest(model));
   for (int i = 0; i < model.dimension(); ++i) {
     const Parameter& parameter = model.data().parameters[i];
-    if (parameter.kind != ParameterKind::angle) continue;
-    states[1][i] = parameter.lower;
-    states[2][i] = parameter.upper;
+    if (!is_joint(parameter.kind)) continue;
+    states[1][i] = std::max(parameter.lower, -kTurn);
+    states[2][i] = std::min(parameter.upper, kTurn);
   }
   const Scene scene({{"it", std::shared_ptr<const Model>(&model, [](const Model*) {})}});
   std::mt19937_64 random(1);
@@ -112,16 +113,17 @@ void check_rotation(const Model& model) {
   }
 }
 
-void check_angles_matter(const Model& model) {
+void check_joints_matter(const Model& model) {
   const Posed resting = pose(model, rest(model));
   for (int i = 0; i < model.dimension(); ++i) {
     const Parameter& parameter = model.data().parameters[i];
-    if (parameter.kind != ParameterKind::angle || parameter.lower == parameter.upper) continue;
+    if (!is_joint(parameter.kind) || parameter.lower == parameter.upper) continue;
     Eigen::VectorXd state = rest(model);
     const bool up = parameter.upper - parameter.rest > parameter.rest - parameter.lower;
-    state[i] = up ? parameter.upper : parameter.lower;
+    const bool endless = std::isinf(parameter.upper);
+    state[i] = endless ? parameter.rest + 1 : up ? parameter.upper : parameter.lower;
     require(distance(pose(model, state), resting) > kVertexTolerance,
-            "the angle '" + parameter.name + "' moves nothing");
+            "the joint '" + parameter.name + "' moves nothing");
   }
 }
 
@@ -217,7 +219,7 @@ void check_model(Report& report, const Subject& subject) {
   report.row("every state within the bounds can be posed", [&] { check_finite(*model); });
   report.row("its position moves it rigidly", [&] { check_translation(*model); });
   report.row("its rotation turns it rigidly about its origin", [&] { check_rotation(*model); });
-  report.row("every angle moves something", [&] { check_angles_matter(*model); });
+  report.row("every joint moves something", [&] { check_joints_matter(*model); });
   report.row("its shape parameters build it", [&] { check_shapes(*model); });
   report.row("it poses itself the same from several threads", [&] { check_self_posing(*model); });
   report.row("a second object is the same", [&] {

@@ -34,14 +34,15 @@ double largest_error(const ModelData& data, const Eigen::VectorXd& state) {
 }
 
 TEST(BonePoser, PosesAsKinematicsDoInSinglePrecisionOnEveryInstructionSet) {
-  const ModelData data = test::make_test_hand();
-  const Scene scene({{"hand", std::make_shared<Model>(data)}});
-  test::on_every_target(compiled_simd_targets(), [&] {
-    std::mt19937_64 random(4);
-    for (int i = 0; i < 50; ++i) {
-      EXPECT_LT(largest_error(data, test::random_state(scene, random)), 1e-6);
-    }
-  });
+  for (const ModelData& data : {test::make_test_hand(), test::make_test_cabinet()}) {
+    const Scene scene({{"it", std::make_shared<Model>(data)}});
+    test::on_every_target(compiled_simd_targets(), [&] {
+      std::mt19937_64 random(4);
+      for (int i = 0; i < 50; ++i) {
+        EXPECT_LT(largest_error(data, test::random_state(scene, random)), 1e-6);
+      }
+    });
+  }
 }
 
 TEST(BonePoser, TurnsByAnyAngle) {

@@ -28,11 +28,12 @@ TEST(MetricsJson, NumbersComeFirstAndNestedTablesLast) {
                 "median_error_mm", "p75_error_mm", "p90_error_mm", "p95_error_mm", "max_error_mm",
                 "auc_20_50", "success_5mm", "success_10mm", "success_20mm", "success_30mm",
                 "success_40mm", "success_50mm", "lost_frames", "lost_share", "time_to_loss_s",
-                "frames_to_loss", "jitter_mm", "tracked_frames", "uncertain_frames",
-                "said_lost_frames", "absent_frames", "tracked_share", "uncertain_share",
-                "absent_share", "false_tracked_share", "right_tracked_share",
-                "absent_tracked_share", "returns", "recovered_2_share", "recovered_10_share",
-                "frames_to_recovery", "lost_sigma_min_mm", "models", "landmarks", "success_curve"));
+                "frames_to_loss", "jitter_mm", "found_share", "search_failed_share",
+                "objective_failed_share", "tracked_frames", "uncertain_frames", "said_lost_frames",
+                "absent_frames", "tracked_share", "uncertain_share", "absent_share",
+                "false_tracked_share", "right_tracked_share", "absent_tracked_share", "returns",
+                "recovered_2_share", "recovered_10_share", "frames_to_recovery",
+                "lost_sigma_min_mm", "models", "landmarks", "success_curve"));
 }
 
 TEST(MetricsJson, WhatIsUnknownIsNull) {

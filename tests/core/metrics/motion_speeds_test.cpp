@@ -61,6 +61,24 @@ TEST(MotionSpeeds, FindsThePeaksAndMeansOfEveryModel) {
   EXPECT_EQ(speeds[1].fastest_joint, "");
 }
 
+TEST(MotionSpeeds, TellsJointsThatSlideFromThoseThatTurn) {
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  std::vector<StateRow> rows(2, StateRow{0, 0, scene.rest_state()});
+  rows[1].frame = 1;
+  rows[1].state[7] += 0.03;
+  rows[1].state[9] += 12 * kDegree;
+  const auto speeds = motion_speeds(scene, rows);
+  EXPECT_EQ(speeds[0].fastest_slide, "drawer");
+  EXPECT_NEAR(speeds[0].slides.peak, 0.03, 1e-12);
+  EXPECT_EQ(speeds[0].fastest_joint, "knob");
+  EXPECT_NEAR(speeds[0].joints.peak, 12 * kDegree, 1e-12);
+  EXPECT_THAT(
+      motion_text(speeds),
+      testing::HasSubstr("joints 12.0 deg (knob, frame 1), joints 30.0 mm (drawer, frame 1)"));
+  const auto json = nlohmann::json::parse(motion_json(speeds));
+  EXPECT_EQ(json["models"]["cabinet"]["joint_mm_per_frame"]["joint"], "drawer");
+}
+
 TEST(MotionSpeeds, DoesNotCountOverMissingFrames) {
   const Scene scene = hand_and_box();
   auto states = some_states(scene);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/shape.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -25,7 +26,7 @@ ModelData two_link_arm() {
   data.parameters = pose_parameters();
   data.parameters.push_back({"shoulder", ParameterKind::angle, -4, 4, 0});
   data.parameters.push_back({"elbow", ParameterKind::angle, -4, 4, 0});
-  data.rotations = {{0, 7, Eigen::Vector3d::UnitX(), 0, 1}, {1, 8, Eigen::Vector3d::UnitX(), 0, 1}};
+  data.motions = {{0, 7, Eigen::Vector3d::UnitX(), 0, 1}, {1, 8, Eigen::Vector3d::UnitX(), 0, 1}};
   data.landmarks = {{"elbow", 1, Eigen::Vector3d::Zero()}, {"hand", 1, {0, 3, 0}}};
   data.mesh.vertices.resize(3, 3);
   data.mesh.vertices << 0, 0, 1, 2, 6, 6, 0, 0, 0;  // columns: (0 2 0), (0 6 0), (1 6 0)
@@ -100,8 +101,8 @@ TEST(ForwardKinematics, ChainsTheRotationsOfParentsAndChildren) {
 
 TEST(ForwardKinematics, AppliesZeroAndScaleOfARotation) {
   ModelData data = two_link_arm();
-  data.rotations[0].zero = 0.25;
-  data.rotations[0].scale = -2;
+  data.motions[0].zero = 0.25;
+  data.motions[0].scale = -2;
   const Model arm(data);
   // -2 * (0.25 + pi/4 - 0.25) = -pi/2: +y goes to -z.
   const Eigen::Matrix3Xd landmarks = posed_landmarks(arm, pose({0.25 + kPi / 4, 0}));
@@ -110,11 +111,45 @@ TEST(ForwardKinematics, AppliesZeroAndScaleOfARotation) {
 
 TEST(ForwardKinematics, TurnsLaterRotationsOfABoneInTheFrameOfTheEarlier) {
   ModelData data = two_link_arm();
-  data.rotations[1] = {0, 8, Eigen::Vector3d::UnitZ(), 0, 1};  // the same bone, x then z
+  data.motions[1] = {0, 8, Eigen::Vector3d::UnitZ(), 0, 1};  // the same bone, x then z
   const Model arm(data);
   // R_x(90) R_z(90) y = R_x(90) (-x) = -x. The other order would give R_z(90) z = z.
   const Eigen::Matrix3Xd landmarks = posed_landmarks(arm, pose({kPi / 2, kPi / 2}));
   expect_near(landmarks.col(0), {-2, 1, 0});
+}
+
+TEST(ForwardKinematics, SlidesABoneAlongAnAxisOfItsOwnFrame) {
+  ModelData data = two_link_arm();
+  data.parameters[8] = {"reach", ParameterKind::length, -1, 1, 0};
+  data.motions[1] = {1, 8, Eigen::Vector3d::UnitY(), 0.25, 2, MotionKind::translation};
+  const Model arm(data);
+  // The shoulder turns +y to +z; the lower bone begins 2 * (0.5 - 0.25) m farther along that.
+  const Eigen::Matrix3Xd landmarks = posed_landmarks(arm, pose({kPi / 2, 0.5}));
+  expect_near(landmarks.col(0), {0, 1, 2.5});
+  expect_near(landmarks.col(1), {0, 1, 5.5});
+}
+
+TEST(ForwardKinematics, AParameterMovesSeveralBonesByMultiplesAndOffsets) {
+  ModelData data = two_link_arm();
+  data.parameters.pop_back();
+  data.motions[1] = {1, 7, Eigen::Vector3d::UnitX(), kPi / 4, -1};  // pi / 4 minus the shoulder
+  const Model arm(data);
+  const Eigen::Matrix3Xd landmarks = posed_landmarks(arm, pose({kPi / 2}));
+  // The shoulder turns +y to +z, the elbow by -pi / 4 back between them.
+  expect_near(landmarks.col(0), {0, 1, 2});
+  expect_near(landmarks.col(1), {0, 1 + 3 * std::sqrt(0.5), 2 + 3 * std::sqrt(0.5)});
+}
+
+TEST(ScaledModel, SlidesFartherWithTheSameParameters) {
+  const ModelData cabinet = test::make_test_cabinet();
+  ModelData large = cabinet;
+  scale_model(large, 3);
+  ModelData stretched = cabinet;
+  stretch_bones(stretched, std::vector(cabinet.bones.size(), BoneStretch{{3, 3, 3}, false}));
+  const std::vector<double> parameters = {0, 0, 0, 1, 0, 0, 0, 0.05, 0.7, 2};
+  const Eigen::Matrix3Xd expected = 3 * posed_landmarks(Model(cabinet), parameters);
+  EXPECT_TRUE(posed_landmarks(Model(large), parameters).isApprox(expected, 1e-12));
+  EXPECT_TRUE(posed_landmarks(Model(stretched), parameters).isApprox(expected, 1e-12));
 }
 
 TEST(Skinning, KeepsTheBindPoseWhereEveryAngleIsZero) {

@@ -34,20 +34,22 @@ std::span<const double> span(const Eigen::VectorXd& v) {
 }
 
 TEST(Mirrored, PosesToTheMirrorImageForAnyParameters) {
-  const auto right = std::make_shared<const Model>(test::make_test_hand());
-  const Model left(mirrored(right->data()));
-  const Scene scene({{"hand", right}});
-  std::mt19937_64 random(1);
-  for (int i = 0; i < 20; ++i) {
-    const Eigen::VectorXd state = test::random_state(scene, random);
-    const Eigen::VectorXd reflected = mirrored_root(state);
-    const Eigen::Matrix3Xf vertices = posed_vertices(left, span(reflected));
-    Eigen::Matrix3Xf expected = posed_vertices(*right, span(state));
-    expected.row(0) *= -1;
-    EXPECT_LT((vertices - expected).cwiseAbs().maxCoeff(), 1e-6f);
-    const Eigen::Matrix3Xd landmarks = posed_landmarks(left, span(reflected));
-    EXPECT_LT((landmarks - kMirror * posed_landmarks(*right, span(state))).cwiseAbs().maxCoeff(),
-              1e-12);
+  for (const ModelData& data : {test::make_test_hand(), test::make_test_cabinet()}) {
+    const auto right = std::make_shared<const Model>(data);
+    const Model left(mirrored(right->data()));
+    const Scene scene({{"it", right}});
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::VectorXd state = test::random_state(scene, random);
+      const Eigen::VectorXd reflected = mirrored_root(state);
+      const Eigen::Matrix3Xf vertices = posed_vertices(left, span(reflected));
+      Eigen::Matrix3Xf expected = posed_vertices(*right, span(state));
+      expected.row(0) *= -1;
+      EXPECT_LT((vertices - expected).cwiseAbs().maxCoeff(), 1e-6f);
+      const Eigen::Matrix3Xd landmarks = posed_landmarks(left, span(reflected));
+      EXPECT_LT((landmarks - kMirror * posed_landmarks(*right, span(state))).cwiseAbs().maxCoeff(),
+                1e-12);
+    }
   }
 }
 
@@ -84,8 +86,8 @@ TEST(Mirrored, TwiceIsTheModelItself) {
   const ModelData twice = mirrored(mirrored(once));
   EXPECT_EQ(twice.mesh.vertices, once.mesh.vertices);
   EXPECT_EQ(twice.mesh.triangles, once.mesh.triangles);
-  for (std::size_t i = 0; i < once.rotations.size(); ++i) {
-    EXPECT_EQ(twice.rotations[i].axis, once.rotations[i].axis);
+  for (std::size_t i = 0; i < once.motions.size(); ++i) {
+    EXPECT_EQ(twice.motions[i].axis, once.motions[i].axis);
   }
 }
 

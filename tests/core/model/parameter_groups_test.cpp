@@ -36,7 +36,7 @@ TEST(ParameterGroups, AChainEndsWhereTheSkeletonForksAndRigidBonesAreNoJoints) {
   ModelData data = with_angles(5);
   data.bones = {{"shoulder", -1}, {"sleeve", 0}, {"elbow", 1}, {"palm", 2},
                 {"index", 3},     {"tip", 4},    {"thumb", 3}};
-  data.rotations = {{0, 7}, {2, 8}, {4, 9}, {5, 10}, {6, 11}};
+  data.motions = {{0, 7}, {2, 8}, {4, 9}, {5, 10}, {6, 11}};
   EXPECT_THAT(parameter_groups(data),
               ElementsAre(kPose, ElementsAre(7, 8), ElementsAre(9, 10), ElementsAre(11)));
 }
@@ -44,15 +44,20 @@ TEST(ParameterGroups, AChainEndsWhereTheSkeletonForksAndRigidBonesAreNoJoints) {
 TEST(ParameterGroups, AParameterOfSeveralLimbsMakesOneOfThem) {
   ModelData data = with_angles(3);
   data.bones = {{"palm", -1}, {"ring", 0}, {"index", 0}, {"little", 0}};
-  data.rotations = {{1, 7}, {2, 8}, {3, 9}, {1, 9}};
+  data.motions = {{1, 7}, {2, 8}, {3, 9}, {1, 9}};
   EXPECT_THAT(parameter_groups(data), ElementsAre(kPose, ElementsAre(7, 9), ElementsAre(8)));
 }
 
 TEST(ParameterGroups, AParameterThatTurnsNothingIsAlone) {
   ModelData data = with_angles(2);
   data.bones = {{"palm", -1}, {"index", 0}};
-  data.rotations = {{1, 8}};
+  data.motions = {{1, 8}};
   EXPECT_THAT(parameter_groups(data), ElementsAre(kPose, ElementsAre(7), ElementsAre(8)));
+}
+
+TEST(ParameterGroups, JointsThatSlideAreNoPartOfThePose) {
+  EXPECT_THAT(parameter_groups(test::make_test_cabinet()),
+              ElementsAre(kPose, ElementsAre(7), ElementsAre(8), ElementsAre(9)));
 }
 
 }  // namespace

@@ -10,11 +10,12 @@
 namespace hypotrack {
 namespace {
 
-Scene two_hands_and_a_box() {
+Scene two_hands_a_box_and_a_cabinet() {
   const ModelData hand = test::make_test_hand();
   return Scene{{{"right", std::make_shared<Model>(hand)},
                 {"box", std::make_shared<Model>(test::make_test_box())},
-                {"left", std::make_shared<Model>(mirrored(hand))}}};
+                {"left", std::make_shared<Model>(mirrored(hand))},
+                {"cabinet", std::make_shared<Model>(test::make_test_cabinet())}}};
 }
 
 Eigen::Matrix<float, 3, 4> matrix(const Placement& placement) {
@@ -22,7 +23,7 @@ Eigen::Matrix<float, 3, 4> matrix(const Placement& placement) {
 }
 
 TEST(Skeleton, PosesTheBonesOfAllModelsAsKinematicsDo) {
-  const Scene scene = two_hands_and_a_box();
+  const Scene scene = two_hands_a_box_and_a_cabinet();
   const Skeleton skeleton(scene);
   std::mt19937_64 random(11);
   std::vector<Placement> bones(skeleton.bones.size());
@@ -42,10 +43,10 @@ TEST(Skeleton, PosesTheBonesOfAllModelsAsKinematicsDo) {
 }
 
 TEST(Skeleton, SaysHowDeepBonesLie) {
-  const Scene scene = two_hands_and_a_box();
+  const Scene scene = two_hands_a_box_and_a_cabinet();
   const Skeleton skeleton(scene);
   const SkeletonLayout layout = skeleton.layout();
-  EXPECT_EQ(layout.bone_count, 21 + 1 + 21);
+  EXPECT_EQ(layout.bone_count, 21 + 1 + 21 + 6);
   std::int32_t deepest = 0;
   for (std::int32_t b = 0; b < layout.bone_count; ++b) {
     const std::int32_t parent = layout.bones[b].parent;

@@ -130,7 +130,7 @@ TEST(Validate, Parameters) {
               "hand.glb: parameter " + std::to_string(i) + " ('" +
                   test::make_test_hand().parameters[i].name +
                   "') is of the wrong kind: a model's parameters are 3 of a position, 4 of a "
-                  "quaternion, then angles");
+                  "quaternion, then angles and lengths");
   }
   EXPECT_EQ(
       message([](ModelData& d) { d.parameters[8].lower = 2; }),
@@ -140,7 +140,13 @@ TEST(Validate, Parameters) {
             "hand.glb: parameter 'thumb_flexion_1' has the lower bound nan and the upper bound 1: "
             "the wrong way round or NaN");
   EXPECT_EQ(message([](ModelData& d) { d.parameters[8].upper = kInfinity; }),
-            "hand.glb: parameter 'thumb_flexion_1' is an angle with an infinite bound");
+            "hand.glb: parameter 'thumb_flexion_1' is an angle with one infinite bound: give both, "
+            "or none");
+  EXPECT_EQ(message([](ModelData& d) {
+              d.parameters[8].kind = ParameterKind::length;
+              d.parameters[8].upper = kInfinity;
+            }),
+            "hand.glb: parameter 'thumb_flexion_1' is a length with an infinite bound");
   EXPECT_EQ(message([](ModelData& d) { d.parameters[8].rest = 1.25; }),
             "hand.glb: parameter 'thumb_flexion_1' has the rest value 1.25, expected a number from "
             "-0.2 to 1");
@@ -149,26 +155,26 @@ TEST(Validate, Parameters) {
             "to inf");
 }
 
-TEST(Validate, Rotations) {
-  EXPECT_EQ(message([](ModelData& d) { d.rotations[3].bone = 21; }),
-            "hand.glb: rotation 3 refers to bone 21, expected 0 to 20");
+TEST(Validate, Motions) {
+  EXPECT_EQ(message([](ModelData& d) { d.motions[3].bone = 21; }),
+            "hand.glb: motion 3 refers to bone 21, expected 0 to 20");
   for (const int parameter : {6, 27}) {
-    EXPECT_EQ(message([&](ModelData& d) { d.rotations[3].parameter = parameter; }),
-              "hand.glb: rotation 3 refers to parameter " + std::to_string(parameter) +
-                  ", expected an angle (7 to 26)");
+    EXPECT_EQ(message([&](ModelData& d) { d.motions[3].parameter = parameter; }),
+              "hand.glb: motion 3 refers to parameter " + std::to_string(parameter) +
+                  ", expected a joint (7 to 26)");
   }
   EXPECT_EQ(message([](ModelData& d) {
-              d.rotations[3].axis = {0, 0, 2};
+              d.motions[3].axis = {0, 0, 2};
             }),
-            "hand.glb: rotation 3 has an axis of length 2, expected 1");
+            "hand.glb: motion 3 has an axis of length 2, expected 1");
   EXPECT_EQ(message([](ModelData& d) {
-              d.rotations[3].axis = {0, 0, kNan};
+              d.motions[3].axis = {0, 0, kNan};
             }),
-            "hand.glb: rotation 3 has an axis of length nan, expected 1");
-  EXPECT_EQ(message([](ModelData& d) { d.rotations[3].scale = kInfinity; }),
-            "hand.glb: rotation 3 has a zero or a scale that is NaN or infinite");
-  EXPECT_EQ(message([](ModelData& d) { d.rotations[3].zero = kNan; }),
-            "hand.glb: rotation 3 has a zero or a scale that is NaN or infinite");
+            "hand.glb: motion 3 has an axis of length nan, expected 1");
+  EXPECT_EQ(message([](ModelData& d) { d.motions[3].scale = kInfinity; }),
+            "hand.glb: motion 3 has a zero or a scale that is NaN or infinite");
+  EXPECT_EQ(message([](ModelData& d) { d.motions[3].zero = kNan; }),
+            "hand.glb: motion 3 has a zero or a scale that is NaN or infinite");
 }
 
 TEST(Validate, NamesFitIntoTheHeaderOfATable) {

@@ -9,6 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/pose.hpp"
 #include "hypotrack/tables.hpp"
 #include "session/opened_scene.hpp"
 #include "test_models.hpp"
@@ -56,6 +57,31 @@ TEST(InitialState, IsTheRestStateChangedByThePose) {
   EXPECT_NEAR(state[0], 0.010, 1e-12);
   EXPECT_NEAR(state[2], 0.500, 1e-12);
   EXPECT_EQ(state[3], 1);
+}
+
+TEST(InitialState, HasJointsOfAllKindsAsThePoseSaysAndWritesThem) {
+  OpenedScene session = session_of("cabinet", test::make_test_cabinet());
+  session.init.pose = ConfigNode::parse(
+      "{cabinet: {angles_deg: {door: 30, knob: -400}, lengths_mm: {drawer: 12.5}}}", "test");
+  const Eigen::VectorXd state = initial_state(session, {});
+  EXPECT_NEAR(state[7], 0.0125, 1e-12);
+  EXPECT_NEAR(state[8], 30 * kDegree, 1e-12);
+  EXPECT_NEAR(state[9], -400 * kDegree, 1e-12);
+  const std::string yaml = pose_yaml(*session.scene, state, {true});
+  EXPECT_THAT(yaml, HasSubstr("  angles_deg:\n    door: 30\n    knob: -400\n  lengths_mm:\n"
+                              "    drawer: 12.5\n"));
+  EXPECT_TRUE(
+      read_pose(ConfigNode::parse(yaml, "test"), *session.scene, session.scene->rest_state())
+          .isApprox(state, 1e-6));
+  const auto message = [&](const std::string& pose) {
+    session.init.pose = ConfigNode::parse("{cabinet: {" + pose + "}}", "test");
+    return message_of(session, {});
+  };
+  EXPECT_THAT(message("lengths_mm: {drawer: 81}"), HasSubstr("80"));
+  EXPECT_THAT(message("lengths_mm: {door: 1}"),
+              HasSubstr("lengths_mm.door: unknown key. Allowed: drawer"));
+  EXPECT_THAT(message("angles_deg: {drawer: 1}"),
+              HasSubstr("angles_deg.drawer: unknown key. Allowed: door, knob"));
 }
 
 TEST(InitialState, RefusesAPoseThatIsNone) {

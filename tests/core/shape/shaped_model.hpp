@@ -26,7 +26,7 @@ class ShapedHand final : public Model {
   static ModelData built(const std::vector<double>& values) {
     ModelData data = make_test_hand();
     std::vector<BoneStretch> stretches(data.bones.size());
-    for (const BoneRotation& r : data.rotations) {
+    for (const BoneMotion& r : data.motions) {
       const Parameter& p = data.parameters[static_cast<std::size_t>(r.parameter)];
       if (p.name.starts_with("index_"))
         stretches[static_cast<std::size_t>(r.bone)].factors = {1, values[1], 1};

@@ -45,6 +45,17 @@ TEST(SearchSpace, SpreadsAreThoseOfTheParameterKinds) {
   EXPECT_DOUBLE_EQ(region.spread[27], 0.040);
 }
 
+TEST(SearchSpace, JointsThatSlideSpreadAndReachAsPositionsDo) {
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  const SearchSpace space(scene, {});
+  EXPECT_DOUBLE_EQ(space.region(scene.rest_state()).spread[7], 0.040);
+  EXPECT_DOUBLE_EQ(space.region(scene.rest_state()).spread[8], 10 * kDegree);
+  const SearchRegion near = space.region(scene.rest_state(), Reach{0.02, 1, 1});
+  EXPECT_DOUBLE_EQ(near.lower[7], -0.01);
+  EXPECT_DOUBLE_EQ(near.upper[7], 0.02);
+  EXPECT_DOUBLE_EQ(near.lower[9], -1) << "a joint that turns without end";
+}
+
 TEST(SearchSpace, BoundsAreTheModelsOwn) {
   const Scene scene = hand_and_box();
   const SearchRegion region = SearchSpace(scene, {}).region(scene.rest_state());

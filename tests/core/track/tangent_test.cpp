@@ -78,5 +78,17 @@ TEST(Tangent, PartsCoverEveryNumberOnce) {
   EXPECT_EQ(kinds, (std::vector{position, quaternion, angle, position, quaternion}));
 }
 
+TEST(Tangent, PartsTellAnglesFromLengths) {
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  const std::vector<TangentPart> parts = tangent_parts(scene);
+  ASSERT_EQ(parts.size(), 4U);
+  EXPECT_EQ(parts[2].kind, ParameterKind::length);
+  EXPECT_EQ(parts[2].first, 6);
+  EXPECT_EQ(parts[2].size, 1);
+  EXPECT_EQ(parts[3].kind, ParameterKind::angle);
+  EXPECT_EQ(parts[3].first, 7);
+  EXPECT_EQ(parts[3].size, 2);
+}
+
 }  // namespace
 }  // namespace hypotrack

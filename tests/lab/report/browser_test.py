@@ -121,7 +121,9 @@ class ReportTest(unittest.TestCase):
               return [chart.id, chart.querySelectorAll('.mark-line path, .mark-rect path').length];
             });""")
         self.assertEqual([name for name, _ in charts],
-                         ["plot-1-curve", "plot-2-success", "plot-3-heatmap", "plot-4-bars"])
+                         ["plot-1-curve", "plot-2-success", "plot-3-heatmap", "plot-4-bars",
+                          "plot-5-convergence", "plot-6-targets", "plot-7-performance_profile",
+                          "plot-8-data_profile", "plot-9-expected_running_time"])
         for name, marks in charts:
             self.assertGreaterEqual(marks, 4, name)
         self.assertEqual(len(self.find(".table")), 3)

@@ -105,6 +105,18 @@ std::string errors_csv(const Scene& scene, const Noisy& noisy) {
   return text;
 }
 
+/// Searches of eight generations whose costs fall towards that of the truth, -1, and end above it
+/// by about a per cent per millimetre of error.
+std::string trace_csv(const Noisy& noisy, int generation) {
+  std::string text =
+      "frame,search,dimension,evaluations,cost,truth_cost,cpu_seconds,wall_seconds\n";
+  for (std::size_t i = 0; i < noisy.tracked.size(); ++i)
+    for (int k = 1; k <= 8; ++k)
+      text += fmt::format("{},0,7,{},{},-1,{},{}\n", noisy.tracked[i].frame, generation * k,
+                          -1 + 0.01 * noisy.errors_mm[i] + std::exp(-k), 0.01 * k, 0.005 * k);
+  return text;
+}
+
 Json metrics_json(const Scene& scene, std::vector<double> errors) {
   std::sort(errors.begin(), errors.end());
   const auto n = static_cast<double>(errors.size());
@@ -165,6 +177,7 @@ void write_run(const fs::path& directory, const RunFixture& run) {
     write_text(directory / "errors.csv", errors_csv(scene, noisy));
     write_text(directory / "metrics.json", metrics_json(scene, noisy.errors_mm).dump(1));
   }
+  if (run.trace) write_text(directory / "trace.csv", trace_csv(noisy, run.generation));
   write_pictures(directory, run.worst);
 }
 
@@ -192,6 +205,8 @@ void write_study(const fs::path& directory, const StudyFixture& study) {
         for (int seed = 1; seed <= study.seeds; ++seed) {
           RunFixture run = study.run;
           run.seed = static_cast<unsigned>(++number);
+          run.trace = study.trace;
+          run.generation = particles;
           run.error_mm *= std::sqrt(1024.0 / (particles * generations)) *
                           (scene == "rgbd" ? study.scene_gain : 1);
           last = directory / "runs" /

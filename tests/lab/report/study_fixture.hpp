@@ -16,7 +16,9 @@ struct RunFixture {
   int lost_from = -1;  ///< first frame of a loss; -1: never lost
   bool truth_states = true;
   bool truth_landmarks = true;
-  int worst = 1;  ///< pictures
+  int worst = 1;        ///< pictures
+  bool trace = false;   ///< whether there is a trace.csv
+  int generation = 16;  ///< evaluations between its rows
 };
 
 /// Writes a run folder whose tracked states lie about the true ones.
@@ -29,6 +31,7 @@ struct StudyFixture {
   std::vector<int> particles{16, 32};
   std::vector<int> generations{16, 64};
   std::string title = "Error over the budget";
+  bool trace = false;                ///< of all runs
   std::string plots = {};            ///< YAML of the list; empty: none
   std::string failure_message = {};  ///< not empty: the last run failed with it
   double scene_gain = 0.8;           ///< error of the second scene relative to the first

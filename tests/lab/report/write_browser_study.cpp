@@ -25,7 +25,13 @@ int main(int argc, char** argv) {
       "  - {kind: success, color: optimizer.particles, facet: scene}\n"
       "  - {kind: heatmap, x: optimizer.particles, y: optimizer.generations, "
       "value: mean_error_mm, facet: scene}\n"
-      "  - {kind: bars, x: scene, y: mean_error_mm, color: optimizer.particles}\n";
+      "  - {kind: bars, x: scene, y: mean_error_mm, color: optimizer.particles}\n"
+      "  - {kind: convergence, color: optimizer.particles, facet: scene}\n"
+      "  - {kind: targets, color: optimizer.particles}\n"
+      "  - {kind: performance_profile, color: optimizer.particles}\n"
+      "  - {kind: data_profile, color: optimizer.particles}\n"
+      "  - {kind: expected_running_time, color: optimizer.particles, facet: scene}\n";
+  study.trace = true;
   study.particles = {16, 32, 64};
   try {
     hypotrack::test::write_study(argv[1], study);

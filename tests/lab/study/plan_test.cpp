@@ -79,6 +79,7 @@ TEST_F(PlanTest, WhateverDecidesTheResultChangesTheId) {
   EXPECT_TRUE(differ(ids_with("tile.padding: 0.1", "tile.padding: 0.2")));
   EXPECT_TRUE(differ(ids_with("[8, 16]", "[9, 17]")));
   EXPECT_TRUE(differ(ids_with("frames: 5", "frames: 5\nrecordings: true")));
+  EXPECT_TRUE(differ(ids_with("frames: 5", "frames: 5\ntrace: true")));
   write("box.yaml", "models: [another]\n");
   write("hand.yaml", "models: [another]\n");
   EXPECT_TRUE(differ(ids(plan(small_study()))));

@@ -143,6 +143,26 @@ TEST_F(StudyFileTest, PlotsAreDrawnOverWhatVaries) {
   EXPECT_THAT(complaint("kind: curve", "kind: heatmap"), HasSubstr("is nothing that varies"));
 }
 
+TEST_F(StudyFileTest, PlotsOfTracesNeedTraces) {
+  const char* kPlots = "kind: curve, x: optimizer.particles, y: mean_error_mm";
+  EXPECT_THAT(complaint(kPlots, "kind: convergence"),
+              HasSubstr("a plot of kind convergence needs `trace: true` in the study"));
+  const auto traced = [&](const std::string& plot) {
+    std::string text = small_study();
+    text.replace(text.find(kPlots), std::string(kPlots).size(), plot);
+    return text + "trace: true\ntolerances: [0.1, 0.01]\n";
+  };
+  const study::Study study = load(traced("kind: convergence"));
+  EXPECT_TRUE(study.trace);
+  EXPECT_THAT(study.tolerances, ElementsAre(0.1, 0.01));
+  EXPECT_EQ(load(traced("kind: targets, x: cpu_seconds")).plots[0].x, "cpu_seconds");
+  EXPECT_THAT(message_of<ConfigError>([&] { load(traced("kind: targets, x: cpu_second")); }),
+              HasSubstr("'cpu_second' is nothing that a search spends; did you mean "
+                        "'cpu_seconds'?"));
+  write("resolved.yaml", to_yaml(study));
+  EXPECT_EQ(to_yaml(study::load_study(path("resolved.yaml"))), to_yaml(study));
+}
+
 TEST_F(StudyFileTest, PlotsAreOfMetrics) {
   const auto refused = [](const char* name) {
     return AllOf(HasSubstr("study.yaml:15:"),

@@ -135,7 +135,7 @@ TEST_P(RiggedHand, ThumbFlexesAcrossThePalmAndAbductsOutOfIt) {
 }
 
 TEST_P(RiggedHand, RestIsWithinTheBoundsAndSoIsTheBindPoseByAFewDegrees) {
-  for (const BoneRotation& rotation : model_->data().rotations) {
+  for (const BoneMotion& rotation : model_->data().motions) {
     const Parameter& p = model_->data().parameters[static_cast<std::size_t>(rotation.parameter)];
     EXPECT_LE(p.lower, p.rest) << p.name;
     EXPECT_GE(p.upper, p.rest) << p.name;

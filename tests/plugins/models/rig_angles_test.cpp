@@ -36,7 +36,7 @@ Vector3d landmark(const ModelData& data, const std::string& name, const Degrees&
 }
 
 double bind_deg(const ModelData& data, const std::string& name) {
-  for (const BoneRotation& rotation : data.rotations) {
+  for (const BoneMotion& rotation : data.motions) {
     if (data.parameters[static_cast<std::size_t>(rotation.parameter)].name == name) {
       return rotation.zero / kDegree;
     }

@@ -54,6 +54,12 @@ TEST(Bvh, JointsAreWhereTheBonesOfRealHandsAndABoxAre) {
   expect_motion(run, *scene, test::random_solutions(*scene, 8));
 }
 
+TEST(Bvh, JointsOfAllKindsAreWhereTheBonesAre) {
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  test::OutputRun run(scene);
+  expect_motion(run, scene, test::random_solutions(scene, 8));
+}
+
 TEST(Bvh, EndsOfFingersAreWhereTheLandmarksAre) {
   const auto scene = test::make_scene({{"hand", "type: hand"}});
   test::OutputRun run(*scene);

@@ -87,6 +87,19 @@ TEST(Gltf, VerticesAreWhereThoseOfThePosedModelsAre) {
           << item.name << ", frame " << solution.frame;
 }
 
+TEST(Gltf, VerticesFollowJointsOfAllKinds) {
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  test::OutputRun run(scene);
+  const std::vector<Solution> solutions = test::random_solutions(scene, 5);
+  run.play("type: gltf", solutions);
+  const ImportedMotion motion(run.file("track.glb"));
+  for (const Solution& solution : solutions)
+    EXPECT_LT(error_of(motion, scene.items()[0], solution.time * motion.ticks_per_second(),
+                       scene.part(scene.items()[0], solution.state)),
+              1e-4)
+        << "frame " << solution.frame;
+}
+
 TEST(Gltf, FilesSayHowLongTheirPartsAre) {
   const auto scene = test::make_scene({{"box", "{type: rigid_box, size_mm: [60, 90, 40]}"}});
   test::OutputRun run(*scene);

@@ -8,7 +8,7 @@ using testing::HasSubstr;
 using LabAbsentTest = AppTest;
 
 TEST_F(LabAbsentTest, CommandsOfTheLabSayWhatIsMissingAndWhatToInstall) {
-  for (const std::string command : {"compare", "bench", "reliability", "report"}) {
+  for (const std::string command : {"compare", "bench", "landscape", "reliability", "report"}) {
     const Outcome outcome = run_program({command, "study.yaml", "--out", path("out").string()});
     expect_refusal(outcome, {"`hypotrack " + command + "` is not in this program, because ",
                              "install libboost-dev, libjs-three, libjs-vega and libcpp-httplib-dev",

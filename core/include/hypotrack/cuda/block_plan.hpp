@@ -15,7 +15,7 @@ struct PoseMemory {
   int drawable;  ///< per model 0, or NaN if it cannot be drawn
   int locals;    ///< a 3x4 matrix per bone: parent_from_bone
   int bones;     ///< a 3x4 matrix per bone: first camera from the bind pose's vertices
-  int model_layouts, bone_layouts, turns;  ///< of the scene
+  int model_layouts, bone_layouts, motions;  ///< of the scene
 };
 
 /// Numbers that a particle stores per dimension, in double precision.
@@ -104,7 +104,7 @@ inline PoseMemory lay_out_pose(const SceneLayout& scene, int& end) {
   pose.bones = take(12 * scene.bone_count);
   pose.model_layouts = take_items(sizeof(ModelLayout), scene.model_count);
   pose.bone_layouts = take_items(sizeof(BoneLayout), scene.bone_count);
-  pose.turns = take_items(sizeof(Turn), scene.turn_count);
+  pose.motions = take_items(sizeof(JointMotion), scene.motion_count);
   return pose;
 }
 

@@ -61,7 +61,7 @@ class BlockEvaluation {
     staging.add(frame, 1, &state_.frame);
     staging.add(scene_.models, scene_.model_count, shared_floats() + plan_.pose.model_layouts);
     staging.add(scene_.bones, scene_.bone_count, shared_floats() + plan_.pose.bone_layouts);
-    staging.add(scene_.turns, scene_.turn_count, shared_floats() + plan_.pose.turns);
+    staging.add(scene_.motions, scene_.motion_count, shared_floats() + plan_.pose.motions);
     if (plan_.stages_vertices) {
       staging.add(scene_.vertices, scene_.vertex_count, shared_floats() + plan_.staged_vertices);
     }

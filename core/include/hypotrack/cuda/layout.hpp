@@ -11,20 +11,21 @@ namespace hypotrack::cuda {
 inline constexpr int kMaxViews = 4;
 inline constexpr int kMostBands = 16;  ///< most thread blocks that share a hypothesis
 
-/// The rotation of a bone by a parameter (BoneRotation).
-struct Turn {
+/// The motion of a bone by a parameter (BoneMotion).
+struct JointMotion {
   float axis[3];
   float scale;
   float zero;
   std::int32_t parameter;  ///< index into the scene's state
+  std::int32_t slides;     ///< 1: a translation along the axis; 0: a rotation about it
 };
 
 /// A bone of a scene.
 struct BoneLayout {
   std::int32_t parent;  ///< index into the scene's bones; -1 = its model's pose
   std::int32_t model;
-  std::int32_t first_turn;  ///< its turns follow in the order in which they apply
-  std::int32_t turn_count;
+  std::int32_t first_motion;  ///< its motions follow in the order in which they apply
+  std::int32_t motion_count;
   float parent_from_bone[12];  ///< at the bind pose
   float bone_from_model[12];   ///< at the bind pose
 };
@@ -54,12 +55,12 @@ struct SceneLayout {
   std::int32_t dimension;  ///< of the state
   std::int32_t model_count;
   std::int32_t bone_count;
-  std::int32_t turn_count;
+  std::int32_t motion_count;
   std::int32_t vertex_count;
   std::int32_t triangle_count;
   const ModelLayout* models;
   const BoneLayout* bones;
-  const Turn* turns;
+  const JointMotion* motions;
   const VertexLayout* vertices;
   const PackedTriangle* triangles;
 };

@@ -154,9 +154,9 @@ __device__ __forceinline__ void sine_and_cosine(float angle, float& sine, float&
 }
 
 /// Rotates the frame of a transform about a unit axis; computes one row.
-__device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float value) {
+__device__ __forceinline__ float4 turned(const float4& row, const JointMotion& t, float angle) {
   float s, c;
-  sine_and_cosine(t.scale * (value - t.zero), s, c);
+  sine_and_cosine(angle, s, c);
   const float x = t.axis[0], y = t.axis[1], z = t.axis[2], d = 1.0f - c;
   const float dx = d * x, dy = d * y, dz = d * z;
   const auto along = [&](float a, float b, float g) {
@@ -167,17 +167,24 @@ __device__ __forceinline__ float4 turned(const float4& row, const Turn& t, float
           along(fmaf(dx, z, s * y), fmaf(dy, z, -s * x), fmaf(dz, z, c)), row.w};
 }
 
-/// Computes a row of parent_from_bone with all rotations of the bone. Joint angles have the same
-/// values in a search point as in the state, at other indices.
+/// Moves the frame of a transform along a unit axis; computes one row.
+__device__ __forceinline__ float4 slid(const float4& row, const JointMotion& t, float length) {
+  const float x = length * t.axis[0], y = length * t.axis[1], z = length * t.axis[2];
+  return {row.x, row.y, row.z, fmaf(row.x, x, fmaf(row.y, y, fmaf(row.z, z, row.w)))};
+}
+
+/// Computes a row of parent_from_bone with all motions of the bone. Joints have the same values in
+/// a search point as in the state, at other indices.
 __device__ __forceinline__ void place_row(int bone, int row, const double* prior,
                                           const PoseMemory& at) {
   const BoneLayout& layout = shared_item<BoneLayout>(at.bone_layouts, bone);
   const float* bind = layout.parent_from_bone + 4 * row;
   const int shift = prior ? layout.model + 1 : 0;
   float4 out = {bind[0], bind[1], bind[2], bind[3]};
-  for (int k = 0; k < layout.turn_count; ++k) {
-    const Turn& t = shared_item<Turn>(at.turns, layout.first_turn + k);
-    out = turned(out, t, shared_floats()[at.point + t.parameter - shift]);
+  for (int k = 0; k < layout.motion_count; ++k) {
+    const JointMotion& t = shared_item<JointMotion>(at.motions, layout.first_motion + k);
+    const float amount = t.scale * (shared_floats()[at.point + t.parameter - shift] - t.zero);
+    out = t.slides ? slid(out, t, amount) : turned(out, t, amount);
   }
   reinterpret_cast<float4*>(shared_floats() + at.locals)[3 * bone + row] = out;
 }

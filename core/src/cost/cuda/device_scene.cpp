@@ -113,12 +113,12 @@ DeviceScene::DeviceScene(const Scene& scene) {
   layout_ = {scene.dimension(),
              static_cast<int>(skeleton.models.size()),
              static_cast<int>(skeleton.bones.size()),
-             static_cast<int>(skeleton.turns.size()),
+             static_cast<int>(skeleton.motions.size()),
              static_cast<int>(surface.vertices.size()),
              static_cast<int>(surface.triangles.size()),
              upload(models_, skeleton.models),
              upload(bones_, skeleton.bones),
-             upload(turns_, skeleton.turns),
+             upload(motions_, skeleton.motions),
              upload(vertices_, surface.vertices),
              upload(triangles_, surface.triangles)};
 }

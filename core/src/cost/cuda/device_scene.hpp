@@ -24,7 +24,7 @@ class DeviceScene {
  private:
   DeviceBuffer<ModelLayout> models_;
   DeviceBuffer<BoneLayout> bones_;
-  DeviceBuffer<Turn> turns_;
+  DeviceBuffer<JointMotion> motions_;
   DeviceBuffer<VertexLayout> vertices_;
   DeviceBuffer<PackedTriangle> triangles_;
   SceneLayout layout_{};

@@ -66,7 +66,7 @@ __global__ void __launch_bounds__(kPoseThreads)
   const int point = static_cast<int>(blockIdx.y), pitch = job.columns + 1;
   copy_to_shared(scene.models, scene.model_count, at.model_layouts);
   copy_to_shared(scene.bones, scene.bone_count, at.bone_layouts);
-  copy_to_shared(scene.turns, scene.turn_count, at.turns);
+  copy_to_shared(scene.motions, scene.motion_count, at.motions);
   load_point(job.states + (std::int64_t{point} * pitch + state) * scene.dimension, scene.dimension,
              at);
   __syncthreads();

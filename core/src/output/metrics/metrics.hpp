@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/statistics.hpp"
+#include "output/metrics/frame_outcome.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "output/metrics/status_metrics.hpp"
 
@@ -38,6 +39,7 @@ struct Metrics {
   std::optional<int> frames_to_loss;
   double time_to_loss_s = 0;
   double jitter_mm = 0;
+  OutcomeCounts outcomes;  ///< of traced frames
   StatusMetrics status;
   std::vector<std::pair<std::string, double>> models;       ///< name, mean error in mm
   std::vector<std::pair<std::string, double>> landmarks;    ///< name, mean error in mm
@@ -68,6 +70,9 @@ class MetricsCollector {
   FrameError add(int frame, double time, const FrameStatuses& statuses,
                  const Eigen::Matrix3Xd& estimate, const Eigen::Matrix3Xd& truth,
                  const std::vector<bool>& absent = {}, const Eigen::VectorXd& sigma = {});
+
+  /// Adds the outcome of a frame whose searches were traced.
+  void add_outcome(FrameOutcome outcome) { counts_.outcomes.add(outcome); }
 
   Metrics metrics() const;
 

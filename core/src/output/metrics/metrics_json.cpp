@@ -58,6 +58,9 @@ Json numbers(const Metrics& m) {
   json["time_to_loss_s"] = m.time_to_loss_s;
   json["frames_to_loss"] = m.frames_to_loss ? Json(*m.frames_to_loss) : Json();
   json["jitter_mm"] = m.jitter_mm;
+  json["found_share"] = m.outcomes.share(FrameOutcome::found);
+  json["search_failed_share"] = m.outcomes.share(FrameOutcome::search_failed);
+  json["objective_failed_share"] = m.outcomes.share(FrameOutcome::objective_failed);
   json.update(numbers(m.status));
   return json;
 }

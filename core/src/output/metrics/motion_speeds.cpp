@@ -28,6 +28,25 @@ Eigen::Quaterniond rotation(const Scene::Item& item, const Eigen::VectorXd& stat
   return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
 }
 
+struct JointStep {
+  double size = 0;
+  std::string joint;  // empty if no joint moved
+};
+
+/// Returns the largest change among the joints of a kind.
+JointStep largest_step(const Scene::Item& item, ParameterKind kind, const StateRow& from,
+                       const StateRow& to) {
+  const std::vector<Parameter>& parameters = item.model->data().parameters;
+  JointStep largest;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].kind != kind) continue;
+    const Eigen::Index at = item.offset + static_cast<Eigen::Index>(i);
+    const double step = std::abs(to.state[at] - from.state[at]);
+    if (step > largest.size) largest = {step, parameters[i].name};
+  }
+  return largest;
+}
+
 void add_pair(const Scene::Item& item, const StateRow& from, const StateRow& to,
               ModelSpeeds& speeds) {
   const Eigen::Vector3d moved =
@@ -35,18 +54,10 @@ void add_pair(const Scene::Item& item, const StateRow& from, const StateRow& to,
   add_step(speeds.translation, moved.norm(), to.frame);
   add_step(speeds.rotation, rotation(item, from.state).angularDistance(rotation(item, to.state)),
            to.frame);
-  const std::vector<Parameter>& parameters = item.model->data().parameters;
-  double largest = 0;
-  std::string joint;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    if (parameters[i].kind != ParameterKind::angle) continue;
-    const Eigen::Index at = item.offset + static_cast<Eigen::Index>(i);
-    const double turned = std::abs(to.state[at] - from.state[at]);
-    if (turned <= largest) continue;
-    largest = turned;
-    joint = parameters[i].name;
-  }
-  if (add_step(speeds.joints, largest, to.frame)) speeds.fastest_joint = joint;
+  const JointStep turned = largest_step(item, ParameterKind::angle, from, to);
+  if (add_step(speeds.joints, turned.size, to.frame)) speeds.fastest_joint = turned.joint;
+  const JointStep slid = largest_step(item, ParameterKind::length, from, to);
+  if (add_step(speeds.slides, slid.size, to.frame)) speeds.fastest_slide = slid.joint;
 }
 
 /// Returns the median time between two states, 0 without one.
@@ -76,7 +87,7 @@ std::vector<ModelSpeeds> motion_speeds(const Scene& scene, std::span<const State
       add_pair(item, states[i - 1], states[i], speeds);
       ++pairs;
     }
-    for (Speed* speed : {&speeds.translation, &speeds.rotation, &speeds.joints})
+    for (Speed* speed : {&speeds.translation, &speeds.rotation, &speeds.joints, &speeds.slides})
       if (pairs > 0) speed->mean /= pairs;
     all.push_back(std::move(speeds));
   }
@@ -93,6 +104,10 @@ std::string motion_json(std::span<const ModelSpeeds> speeds) {
       model["joint_deg_per_frame"] = to_json(s.joints, kDegree);
       model["joint_deg_per_frame"]["joint"] = s.fastest_joint;
     }
+    if (!s.fastest_slide.empty()) {
+      model["joint_mm_per_frame"] = to_json(s.slides, kMillimetre);
+      model["joint_mm_per_frame"]["joint"] = s.fastest_slide;
+    }
     models[s.model] = model;
   }
   return nlohmann::ordered_json{{"models", models}}.dump(2) + "\n";
@@ -107,6 +122,9 @@ std::string motion_text(std::span<const ModelSpeeds> speeds) {
     if (!s.fastest_joint.empty())
       text += fmt::format(", joints {:.1f} deg ({}, frame {})", s.joints.peak / kDegree,
                           s.fastest_joint, s.joints.frame);
+    if (!s.fastest_slide.empty())
+      text += fmt::format(", joints {:.1f} mm ({}, frame {})", s.slides.peak / kMillimetre,
+                          s.fastest_slide, s.slides.frame);
     text += " per frame\n";
   }
   return text;

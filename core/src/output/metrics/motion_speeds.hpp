@@ -23,6 +23,8 @@ struct ModelSpeeds {
   Speed rotation;     ///< angle between the orientations, radians per frame
   Speed joints;       ///< largest change of a joint angle, radians per frame; all 0 without joints
   std::string fastest_joint;  ///< parameter with the peak; empty without joints
+  Speed slides;               ///< largest change of a joint's length, metres per frame
+  std::string fastest_slide;  ///< parameter with the peak; empty without joints that slide
 };
 
 /// Computes the speeds of every model of the scene. `states` must be in ascending order of frames.

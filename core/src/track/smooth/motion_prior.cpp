@@ -18,7 +18,7 @@ MotionPrior::MotionPrior(const Scene& scene, const FixedLagSettings& settings) :
   const std::vector<TangentPart> parts = tangent_parts(scene);
   weight_.resize(parts.back().first + parts.back().size);
   for (const TangentPart& part : parts) {
-    const double sigma = part.kind == ParameterKind::position     ? settings.position_change
+    const double sigma = is_in_metres(part.kind)                  ? settings.position_change
                          : part.kind == ParameterKind::quaternion ? settings.rotation_change
                                                                   : settings.angle_change;
     weight_.segment(part.first, part.size).setConstant(1 / (sigma * sigma));

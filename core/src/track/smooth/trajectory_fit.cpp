@@ -47,7 +47,7 @@ struct PerturbedStates {
     states.resize(state.size(), steps.size() + 1);
     states.col(0) = state;
     for (const TangentPart& part : parts) {
-      const double size = share * (part.kind == ParameterKind::position     ? kPositionStep
+      const double size = share * (is_in_metres(part.kind)                  ? kPositionStep
                                    : part.kind == ParameterKind::quaternion ? kRotationStep
                                                                             : kAngleStep);
       for (Eigen::Index d = part.first; d < part.first + part.size; ++d) {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace hypotrack {
+
+/// The state of a search after a batch of evaluations. Times count from its beginning.
+struct TraceStep {
+  std::int64_t evaluations = 0;                           ///< so far, those of Jacobians included
+  double cost = std::numeric_limits<double>::infinity();  ///< lowest so far
+  double cpu_seconds = 0;                                 ///< of the whole process
+  double wall_seconds = 0;
+};
+
+/// One call of the scene's optimizer, batch by batch.
+struct TracedSearch {
+  int dimension = 0;                                             ///< length of a search point
+  double truth_cost = std::numeric_limits<double>::quiet_NaN();  ///< of the true state, in the same
+                                                                 ///< tiles; NaN: unknown
+  std::vector<TraceStep> steps = {};
+};
+
+/// How the searches of a frame converged, and what its answer costs.
+struct FrameTrace {
+  std::vector<TracedSearch> searches = {};  ///< in their order
+  double cost =
+      std::numeric_limits<double>::infinity();  ///< of the answer; infinite: there is none
+  double truth_cost = std::numeric_limits<double>::quiet_NaN();  ///< in the tiles of the answer
+};
+
+/// Adds steps to a traced search. Its clocks start at construction.
+class SearchTracer {
+ public:
+  /// `search` must outlive the tracer.
+  explicit SearchTracer(TracedSearch& search);
+
+  /// Adds a step, unless nothing was evaluated since the last one and the cost is the same.
+  void add(std::int64_t evaluations, double cost);
+
+ private:
+  TracedSearch& search_;
+  double cpu_begin_, wall_begin_;
+};
+
+}  // namespace hypotrack

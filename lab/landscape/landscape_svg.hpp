@@ -1,0 +1,15 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "lab/landscape/landscape.hpp"
+
+namespace hypotrack {
+
+/// Draws a curve of a landscape as SVG: a panel per parameter, then one per pair of them. Each
+/// panel has the range of its own costs; a dashed line or a cross is the centre, a dot the lowest
+/// cost. Infeasible points are left out.
+std::string landscape_svg(const Landscape& landscape, std::size_t curve, const std::string& title);
+
+}  // namespace hypotrack

@@ -1,0 +1,32 @@
+#include "lab/svg.hpp"
+
+#include <fmt/format.h>
+
+namespace hypotrack {
+
+std::string svg_line(double x1, double y1, double x2, double y2, const std::string& style) {
+  return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)"
+                     "\n",
+                     x1, y1, x2, y2, style);
+}
+
+std::string svg_text(double x, double y, const std::string& text, const std::string& attributes) {
+  return fmt::format(R"(<text x="{:.1f}" y="{:.1f}" {}>{}</text>)"
+                     "\n",
+                     x, y, attributes, text);
+}
+
+std::string svg_escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+}  // namespace hypotrack

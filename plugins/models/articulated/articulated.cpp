@@ -1,0 +1,112 @@
+// An object of several links with joints between them: a URDF file, or a skinned mesh and a rig.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "description.hpp"
+#include "hypotrack/plugin.hpp"
+#include "landmarks.hpp"
+#include "object_rig.hpp"
+#include "surface.hpp"
+
+namespace hypotrack {
+namespace {
+
+using namespace articulated;
+
+struct ArticulatedParams {
+  std::filesystem::path file, rig, texture;
+  std::vector<Anchor> anchors;
+  void visit(ParamVisitor& v) {
+    v("file", file, {.help = "URDF file, or a skinned glTF or GLB file", .required = true});
+    v("rig", rig,
+      {.help = "for a glTF or GLB file: YAML file that says which bones move, and how"});
+    v("texture", texture,
+      {.help = "for a glTF or GLB file: image to use instead of the one that the mesh names"});
+    v("anchors", anchors, {.help = "points for the error; default: three per link that moves"});
+  }
+};
+
+/// An object's data without landmarks, and where its links are.
+struct Object {
+  ModelData data;
+  std::vector<std::string> links;
+  Assembly assembly;
+};
+
+Object from_urdf(const ArticulatedParams& params, const std::string& where) {
+  for (const auto* path : {&params.rig, &params.texture})
+    if (!path->empty())
+      throw ConfigError(fmt::format("{}: a URDF file takes no `rig` and no `texture`; leave {} out",
+                                    where, path->string()));
+  const std::string file = params.file.string();
+  Description description = read_urdf(params.file);
+  if (description.visuals.empty())
+    throw DataError(file +
+                    ": no link has a <visual>, so there is nothing to draw; collision geometry is "
+                    "not used: copy it to <visual> elements");
+  Object object{{}, description.mechanism.links, assemble(description.mechanism, file)};
+  std::vector<Part> parts;
+  for (const Visual& visual : description.visuals)
+    parts.push_back({visual_mesh(visual, file), visual.link});
+  object.data = object.assembly.data;
+  object.data.mesh = join(parts, object.assembly, file);
+  return object;
+}
+
+Object from_mesh(const ArticulatedParams& params, const std::string& where) {
+  if (params.rig.empty())
+    throw ConfigError(
+        fmt::format("{}: {} needs a `rig`, which says which of its bones move; or "
+                    "give a URDF file, whose name ends with .urdf",
+                    where, params.file.string()));
+  const ObjectRig rig = read_object_rig(params.rig);
+  const ImportedMesh imported =
+      import_mesh(params.file, {.scale = rig.scale, .texture = params.texture});
+  const std::string rig_name =
+      fmt::format("{} (for {})", params.rig.string(), params.file.filename().string());
+  Object object;
+  for (const ImportedBone& bone : imported.bones) object.links.push_back(bone.name);
+  object.data = rig_object(imported, rig, rig_name, object.assembly);
+  return object;
+}
+
+void check_size(const ModelData& data, const std::string& file) {
+  const float size =
+      (data.mesh.vertices.rowwise().maxCoeff() - data.mesh.vertices.rowwise().minCoeff())
+          .maxCoeff();
+  if (size >= 0.005f && size <= 10) return;
+  throw DataError(
+      fmt::format("{}: the object is {:.3g} m long, expected 0.005 to 10; for a mesh in "
+                  "millimetres write scale=\"0.001 0.001 0.001\" in its <mesh> element, "
+                  "or `scale: 0.001` in its rig",
+                  file, size));
+}
+
+ModelData make_object(const ArticulatedParams& params, const PluginContext& context) {
+  const std::string where = context.config().where(), file = params.file.string();
+  Object object =
+      params.file.extension() == ".urdf" ? from_urdf(params, where) : from_mesh(params, where);
+  object.data.landmarks = params.anchors.empty()
+                              ? bounding_box_landmarks_of_bones(object.data)
+                              : landmarks_of(params.anchors, object.links, object.assembly, file);
+  validate(object.data, file);
+  check_size(object.data, file);
+  return std::move(object.data);
+}
+
+class Articulated : public Model {
+ public:
+  using Params = ArticulatedParams;
+  Articulated(const Params& params, PluginContext& context) : Model(make_object(params, context)) {}
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::Articulated,
+                 "an object with joints from a URDF file, or from a skinned mesh and a rig", "")

@@ -1,0 +1,86 @@
+#include "atlas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <opencv2/imgproc.hpp>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::articulated {
+namespace {
+
+constexpr int kMargin = 4;         // pixels around a picture that repeat its rim, for filtering
+constexpr int kLargest = 2048;     // longest side of a picture
+constexpr int kLargestAll = 8192;  // of the whole
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+}  // namespace
+
+std::size_t Atlas::add(const cv::Mat& picture) {
+  cv::Mat fitting = picture;
+  if (const int longest = std::max(picture.cols, picture.rows); longest > kLargest) {
+    const double factor = static_cast<double>(kLargest) / longest;
+    cv::resize(picture, fitting, cv::Size(), factor, factor, cv::INTER_AREA);
+  }
+  const auto known =
+      std::ranges::find_if(pictures_, [&](const cv::Mat& other) { return same(other, fitting); });
+  if (known != pictures_.end()) return static_cast<std::size_t>(known - pictures_.begin());
+  pictures_.push_back(fitting);
+  return pictures_.size() - 1;
+}
+
+cv::Mat Atlas::texture(const std::string& where) {
+  double area = 0;
+  int widest = 0;
+  for (const cv::Mat& picture : pictures_) {
+    area += (picture.cols + 2.0 * kMargin) * (picture.rows + 2.0 * kMargin);
+    widest = std::max(widest, picture.cols + 2 * kMargin);
+  }
+  std::vector<std::size_t> order(pictures_.size());  // by falling height, for rows without gaps
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(),
+                           [&](std::size_t i) { return pictures_[i].rows; });
+  const int width = std::max(widest, static_cast<int>(std::ceil(std::sqrt(area))));
+  places_.resize(pictures_.size());
+  int left = 0, top = 0, row = 0;
+  for (const std::size_t i : order) {
+    const int across = pictures_[i].cols + 2 * kMargin, down = pictures_[i].rows + 2 * kMargin;
+    if (left + across > width) {
+      left = 0;
+      top += row;
+      row = 0;
+    }
+    places_[i] = {left + kMargin, top + kMargin, pictures_[i].cols, pictures_[i].rows};
+    left += across;
+    row = std::max(row, down);
+  }
+  size_ = {width, top + row};
+  if (std::max(size_.width, size_.height) > kLargestAll)
+    throw DataError(
+        fmt::format("{}: its textures need {} x {} pixels together, at most {} are possible on "
+                    "each side: make the pictures smaller",
+                    where, size_.width, size_.height, kLargestAll));
+  cv::Mat all(size_, CV_8UC3, cv::Scalar::all(0));
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    const cv::Rect& at = places_[i];
+    cv::Mat framed =
+        all({at.x - kMargin, at.y - kMargin, at.width + 2 * kMargin, at.height + 2 * kMargin});
+    cv::copyMakeBorder(pictures_[i], framed, kMargin, kMargin, kMargin, kMargin,
+                       cv::BORDER_REPLICATE);
+  }
+  return all;
+}
+
+Atlas::Place Atlas::place(std::size_t index) const {
+  const cv::Rect2d at = places_[index];
+  return {at.x / size_.width, at.y / size_.height, at.width / size_.width,
+          at.height / size_.height};
+}
+
+}  // namespace hypotrack::articulated

@@ -1,0 +1,85 @@
+#include "urdf_text.hpp"
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "hypotrack/error.hpp"
+
+namespace hypotrack::articulated {
+namespace {
+
+// The parser nests a call per element: deep files would exhaust the stack.
+constexpr std::ptrdiff_t kMostElements = 10'000;
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{4} << 20;
+
+/// Collects what urdfdom logs instead of printing it. One at a time: the log is the process'.
+class Log final : public console_bridge::OutputHandler {
+ public:
+  Log() : lock_(mutex_) { console_bridge::useOutputHandler(this); }
+  ~Log() override { console_bridge::restorePreviousOutputHandler(); }
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char* /*file*/,
+           int /*line*/) override {
+    constexpr std::size_t kLongest = 500;
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_WARN || text_.size() > kLongest) return;
+    if (text_.find(text) != std::string::npos) return;
+    text_ += (text_.empty() ? "" : "; ") + text.substr(0, kLongest);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  inline static std::mutex mutex_;
+  std::lock_guard<std::mutex> lock_;
+  std::string text_;
+};
+
+/// Returns a text for messages: one line without control characters.
+std::string printable(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  while (text.ends_with('.') || text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+std::string read(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw DataError(fmt::format("{}: there is no such file", file.string()));
+  if (std::filesystem::file_size(file, error) > kLargestFile)
+    throw DataError(fmt::format("{}: this is no URDF file of an object: it is larger than {} MiB",
+                                file.string(), kLargestFile >> 20));
+  std::ifstream in(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  if (!in) throw DataError(fmt::format("{}: cannot be read", file.string()));
+  if (const auto elements = std::ranges::count(text, '<'); elements > 2 * kMostElements)
+    throw DataError(fmt::format("{}: the file has more than {} elements; expected one object",
+                                file.string(), kMostElements));
+  return text;
+}
+
+}  // namespace
+
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
+  const std::string text = read(file);
+  const Log log;
+  urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
+  if (model && log.text().empty()) return model;
+  std::string hint;
+  if (text.find("xacro:") != std::string::npos)
+    hint = "; this is a xacro macro file: write the URDF that `xacro` makes of it";
+  throw DataError(
+      fmt::format("{}: this is no valid URDF file: {}{}", file.string(),
+                  log.text().empty() ? "urdfdom does not read it" : printable(log.text()), hint));
+}
+
+}  // namespace hypotrack::articulated

@@ -1,0 +1,70 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "description.hpp"
+#include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
+#include "hypotrack/mesh_io.hpp"
+#include "primitives.hpp"
+
+namespace hypotrack::articulated {
+namespace {
+
+cv::Mat read_texture(const std::filesystem::path& file, const std::string& where) {
+  cv::Mat picture;
+  if (std::filesystem::is_regular_file(file)) picture = read_image(file.string(), cv::IMREAD_COLOR);
+  if (picture.empty())
+    throw DataError(
+        fmt::format("{}: its texture {} is missing or no image that OpenCV reads; name "
+                    "a PNG or JPEG file, relative to the URDF file",
+                    where, file.string()));
+  return picture;
+}
+
+/// Scales a mesh along the axes. A mirror image keeps its outside outside.
+void scale(Mesh& mesh, const Eigen::Vector3d& factors) {
+  mesh.vertices = factors.cast<float>().asDiagonal() * mesh.vertices;
+  if (factors.prod() > 0) return;
+  mesh.triangles.row(1).swap(mesh.triangles.row(2));
+  if (mesh.uv_triangles.cols() > 0) mesh.uv_triangles.row(1).swap(mesh.uv_triangles.row(2));
+}
+
+Mesh read_mesh(const Visual& visual, const std::string& where) {
+  Mesh mesh;
+  try {
+    mesh = import_mesh(visual.mesh, {.scale = 1, .texture = visual.texture}).mesh;
+  } catch (const DataError& error) {
+    throw DataError(fmt::format("{}: {}", where, error.what()));
+  }
+  scale(mesh, visual.size);
+  return mesh;
+}
+
+Mesh shape_of(const Visual& visual, const std::string& where) {
+  switch (visual.kind) {
+    case ShapeKind::box:
+      return box_mesh(visual.size);
+    case ShapeKind::cylinder:
+      return cylinder_mesh(visual.size[0], visual.size[1]);
+    case ShapeKind::sphere:
+      return sphere_mesh(visual.size[0]);
+    case ShapeKind::mesh:
+      break;
+  }
+  return read_mesh(visual, where);
+}
+
+}  // namespace
+
+Mesh visual_mesh(const Visual& visual, const std::string& where) {
+  const std::string here = where + ": " + visual.name;
+  Mesh mesh = shape_of(visual, here);
+  if (visual.kind != ShapeKind::mesh && !visual.texture.empty())
+    mesh.texture = read_texture(visual.texture, here);
+  if (mesh.texture.empty() && visual.color) mesh.color = *visual.color;
+  mesh.vertices = visual.link_from_visual.cast<float>() * mesh.vertices;
+  return mesh;
+}
+
+}  // namespace hypotrack::articulated

@@ -1,0 +1,117 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "../model_plugins.hpp"
+#include "scene/mesh_topology.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string object(const std::string& name) {
+  return "{type: articulated, file: '" + (source_dir() / "configs/objects" / name).string() + "'";
+}
+
+std::vector<std::string> joints_of(const Model& model) {
+  std::vector<std::string> names;
+  for (std::size_t i = kPoseSize; i < model.data().parameters.size(); ++i)
+    names.push_back(model.data().parameters[i].name);
+  return names;
+}
+
+TEST(ArticulatedModel, ObjectsOfOursHaveTheirJointsAndClosedSurfaces) {
+  for (const auto& [file, joint] :
+       {std::pair{"scissors.urdf", "half_opening"}, std::pair{"drawer.urdf", "opening"},
+        std::pair{"laptop.urdf", "hinge"}}) {
+    const auto model = make_model(object(file) + "}");
+    EXPECT_EQ(joints_of(*model), std::vector<std::string>{joint}) << file;
+    EXPECT_TRUE(is_closed_outwards(model->data().mesh)) << file;
+    EXPECT_FALSE(model->data().mesh.texture.empty()) << file;
+  }
+}
+
+TEST(ArticulatedModel, BladesOfScissorsOpenAlike) {
+  const auto model = make_model(object("scissors.urdf") + ", anchors: [" +
+                                "{name: right, link: right, position_mm: [0, 90, 0]}, "
+                                "{name: left, link: left, position_mm: [0, 90, 0]}]}");
+  for (const double degrees : {0.0, 10.0, 35.0}) {
+    const Degrees opening{{"half_opening", degrees}};
+    const Eigen::Vector3d right = model_landmark(*model, "right", opening);
+    const Eigen::Vector3d left = model_landmark(*model, "left", opening);
+    EXPECT_NEAR(right.x(), -0.09 * std::sin(degrees * kDegree), 1e-9);
+    EXPECT_NEAR(left.x(), -right.x(), 1e-9);
+    EXPECT_NEAR(left.y(), right.y(), 1e-9);
+  }
+}
+
+TEST(ArticulatedModel, HasThreeLandmarksPerLinkThatMoves) {
+  const auto model = make_model(object("drawer.urdf") + "}");
+  std::vector<std::string> names;
+  for (const Landmark& landmark : model->data().landmarks) names.push_back(landmark.name);
+  EXPECT_THAT(names, testing::ElementsAre("cabinet_center", "cabinet_end_x", "cabinet_end_y",
+                                          "drawer_center", "drawer_end_x", "drawer_end_y"));
+}
+
+TEST(ArticulatedModel, SaysWhichParametersAFileNeeds) {
+  EXPECT_THAT(model_error("{type: articulated}"), HasSubstr("file"));
+  EXPECT_THAT(model_error("{type: articulated, file: lamp.glb}"),
+              AllOf(HasSubstr("scene.yaml:1:1"), HasSubstr("lamp.glb needs a `rig`")));
+  EXPECT_THAT(model_error(object("drawer.urdf") + ", rig: lamp.yaml}"),
+              AllOf(HasSubstr("a URDF file takes no `rig`"), HasSubstr("lamp.yaml")));
+  EXPECT_THAT(model_error(object("drawer.urdf") +
+                          ", anchors: [{name: a, link: door, position_mm: [0, 0, 0]}]}"),
+              HasSubstr("the anchor 'a' is on the link 'door', which there is not; the links are: "
+                        "cabinet, drawer, knob"));
+}
+
+/// A URDF file of one link with this inside its only <visual>.
+std::string error_of_visual(const std::string& inside) {
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "it.urdf";
+  std::ofstream(folder.path() / "empty.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  std::ofstream(folder.path() / "large.obj") << "v 0 0 0\nv 50 0 0\nv 0 50 0\nf 1 2 3\n";
+  std::ofstream(file) << "<robot name='it'><link name='a'>" << inside << "</link></robot>";
+  return model_error("{type: articulated, file: '" + file.string() + "'}");
+}
+
+TEST(ArticulatedModel, RefusesWhatCannotBeDrawn) {
+  EXPECT_THAT(
+      error_of_visual("<collision><geometry><box size='1 1 1'/></geometry></collision>"),
+      HasSubstr("no link has a <visual>, so there is nothing to draw; collision geometry is "
+                "not used: copy it to <visual> elements"));
+  const auto mesh = [](const std::string& name) {
+    return "<visual><geometry><mesh filename='" + name + "'/></geometry></visual>";
+  };
+  EXPECT_THAT(error_of_visual(mesh("none.obj")),
+              AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("no such mesh file")));
+  EXPECT_THAT(error_of_visual(mesh("empty.obj")),
+              AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("empty.obj")));
+  EXPECT_THAT(error_of_visual(mesh("a.dae")),
+              AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("OBJ, PLY, STL")));
+  EXPECT_THAT(error_of_visual(mesh("large.obj")), AllOf(HasSubstr("the object is 50 m long"),
+                                                        HasSubstr("scale=\"0.001 0.001 0.001\"")));
+  EXPECT_THAT(
+      error_of_visual("<visual><geometry><box size='1 1 1'/></geometry>"
+                      "<material name='m'><texture filename='no.png'/></material></visual>"),
+      AllOf(HasSubstr("it.urdf: link 'a', visual 1: its texture "), HasSubstr("no.png")));
+}
+
+TEST(ArticulatedModel, MirroredScalesKeepTheOutsideOutside) {
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "it.urdf";
+  std::ofstream(folder.path() / "a.obj")
+      << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::ofstream(file)
+      << "<robot name='it'><link name='a'><visual><geometry>"
+         "<mesh filename='a.obj' scale='-1 2 1'/></geometry></visual></link></robot>";
+  const auto model = make_model("{type: articulated, file: '" + file.string() + "'}");
+  EXPECT_TRUE(is_closed_outwards(model->data().mesh));
+  EXPECT_NEAR(model->data().mesh.vertices.row(0).minCoeff(), -0.1f, 1e-6f);
+  EXPECT_NEAR(model->data().mesh.vertices.row(1).maxCoeff(), 0.2f, 1e-6f);
+}
+
+}  // namespace
+}  // namespace hypotrack::test
