@@ -27,7 +27,12 @@ install(FILES
 # configs/data is the user's: recordings and meshes that scenes name.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/configs DESTINATION ${HYPOTRACK_DATA_DIR}
   REGEX "/configs/data$" EXCLUDE)
-# The build tree has the rest, too, in the same place.
+# `hypotrack plugins new` writes what the guide for authors shows.
+install(FILES ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md RENAME plugin_guide.md
+  DESTINATION ${HYPOTRACK_DATA_DIR})
+configure_file(${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
+  ${PROJECT_BINARY_DIR}/${HYPOTRACK_DATA_DIR}/plugin_guide.md COPYONLY)
+# The build tree has the configs, too, in the same place.
 file(GLOB_RECURSE configs CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
   ${PROJECT_SOURCE_DIR}/configs/*)
 list(FILTER configs EXCLUDE REGEX "^configs/data(/|$)")

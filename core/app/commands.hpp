@@ -37,6 +37,8 @@ void add_report_command(const Command& root, CommonOptions& common, int& exit_co
 void add_calibrate_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_calibration_command(const Command& root, int& exit_code);
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code);
+/// Adds the command `new` below `plugins`.
+void add_new_plugin_command(const Command& plugins, CommonOptions& common, int& exit_code);
 void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
 /// Adds a hidden command that writes completions and manual pages of all commands.

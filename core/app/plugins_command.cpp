@@ -43,7 +43,7 @@ int check(const std::vector<std::filesystem::path>& files) {
 }  // namespace
 
 void add_plugins_command(const Command& root, CommonOptions& common, int& exit_code) {
-  const Command command = root.add_command("plugins", "Look at plugins");
+  const Command command = root.add_command("plugins", "Look at plugins, write new ones");
   command.need_command();
 
   command.add_command("list", "Every plugin on the search path").on_call([&] {
@@ -58,6 +58,8 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
   auto markdown = std::make_shared<bool>(false);
   info_command.add("--markdown", markdown.get(), "Print a page for the documentation");
   info_command.on_call([=, &common, &exit_code] { exit_code = info(common, *name, *markdown); });
+
+  add_new_plugin_command(command, common, exit_code);
 
   auto files = std::make_shared<std::vector<std::filesystem::path>>();
   const Command check_command =
