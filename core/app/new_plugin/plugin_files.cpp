@@ -90,9 +90,10 @@ void expect_name(const std::string& name) {
 const Example& example_of(const PluginRequest& request) {
   for (const Example& example : examples())
     if (example.kind == request.kind && example.cuda == request.cuda) return example;
-  if (std::ranges::find(plugin_kinds(), request.kind) == plugin_kinds().end())
+  const std::vector<std::string> kinds = plugin_kinds();
+  if (std::ranges::find(kinds, request.kind) == kinds.end())
     throw ConfigError(fmt::format("found the kind '{}', expected one of {}", request.kind,
-                                  fmt::join(plugin_kinds(), ", ")));
+                                  fmt::join(kinds, ", ")));
   throw ConfigError(fmt::format(
       "--cuda: only an objective has a part for GPUs; leave it out for {}", request.kind));
 }
