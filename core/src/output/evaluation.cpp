@@ -126,6 +126,28 @@ std::map<int, Eigen::VectorXd> read_sigmas(const fs::path& run,
   return table.by_frame();
 }
 
+/// Reads the outcome of each frame of a traced run, by the run's own truth; empty for others.
+std::map<int, FrameOutcome> read_outcomes(const EvaluationInput& input) {
+  std::map<int, FrameOutcome> outcomes;
+  const fs::path file = input.run / "truth_costs.csv";
+  if (input.truth || !fs::exists(file)) return outcomes;
+  const CsvTable table(file);
+  const int frame = table.find("frame"), outcome = table.find("outcome");
+  if (frame < 0 || outcome < 0)
+    throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
+                                file.string(), frame < 0 ? "frame" : "outcome"));
+  for (const CsvTable::Row& row : table.rows()) {
+    const std::string_view text = row.cells[static_cast<std::size_t>(outcome)];
+    const auto named = outcome_named(text);
+    if (!named)
+      throw DataError(fmt::format(
+          "{}: the outcome is '{}'; expected found, search_failed, objective_failed or nothing",
+          table.where(row), text));
+    outcomes[table.frame(row, frame)] = *named;
+  }
+  return outcomes;
+}
+
 /// One table of the comparison, by frame.
 class Side {
  public:
@@ -180,7 +202,8 @@ void check_units(const Side& run, const Side& truth) {
 
 Metrics compare(const std::vector<std::string>& names, const Side& run, const Side& truth,
                 const std::map<int, FrameStatuses>& statuses,
-                const std::map<int, Eigen::VectorXd>& sigmas) {
+                const std::map<int, Eigen::VectorXd>& sigmas,
+                const std::map<int, FrameOutcome>& outcomes) {
   const auto landmarks_count = static_cast<Eigen::Index>(names.size());
   const Eigen::Matrix3Xd nothing = Eigen::Matrix3Xd::Constant(3, landmarks_count, kNan);
   const int first = run.rows().begin()->first, last = run.rows().rbegin()->first;
@@ -206,6 +229,8 @@ Metrics compare(const std::vector<std::string>& names, const Side& run, const Si
                   answer == nullptr ? std::vector<bool>()
                                     : absent_models(*answer, layout.model_of, layout.models.size()),
                   sigma == sigmas.end() ? Eigen::VectorXd() : sigma->second);
+    if (const auto outcome = outcomes.find(frame); outcome != outcomes.end())
+      collector.add_outcome(outcome->second);
   }
   return collector.metrics();
 }
@@ -243,7 +268,7 @@ Evaluation evaluate(const EvaluationInput& input) {
   check_units(run, truth);
   evaluation.metrics =
       compare(names, run, truth, read_statuses(input.run, landmark_layout(names).models),
-              read_sigmas(input.run, names));
+              read_sigmas(input.run, names), read_outcomes(input));
   check_overlap(run, truth, evaluation.metrics);
   return evaluation;
 }

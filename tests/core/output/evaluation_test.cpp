@@ -104,6 +104,26 @@ TEST_F(EvaluationTest, StatusesAreJudgedByAbsenceAndByError) {
                                         "uncertain, lost, absent or missing"));
 }
 
+TEST_F(EvaluationTest, OutcomesOfATracedRunAreKept) {
+  write("run/joints.csv", kRun);
+  write("run/truth_landmarks.csv", kTruth);
+  write("run/truth_costs.csv",
+        "frame,cost,truth_cost,mean_joint_error_mm,outcome\n0,-1,-2,5,found\n"
+        "1,-1,-2,50,search_failed\n2,-1,,5,\n");
+  EvaluationInput input;
+  input.run = path("run");
+  const auto shares = evaluate(input).metrics.outcomes;
+  EXPECT_EQ(shares.share(FrameOutcome::found), 0.5);
+  EXPECT_EQ(shares.share(FrameOutcome::search_failed), 0.5);
+  input.truth = path("run/truth_landmarks.csv");  // may be of other poses than the costs
+  EXPECT_TRUE(std::isnan(evaluate(input).metrics.outcomes.share(FrameOutcome::found)));
+  input.truth.reset();
+  write("run/truth_costs.csv", "frame,outcome\n0,lucky\n");
+  EXPECT_THAT(refusal(input),
+              HasSubstr("truth_costs.csv:2: the outcome is 'lucky'; expected found, "
+                        "search_failed, objective_failed or nothing"));
+}
+
 TEST_F(EvaluationTest, FramesThatOneSideLacksAreCountedAndLeftOut) {
   const std::string run =
       replaced(replaced(kRun, "1,0.1,0,0,0.5,0.11,0,0.5\n", ""), "2,0.2,", "3,0.3,");

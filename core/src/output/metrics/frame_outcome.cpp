@@ -19,6 +19,13 @@ std::string_view to_string(FrameOutcome outcome) {
   return "";
 }
 
+std::optional<FrameOutcome> outcome_named(std::string_view text) {
+  for (const FrameOutcome outcome : {FrameOutcome::unknown, FrameOutcome::found,
+                                     FrameOutcome::search_failed, FrameOutcome::objective_failed})
+    if (to_string(outcome) == text) return outcome;
+  return std::nullopt;
+}
+
 FrameOutcome outcome_of(double error_mm, double cost, double truth_cost) {
   if (std::isnan(error_mm) || std::isnan(cost)) return FrameOutcome::unknown;
   const bool answers = std::isfinite(cost);

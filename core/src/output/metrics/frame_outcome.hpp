@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace hypotrack {
@@ -12,6 +13,8 @@ enum class FrameOutcome {
   objective_failed,  ///< a wrong pose, and the truth is not cheaper: no search could tell
 };
 std::string_view to_string(FrameOutcome outcome);
+/// Returns the outcome that to_string() names so; nothing for other texts.
+std::optional<FrameOutcome> outcome_named(std::string_view text);
 
 /// The error below which a frame counts as found, in millimetres: that of `success_20mm`.
 inline constexpr double kFoundErrorMm = 20;
