@@ -31,11 +31,10 @@ struct ArticulatedParams {
   }
 };
 
-/// An object's data without landmarks, and where its links are.
+/// An object without landmarks, and the names of its links.
 struct Object {
-  ModelData data;
-  std::vector<std::string> links;
   Assembly assembly;
+  std::vector<std::string> links;
 };
 
 Object from_urdf(const ArticulatedParams& params, const std::string& where) {
@@ -49,12 +48,11 @@ Object from_urdf(const ArticulatedParams& params, const std::string& where) {
     throw DataError(file +
                     ": no link has a <visual>, so there is nothing to draw; collision geometry is "
                     "not used: copy it to <visual> elements");
-  Object object{{}, description.mechanism.links, assemble(description.mechanism, file)};
+  Object object{assemble(description.mechanism, file), description.mechanism.links};
   std::vector<Part> parts;
   for (const Visual& visual : description.visuals)
     parts.push_back({visual_mesh(visual, file), visual.link});
-  object.data = object.assembly.data;
-  object.data.mesh = join(parts, object.assembly, file);
+  object.assembly.data.mesh = join(parts, object.assembly, file);
   return object;
 }
 
@@ -69,9 +67,8 @@ Object from_mesh(const ArticulatedParams& params, const std::string& where) {
       import_mesh(params.file, {.scale = rig.scale, .texture = params.texture});
   const std::string rig_name =
       fmt::format("{} (for {})", params.rig.string(), params.file.filename().string());
-  Object object;
+  Object object{rig_object(imported, rig, rig_name), {}};
   for (const ImportedBone& bone : imported.bones) object.links.push_back(bone.name);
-  object.data = rig_object(imported, rig, rig_name, object.assembly);
   return object;
 }
 
@@ -91,12 +88,13 @@ ModelData make_object(const ArticulatedParams& params, const PluginContext& cont
   const std::string where = context.config().where(), file = params.file.string();
   Object object =
       params.file.extension() == ".urdf" ? from_urdf(params, where) : from_mesh(params, where);
-  object.data.landmarks = params.anchors.empty()
-                              ? bounding_box_landmarks_of_bones(object.data)
-                              : landmarks_of(params.anchors, object.links, object.assembly, file);
-  validate(object.data, file);
-  check_size(object.data, file);
-  return std::move(object.data);
+  ModelData& data = object.assembly.data;
+  data.landmarks = params.anchors.empty()
+                       ? bounding_box_landmarks_of_bones(data)
+                       : landmarks_of(params.anchors, object.links, object.assembly, file);
+  validate(data, file);
+  check_size(data, file);
+  return std::move(data);
 }
 
 class Articulated : public Model {

@@ -45,7 +45,7 @@ struct LinkPlace {
   Eigen::Isometry3d bone_from_link = Eigen::Isometry3d::Identity();
 };
 
-/// A skeleton without a surface, and the places of a mechanism's links in it.
+/// A skeleton, at first without a surface, and the places of a mechanism's links in it.
 struct Assembly {
   ModelData data;  ///< bones, parameters and motions
   std::vector<LinkPlace> links;

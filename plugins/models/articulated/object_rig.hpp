@@ -57,9 +57,8 @@ struct ObjectRig {
 /// Reads a rig file. Throws ConfigError on anything that the format does not have.
 ObjectRig read_object_rig(const std::filesystem::path& file);
 
-/// Makes a model of a skinned mesh, imported with the rig's scale, without landmarks. Throws
-/// DataError, beginning with `where`, if they do not fit.
-ModelData rig_object(const ImportedMesh& imported, const ObjectRig& rig, const std::string& where,
-                     Assembly& assembly);
+/// Assembles a skinned mesh, imported with the rig's scale, with its mesh in the data. The first
+/// links are the file's bones. Throws DataError, beginning with `where`, if they do not fit.
+Assembly rig_object(const ImportedMesh& imported, const ObjectRig& rig, const std::string& where);
 
 }  // namespace hypotrack::articulated

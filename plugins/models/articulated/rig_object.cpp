@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
-#include "hypotrack/kinematics.hpp"
 #include "hypotrack/suggest.hpp"
 #include "object_rig.hpp"
 
@@ -107,7 +106,7 @@ class Rigging {
 };
 
 /// Gives the vertices to the bones of the assembly; adds up the weights of those with the same.
-void reassign(Mesh& mesh, const Assembly& assembly) {
+void reassign(Mesh& mesh, const std::vector<LinkPlace>& places) {
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
     Eigen::Vector4i bones = Eigen::Vector4i::Zero();
     Eigen::Vector4f weights = Eigen::Vector4f::Zero();
@@ -115,7 +114,7 @@ void reassign(Mesh& mesh, const Assembly& assembly) {
     for (int k = 0; k < 4; ++k) {
       const float weight = mesh.bone_weights(k, v);
       if (weight <= 0) continue;
-      const int bone = assembly.links[static_cast<std::size_t>(mesh.bone_indices(k, v))].bone;
+      const int bone = places[static_cast<std::size_t>(mesh.bone_indices(k, v))].bone;
       int slot = 0;
       while (slot < count && bones[slot] != bone) ++slot;
       count = std::max(count, slot + 1);
@@ -129,17 +128,15 @@ void reassign(Mesh& mesh, const Assembly& assembly) {
 
 }  // namespace
 
-ModelData rig_object(const ImportedMesh& imported, const ObjectRig& rig, const std::string& where,
-                     Assembly& assembly) {
+Assembly rig_object(const ImportedMesh& imported, const ObjectRig& rig, const std::string& where) {
   if (imported.bones.empty())
     throw DataError(where +
                     ": the mesh file has no bones that could move; skin the mesh to some, or write "
                     "`type: rigid_mesh`");
-  assembly = assemble(Rigging(imported.bones, rig, where).mechanism(), where);
-  ModelData data = assembly.data;
-  data.mesh = imported.mesh;
-  reassign(data.mesh, assembly);
-  return data;
+  Assembly assembly = assemble(Rigging(imported.bones, rig, where).mechanism(), where);
+  assembly.data.mesh = imported.mesh;
+  reassign(assembly.data.mesh, assembly.links);
+  return assembly;
 }
 
 }  // namespace hypotrack::articulated

@@ -16,10 +16,10 @@ namespace {
 using testing::HasSubstr;
 
 ModelData rigged(const std::string& yaml) {
-  Assembly assembly;
   return rig_object(test::stick_hand(),
                     ParamReader(ConfigNode::parse(yaml, "sticks.yaml")).read<ObjectRig>(),
-                    "sticks.yaml", assembly);
+                    "sticks.yaml")
+      .data;
 }
 
 std::string message(const std::string& yaml) {
@@ -105,8 +105,7 @@ TEST(ObjectRig, IsRefusedIfItDoesNotFit) {
 TEST(ObjectRig, NeedsAMeshWithBones) {
   ImportedMesh rigid = test::stick_hand();
   rigid.bones.clear();
-  Assembly assembly;
-  EXPECT_THAT(test::message_of<DataError>([&] { rig_object(rigid, {}, "sticks.yaml", assembly); }),
+  EXPECT_THAT(test::message_of<DataError>([&] { rig_object(rigid, {}, "sticks.yaml"); }),
               HasSubstr("write `type: rigid_mesh`"));
 }
 
