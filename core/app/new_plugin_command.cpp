@@ -64,7 +64,7 @@ int write_plugin(const NewPluginOptions& options, const CommonOptions& common) {
   folder.finish();
   const std::filesystem::path prefix = detail::prefix_folder();
   fmt::print(
-      "{0} has an {1} that works. Build, test and run it:\n\n"
+      "{0} is the project of a plugin ({1}). Build, test and run it:\n\n"
       "cmake -S {0} -B {0}/build -DCMAKE_PREFIX_PATH={2} -DCMAKE_BUILD_TYPE=Release\n"
       "cmake --build {0}/build\n"
       "ctest --test-dir {0}/build --output-on-failure\n"
