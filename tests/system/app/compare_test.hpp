@@ -10,7 +10,10 @@ namespace hypotrack::test {
 /// A test with a study of a box: two budgets, two seeds, some milliseconds each.
 class CompareTest : public AppTest {
  protected:
-  CompareTest() { scene(box_scene(), "box.yaml"); }
+  CompareTest() {
+    scene(replaced(box_scene(), "{overlay: false}", "{overlay: false, worst_frames: 0}"),
+          "box.yaml");
+  }
 
   static std::string study() {
     return R"(title: Two budgets

@@ -111,7 +111,7 @@ objective: {type: stereo_color}
 optimizer: {type: pso, particles: 8, generations: 4}
 tile: {size: 32}
 init: {from: truth}
-output: {overlay: false, worst_frames: 0}
+output: {overlay: false}
 )";
 }
 
