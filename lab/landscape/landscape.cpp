@@ -77,7 +77,7 @@ class Slicer {
   void add_axis(const std::string& name, ParameterKind kind, int points,
                 std::vector<LandscapeAxis>& axes) const {
     const auto d = static_cast<Eigen::Index>(axes.size());
-    const bool is_length = kind == ParameterKind::position;
+    const bool is_length = is_in_metres(kind);
     const double reach = is_length ? settings_.position : settings_.rotation;
     const double from = std::max(-reach, region_.lower[d] - region_.start[d]);
     const double to = std::min(reach, region_.upper[d] - region_.start[d]);

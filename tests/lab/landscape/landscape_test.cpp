@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -65,6 +66,20 @@ TEST_F(LandscapeTest, APairHasTheFirstParameterAlongItsRows) {
   EXPECT_NEAR(xy.costs(0, 0), 960, 1e-6);  // both at -30 mm
   EXPECT_NEAR(xy.costs(1, 0), 900, 1e-6);  // x at the centre
   EXPECT_NEAR(xy.costs(3, 0), 60, 1e-6);   // y at the centre
+}
+
+TEST_F(LandscapeTest, JointsThatSlideAreSlicedInMillimetres) {
+  scene = Scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
+  state = scene.rest_state();
+  settings.points = 5;
+  settings.grid = 3;
+  settings.position = 0.02;
+  const Landscape found = measured();
+  const auto drawer = std::ranges::find(found.axes, "cabinet.drawer", &LandscapeAxis::name);
+  ASSERT_NE(drawer, found.axes.end());
+  EXPECT_EQ(drawer->unit, "mm");
+  EXPECT_EQ(drawer->to_unit, 1000);
+  EXPECT_LE(drawer->offsets.cwiseAbs().maxCoeff(), 0.02);
 }
 
 TEST_F(LandscapeTest, SlicesEndAtTheBoundsOfAngles) {
