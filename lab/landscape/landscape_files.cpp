@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <system_error>
 
 #include "base/csv.hpp"
 #include "base/text_file.hpp"
-#include "hypotrack/error.hpp"
 #include "lab/landscape/landscape_svg.hpp"
+#include "lab/result_folder.hpp"
 
 namespace hypotrack {
 namespace {
@@ -56,12 +55,7 @@ std::string pairs_csv(const Landscape& landscape) {
 
 void write_landscape(const Landscape& landscape, const std::string& title,
                      const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw OutputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
-                                  folder.string(),
-                                  error ? error.message() : "there is a file of that name"));
+  make_folder(folder);
   const std::size_t figures = landscape.curves.size() == 2 ? 1 : landscape.curves.size();
   for (std::size_t curve = 0; curve < figures; ++curve) {
     const std::string& name = landscape.curves[curve];

@@ -13,6 +13,7 @@
 #include "base/text_file.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "lab/result_folder.hpp"
 
 namespace hypotrack::study {
 namespace {
@@ -30,15 +31,6 @@ std::string plan_text(const Plan& plan) {
   std::string text;
   for (const PlannedRun& run : plan.runs) text += run.id + "\n";
   return text;
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw OutputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
-                                  folder.string(),
-                                  error ? error.message() : "there is a file of that name"));
 }
 
 /// Returns the differing parts of two studies that decide their runs: `seeds, frames`.

@@ -17,9 +17,9 @@ ModelData make_test_hand();
 /// Makes a box of the given size (metres) about the origin: 8 vertices, 12 triangles, 7 parameters.
 ModelData make_test_box(const Eigen::Vector3d& size = {0.06, 0.04, 0.12});
 
-/// Makes a cabinet of boxes with joints of all kinds: a drawer that slides by `drawer` (m), a door
-/// that turns by `door` (rad), a knob on it that turns without end by `knob`, a latch that turns
-/// and slides with the door, and a shelf that slides against the drawer, half as far.
+/// Makes a cabinet of boxes with joints of all kinds. A drawer slides by `drawer` (m). A door turns
+/// by `door` (rad), and a knob on it turns without end by `knob`. A latch turns and slides with the
+/// door. A shelf slides against the drawer, half as far.
 ModelData make_test_cabinet();
 
 /// Makes a rigid ball about the model's origin, of 32 x 64 faces.

@@ -72,12 +72,15 @@ std::string renamed(std::string text, const Example& example, const std::string&
 void expect_name(const std::string& name) {
   static const std::regex kName("[a-z][a-z0-9_]*");
   static const std::vector<std::string> kTaken{
-      "auto",   "bool",      "break",  "case",     "catch",     "char",     "class",    "concept",
-      "const",  "delete",    "do",     "double",   "else",      "enum",     "explicit", "extern",
-      "float",  "for",       "friend", "hwy",      "hypotrack", "if",       "inline",   "int",
-      "long",   "namespace", "new",    "operator", "private",   "public",   "return",   "short",
-      "signed", "static",    "std",    "struct",   "switch",    "template", "this",     "throw",
-      "try",    "typename",  "union",  "unsigned", "using",     "virtual",  "void",     "while"};
+      "auto",    "bool",      "break",    "case",     "catch",    "char",    "class",
+      "concept", "const",     "delete",   "do",       "export",   "false",   "goto",
+      "import",  "nullptr",   "register", "requires", "sizeof",   "true",    "double",
+      "else",    "enum",      "explicit", "extern",   "float",    "for",     "friend",
+      "hwy",     "hypotrack", "if",       "inline",   "int",      "long",    "namespace",
+      "new",     "operator",  "private",  "public",   "return",   "short",   "signed",
+      "static",  "std",       "struct",   "switch",   "template", "this",    "throw",
+      "try",     "typename",  "union",    "unsigned", "using",    "virtual", "void",
+      "while"};
   if (!std::regex_match(name, kName) || name.ends_with('_'))
     throw ConfigError(fmt::format(
         "found the name '{}', expected small letters, digits and _, a letter first: my_plugin",

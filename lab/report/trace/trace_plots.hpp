@@ -15,8 +15,8 @@ bool is_traced(std::string_view kind);
 /// Returns whether a run wrote trace.csv.
 bool has_trace(const StudyRun& run);
 
-/// Makes a plot of how searches converge, over the frames and seeds of the runs that have a
-/// trace.csv:
+/// Makes a plot of how searches converge, over the frames and seeds of all traced runs. The kinds
+/// of plots are:
 ///
 ///   convergence            median and quartiles of the lowest cost
 ///   targets                share of frames in which a target was reached (share_within())
