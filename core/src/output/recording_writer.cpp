@@ -77,10 +77,10 @@ void RecordingWriter::write_image(const std::string& name, int index, cv::Mat im
 }
 
 void RecordingWriter::drop_last() {
-  const auto [index, files] = std::move(frames_.back());
-  frames_.pop_back();
+  const int index = frames_.back().first;
   std::error_code ignored;
-  for (const auto& file : files) std::filesystem::remove(file, ignored);
+  for (const auto& file : frames_.back().second) std::filesystem::remove(file, ignored);
+  frames_.pop_back();
   const auto is_later = [index](const auto& row) { return row.frame >= index; };
   std::erase_if(states_, is_later);
   std::erase_if(seen_, is_later);
