@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 PERIOD = 150  # frames of the motion
-FRAMES_PER_SECOND = 30  # that a run tracks at most
+FRAMES_PER_SECOND = 250  # that a run tracks at most
 MOST = 1000  # repetitions; a scene file has a limit
 
 minutes, scene = int(sys.argv[1]), Path(sys.argv[2]).resolve()

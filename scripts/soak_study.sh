@@ -14,7 +14,7 @@ program=${HYPOTRACK:-$root/build/release/bin/hypotrack}
 [ -x "$program" ] ||
   { echo "soak_study.sh: there is no $program; build it, or name another with HYPOTRACK" >&2; exit 1; }
 mkdir -p "$folder"
-rm -rf "$folder/study" "$folder/seen.txt"
+rm -rf "$folder/study" "$folder/recording" "$folder/seen.txt"
 seeds=$((runs / 2))
 cat >"$folder/scene.yaml" <<END
 models: [{name: box, type: rigid_box, size_mm: [60, 40, 20]}]
@@ -22,11 +22,12 @@ objective: {type: stereo_color}
 optimizer: {type: pso}
 init: {pose: {box: {position_mm: [0, 0, 500]}}}
 source: {type: synthetic, cameras: {width: 64, height: 48, focal_px: 60, baseline_mm: 60}, random: {}}
-output: {overlay: false, worst_frames: 0}
 END
+"$program" synth "$folder/scene.yaml" --frames 2 --out "$folder/recording"
 cat >"$folder/study.yaml" <<END
 title: short runs that are killed
-scenes: {box: {file: scene.yaml}}
+scenes: {box: {file: recording/scene.yaml}}
+set: {evaluate.backend: cpu, output.overlay: false, output.worst_frames: 0}
 grid: {budget.evaluations: [16, 32]}
 frames: 2
 seeds: $seeds
