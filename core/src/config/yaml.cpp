@@ -41,7 +41,7 @@ bool needs_no_quotes(const YamlNode& node) {
 }
 
 void emit_text(YAML::Emitter& out, const YamlNode& node) {
-  if (!is_utf8(node.text)) {
+  if (!is_text(node.text)) {
     std::string shown = node.text;
     std::ranges::replace_if(
         shown, [](unsigned char c) { return c >= 0x80; }, '?');

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <fstream>
 #include <system_error>
 #include <thread>
@@ -30,6 +31,17 @@ std::size_t utf8_length(std::string_view rest) {
   const bool overlong = (byte(0) == 0xE0 && byte(1) < 0xA0) || (byte(0) == 0xF0 && byte(1) < 0x90);
   const bool outside = (byte(0) == 0xED && byte(1) > 0x9F) || (byte(0) == 0xF4 && byte(1) > 0x8F);
   return overlong || outside ? 0 : length;
+}
+
+/// Returns true for the 66 code points that Unicode keeps free of characters: a valid sequence of
+/// `length` bytes.
+bool is_noncharacter(std::string_view rest, std::size_t length) {
+  if (length < 3) return false;
+  std::uint32_t point = static_cast<unsigned char>(rest[0]) & (length == 3 ? 0x0Fu : 0x07u);
+  for (std::size_t i = 1; i < length; ++i) {
+    point = point << 6 | (static_cast<unsigned char>(rest[i]) & 0x3Fu);
+  }
+  return (point & 0xFFFE) == 0xFFFE || (point >= 0xFDD0 && point <= 0xFDEF);
 }
 
 bool is_control(char c) {
@@ -68,10 +80,10 @@ std::string read_pipe(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool is_utf8(std::string_view text) {
+bool is_text(std::string_view text) {
   while (!text.empty()) {
     const std::size_t length = utf8_length(text);
-    if (length == 0) return false;
+    if (length == 0 || is_noncharacter(text, length)) return false;
     text.remove_prefix(length);
   }
   return true;
@@ -139,14 +151,18 @@ void YamlText::check(const YamlOrigin& origin) const {
   std::size_t line = 0;
   for (std::size_t i = 0; i < text_.size();) {
     if (line + 1 < line_starts_.size() && i >= line_starts_[line + 1]) ++line;
-    const std::size_t length = utf8_length(text_.substr(i));
-    if (length == 0 || is_control(text_[i])) {
+    const std::string_view rest = text_.substr(i);
+    const std::size_t length = utf8_length(rest);
+    const bool is_free = is_noncharacter(rest, length);
+    if (length == 0 || is_free || is_control(rest[0])) {
       const Position at =
           position(static_cast<int>(line), static_cast<int>(i - line_starts_[line]));
-      throw ConfigError(fmt::format(
-          "{}: {} 0x{:02X}; expected UTF-8 text", describe_position(origin, at.line, at.column),
-          length == 0 ? "no UTF-8: found byte" : "found the control character",
-          static_cast<unsigned char>(text_[i])));
+      const char* found = length == 0 ? "no UTF-8: found byte"
+                          : is_free   ? "found the bytes of no character, from"
+                                      : "found the control character";
+      throw ConfigError(fmt::format("{}: {} 0x{:02X}; expected UTF-8 text",
+                                    describe_position(origin, at.line, at.column), found,
+                                    static_cast<unsigned char>(rest[0])));
     }
     i += length;
   }

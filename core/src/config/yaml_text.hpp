@@ -10,7 +10,8 @@
 
 namespace hypotrack::detail {
 
-bool is_utf8(std::string_view text);
+/// Returns true for UTF-8 without noncharacters, which yaml-cpp writes as others.
+bool is_text(std::string_view text);
 
 /// Reads a file, or a little more than the limit of a larger one. Throws ConfigError if it cannot.
 std::string read_text_file(const std::filesystem::path& file);
@@ -18,8 +19,8 @@ std::string read_text_file(const std::filesystem::path& file);
 /// A text with its line starts; converts the parser's byte columns to character columns.
 class YamlText {
  public:
-  /// Skips a byte order mark. Throws ConfigError on texts over 8 MiB, invalid UTF-8 and control
-  /// characters, because yaml-cpp takes U+0004 for the end of the text.
+  /// Skips a byte order mark. Throws ConfigError on texts over 8 MiB, invalid UTF-8, noncharacters
+  /// and control characters, because yaml-cpp takes U+0004 for the end of the text.
   YamlText(std::string_view text, const YamlOrigin& origin);
 
   std::string_view text() const { return text_; }

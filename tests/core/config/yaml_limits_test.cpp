@@ -82,6 +82,11 @@ TEST(YamlLimits, ControlCharactersAndOtherEncodingsAreRefused) {
                                            "a\0:\0",
                                            6)),
               StartsWith("scene.yaml:1:1: no UTF-8: found byte 0xFF"));
+  for (const std::string noncharacter : {"\xEF\xBF\xBF", "\xEF\xB7\x90", "\xF0\x9F\xBF\xBE"}) {
+    EXPECT_THAT(parse_error("a: " + noncharacter),
+                StartsWith("scene.yaml:1:4: found the bytes of no character, from 0x"));
+  }
+  EXPECT_NO_THROW(ConfigNode::parse("a: \xEF\xBF\xBD", "scene.yaml"));  // U+FFFD is one
 }
 
 TEST(YamlLimits, SmallFilesTakeLittleMemory) {
