@@ -46,6 +46,10 @@ class OffsetSpace {
     }
     return offsets;
   }
+  /// Returns the entries of the free dimensions of a vector over all dimensions.
+  Eigen::VectorXd free_part(const Eigen::VectorXd& all) const { return all(free_); }
+  /// Returns the rows and columns of the free dimensions of a matrix over all dimensions.
+  Eigen::MatrixXd free_block(const Eigen::MatrixXd& all) const { return all(free_, free_); }
 
  private:
   const SearchRegion& region_;

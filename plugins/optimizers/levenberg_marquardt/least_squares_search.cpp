@@ -48,19 +48,6 @@ Eigen::Index LeastSquaresSearch::take(const Eigen::VectorXd& costs) {
   return -1;
 }
 
-Eigen::VectorXd LeastSquaresSearch::differences(double share) const {
-  Eigen::VectorXd steps = Eigen::VectorXd::Zero(x_.size());
-  for (Eigen::Index i = 0; i < x_.size(); ++i) {
-    const double wanted = share * region_.spread[i];
-    const double up = std::min(region_.upper[i] - x_[i], wanted);
-    const double down = std::min(x_[i] - region_.lower[i], wanted);
-    const bool ahead = sign_ > 0 ? up >= std::min(down, wanted) : up > down;
-    const double h = ahead ? up : -down;
-    if (std::abs(h) > 1e-3 * wanted) steps[i] = h;
-  }
-  return steps;
-}
-
 void LeastSquaresSearch::want_equations() {
   const bool allowed = params_.iterations == 0 || jacobians_ < params_.iterations;
   const std::int64_t price = analytic_ ? 1 : x_.size();
@@ -70,20 +57,15 @@ void LeastSquaresSearch::want_equations() {
 }
 
 Neighbourhood LeastSquaresSearch::neighbourhood() const {
-  constexpr double kShare = 0.01;  // surfaces move by a fraction of a pixel, far above rounding
-  Neighbourhood at;
-  at.steps = differences(analytic_ ? kShare : params_.difference * fineness_);
-  at.blur = params_.blur * fineness_;
-  at.points = x_.replicate(1, x_.size() + 1);
-  at.points.rightCols(x_.size()).diagonal() += at.steps;
-  return at;
+  const double share = analytic_ ? kAnalyticShare : params_.difference * fineness_;
+  return hypotrack::neighbourhood(x_, difference_steps(region_, x_, share, sign_),
+                                  params_.blur * fineness_);
 }
 
 void LeastSquaresSearch::take(const NormalEquations& equations) {
   ++jacobians_;
   best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));
-  const auto spread = region_.spread.asDiagonal();
-  equations_ = {spread * equations.a * spread, spread * equations.g};
+  equations_ = per_spread(equations, region_);
   want_trials(0);
 }
 

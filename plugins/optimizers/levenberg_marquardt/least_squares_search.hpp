@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hypotrack/damping.hpp"
+#include "hypotrack/linearization.hpp"
 #include "hypotrack/search.hpp"
 #include "levenberg_marquardt_params.hpp"
 
@@ -40,8 +41,6 @@ class LeastSquaresSearch {
 
  private:
   std::int64_t remaining() const { return evaluations_ - best_.result().evaluations; }
-  /// Returns steps of a share of the spread, inwards at bounds; 0 without room.
-  Eigen::VectorXd differences(double share) const;
   Eigen::VectorXd step(double damping) const;
   void move_to(Eigen::Index point, const Eigen::VectorXd& costs);
   void want_equations();

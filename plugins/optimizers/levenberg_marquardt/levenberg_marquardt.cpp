@@ -83,11 +83,9 @@ void run_numerically(ResidualCost& residuals, const SearchRegion& region, const 
       continue;
     }
     const Neighbourhood at = search.neighbourhood();
-    const Eigen::VectorXd scale =
-        (at.steps.array() == 0).select(0.0, region.spread.array() / at.steps.array());
     Eigen::VectorXd costs(at.steps.size());
-    const NormalEquations equations =
-        differences->normal_equations(at.points.rightCols(at.steps.size()), scale, costs);
+    const NormalEquations equations = differences->normal_equations(
+        at.points.rightCols(at.steps.size()), scale_per_spread(region, at.steps), costs);
     follow(search.take(equations, at, costs));
   }
 }

@@ -12,12 +12,26 @@ namespace {
 using Bounds = NloptAlgorithm::Bounds;
 using Population = NloptAlgorithm::Population;
 
+constexpr NloptAlgorithm with_gradient(std::string_view name, nlopt_algorithm id) {
+  return {.name = name, .id = id, .uses_gradient = true};
+}
+
 constexpr std::array kAlgorithms = {
     NloptAlgorithm{"SBPLX", NLOPT_LN_SBPLX},
     NloptAlgorithm{"NELDERMEAD", NLOPT_LN_NELDERMEAD},
     NloptAlgorithm{"COBYLA", NLOPT_LN_COBYLA},
     NloptAlgorithm{"BOBYQA", NLOPT_LN_BOBYQA},
     NloptAlgorithm{"PRAXIS", NLOPT_LN_PRAXIS, Bounds::ignored},
+    with_gradient("LBFGS", NLOPT_LD_LBFGS),
+    with_gradient("VAR1", NLOPT_LD_VAR1),
+    with_gradient("VAR2", NLOPT_LD_VAR2),
+    with_gradient("TNEWTON", NLOPT_LD_TNEWTON),
+    with_gradient("TNEWTON_RESTART", NLOPT_LD_TNEWTON_RESTART),
+    with_gradient("TNEWTON_PRECOND", NLOPT_LD_TNEWTON_PRECOND),
+    with_gradient("TNEWTON_PRECOND_RESTART", NLOPT_LD_TNEWTON_PRECOND_RESTART),
+    with_gradient("SLSQP", NLOPT_LD_SLSQP),
+    with_gradient("MMA", NLOPT_LD_MMA),
+    with_gradient("CCSAQ", NLOPT_LD_CCSAQ),
     NloptAlgorithm{"CRS2_LM", NLOPT_GN_CRS2_LM, Bounds::finite, Population::crs},
     NloptAlgorithm{"ESCH", NLOPT_GN_ESCH, Bounds::finite, Population::esch},
     NloptAlgorithm{"ISRES", NLOPT_GN_ISRES, Bounds::finite, Population::isres},
@@ -33,9 +47,6 @@ struct Refused {
   std::string_view reason;
 };
 
-constexpr std::string_view kNeedsDerivatives =
-    "it needs derivatives, and the cost of a rendered hypothesis has none";
-
 // The first matching entry counts.
 constexpr std::array kRefused = {
     Refused{
@@ -43,13 +54,9 @@ constexpr std::array kRefused = {
         "it never returns once its arithmetic meets a number that is none (NLopt 2.7.1); BOBYQA "
         "is its successor"},
     Refused{"NEWUOA", "it knows no bounds; BOBYQA is its bounded successor"},
-    Refused{"LBFGS*", kNeedsDerivatives},
-    Refused{"VAR*", kNeedsDerivatives},
-    Refused{"TNEWTON*", kNeedsDerivatives},
-    Refused{"MMA", kNeedsDerivatives},
-    Refused{"CCSAQ", kNeedsDerivatives},
-    Refused{"SLSQP", kNeedsDerivatives},
-    Refused{"STOGO*", kNeedsDerivatives},
+    Refused{"LBFGS_NOCEDAL",
+            "its licence is not free; LBFGS is the free implementation of the method"},
+    Refused{"STOGO*", "Debian builds NLopt without it"},
     Refused{"AUGLAG*", "it is for nonlinear constraints, and a search region has none"},
     Refused{"AGS", "it is for at most ten dimensions, and a rigid object with a hand has 34"},
     Refused{"MLSL", "its starting points are plain random ones; MLSL_LDS covers the region better"},

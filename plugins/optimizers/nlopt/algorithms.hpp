@@ -22,6 +22,7 @@ struct NloptAlgorithm {
   Bounds bounds = Bounds::any;
   Population population = Population::none;
   bool divides_boxes = false;  ///< DIRECT: memory grows with evaluations times dimension
+  bool uses_gradient = false;
 };
 
 /// Returns the algorithm with a name. Throws ConfigError, beginning with `where`, which lists the

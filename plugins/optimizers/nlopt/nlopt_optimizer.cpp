@@ -46,6 +46,16 @@ Nlopt::Nlopt(const NloptParams& params, const std::string& where)
       algorithm_(&find_algorithm(params.algorithm, where)),
       local_(&find_local_algorithm(params.local, where)) {}
 
+bool Nlopt::uses_gradient() const {
+  const bool searches_locally = algorithm_->population == NloptAlgorithm::Population::mlsl;
+  return algorithm_->uses_gradient || (searches_locally && local_->uses_gradient);
+}
+
+Requirements Nlopt::requirements() const {
+  if (!uses_gradient()) return {};
+  return {.least_squares = true, .jacobian = Linearization::welcome};
+}
+
 void Nlopt::check(const ScaledProblem& problem) const {
   const std::int64_t n = problem.dimension();
   if (algorithm_->divides_boxes && problem.remaining() > kMaxDirectNumbers / n) {
@@ -101,10 +111,10 @@ void Nlopt::run(ScaledProblem& problem) const {
   }
 }
 
-OptimizerResult Nlopt::minimize(CostFunction& cost, const SearchRegion& region,
-                                const Budget& budget, std::uint64_t seed) {
-  check_search(cost, region, budget);
+OptimizerResult Nlopt::search(CostFunction& cost, const SearchRegion& region, const Budget& budget,
+                              std::uint64_t seed) const {
   ScaledProblem problem(cost, region, budget);
+  if (uses_gradient()) problem.use_gradient(params_.gradient);
   if (problem.dimension() > 0) check(problem);
   problem.evaluate_start();
   if (problem.dimension() > 0 && problem.remaining() > 0) {
@@ -113,6 +123,16 @@ OptimizerResult Nlopt::minimize(CostFunction& cost, const SearchRegion& region,
     run(problem);
   }
   return problem.result();
+}
+
+OptimizerResult Nlopt::minimize(CostFunction& cost, const SearchRegion& region,
+                                const Budget& budget, std::uint64_t seed) {
+  check_search(cost, region, budget);
+  if (!uses_gradient()) return search(cost, region, budget, seed);
+  check_requirements(requirements(), cost.residuals(), nullptr);
+  return from_feasible_start(
+      cost, region, budget, params_.gradient.difference,
+      [&](const SearchRegion& from, const Budget& rest) { return search(cost, from, rest, seed); });
 }
 
 }  // namespace hypotrack

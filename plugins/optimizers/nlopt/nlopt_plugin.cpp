@@ -12,5 +12,5 @@ class NloptPlugin final : public hypotrack::Nlopt {
 
 }  // namespace
 
-HYPOTRACK_PLUGIN(NloptPlugin,
-                 "derivative-free algorithms of NLopt: SBPLX, CRS2_LM, DIRECT and others", "seeded")
+HYPOTRACK_PLUGIN(NloptPlugin, "algorithms of NLopt: SBPLX, LBFGS, CRS2_LM, DIRECT and others",
+                 "seeded")

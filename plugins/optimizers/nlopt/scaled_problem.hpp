@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <exception>
+#include <optional>
 
+#include "hypotrack/linearization.hpp"
 #include "hypotrack/offset_space.hpp"
 #include "hypotrack/search.hpp"
 
@@ -21,6 +23,10 @@ class ScaledProblem {
   /// All arguments must outlive the problem.
   ScaledProblem(CostFunction& cost, const SearchRegion& region, const Budget& budget);
 
+  /// Gives algorithms the gradient 2 J^T r. Precondition: the cost has residuals, and nothing was
+  /// evaluated.
+  void use_gradient(const LinearizationParams& params);
+
   /// Returns the number of free dimensions.
   int dimension() const { return space_.dimension(); }
   /// Returns the number of evaluations left.
@@ -32,7 +38,8 @@ class ScaledProblem {
   /// Evaluates the start. Throws what the cost throws.
   void evaluate_start();
   /// Evaluates the cost as an nlopt_func; `data` is the ScaledProblem. Never throws: an exception
-  /// of the cost stops NLopt and waits for rethrow().
+  /// of the cost stops NLopt and waits for rethrow(). The gradient is 0 where the cost is infinite,
+  /// and where the budget does not suffice for it, which stops NLopt.
   static double callback(unsigned n, const double* offsets, double* gradient, void* data);
   /// Sets the run to stop when the budget is used up.
   void attach(nlopt_opt opt) { opt_ = opt; }
@@ -42,8 +49,9 @@ class ScaledProblem {
   const OptimizerResult& result() const { return best_.result(); }
 
  private:
-  double value(const double* offsets);
+  double value(const double* offsets, Eigen::VectorXd* gradient);
   double evaluate(const Eigen::VectorXd& point);
+  void add_gradient(Eigen::VectorXd& gradient);
   void stop();
 
   CostFunction& cost_;
@@ -53,7 +61,9 @@ class ScaledProblem {
   OffsetSpace space_;
   nlopt_opt opt_ = nullptr;
   BestSoFar best_;
+  std::optional<Linearizer> linearizer_;
   double start_value_ = 0;
+  double last_cost_ = 0;  ///< of the last point evaluated
   FiniteCosts finite_;
   std::int64_t calls_ = 0;       ///< of NLopt
   std::int64_t idle_calls_ = 0;  ///< calls without an evaluation

@@ -12,6 +12,7 @@
 
 #include "cma_es.hpp"
 #include "differential_evolution.hpp"
+#include "icp_pso.hpp"
 #include "levenberg_marquardt/levenberg_marquardt.hpp"
 #include "multi_start.hpp"
 #include "nlopt_optimizer.hpp"
@@ -66,6 +67,8 @@ std::unique_ptr<Optimizer> make(const std::string& name) {
   if (name == "levenberg_marquardt") {
     return std::make_unique<LevenbergMarquardt>(LevenbergMarquardtParams{});
   }
+  if (name == "icp_pso")
+    return std::make_unique<IcpPso>(IcpPsoParams{}, make("levenberg_marquardt"));
   if (name == "random_search") return std::make_unique<RandomSearch>(RandomSearchParams{});
   NloptParams params;
   params.algorithm = name;
@@ -224,9 +227,15 @@ INSTANTIATE_TEST_SUITE_P(
         Candidate{"pso_of_groups", 0.04, 0.5, 18}, Candidate{"de_best_1_bin", 0.09, 0.7, 35},
         Candidate{"differential_evolution", 0.09, 1.3, 35}, Candidate{"cma_es", 0.002, 0.2, 5},
         Candidate{"pipeline", 1e-4, 0.004, 5}, Candidate{"multi_start", 0.003, 0.2, 12},
-        Candidate{"levenberg_marquardt", 1e-09, 1e-09, 0.02}, Candidate{"SBPLX", 1e-06, 1e-05, 0.3},
-        Candidate{"NELDERMEAD", 0.03, 0.4, 6}, Candidate{"COBYLA", 1e-06, 0.002, 0.02},
-        Candidate{"BOBYQA", 1e-09, 1e-06, 0.02}, Candidate{"PRAXIS", 0.001, 0.001, 1},
+        Candidate{"icp_pso", 1e-6, 1e-4, 3}, Candidate{"levenberg_marquardt", 1e-09, 1e-09, 0.02},
+        Candidate{"SBPLX", 1e-06, 1e-05, 0.3}, Candidate{"NELDERMEAD", 0.03, 0.4, 6},
+        Candidate{"COBYLA", 1e-06, 0.002, 0.02}, Candidate{"BOBYQA", 1e-09, 1e-06, 0.02},
+        Candidate{"PRAXIS", 0.001, 0.001, 1}, Candidate{"LBFGS", 1e-9, 1e-6, 0.01},
+        Candidate{"VAR1", 1e-9, 1e-4, 0.01}, Candidate{"VAR2", 1e-9, 1e-4, 0.01},
+        Candidate{"TNEWTON", 1e-6, 0.8, 8}, Candidate{"TNEWTON_RESTART", 1e-6, 0.3, 6},
+        Candidate{"TNEWTON_PRECOND", 1e-6, 0.9, 5},
+        Candidate{"TNEWTON_PRECOND_RESTART", 1e-6, 0.4, 6}, Candidate{"SLSQP", 1e-9, 1e-6, 9},
+        Candidate{"MMA", 1e-6, 2e-4, 4}, Candidate{"CCSAQ", 1e-6, 2e-4, 5},
         Candidate{"CRS2_LM", 0.08, 0.9, 25}, Candidate{"ESCH", 0.06, 0.9, 16},
         Candidate{"ISRES", 0.11, 1.6, 35}, Candidate{"DIRECT", 0.01, 0.15, 11},
         Candidate{"DIRECT_L", 0.04, 0.5, 12}, Candidate{"DIRECT_L_RAND", 0.006, 0.08, 7},
@@ -251,7 +260,7 @@ TEST_P(SeededOptimizer, DifferentSeedsGiveDifferentSearches) {
 INSTANTIATE_TEST_SUITE_P(All, SeededOptimizer,
                          ::testing::Values("pso", "pso_of_groups", "random_search",
                                            "differential_evolution", "cma_es", "pipeline",
-                                           "multi_start", "CRS2_LM", "ESCH", "ISRES",
+                                           "multi_start", "icp_pso", "CRS2_LM", "ESCH", "ISRES",
                                            "DIRECT_L_RAND"));
 
 }  // namespace

@@ -33,18 +33,19 @@ TEST_P(NloptRefuses, SayingWhyAndWhatIsAllowed) {
               ThrowsMessage<ConfigError>(AllOf(
                   HasSubstr("scene.yaml:9:3: algorithm is '" + GetParam().algorithm + "'"),
                   HasSubstr(GetParam().reason),
-                  HasSubstr("expected one of SBPLX, NELDERMEAD, COBYLA, BOBYQA, PRAXIS, CRS2_LM, "
-                            "ESCH, ISRES, DIRECT, DIRECT_L, DIRECT_L_RAND, ORIG_DIRECT_L, "
-                            "MLSL_LDS"))));
+                  HasSubstr("expected one of SBPLX, NELDERMEAD, COBYLA, BOBYQA, PRAXIS, LBFGS, "
+                            "VAR1, VAR2, TNEWTON, TNEWTON_RESTART, TNEWTON_PRECOND, "
+                            "TNEWTON_PRECOND_RESTART, SLSQP, MMA, CCSAQ, CRS2_LM, ESCH, ISRES, "
+                            "DIRECT, DIRECT_L, DIRECT_L_RAND, ORIG_DIRECT_L, MLSL_LDS"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Algorithms, NloptRefuses,
     ::testing::Values(
         Refusal{"NEWUOA_BOUND", "never returns"}, Refusal{"LN_NEWUOA_BOUND", "never returns"},
-        Refusal{"NEWUOA", "it knows no bounds"}, Refusal{"LBFGS", "needs derivatives"},
-        Refusal{"NLOPT_LD_TNEWTON_PRECOND", "needs derivatives"},
-        Refusal{"SLSQP", "needs derivatives"}, Refusal{"AUGLAG", "constraints"},
+        Refusal{"NEWUOA", "it knows no bounds"}, Refusal{"LBFGS_NOCEDAL", "licence"},
+        Refusal{"NLOPT_LD_TNEWTON_PRECOND", "write TNEWTON_PRECOND"},
+        Refusal{"STOGO_RAND", "Debian builds NLopt without it"}, Refusal{"AUGLAG", "constraints"},
         Refusal{"AGS", "at most ten dimensions"}, Refusal{"SUBPLEX", "licence"},
         Refusal{"DIRECT_L_NOSCAL", "scaled by the region's spread"},
         Refusal{"GN_CRS2_LM", "write CRS2_LM"}, Refusal{"sbplx", "there is no such algorithm"}),
@@ -56,7 +57,7 @@ TEST(Nlopt, OnlyBoundedLocalAlgorithmsServeMlsl) {
   EXPECT_THAT([&] { Nlopt(params, "s:1:1"); },
               ThrowsMessage<ConfigError>(
                   AllOf(HasSubstr("s:1:1: local is 'PRAXIS': it is no local algorithm"),
-                        HasSubstr("expected one of SBPLX, NELDERMEAD, COBYLA, BOBYQA"))));
+                        HasSubstr("expected one of SBPLX, NELDERMEAD, COBYLA, BOBYQA, LBFGS, "))));
 }
 
 TEST(Nlopt, APopulationThatCrsCannotUseIsRefused) {
