@@ -32,6 +32,7 @@ struct StudyKeys {
   ConfigNode scenes, set, grid, seeds, variants;
   std::optional<int> frames;
   bool overlay = false, recordings = false, trace = false;
+  Redraw redraw = Redraw::noise;
   std::vector<double> tolerances;
   std::vector<Plot> plots;
   std::string table_per;
@@ -49,6 +50,9 @@ struct StudyKeys {
     v("overlay", overlay, {.help = "whether every run writes overlay.mp4"});
     v("recordings", recordings,
       {.help = "whether every source is recorded once, and all runs read the recording"});
+    v("redraw", redraw,
+      {.help = "what seeds redraw of rendered pictures: noise, or nothing; all settings get the "
+               "same pictures"});
     v("trace", trace, {.help = "whether every run writes trace.csv, how its searches converge"});
     v("tolerances", tolerances,
       {.help = "with trace: targets of the report, as shares of the cost at the truth above it",
@@ -262,6 +266,11 @@ void check_table_per(const Study& study, const ConfigNode& node) {
 
 }  // namespace
 
+std::span<const std::string_view> enum_names(Redraw) {
+  static constexpr std::array<std::string_view, 2> kNames = {"noise", "nothing"};
+  return kNames;
+}
+
 std::span<const std::string_view> enum_names(PlotKind) {
   static constexpr std::array<std::string_view, 9> names{"curve",
                                                          "success",
@@ -311,6 +320,7 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.frames = keys.frames;
   study.overlay = keys.overlay;
   study.recordings = keys.recordings;
+  study.redraw = keys.redraw;
   study.trace = keys.trace;
   study.tolerances = keys.tolerances;
   study.plots = keys.plots;
