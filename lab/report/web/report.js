@@ -27,6 +27,7 @@
     var title = heading.textContent;
     document.title = title === page.title ? title : title + ' – ' + page.title;
     hypotrack.drawCharts(true);
+    hypotrack.markWideTables();
     if (focus) {
       window.scrollTo(0, 0);
       heading.focus({preventScroll: true});
@@ -34,7 +35,10 @@
   }
 
   window.addEventListener('hashchange', function () { show(true); });
-  window.addEventListener('resize', function () { hypotrack.drawCharts(false); });
+  window.addEventListener('resize', function () {
+    hypotrack.drawCharts(false);
+    hypotrack.markWideTables();
+  });
   hypotrack.dark.addEventListener('change', function () { hypotrack.drawCharts(true); });
   document.getElementById('version').textContent = 'Made by hypotrack ' + page.version;
   show(false);

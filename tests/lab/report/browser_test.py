@@ -211,6 +211,53 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(len(self.find("#error svg")), 1)
         self.assert_quiet()
 
+    def test_tables_show_that_they_go_on_to_the_right(self):
+        for width in (1280, 400):
+            self.open(self.study_page, width=width)
+            boxes = self.script("""
+                return Array.from(document.querySelectorAll('.table .scrolled')).map(function (box) {
+                  return [box.firstChild.scrollWidth > box.firstChild.clientWidth + 2,
+                          box.querySelector('.more').offsetHeight > 0];
+                });""")
+            self.assertIn([True, True], boxes)
+            for wide, told in boxes:
+                self.assertEqual(told, wide)
+            self.script("document.querySelectorAll('.scroll').forEach(function (scroll) {"
+                        "  scroll.scrollLeft = 1e5; });")
+            self.until(lambda: not self.find(".goes-right"))
+            self.assertTrue(self.find(".goes-left"))
+
+    def test_axes_end_where_the_data_ends(self):
+        self.open(self.study_page)
+        ends = self.script("""
+            return ['plot-1-curve', 'plot-2-success'].map(function (id) {
+              var chart = hypotrack.charts.find(function (c) { return c.plot.id === id; });
+              return [chart.view.scale('x').domain()[1], chart.view.scale('y').domain()[1],
+                      hypotrack.rangeOf(chart.plot, hypotrack.band)[1],
+                      hypotrack.endOfRise(chart.plot)];
+            });""")
+        (curve_x, curve_y, most, _), (success_x, _, _, rise) = ends
+        self.assertEqual([curve_x, curve_y], [64, most])
+        self.assertEqual(success_x, rise)
+        self.assertLess(rise, 50)  # where the table of shares ends
+
+    def test_names_are_whole_where_there_is_room(self):
+        self.open(self.study_page)
+        long = "a method whose name has more words than others"
+        texts = self.script("""
+            var plot = {kind: 'bars', title: 't', color: {label: 'c', values: [arguments[0], 'b']},
+                        x: {label: 'x', values: [arguments[0], 'short']}, y: {label: 'y'}, facets:
+                        [{label: '', rows: [{x: arguments[0], color: 'b', mean: 1, sd: 0, n: 2}]}]};
+            var chart = {plot: plot, width: 0, view: null,
+                         holder: document.querySelector('.plot')};
+            hypotrack.drawChart(chart);
+            return chart.view.runAsync().then(function () {
+              return Array.from(chart.holder.querySelectorAll('text')).map(function (text) {
+                return text.textContent;
+              });
+            });""", long)
+        self.assertEqual(texts.count(long), 2)  # in the legend and at the axis
+
     def test_nothing_is_wider_than_a_phone(self):
         self.open(self.study_page, width=390)
         self.assert_no_sideways_scroll()
