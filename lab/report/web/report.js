@@ -10,6 +10,8 @@
   }
 
   function content() {
+    if (page.kind === 'change')
+      return {element: hypotrack.changePage(page), stop: function () {}};
     var match = /^#\/run\/(.*)$/.exec(location.hash);
     var run = match ? runNamed(decodeURIComponent(match[1])) : null;
     if (!run && page.kind === 'run') run = page.runs[0];

@@ -54,6 +54,14 @@ class ReportTest(unittest.TestCase):
         single = next((study / "runs").glob("*_s1"))
         subprocess.run([PROGRAM, "report", single, "--no-images"], check=True,
                        stdout=subprocess.DEVNULL)
+        after = pathlib.Path(cls.folder.name) / "after"
+        shutil.copytree(study, after)
+        for metrics in (after / "runs").glob("stereo_*/metrics.json"):
+            numbers = json.loads(metrics.read_text())
+            numbers["mean_error_mm"] -= 1
+            metrics.write_text(json.dumps(numbers))
+        subprocess.run([PROGRAM, "report", study, after], check=True, stdout=subprocess.DEVNULL)
+        cls.changes_page = (after / "changes.html").as_uri()
         cls.study_page = (study / "report.html").as_uri()
         cls.run_page = (single / "report.html").as_uri()
         cls.browser = start_browser(cls.folder.name + "/profile")
@@ -73,7 +81,8 @@ class ReportTest(unittest.TestCase):
         for kind in ("browser", "performance"):
             self.browser.get_log(kind)  # what came before
         self.browser.get(page)
-        self.until(lambda: self.script("return document.querySelectorAll('.plot svg').length") > 0)
+        shown = ".table" if page == self.changes_page else ".plot svg"
+        self.until(lambda: self.find(shown))
 
     def script(self, text, *arguments):
         return self.browser.execute_script(text, *arguments)
@@ -209,6 +218,20 @@ class ReportTest(unittest.TestCase):
         self.open(self.run_page)
         self.assertEqual(len(self.find(".stage canvas")), 1)
         self.assertEqual(len(self.find("#error svg")), 1)
+        self.assert_quiet()
+
+    def test_a_study_before_and_after_a_change_is_one_page(self):
+        self.open(self.changes_page, width=390)
+        self.assertEqual(len(self.find(".table")), 2)
+        cells = self.script("""
+            return Array.from(document.querySelectorAll('#change-1 tbody tr')).map(function (row) {
+              return row.querySelector('.detail').textContent;
+            });""")
+        self.assertEqual(len(cells), 6)
+        for cell in cells:
+            self.assertTrue(cell.startswith("−1.00"), cell)
+        self.assertGreaterEqual(len(self.find("#change-2 .same")), 6)
+        self.assert_no_sideways_scroll()
         self.assert_quiet()
 
     def test_tables_show_that_they_go_on_to_the_right(self):
