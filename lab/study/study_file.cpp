@@ -14,6 +14,7 @@
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
+#include "lab/study/quick.hpp"
 #include "lab/study/study_grid.hpp"
 #include "lab/study/study_text.hpp"
 #include "output/metrics/metrics.hpp"
@@ -189,18 +190,21 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
                     const std::optional<std::string>& name) {
   if (variants.defined() && !variants.is_map())
     fail_type(variants, "a map of variants, `{NAME: {seeds: 1, ...}}`");
-  const std::vector<std::string> names = variants.keys();
+  std::vector<std::string> names = variants.keys();
   for (const std::string& other : names) {
     Study copy = study;
     apply_variant(copy, variants.get(other));
     resolve_includes(copy);
   }
   if (!name) return;
+  if (*name == kQuick) {
+    make_quick(study);
+    if (!variants.get(kQuick).defined()) return;
+  }
+  if (std::find(names.begin(), names.end(), kQuick) == names.end()) names.emplace_back(kQuick);
   if (std::find(names.begin(), names.end(), *name) == names.end())
-    throw ConfigError(
-        fmt::format("{}: has no variant '{}'{}{}", file, *name, did_you_mean(*name, names),
-                    names.empty() ? "; it has none at all"
-                                  : fmt::format("; its variants are: {}", fmt::join(names, ", "))));
+    throw ConfigError(fmt::format("{}: has no variant '{}'{}; its variants are: {}", file, *name,
+                                  did_you_mean(*name, names), fmt::join(names, ", ")));
   apply_variant(study, variants.get(*name));
 }
 
