@@ -125,6 +125,21 @@ std::vector<std::size_t> cells_to_check(const study::StudyFolder& folder, const 
   return cells_of(plan, runs);
 }
 
+/// Makes the runs and the recordings that they read. Returns false if it was interrupted.
+bool make_runs(const study::StudyFolder& folder, const study::Plan& plan,
+               const std::vector<std::size_t>& runs, const study::Launch& launch,
+               const InterruptGuard& interrupt) {
+  const study::RedrawnRecordings recordings(plan);
+  Console console(plan, runs.size(), interrupt);
+  for (const std::vector<std::size_t>& batch : study::batches_of(plan, runs)) {
+    if (plan.study.recordings)
+      study::make_recordings(folder, plan, batch, launch, [&] { return !interrupt.interrupted(); });
+    if (!study::execute(folder, plan, batch, launch, console)) return false;
+    recordings.remove_read(folder, batch);
+  }
+  return true;
+}
+
 /// Prints the state of the study and returns the exit code.
 int conclude(const study::Tally& tally, const study::StudyFolder& folder, bool complete) {
   const std::size_t failed = tally.failed;
@@ -156,14 +171,7 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
     return kInterruptedExitCode;
   }
   folder.begin();
-  if (plan.study.recordings)
-    study::make_recordings(folder, plan, cells_of(plan, runs), launch,
-                           [&] { return !interrupt.interrupted(); });
-  bool complete = false;
-  {
-    Console console(plan, runs.size(), interrupt);
-    complete = study::execute(folder, plan, runs, launch, console);
-  }
+  const bool complete = make_runs(folder, plan, runs, launch, interrupt);
   return conclude(study::write_tables(folder, plan), folder, complete);
 }
 

@@ -36,8 +36,11 @@ void add_report_command(const Command& root, CommonOptions& common, int& exit_co
   const Command command = root.add_command("report", "Write one HTML file about a study or a run");
   command.add("directory", &options->report.directory, "Folder of a study or of a run",
               {.required = true});
+  command.add("after", &options->report.after,
+              "Folder of the same study after a change: one page compares both, cell by cell");
   command.add("--out", &options->report.out,
-              "HTML file [DIRECTORY/report.html]; a folder of the same name without .html gets "
+              "HTML file [DIRECTORY/report.html, AFTER/changes.html]; a folder of the same name "
+              "without .html gets "
               "plots and tables");
   command.add("--replays", &options->report.replays, "Runs with a 3D replay, at most",
               {.show_default = true, .check = whole_number(0)});

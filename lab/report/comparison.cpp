@@ -1,6 +1,9 @@
 #include "lab/report/comparison.hpp"
 
+#include <algorithm>
+
 #include "base/statistics.hpp"
+#include "lab/report/power.hpp"
 #include "lab/report/significance.hpp"
 
 namespace hypotrack {
@@ -30,6 +33,11 @@ double test_difference(const Sample& a, const Sample& b) {
                             : rank_sum_test(a.values, b.values);
 }
 
+std::optional<int> seeds_needed(const Sample& a, const Sample& b, double alpha) {
+  return a.seeds == b.seeds ? pairs_needed(a.values, b.values, alpha)
+                            : values_needed(a.values, b.values, alpha);
+}
+
 std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
                                         MetricInfo::Better better) {
   std::vector<Comparison> all;
@@ -38,7 +46,8 @@ std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
                    .sd = sample_deviation(sample.values),
                    .count = sample.values.size(),
                    .best = false,
-                   .p = std::nullopt});
+                   .p = std::nullopt,
+                   .seeds_needed = std::nullopt});
   const int best = best_of(all, better);
   if (best < 0) return all;
   const auto best_index = static_cast<std::size_t>(best);
@@ -51,7 +60,13 @@ std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
     tested.push_back(i);
   }
   const std::vector<double> corrected = holm(p_values);
-  for (std::size_t k = 0; k < tested.size(); ++k) all[tested[k]].p = corrected[k];
+  const double alpha = kSignificant / static_cast<double>(std::max<std::size_t>(tested.size(), 1));
+  for (std::size_t k = 0; k < tested.size(); ++k) {
+    Comparison& comparison = all[tested[k]];
+    comparison.p = corrected[k];
+    if (corrected[k] >= kSignificant)
+      comparison.seeds_needed = seeds_needed(samples[tested[k]], samples[best_index], alpha);
+  }
   return all;
 }
 

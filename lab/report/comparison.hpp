@@ -23,6 +23,8 @@ struct Comparison {
   /// Probability of a difference from the best sample at least as large by chance alone, corrected
   /// for multiple comparisons. Nothing for the best, and where there is nothing to test.
   std::optional<double> p;
+  /// Seeds that would separate it from the best, by power.hpp; only of samples that are not.
+  std::optional<int> seeds_needed;
 };
 
 inline constexpr double kSignificant = 0.05;
@@ -36,5 +38,8 @@ std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
 
 /// Returns the p value of the difference of two samples, without correction.
 double test_difference(const Sample& a, const Sample& b);
+
+/// Returns the seeds with which that test would give p < alpha for the difference seen.
+std::optional<int> seeds_needed(const Sample& a, const Sample& b, double alpha);
 
 }  // namespace hypotrack

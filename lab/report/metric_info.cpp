@@ -48,6 +48,7 @@ const std::vector<MetricInfo>& known_metrics() {
       {"found_share", "found", "%", 100, 1, Better::higher},
       {"search_failed_share", "search failed", "%", 100, 1, Better::lower},
       {"objective_failed_share", "objective failed", "%", 100, 1, Better::lower},
+      {"evaluations_per_frame", "evaluations per frame", "", 1, 0, Better::neither},
       {"fps", "speed", "frames/s", 1, 1, Better::neither},
       {"frame_seconds", "time of a frame", "s", 1, 2, Better::neither},
       {"search_fps", "speed while not tracked", "frames/s", 1, 1, Better::neither},
@@ -73,13 +74,16 @@ const std::vector<std::string>& table_metrics() {
   // No best value is marked for two of these. The time to loss ignores runs that were never lost.
   // Speed depends on the machine as much as on the method.
   static const std::vector<std::string> columns{"mean_error_mm",
+                                                "lost_share",
+                                                "lost_frames",
+                                                "evaluations_per_frame",
+                                                "fps",
                                                 "median_error_mm",
                                                 "p95_error_mm",
                                                 "success_20mm",
                                                 "found_share",
                                                 "search_failed_share",
                                                 "objective_failed_share",
-                                                "lost_share",
                                                 "tracked_share",
                                                 "uncertain_share",
                                                 "absent_share",
@@ -91,7 +95,6 @@ const std::vector<std::string>& table_metrics() {
                                                 "auc_20_50",
                                                 "time_to_loss_s",
                                                 "jitter_mm",
-                                                "fps",
                                                 "frame_seconds"};
   return columns;
 }

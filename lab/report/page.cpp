@@ -30,10 +30,10 @@ std::string replaced_all(std::string text, std::string_view piece, std::string_v
 }
 
 std::string scripts() {
-  constexpr std::array kScripts{"three.js",    "orbit_controls.js", "vega.js",   "decode.js",
-                                "elements.js", "plot_parts.js",     "plots.js",  "run_plots.js",
-                                "charts.js",   "tables.js",         "replay.js", "player.js",
-                                "run_page.js", "overview.js",       "report.js"};
+  constexpr std::array kScripts{"three.js",    "orbit_controls.js", "vega.js",     "decode.js",
+                                "elements.js", "plot_parts.js",     "plots.js",    "run_plots.js",
+                                "charts.js",   "tables.js",         "changes.js",  "replay.js",
+                                "player.js",   "run_page.js",       "overview.js", "report.js"};
   std::string all;
   for (const char* name : kScripts)
     all += "<script>\n" + replaced_all(asset(name), "</script", "<\\/script") + "\n</script>\n";

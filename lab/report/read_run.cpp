@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
+#include "lab/study/hash.hpp"
 
 namespace hypotrack {
 namespace {
@@ -47,6 +49,23 @@ void read_metrics(const fs::path& file, StudyRun& run) {
   read_success(json.value("success_curve", Json::object()), file, run.success);
 }
 
+/// Reads from track.csv what the run evaluated, and what tells its result from others.
+void read_track(const fs::path& file, StudyRun& run) {
+  const CsvTable table(file);
+  study::Hash hash;
+  for (std::size_t c = 0; c < table.columns().size(); ++c) {
+    if (table.columns()[c] == "milliseconds") continue;
+    hash.add(table.columns()[c]);
+    for (const CsvTable::Row& row : table.rows()) hash.add(row.cells[c]);
+  }
+  run.result = hash.value();
+  const int column = table.find("evaluations");
+  if (column < 0 || table.rows().empty()) return;
+  double sum = 0;
+  for (const CsvTable::Row& row : table.rows()) sum += table.number(row, column, true);
+  run.metrics["evaluations_per_frame"] = sum / static_cast<double>(table.rows().size());
+}
+
 std::string setting_text(const Json& value) {
   return canonical_value(value.is_string() ? value.get<std::string>() : value.dump());
 }
@@ -61,6 +80,7 @@ void read_results(const fs::path& directory, StudyRun& run) {
     return;
   }
   if (const fs::path file = directory / "metrics.json"; fs::exists(file)) read_metrics(file, run);
+  if (const fs::path file = directory / "track.csv"; fs::exists(file)) read_track(file, run);
   const fs::path summary = directory / "summary.json";
   const Json json = read_json_object(summary);
   for (const char* key : {"fps", "evaluations_per_second"})

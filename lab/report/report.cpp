@@ -7,6 +7,8 @@
 
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
+#include "lab/json_file.hpp"
+#include "lab/report/change_data.hpp"
 #include "lab/report/page.hpp"
 #include "lab/report/plot_files.hpp"
 #include "lab/report/report_data.hpp"
@@ -54,7 +56,9 @@ void put_in_place(const fs::path& made, const fs::path& target) {
 }
 
 fs::path page_path(const ReportOptions& options) {
-  const fs::path page = options.out.empty() ? options.directory / "report.html" : options.out;
+  const fs::path usual =
+      options.after.empty() ? options.directory / "report.html" : options.after / "changes.html";
+  const fs::path page = options.out.empty() ? usual : options.out;
   if (fs::is_directory(page) || !page.has_filename())
     throw OutputError(fmt::format("{}: is a folder; expected the name of an HTML file after --out",
                                   page.string()));
@@ -66,15 +70,9 @@ fs::path page_path(const ReportOptions& options) {
   return page;
 }
 
-}  // namespace
-
-ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) {
-  const StudyData study = read_study(options.directory);
-  ReportSummary summary;
-  summary.page = page_path(options);
-  summary.files = summary.page;
-  summary.files.replace_extension();
-  const Workshop workshop(summary.page);
+/// Makes the page and the files of one study or run.
+void make_report(const StudyData& study, const ReportOptions& options, PluginLoader& plugins,
+                 const Workshop& workshop, ReportSummary& summary) {
   const ReportData data = report_data(study, options.replays, plugins);
   TextFile(workshop / "report.html").write(report_page(data.page));
   if (study.is_study)
@@ -83,12 +81,37 @@ ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) 
     summary.skipped = write_plot_files(data.page, workshop / "plots");
   if (options.plot_files == PlotFiles::required && !summary.skipped.empty())
     throw OutputError(summary.skipped);
+  summary.replays = data.replays;
+}
+
+/// Makes the page and the tables of a study before and after a change.
+void make_changes(const StudyData& before, const StudyData& after, const Workshop& workshop) {
+  const Json page = change_data(before, after);
+  TextFile(workshop / "report.html").write(report_page(page));
+  write_change_files(page["tables"], workshop / "tables");
+}
+
+}  // namespace
+
+ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) {
+  std::vector<StudyData> studies{read_study(options.directory)};
+  if (!options.after.empty()) studies.push_back(read_study(options.after));
+  ReportSummary summary;
+  summary.page = page_path(options);
+  summary.files = summary.page;
+  summary.files.replace_extension();
+  const Workshop workshop(summary.page);
+  if (studies.size() == 1)
+    make_report(studies[0], options, plugins, workshop, summary);
+  else
+    make_changes(studies[0], studies[1], workshop);
 
   summary.bytes = fs::file_size(workshop / "report.html");
-  summary.runs = study.runs.size();
-  summary.failed = static_cast<std::size_t>(
-      std::count_if(study.runs.begin(), study.runs.end(), [](const auto& r) { return r.failed; }));
-  summary.replays = data.replays;
+  for (const StudyData& study : studies) {
+    summary.runs += study.runs.size();
+    summary.failed += static_cast<std::size_t>(
+        std::ranges::count_if(study.runs, [](const StudyRun& run) { return run.failed; }));
+  }
   std::error_code error;
   fs::create_directories(summary.files, error);
   if (error)

@@ -15,9 +15,11 @@ enum class PlotFiles {
 };
 
 struct ReportOptions {
-  std::filesystem::path directory;  ///< of a study or a run
-  std::filesystem::path out;        ///< the HTML file; DIRECTORY/report.html if empty
-  int replays = 12;                 ///< at most
+  std::filesystem::path directory;   ///< of a study or a run
+  std::filesystem::path after = {};  ///< of the study after a change; empty: none
+  /// The HTML file; empty: DIRECTORY/report.html, or AFTER/changes.html.
+  std::filesystem::path out;
+  int replays = 12;  ///< at most
   PlotFiles plot_files = PlotFiles::if_possible;
 };
 
@@ -32,7 +34,8 @@ struct ReportSummary {
   std::string skipped;  ///< why plots have no separate files; empty if they have
 };
 
-/// Writes a self-contained HTML file about a study or a run. Beside it, in a folder of the same
+/// Writes a self-contained HTML file about a study or a run, or about a study before and after a
+/// change. Beside it, in a folder of the same
 /// name without `.html`, it writes plots/*.svg, plots/*.png and tables/*.csv. Replaces an earlier
 /// report when all is complete. Throws DataError, ConfigError, PluginError or OutputError, and then
 /// keeps the earlier one.

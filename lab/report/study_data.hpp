@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,6 +50,8 @@ struct StudyRun {
   std::map<std::string, double> models_mm;  ///< mean error per model
   std::vector<std::pair<std::string, double>> landmarks_mm;  ///< mean error per landmark
   SuccessCurve success;
+  /// Hash of all that track.csv says, but for times. Nothing without one.
+  std::optional<std::uint64_t> result;
 
   /// Returns a metric or timing by its name; NaN if the run has none.
   double number(const std::string& name) const;

@@ -5,55 +5,16 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 
+#include "base/statistics.hpp"
 #include "lab/json_file.hpp"
-#include "lab/report/comparison.hpp"
-#include "lab/report/metric_info.hpp"
+#include "lab/report/cells.hpp"
 #include "lab/report/number_json.hpp"
-#include "lab/report/significance.hpp"
+#include "lab/report/table_notes.hpp"
 
 namespace hypotrack {
 namespace {
-
-using Runs = std::vector<const StudyRun*>;
-
-/// The runs that differ in their seed only.
-struct Cell {
-  std::vector<std::string> settings;  ///< one per axis
-  Runs runs;                          ///< finished
-  int failed = 0;
-};
-
-/// Returns the cells of a scene in the order of the runs. With `value`, only those with this value
-/// of the axis that has a table per value.
-std::vector<Cell> cells_of(const StudyData& study, const std::string& scene,
-                           const std::string& value = {}) {
-  std::vector<Cell> cells;
-  for (const StudyRun& run : study.runs) {
-    if (run.scene != scene) continue;
-    if (!value.empty() && run.on_axis(study.table_per) != value) continue;
-    std::vector<std::string> settings;
-    for (const StudyAxis& axis : study.axes) settings.push_back(run.on_axis(axis.key));
-    if (cells.empty() || cells.back().settings != settings)
-      cells.push_back({.settings = settings, .runs = {}, .failed = 0});
-    if (run.failed)
-      ++cells.back().failed;
-    else
-      cells.back().runs.push_back(&run);
-  }
-  return cells;
-}
-
-Sample sample_of(const Runs& runs, const MetricInfo& metric) {
-  Sample sample;
-  for (const StudyRun* run : runs) {
-    const double value = metric.factor * run->number(metric.key);
-    if (!std::isfinite(value)) continue;
-    sample.seeds.push_back(run->seed);
-    sample.values.push_back(value);
-  }
-  return sample;
-}
 
 Json to_json(const Comparison& c) {
   return {{"mean", number_or_null(c.mean)},
@@ -61,39 +22,25 @@ Json to_json(const Comparison& c) {
           {"n", c.count},
           {"best", c.best},
           {"p", c.p ? Json(*c.p) : Json()},
-          {"same", c.p && *c.p >= kSignificant}};
+          {"same", c.p && *c.p >= kSignificant},
+          {"seeds_needed", c.seeds_needed ? Json(*c.seeds_needed) : Json()}};
 }
 
 Json column_json(const MetricInfo& metric) {
   return {{"key", metric.key}, {"label", metric.label_with_unit()}, {"digits", metric.digits}};
 }
 
-/// Explains the marks, and warns if the seeds are too few to separate anything.
-std::string note_on_tests(std::size_t seeds, std::size_t comparisons, const std::string& among) {
-  if (comparisons == 0 || seeds == 0) return "";
-  std::string note = fmt::format(
-      "Mean ± standard deviation over seeds. Best of {} in bold. ≈: not separated from the best by "
-      "{} seed{} (p ≥ {}; Wilcoxon signed-rank test over equal seeds, Mann–Whitney test otherwise, "
-      "Holm correction for {} comparison{}).",
-      among, seeds, seeds == 1 ? "" : "s", kSignificant, comparisons, comparisons == 1 ? "" : "s");
-  const double smallest =
-      std::min(1.0, static_cast<double>(comparisons) * smallest_signed_rank_p(int(seeds)));
-  if (smallest >= kSignificant)
-    note += fmt::format(
-        " So few seeds can separate nothing here: even the clearest difference would have "
-        "p = {:.2g}.",
-        smallest);
-  return note;
-}
-
-/// Returns the columns for which any run has a number.
+/// Returns the columns for which any run has a number. Lost frames are counted where no truth says
+/// their share.
 std::vector<MetricInfo> columns_of(const StudyData& study) {
+  const auto measured = [&](const std::string& key) {
+    return std::any_of(study.runs.begin(), study.runs.end(),
+                       [&](const StudyRun& run) { return std::isfinite(run.number(key)); });
+  };
   std::vector<MetricInfo> columns;
   for (const std::string& key : table_metrics()) {
-    const bool measured =
-        std::any_of(study.runs.begin(), study.runs.end(),
-                    [&](const StudyRun& run) { return std::isfinite(run.number(key)); });
-    if (measured) columns.push_back(metric_info(key));
+    if (key == "lost_frames" && measured("lost_share")) continue;
+    if (measured(key)) columns.push_back(metric_info(key));
   }
   return columns;
 }
@@ -104,17 +51,28 @@ Json key_labels(const StudyData& study) {
   return labels;
 }
 
-Json row_json(const Cell& cell) {
-  return {{"keys", cell.settings},
-          {"runs", cell.runs.size()},
-          {"failed", cell.failed},
-          {"cells", Json::array()}};
+Json row_json(const StudyCell& cell) {
+  Json row{{"keys", cell.settings}, {"runs", 0}, {"samples", 0}, {"failed", 0}};
+  row["cells"] = Json::array();
+  return row;
 }
 
-std::size_t most_seeds(const std::vector<Cell>& cells) {
-  std::size_t most = 0;
-  for (const Cell& cell : cells) most = std::max(most, cell.runs.size());
-  return most;
+void add_counts(Json& row, const StudyCell& cell) {
+  const auto add = [&](const char* key, std::size_t count) {
+    row[key] = row[key].get<std::size_t>() + count;
+  };
+  add("runs", cell.runs.size());
+  add("samples", distinct_runs(cell.runs).size());
+  add("failed", static_cast<std::size_t>(cell.failed));
+}
+
+/// Adds a cell to every row: a metric of the row's runs, compared with the other rows.
+void add_column(Json& table, const std::vector<StudyCell>& rows, const MetricInfo& metric) {
+  std::vector<Sample> samples;
+  for (const StudyCell& cell : rows) samples.push_back(sample_of(cell.runs, metric));
+  const std::vector<Comparison> compared = compare_samples(samples, metric.better);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    table["rows"][i]["cells"].push_back(to_json(compared[i]));
 }
 
 /// Returns a scene's name in a form for file names.
@@ -124,85 +82,99 @@ std::string file_name_of(std::string name) {
   return name;
 }
 
-Json scene_table(const StudyData& study, std::size_t index, const std::string& value = {}) {
+/// Names the table of one value of the axis that has a table for each.
+void name_part(const StudyData& study, const std::string& part, Json& table) {
+  if (part.empty()) return;
+  table["id"] = table["id"].get<std::string>() + "-" + file_name_of(part);
+  table["title"] = fmt::format("{}, {} {}", table["title"].get<std::string>(),
+                               study.axis_label(study.table_per), part);
+}
+
+Json scene_table(const StudyData& study, std::size_t index, const std::string& part) {
   const StudyScene& scene = study.scenes[index];
-  const std::vector<Cell> cells = cells_of(study, scene.name, value);
-  const std::vector<MetricInfo> columns = columns_of(study);
+  const std::vector<StudyCell> cells = cells_of(study, scene.name, part);
   Json table{{"id", fmt::format("table-{}-{}", index + 1, file_name_of(scene.name))},
              {"title", scene.label}};
-  if (!value.empty()) {
-    table["id"] = table["id"].get<std::string>() + "-" + file_name_of(value);
-    table["title"] =
-        fmt::format("{}, {} {}", scene.label, study.axis_label(study.table_per), value);
-  }
-  table["note"] =
-      note_on_tests(most_seeds(cells), cells.empty() ? 0 : cells.size() - 1, "a column");
+  name_part(study, part, table);
+  table["note"] = note_on_tests(cells, cells.empty() ? 0 : cells.size() - 1);
+  table["identical"] = note_on_identical_runs(cells);
   table["keys"] = key_labels(study);
   table["columns"] = Json::array();
   table["rows"] = Json::array();
-  for (const Cell& cell : cells) table["rows"].push_back(row_json(cell));
-  for (const MetricInfo& metric : columns) {
+  for (const StudyCell& cell : cells) {
+    table["rows"].push_back(row_json(cell));
+    add_counts(table["rows"].back(), cell);
+  }
+  for (const MetricInfo& metric : columns_of(study)) {
     table["columns"].push_back(column_json(metric));
-    std::vector<Sample> samples;
-    for (const Cell& cell : cells) samples.push_back(sample_of(cell.runs, metric));
-    const std::vector<Comparison> compared = compare_samples(samples, metric.better);
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      table["rows"][i]["cells"].push_back(to_json(compared[i]));
+    add_column(table, cells, metric);
   }
   return table;
 }
 
-/// The runs of every scene with the same settings.
-struct SharedSettings {
-  std::vector<std::string> settings;
-  std::vector<Runs> runs;  ///< one per scene
-};
-
-/// Returns the settings of all scenes, in the order of the runs.
-std::vector<SharedSettings> shared_settings(const StudyData& study) {
-  std::vector<SharedSettings> all;
-  for (std::size_t s = 0; s < study.scenes.size(); ++s)
-    for (const Cell& cell : cells_of(study, study.scenes[s].name)) {
-      auto it = std::find_if(all.begin(), all.end(), [&](const SharedSettings& shared) {
-        return shared.settings == cell.settings;
-      });
-      if (it == all.end())
-        it = all.insert(
-            all.end(), {.settings = cell.settings, .runs = std::vector<Runs>(study.scenes.size())});
-      it->runs[s] = cell.runs;
-    }
-  return all;
+/// Says what a cell of the table of scenes cost: evaluations, speed and frames lost.
+std::string detail_of(const StudyCell& cell) {
+  std::string text;
+  const auto add = [&](const char* key, const char* unit) {
+    const MetricInfo metric = metric_info(key);
+    const double value = mean(sample_of(cell.runs, metric).values);
+    if (std::isfinite(value))
+      text += fmt::format("{}{:.{}f}{}", text.empty() ? "" : " · ", value, metric.digits, unit);
+  };
+  add("evaluations_per_frame", " evaluations");
+  add("fps", " fps");
+  add("lost_share", " % lost");
+  return text;
 }
 
-/// Makes the table of scenes: a row per setting that more than one scene has.
-Json scenes_table(const StudyData& study) {
+/// Returns the settings for which more than one scene has a metric, in the order of the runs.
+std::vector<std::vector<std::string>> shared_settings(
+    const std::vector<std::vector<StudyCell>>& scenes, const MetricInfo& metric) {
+  std::vector<std::vector<std::string>> order;
+  std::map<std::vector<std::string>, int> count;
+  for (const std::vector<StudyCell>& cells : scenes)
+    for (const StudyCell& cell : cells) {
+      if (std::find(order.begin(), order.end(), cell.settings) == order.end())
+        order.push_back(cell.settings);
+      count[cell.settings] += sample_of(cell.runs, metric).values.empty() ? 0 : 1;
+    }
+  std::erase_if(order, [&](const auto& settings) { return count[settings] < 2; });
+  return order;
+}
+
+/// Makes the table of scenes: a row per setting that more than one scene has, a column per scene.
+Json scenes_table(const StudyData& study, const std::string& part) {
   const MetricInfo metric = metric_info("mean_error_mm");
   Json table{{"id", "table-scenes"}, {"title", "Scenes compared: " + metric.label_with_unit()}};
+  name_part(study, part, table);
   table["keys"] = key_labels(study);
   table["columns"] = Json::array();
-  for (const StudyScene& scene : study.scenes)
-    table["columns"].push_back(
-        {{"key", scene.name}, {"label", scene.label}, {"digits", metric.digits}});
   table["rows"] = Json::array();
-  std::size_t seeds = 0, comparisons = 0;
-  for (const SharedSettings& shared : shared_settings(study)) {
-    std::vector<Sample> samples;
-    std::size_t runs = 0;
-    for (const Runs& of_scene : shared.runs) {
-      samples.push_back(sample_of(of_scene, metric));
-      runs += of_scene.size();
-      seeds = std::max(seeds, of_scene.size());
+  std::vector<std::vector<StudyCell>> scenes;
+  for (const StudyScene& scene : study.scenes) scenes.push_back(cells_of(study, scene.name, part));
+  const auto settings = shared_settings(scenes, metric);
+  for (const auto& shared : settings)
+    table["rows"].push_back(row_json({.settings = shared, .runs = {}, .failed = 0}));
+  std::vector<StudyCell> shown;
+  for (std::size_t s = 0; s < scenes.size(); ++s) {
+    table["columns"].push_back({{"key", study.scenes[s].name},
+                                {"label", study.scenes[s].label},
+                                {"digits", metric.digits}});
+    std::vector<StudyCell> column;
+    for (const auto& shared : settings) {
+      const auto same = [&](const StudyCell& cell) { return cell.settings == shared; };
+      const auto at = std::find_if(scenes[s].begin(), scenes[s].end(), same);
+      column.push_back(at == scenes[s].end() ? StudyCell{} : *at);
     }
-    const auto filled = std::count_if(samples.begin(), samples.end(),
-                                      [](const Sample& s) { return !s.values.empty(); });
-    if (filled < 2) continue;
-    comparisons = std::max(comparisons, static_cast<std::size_t>(filled) - 1);
-    Json row{{"keys", shared.settings}, {"runs", runs}, {"failed", 0}, {"cells", Json::array()}};
-    for (const Comparison& c : compare_samples(samples, metric.better))
-      row["cells"].push_back(to_json(c));
-    table["rows"].push_back(std::move(row));
+    add_column(table, column, metric);
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      Json& row = table["rows"][i];
+      row["cells"].back()["detail"] = detail_of(column[i]);
+      add_counts(row, column[i]);
+    }
+    shown.insert(shown.end(), column.begin(), column.end());
   }
-  table["note"] = note_on_tests(seeds, comparisons, "a row");
+  table["note"] = note_on_tests(shown, settings.empty() ? 0 : settings.size() - 1);
   return table;
 }
 
@@ -211,17 +183,15 @@ Json scenes_table(const StudyData& study) {
 Json table_data(const StudyData& study) {
   Json tables = Json::array();
   if (!study.is_study) return tables;
-  if (study.scenes.size() > 1) {
-    Json table = scenes_table(study);
+  const auto add = [&](Json table) {
     if (!table["rows"].empty()) tables.push_back(std::move(table));
-  }
+  };
   std::vector<std::string> parts{""};  // values of a scene with a table each
   if (study.axis(study.table_per)) parts = study.values_of(study.table_per);
+  if (study.scenes.size() > 1)
+    for (const std::string& part : parts) add(scenes_table(study, part));
   for (std::size_t i = 0; i < study.scenes.size(); ++i)
-    for (const std::string& part : parts) {
-      Json table = scene_table(study, i, part);
-      if (!table["rows"].empty()) tables.push_back(std::move(table));
-    }
+    for (const std::string& part : parts) add(scene_table(study, i, part));
   return tables;
 }
 

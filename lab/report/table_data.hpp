@@ -9,14 +9,15 @@ namespace hypotrack {
 
 /// Returns the tables of a study as plain data for the page: a list of objects
 ///
-///   {id, title, note, keys: [label, ...],
+///   {id, title, note, identical, keys: [label, ...],
 ///    columns: [{key, label, digits}, ...],
-///    rows: [{keys: [text, ...], runs, failed,
-///            cells: [{mean, sd, n, best, p, same}, ...]}, ...]}
+///    rows: [{keys: [text, ...], runs, samples, failed,
+///            cells: [{mean, sd, n, best, p, same, seeds_needed}, ...]}, ...]}
 ///
 /// There is one per scene with a row per cell. With several scenes there is one of the mean error
-/// with a column per scene. `best` marks the best of its column (of its row in the table of
-/// scenes), `same` one that the seeds do not separate from the best.
+/// with a column per scene; its cells have a `detail`, what they cost. `best` marks the best of its
+/// column, `same` one that the seeds do not separate from the best. `samples` counts the runs whose
+/// results differ, of which `identical` tells the others.
 nlohmann::ordered_json table_data(const StudyData& study);
 
 /// Writes DIRECTORY/<id>.csv for every table and every plot of how searches converge, and runs.csv

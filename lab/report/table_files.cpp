@@ -26,22 +26,23 @@ std::string table_csv(const Json& table) {
   const Json& columns = table["columns"];
   std::string text;
   for (const Json& key : table["keys"]) text += cell(key) + ",";
-  text += "runs,failed";
+  text += "runs,samples,failed";
   for (const Json& column : columns) {
     if (!is_repeatable(column)) continue;
     const std::string key = column["key"];
-    for (const char* suffix : {"mean", "sd", "p_against_best", "best"})
+    for (const char* suffix : {"mean", "sd", "p_against_best", "best", "seeds_needed"})
       text += "," + csv_cell(fmt::format("{}_{}", key, suffix));
   }
   text += "\n";
   for (const Json& row : table["rows"]) {
     for (const Json& key : row["keys"]) text += cell(key) + ",";
-    text += cell(row["runs"]) + "," + cell(row["failed"]);
+    text += cell(row["runs"]) + "," + cell(row["samples"]) + "," + cell(row["failed"]);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (!is_repeatable(columns[i])) continue;
       const Json& entry = row["cells"][i];
-      text += fmt::format(",{},{},{},{}", cell(entry["mean"]), cell(entry["sd"]), cell(entry["p"]),
-                          entry["best"].get<bool>() ? 1 : 0);
+      text +=
+          fmt::format(",{},{},{},{},{}", cell(entry["mean"]), cell(entry["sd"]), cell(entry["p"]),
+                      entry["best"].get<bool>() ? 1 : 0, cell(entry["seeds_needed"]));
     }
     text += "\n";
   }

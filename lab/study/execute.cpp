@@ -89,7 +89,7 @@ bool Execution::start_next() {
 
 void Execution::start(std::size_t index, RunFolder folder) {
   const PlannedRun& run = plan_.runs[index];
-  auto arguments = run_arguments(folder_, plan_, plan_.cells[run.cell], launch_);
+  auto arguments = run_arguments(folder_, plan_, run, launch_);
   arguments.insert(arguments.end(),
                    {"--out", folder.working().string(), "--seed", fmt::format("{}", run.seed)});
   pool_.start(index, work_command(launch_, plan_, std::move(arguments), folder));

@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "hypotrack/config.hpp"
@@ -43,7 +44,7 @@ std::vector<Cell> make_cells(const Study& study) {
   std::vector<Cell> cells;
   cells.reserve(count);
   for (std::size_t index = 0; index < count; ++index) {
-    Cell cell{0, std::vector<std::size_t>(study.axes.size())};
+    Cell cell{0, std::vector<std::size_t>(study.axes.size()), std::nullopt};
     std::size_t rest = index;
     for (std::size_t axis = study.axes.size(); axis-- > 0;) {
       cell.choices[axis] = rest % study.axes[axis].choices.size();
@@ -55,10 +56,25 @@ std::vector<Cell> make_cells(const Study& study) {
   return cells;
 }
 
-std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
+/// Finds out what the runs of each cell redraw. Cells with the same source share the work.
+void find_noise(Plan& plan) {
+  std::map<std::string, std::optional<NoiseSeed>> known;
+  for (Cell& cell : plan.cells) {
+    const std::vector<Change> changes = plan.changes_of(cell);
+    std::string source = plan.scene_of(cell).file.string();
+    for (const Change& change : changes)
+      if (is_recorded(change)) source += "\n" + change.meaning();
+    const auto [at, is_new] = known.try_emplace(std::move(source));
+    if (is_new) at->second = find_noise_seed(plan.scene_of(cell), changes);
+    cell.noise = at->second;
+  }
+}
+
+std::string run_id(const Plan& plan, const PlannedRun& run) {
+  const Cell& cell = plan.cells[run.cell];
   Hash hash;
   hash.add(plan.scene_texts[cell.scene]);
-  for (const Change& change : plan.changes_of(cell)) hash.add(change.meaning());
+  for (const Change& change : plan.changes_of(run)) hash.add(change.meaning());
   for (std::size_t axis = 0; axis < plan.study.axes.size(); ++axis) {
     hash.add(plan.study.axes[axis].name);
     hash.add(plan.choice_of(cell, axis).label);
@@ -66,7 +82,7 @@ std::string run_id(const Plan& plan, const Cell& cell, std::int64_t seed) {
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
   if (plan.study.recordings) hash.add("recordings");  // recordings may round depths
   if (plan.study.trace) hash.add("trace");            // runs without one lack files
-  return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, seed, hash.value());
+  return fmt::format("{}_s{}_{:016x}", plan.scene_of(cell).name, run.seed, hash.value());
 }
 
 }  // namespace
@@ -77,6 +93,14 @@ std::vector<Change> Plan::changes_of(const Cell& cell) const {
     const Choice& choice = choice_of(cell, axis);
     changes.insert(changes.end(), choice.changes.begin(), choice.changes.end());
   }
+  return changes;
+}
+
+std::vector<Change> Plan::changes_of(const PlannedRun& run) const {
+  const Cell& cell = cells[run.cell];
+  std::vector<Change> changes = changes_of(cell);
+  if (!cell.noise) return changes;
+  if (auto change = redrawn(*cell.noise, run.seed)) changes.push_back(*std::move(change));
   return changes;
 }
 
@@ -93,9 +117,12 @@ Plan make_plan(Study study) {
   plan.study = std::move(study);
   for (const StudyScene& scene : plan.study.scenes)
     plan.scene_texts.push_back(read_scene_text(scene));
+  if (plan.study.redraw == Redraw::noise) find_noise(plan);
   for (const std::int64_t seed : plan.study.seeds)
-    for (std::size_t i = 0; i < plan.cells.size(); ++i)
-      plan.runs.push_back({i, seed, run_id(plan, plan.cells[i], seed)});
+    for (std::size_t i = 0; i < plan.cells.size(); ++i) {
+      plan.runs.push_back({i, seed, {}});
+      plan.runs.back().id = run_id(plan, plan.runs.back());
+    }
   return plan;
 }
 

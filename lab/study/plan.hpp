@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lab/study/noise.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {
@@ -13,6 +15,7 @@ namespace hypotrack::study {
 struct Cell {
   std::size_t scene = 0;             ///< index into Study::scenes
   std::vector<std::size_t> choices;  ///< index into the choices of each axis
+  std::optional<NoiseSeed> noise;    ///< what runs redraw, if they do
 };
 
 /// One run: a cell with a seed.
@@ -26,8 +29,8 @@ struct PlannedRun {
 /// order in which they are made: all cells with the first seed before any with the second.
 ///
 /// A run's id consists of the scene's name, the seed and a hash of all that decides the result: the
-/// content of the scene file, all changes with their includes, the seed and
-/// the number of frames. So a study may grow (further seeds, values, scenes) and keeps its runs.
+/// content of the scene file, all changes with their includes, the seed, the noise and the number
+/// of frames. So a study may grow (further seeds, values, scenes) and keeps its runs.
 struct Plan {
   Study study;
   std::vector<std::string> scene_texts;  ///< text of each scene's file, with its includes
@@ -40,6 +43,8 @@ struct Plan {
   }
   /// Returns the changes to the scene, in the order in which they apply.
   std::vector<Change> changes_of(const Cell& cell) const;
+  /// Returns the changes of the run's cell and what its seed redraws.
+  std::vector<Change> changes_of(const PlannedRun& run) const;
   /// Returns a description for messages: `sh_stereo, optimizer.particles 32`.
   std::string describe(const Cell& cell) const;
 };

@@ -2,14 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <optional>
+#include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "hypotrack/error.hpp"
 #include "lab/study/hash.hpp"
+#include "lab/study/noise.hpp"
 #include "lab/study/process_pool.hpp"
 
 namespace hypotrack::study {
@@ -18,13 +22,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kRecordingPoll{20};
 
-/// Returns whether a change affects the recording.
-bool is_recorded(const Change& change) {
-  for (const std::string part : {"models", "source"})
-    if (change.key == part || change.key.starts_with(part + ".")) return true;
-  return false;
-}
-
 std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
   std::vector<Change> selected;
   for (const Change& change : changes)
@@ -32,13 +29,13 @@ std::vector<Change> select(const std::vector<Change>& changes, bool recorded) {
   return selected;
 }
 
-/// Recordings still to be made, by name, with a cell that needs each.
+/// Recordings still to be made, by name, with a run that needs each.
 using Wanted = std::map<std::string, std::size_t>;
 
-Subprocess::Command synth_command(const Plan& plan, const Cell& cell, const Launch& launch,
+Subprocess::Command synth_command(const Plan& plan, const PlannedRun& run, const Launch& launch,
                                   const RunFolder& folder) {
-  auto arguments = scene_arguments("synth", plan.scene_of(cell).file,
-                                   select(plan.changes_of(cell), true), plan, launch);
+  auto arguments = scene_arguments("synth", plan.scene_of(plan.cells[run.cell]).file,
+                                   select(plan.changes_of(run), true), plan, launch);
   arguments.insert(arguments.end(), {"--out", (folder.working() / "recording").string()});
   return work_command(launch, plan, std::move(arguments), folder);
 }
@@ -61,24 +58,25 @@ class Recorder {
 
  private:
   /// Starts a recording. Returns false if it must wait for a free slot or another process.
-  bool take_in_hand(const std::string& id, std::size_t cell) {
+  bool take_in_hand(const std::string& id, std::size_t run) {
     if (std::filesystem::exists(folder_.recording_path(id))) return true;
     if (pool_.size() >= static_cast<std::size_t>(launch_.jobs)) return false;
     auto claimed = folder_.claim_recording(id);
     if (!claimed) return false;
     if (std::filesystem::exists(folder_.recording_path(id))) return true;
-    pool_.start(cell, synth_command(plan_, plan_.cells[cell], launch_, *claimed));
-    working_.emplace(cell, *std::move(claimed));
+    pool_.start(run, synth_command(plan_, plan_.runs[run], launch_, *claimed));
+    working_.emplace(run, *std::move(claimed));
     return true;
   }
 
   void finish(const Ended& ended) {
     RunFolder& folder = working_.at(ended.key);
+    const Cell& cell = plan_.cells[plan_.runs[ended.key].cell];
     // The scene is written last.
     if (ended.end.code != 0 || !std::filesystem::exists(folder.working() / "recording/scene.yaml"))
-      throw DataError(fmt::format(
-          "{}: {}: its source cannot be recorded: {}", plan_.scene_of(plan_.cells[ended.key]).where,
-          plan_.describe(plan_.cells[ended.key]), failure_message(folder.log(), ended)));
+      throw DataError(fmt::format("{}: {}: its source cannot be recorded: {}",
+                                  plan_.scene_of(cell).where, plan_.describe(cell),
+                                  failure_message(folder.log(), ended)));
     folder.put_into_place();
     working_.erase(ended.key);
   }
@@ -93,28 +91,67 @@ class Recorder {
 
 }  // namespace
 
-std::string recording_id(const Plan& plan, const Cell& cell) {
+std::string recording_id(const Plan& plan, const PlannedRun& run) {
+  const Cell& cell = plan.cells[run.cell];
   Hash hash;
   hash.add(plan.scene_texts[cell.scene]);
-  for (const Change& change : select(plan.changes_of(cell), true)) hash.add(change.meaning());
+  for (const Change& change : select(plan.changes_of(run), true)) hash.add(change.meaning());
   hash.add(plan.study.frames ? fmt::format("{}", *plan.study.frames) : "all");
   return fmt::format("{}_{:016x}", plan.scene_of(cell).file.stem().string(), hash.value());
 }
 
 void make_recordings(const StudyFolder& folder, const Plan& plan,
-                     const std::vector<std::size_t>& cells, const Launch& launch,
+                     const std::vector<std::size_t>& runs, const Launch& launch,
                      const std::function<bool()>& again) {
   Wanted wanted;
-  for (const std::size_t cell : cells) wanted.emplace(recording_id(plan, plan.cells[cell]), cell);
+  for (const std::size_t run : runs)
+    if (folder.state(plan.runs[run]) != RunState::ok)  // by another process meanwhile
+      wanted.emplace(recording_id(plan, plan.runs[run]), run);
   Recorder(folder, plan, launch).work(std::move(wanted), again);
 }
 
+std::vector<std::vector<std::size_t>> batches_of(const Plan& plan,
+                                                 const std::vector<std::size_t>& runs) {
+  std::vector<std::vector<std::size_t>> batches;
+  const bool by_seed = plan.study.recordings && plan.study.redraw == Redraw::noise;
+  for (const std::size_t run : runs) {
+    if (batches.empty() ||
+        (by_seed && plan.runs[batches.back().back()].seed != plan.runs[run].seed))
+      batches.emplace_back();
+    batches.back().push_back(run);
+  }
+  return batches;
+}
+
+RedrawnRecordings::RedrawnRecordings(const Plan& plan) : plan_(plan) {
+  if (!plan.study.recordings) return;
+  for (std::size_t i = 0; i < plan.runs.size(); ++i)
+    if (plan.cells[plan.runs[i].cell].noise)
+      readers_[recording_id(plan, plan.runs[i])].push_back(i);
+}
+
+void RedrawnRecordings::remove_read(const StudyFolder& folder,
+                                    const std::vector<std::size_t>& runs) const {
+  if (readers_.empty()) return;
+  std::set<std::string> ids;
+  for (const std::size_t run : runs) ids.insert(recording_id(plan_, plan_.runs[run]));
+  for (const std::string& id : ids) {
+    const auto readers = readers_.find(id);
+    if (readers == readers_.end()) continue;  // pictures that are not rendered
+    const bool read = std::ranges::all_of(readers->second, [&](std::size_t run) {
+      return folder.state(plan_.runs[run]) == RunState::ok;
+    });
+    std::error_code ignored;  // another process may be faster
+    if (read) std::filesystem::remove_all(folder.recording_path(id), ignored);
+  }
+}
+
 std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
-                                       const Cell& cell, const Launch& launch) {
-  const std::vector<Change> changes = plan.changes_of(cell);
+                                       const PlannedRun& run, const Launch& launch) {
+  const std::vector<Change> changes = plan.changes_of(run);
   if (!plan.study.recordings)
-    return scene_arguments("run", plan.scene_of(cell).file, changes, plan, launch);
-  const auto scene = folder.recording_path(recording_id(plan, cell)) / "recording" / "scene.yaml";
+    return scene_arguments("run", plan.scene_of(plan.cells[run.cell]).file, changes, plan, launch);
+  const auto scene = folder.recording_path(recording_id(plan, run)) / "recording" / "scene.yaml";
   return scene_arguments("run", scene, select(changes, false), plan, launch);
 }
 

@@ -14,6 +14,7 @@
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
+#include "lab/study/quick.hpp"
 #include "lab/study/study_grid.hpp"
 #include "lab/study/study_text.hpp"
 #include "output/metrics/metrics.hpp"
@@ -32,6 +33,7 @@ struct StudyKeys {
   ConfigNode scenes, set, grid, seeds, variants;
   std::optional<int> frames;
   bool overlay = false, recordings = false, trace = false;
+  Redraw redraw = Redraw::noise;
   std::vector<double> tolerances;
   std::vector<Plot> plots;
   std::string table_per;
@@ -49,6 +51,9 @@ struct StudyKeys {
     v("overlay", overlay, {.help = "whether every run writes overlay.mp4"});
     v("recordings", recordings,
       {.help = "whether every source is recorded once, and all runs read the recording"});
+    v("redraw", redraw,
+      {.help = "what seeds redraw of rendered pictures: noise, or nothing; all settings get the "
+               "same pictures"});
     v("trace", trace, {.help = "whether every run writes trace.csv, how its searches converge"});
     v("tolerances", tolerances,
       {.help = "with trace: targets of the report, as shares of the cost at the truth above it",
@@ -185,18 +190,21 @@ void apply_variants(Study& study, const ConfigNode& variants, const std::string&
                     const std::optional<std::string>& name) {
   if (variants.defined() && !variants.is_map())
     fail_type(variants, "a map of variants, `{NAME: {seeds: 1, ...}}`");
-  const std::vector<std::string> names = variants.keys();
+  std::vector<std::string> names = variants.keys();
   for (const std::string& other : names) {
     Study copy = study;
     apply_variant(copy, variants.get(other));
     resolve_includes(copy);
   }
   if (!name) return;
+  if (*name == kQuick) {
+    make_quick(study);
+    if (!variants.get(kQuick).defined()) return;
+  }
+  if (std::find(names.begin(), names.end(), kQuick) == names.end()) names.emplace_back(kQuick);
   if (std::find(names.begin(), names.end(), *name) == names.end())
-    throw ConfigError(
-        fmt::format("{}: has no variant '{}'{}{}", file, *name, did_you_mean(*name, names),
-                    names.empty() ? "; it has none at all"
-                                  : fmt::format("; its variants are: {}", fmt::join(names, ", "))));
+    throw ConfigError(fmt::format("{}: has no variant '{}'{}; its variants are: {}", file, *name,
+                                  did_you_mean(*name, names), fmt::join(names, ", ")));
   apply_variant(study, variants.get(*name));
 }
 
@@ -262,6 +270,11 @@ void check_table_per(const Study& study, const ConfigNode& node) {
 
 }  // namespace
 
+std::span<const std::string_view> enum_names(Redraw) {
+  static constexpr std::array<std::string_view, 2> kNames = {"noise", "nothing"};
+  return kNames;
+}
+
 std::span<const std::string_view> enum_names(PlotKind) {
   static constexpr std::array<std::string_view, 9> names{"curve",
                                                          "success",
@@ -311,6 +324,7 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   study.frames = keys.frames;
   study.overlay = keys.overlay;
   study.recordings = keys.recordings;
+  study.redraw = keys.redraw;
   study.trace = keys.trace;
   study.tolerances = keys.tolerances;
   study.plots = keys.plots;

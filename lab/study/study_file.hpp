@@ -70,15 +70,23 @@ struct Plot {
   void visit(ParamVisitor& v);
 };
 
+/// What the seeds of a study redraw, apart from the random numbers of the search.
+enum class Redraw {
+  noise,    ///< the noise of rendered pictures: a recording of each source for every seed
+  nothing,  ///< one recording of each source for all seeds
+};
+std::span<const std::string_view> enum_names(Redraw);
+
 /// A study: every scene at every point of the grid with every seed.
 struct Study {
   std::string title, about;
   std::vector<StudyScene> scenes;
   std::vector<Axis> axes;
   std::vector<std::int64_t> seeds;
-  std::optional<int> frames;       ///< of each run; empty: the whole source
-  bool overlay = false;            ///< whether runs write overlay.mp4
-  bool recordings = false;         ///< whether sources are recorded once, for all runs
+  std::optional<int> frames;  ///< of each run; empty: the whole source
+  bool overlay = false;       ///< whether runs write overlay.mp4
+  bool recordings = false;    ///< whether sources are recorded once, for all runs
+  Redraw redraw = Redraw::noise;
   bool trace = false;              ///< whether runs write trace.csv
   std::vector<double> tolerances;  ///< targets of the report; empty: its defaults
   std::vector<Plot> plots;

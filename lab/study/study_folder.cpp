@@ -40,6 +40,11 @@ std::string differences(const std::string& old_text, const Plan& plan) {
   std::vector<std::string> keys;
   for (const char* key : {"scenes", "grid", "seeds", "frames", "trace"})
     if (before.get(key).to_yaml() != now.get(key).to_yaml()) keys.emplace_back(key);
+  const auto redraw = [](const ConfigNode& node) {  // studies without the key redrew nothing
+    return node.defined() ? node.scalar() : "nothing";
+  };
+  if (redraw(before.get("redraw")) != redraw(now.get("redraw")))
+    keys.push_back(fmt::format("redraw (the folder's is {})", redraw(before.get("redraw"))));
   if (keys.empty()) return "the content of its scene files differs";
   return fmt::format("they differ in: {}", fmt::join(keys, ", "));
 }

@@ -66,8 +66,10 @@ std::string to_yaml(const Study& study) {
   text += scenes_text(study) + grid_text(study);
   text += fmt::format("seeds: [{}]\n", fmt::join(study.seeds, ", "));
   if (study.frames) text += fmt::format("frames: {}\n", *study.frames);
-  text += fmt::format("overlay: {}\nrecordings: {}\ntrace: {}\ndirectory: {}\n", study.overlay,
-                      study.recordings, study.trace, yaml_scalar(study.directory.string()));
+  text += fmt::format("overlay: {}\nrecordings: {}\nredraw: {}\ntrace: {}\ndirectory: {}\n",
+                      study.overlay, study.recordings,
+                      enum_names(study.redraw)[static_cast<std::size_t>(study.redraw)], study.trace,
+                      yaml_scalar(study.directory.string()));
   if (!study.tolerances.empty())
     text += fmt::format("tolerances: [{}]\n", fmt::join(study.tolerances, ", "));
   if (!study.table_per.empty())

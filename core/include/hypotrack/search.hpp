@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -105,20 +104,28 @@ class BestSoFar {
   OptimizerResult result_;
 };
 
-/// A wall-clock limit that starts at construction.
+/// The clock of a search's time limit: wall time, or CPU time of the whole process.
+enum class SearchClock { wall, cpu };
+
+/// Returns the clock that limits the search on this thread: `budget.seconds` or
+/// `budget.cpu_seconds`.
+SearchClock search_clock();
+
+/// Returns the time of a clock in seconds.
+double seconds_of(SearchClock clock);
+
+/// A time limit that starts at construction, on the clock of the search.
 class Deadline {
  public:
   explicit Deadline(double seconds) : seconds_(seconds) {}
   bool passed() const { return left() <= 0; }
   /// Returns the remaining seconds; negative once passed.
-  double left() const {
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
-    return seconds_ - elapsed.count();
-  }
+  double left() const { return seconds_ - (seconds_of(clock_) - begin_); }
 
  private:
   double seconds_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  SearchClock clock_ = search_clock();
+  double begin_ = seconds_of(clock_);
 };
 
 }  // namespace hypotrack

@@ -294,6 +294,14 @@ OpenedScene Opening::finish() {
   session_.parts.fixed_lag = file_.smoothing.fixed_lag;
   session_.parts.budget.evaluations = file_.budget.evaluations;
   if (file_.budget.seconds > 0) session_.parts.budget.seconds = file_.budget.seconds;
+  if (file_.budget.cpu_seconds > 0) {
+    if (file_.budget.seconds > 0)
+      detail::fail_at(
+          root_.get("budget").get("cpu_seconds"),
+          "the budget has `seconds` of wall time too; give one of them, 0 for the other");
+    session_.parts.budget.seconds = file_.budget.cpu_seconds;
+    session_.parts.clock = SearchClock::cpu;
+  }
   session_.init = file_.init;
   session_.output = file_.output;
   session_.shape = file_.shape;

@@ -83,11 +83,16 @@ std::vector<ConfigNode> start_nodes(const ConfigNode& from, const ConfigNode& wr
 struct BudgetSettings {
   std::int64_t evaluations = 0;
   double seconds = 0;
+  double cpu_seconds = 0;
   void visit(ParamVisitor& v) {
     v("evaluations", evaluations,
       {.help = "evaluations per frame; 0: what the optimizer's parameters imply", .min = 0});
     v("seconds", seconds,
       {.help = "wall time per frame; 0: no limit; a run with a limit does not repeat exactly",
+       .min = 0,
+       .unit = "s"});
+    v("cpu_seconds", cpu_seconds,
+      {.help = "CPU time per frame, of all threads, instead of wall time; 0: no limit",
        .min = 0,
        .unit = "s"});
   }

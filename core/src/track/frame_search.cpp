@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cost/search_clock.hpp"
 #include "hypotrack/search.hpp"
 #include "hypotrack/stop.hpp"
 #include "plugin/plugin_call.hpp"
@@ -37,7 +38,8 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
                       : std::nullopt),
       cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
-      optimizer_label_(parts.optimizer_label) {}
+      optimizer_label_(parts.optimizer_label),
+      clock_(parts.clock) {}
 
 void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
   const std::vector<bool>& moves = moving.empty() ? models : moving;
@@ -111,6 +113,7 @@ Eigen::VectorXd FrameSearch::cheapest(const Eigen::MatrixXd& states) {
 OptimizerResult FrameSearch::minimize(SearchCost& cost, const SearchRegion& region,
                                       const Budget& budget, std::uint64_t seed) {
   const detail::RunningPlugin running(optimizer_label_.c_str());
+  const SearchClockScope clock(clock_);
   OptimizerResult answer;
   try {
     answer = optimizer_->minimize(cost, region, budget, seed);

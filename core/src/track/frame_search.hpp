@@ -117,6 +117,7 @@ class FrameSearch {
   FallbackCost cost_;
   std::unique_ptr<Optimizer> optimizer_;
   std::string optimizer_label_;
+  SearchClock clock_;
   TilePlan plan_;                                  ///< of the last frame
   std::vector<RecordedSearch>* record_ = nullptr;  ///< receives searches; null: nothing does
   FrameTrace* trace_ = nullptr;                    ///< the same

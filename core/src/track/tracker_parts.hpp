@@ -7,6 +7,7 @@
 #include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
+#include "hypotrack/search.hpp"
 #include "hypotrack/start.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/photometric.hpp"
@@ -29,7 +30,8 @@ struct TrackerParts {
   StatusSettings status;
   OneEuroSettings one_euro;
   FixedLagSettings fixed_lag;
-  Budget budget;  ///< 0 evaluations: the optimizer's default
+  Budget budget;                          ///< 0 evaluations: the optimizer's default
+  SearchClock clock = SearchClock::wall;  ///< of the budget's seconds
   /// Starts that look for lost models, in this order; empty: the global search alone.
   std::vector<std::unique_ptr<Start>> starts = {};
   /// True if they also look for models that were never seen: no start gives a state.

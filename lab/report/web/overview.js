@@ -71,6 +71,7 @@ hypotrack.runsSection = function (page) {
     });
     holder.textContent = '';
     holder.appendChild(hypotrack.runsTable(page, found));
+    hypotrack.markWideTables();
   }
   var search = hypotrack.element('input', {
     type: 'search', id: 'find', placeholder: 'scene, setting, seed …',

@@ -91,6 +91,27 @@ hypotrack.tip = function (plot, row) {
          ' (' + row.n + ' ' + counted + ')';
 };
 
+/** About how many pixels the longest of some names takes. */
+hypotrack.textWidth = function (names) {
+  return 7 * Math.max.apply(null, names.map(function (name) { return String(name).length; }));
+};
+
+/** How many names of a legend fit side by side. */
+hypotrack.legendColumns = function (names, width) {
+  return Math.max(1, Math.floor(width / (hypotrack.textWidth(names) + 40)));
+};
+
+/** A text in lines of at most `width` pixels, broken between words. */
+hypotrack.wrapped = function (text, width) {
+  var lines = [''];
+  String(text).split(' ').forEach(function (word) {
+    var line = lines[lines.length - 1];
+    if (line && hypotrack.textWidth([line + ' ' + word]) > width) lines.push(word);
+    else lines[lines.length - 1] = line ? line + ' ' + word : word;
+  });
+  return lines;
+};
+
 /** The rows of each facet as data sets, with the bounds of the band and a text to hover. */
 hypotrack.plotTables = function (plot) {
   return plot.facets.map(function (facet, i) {
@@ -125,13 +146,15 @@ hypotrack.facetSpec = function (plot, options, size, scales, content) {
         encode: {update: {width: {value: size.width}, height: {value: size.height}}},
         // Of the panel, for its axes' grid lines.
         signals: [{name: 'width', value: size.width}, {name: 'height', value: size.height}],
-      }, facet.label ? {title: {text: facet.label, limit: size.width}} : {}, content('facet' + i));
+      }, facet.label ? {title: {text: hypotrack.wrapped(facet.label, size.width),
+                                 limit: size.width}} : {}, content('facet' + i));
     }),
   };
   if (plot.color && plot.color.values.length > 1) {
     spec.legends = [{
       fill: 'color', shape: 'shape', orient: 'top', direction: 'horizontal',
-      title: plot.color.label, columns: Math.max(1, Math.floor(options.width / 110)),
+      title: plot.color.label, labelLimit: options.width - 40,
+      columns: hypotrack.legendColumns(plot.color.values, options.width),
     }];
   }
   return spec;

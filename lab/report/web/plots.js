@@ -9,8 +9,9 @@ hypotrack.curveScale = function (plot, size) {
   var means = hypotrack.rangeOf(plot, function (row) { return [row.mean]; });
   var scale = {name: 'y', range: [size.height, 0], zero: false};
   if (means[0] > 0 && means[1] > 6 * means[0])
-    return Object.assign(scale, {type: 'log', clamp: true, domain: [means[0] / 1.5, band[1]]});
-  return Object.assign(scale, {type: 'linear', domain: band, nice: true});
+    return Object.assign(scale, {type: 'log', clamp: true,
+                                 domain: [Math.max(band[0], means[0] / 1.5), band[1]]});
+  return Object.assign(scale, {type: 'linear', domain: band});
 };
 
 hypotrack.curveSpec = function (plot, options) {
@@ -30,9 +31,33 @@ hypotrack.curveSpec = function (plot, options) {
       });
 };
 
+/** The error from which on no line of a success plot rises any more. */
+hypotrack.endOfRise = function (plot) {
+  var end = 0;
+  plot.facets.forEach(function (facet) {
+    var last = {};
+    facet.rows.forEach(function (row) { last[row.color] = row.mean; });
+    facet.rows.forEach(function (row, i) {
+      if (row.mean >= last[row.color] - 0.05) return;
+      var next = facet.rows.slice(i + 1).find(function (other) {
+        return other.color === row.color;
+      });
+      end = Math.max(end, next.x);
+    });
+  });
+  return end;
+};
+
 hypotrack.successSpec = function (plot, options) {
   var size = hypotrack.panels(plot, options.width);
   var bounds = hypotrack.rangeOf(plot, function (row) { return [row.x]; });
+  var end = Math.min(bounds[1], Math.max(bounds[0] + 1, hypotrack.endOfRise(plot)));
+  bounds[1] = end;
+  plot = Object.assign({}, plot, {facets: plot.facets.map(function (facet) {
+    return Object.assign({}, facet, {rows: facet.rows.filter(function (row) {
+      return row.x <= end;
+    })});
+  })});
   var scales = [
     {name: 'x', type: 'linear', domain: bounds, zero: false, range: [0, size.width]},
     {name: 'y', type: 'linear', domain: [0, 100], clamp: true, range: [size.height, 0]},
@@ -112,10 +137,10 @@ hypotrack.barsSpec = function (plot, options) {
   var size = hypotrack.panels(plot, options.width);
   var bounds = hypotrack.rangeOf(plot, hypotrack.band);
   var flat = 7 * names.join('  ').length > size.width;
+  var room = 0;  // for the names of lying bars, half of the panel at most
   if (flat) {
-    size.width -= Math.min(100, 5 * Math.max.apply(null, names.map(function (name) {
-      return String(name).length;
-    })));
+    room = Math.min(Math.floor(size.width / 2), hypotrack.textWidth(names));
+    size.width -= Math.max(0, room - 40);
     size.height = names.length * Math.max(17, 11 * colors.length + 6);
   }
   var scales = [
@@ -123,12 +148,12 @@ hypotrack.barsSpec = function (plot, options) {
      padding: 0.25},
     {name: 'inner', type: 'band', domain: colors, range: [0, {signal: "bandwidth('band')"}],
      padding: 0.06},
-    {name: 'value', type: 'linear', domain: [Math.min(0, bounds[0]), bounds[1]], nice: true,
+    {name: 'value', type: 'linear', domain: [Math.min(0, bounds[0]), bounds[1]],
      range: flat ? [0, size.width] : [size.height, 0]},
   ];
   var axes = [
     {orient: flat ? 'left' : 'bottom', scale: 'band', title: flat ? undefined : plot.x.label,
-     labelOverlap: false},
+     labelOverlap: false, labelLimit: flat ? room : size.width},
     {orient: flat ? 'bottom' : 'left', scale: 'value', title: plot.y.label, grid: true,
      tickCount: flat ? Math.floor(size.width / 60) : 6},
   ];
@@ -191,7 +216,7 @@ hypotrack.timelineSpec = function (plot, options) {
       {name: 'x', type: 'linear', zero: false, range: 'width',
        domain: [plot.x.values[0], Math.max(plot.x.values[plot.x.values.length - 1],
                                            plot.x.values[0] + 1)]},
-      {name: 'y', type: 'linear', domain: {data: 'rows', field: 'y'}, nice: true,
+      {name: 'y', type: 'linear', domain: {data: 'rows', field: 'y'},
        zero: plot.zero, range: 'height'},
       {name: 'color', type: 'ordinal', domain: names, range: theme.series},
     ],
@@ -209,7 +234,7 @@ hypotrack.timelineSpec = function (plot, options) {
   };
   if (names.length > 1)
     spec.legends = [{stroke: 'color', symbolType: 'stroke', orient: 'top', direction: 'horizontal',
-                     columns: Math.max(1, Math.floor(width / 110))}];
+                     labelLimit: width, columns: hypotrack.legendColumns(names, width)}];
   return spec;
 };
 

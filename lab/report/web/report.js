@@ -10,6 +10,8 @@
   }
 
   function content() {
+    if (page.kind === 'change')
+      return {element: hypotrack.changePage(page), stop: function () {}};
     var match = /^#\/run\/(.*)$/.exec(location.hash);
     var run = match ? runNamed(decodeURIComponent(match[1])) : null;
     if (!run && page.kind === 'run') run = page.runs[0];
@@ -27,6 +29,7 @@
     var title = heading.textContent;
     document.title = title === page.title ? title : title + ' – ' + page.title;
     hypotrack.drawCharts(true);
+    hypotrack.markWideTables();
     if (focus) {
       window.scrollTo(0, 0);
       heading.focus({preventScroll: true});
@@ -34,7 +37,10 @@
   }
 
   window.addEventListener('hashchange', function () { show(true); });
-  window.addEventListener('resize', function () { hypotrack.drawCharts(false); });
+  window.addEventListener('resize', function () {
+    hypotrack.drawCharts(false);
+    hypotrack.markWideTables();
+  });
   hypotrack.dark.addEventListener('change', function () { hypotrack.drawCharts(true); });
   document.getElementById('version').textContent = 'Made by hypotrack ' + page.version;
   show(false);

@@ -27,12 +27,27 @@ hypotrack.sortableTable = function (headings, rows, caption) {
   }
   fill(rows);
   var region = {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption};
-  return hypotrack.element('div', region, [
+  var scroll = hypotrack.element('div', region, [
     hypotrack.element('table', {}, [
       hypotrack.element('caption', {class: 'hidden', text: caption}),
       hypotrack.element('thead', {}, [hypotrack.element('tr', {}, heads)]), body,
     ]),
   ]);
+  var box = hypotrack.element('div', {class: 'scrolled'}, [scroll,
+    hypotrack.element('p', {class: 'more', 'aria-hidden': 'true', text: 'more columns →'})]);
+  scroll.addEventListener('scroll', function () { hypotrack.markWide(box); });
+  return box;
+};
+
+/** Shows that a table goes on to the right, and where it goes on to the left. */
+hypotrack.markWide = function (box) {
+  var scroll = box.firstChild, left = scroll.scrollLeft;
+  box.classList.toggle('goes-right', scroll.scrollWidth - scroll.clientWidth - left > 2);
+  box.classList.toggle('goes-left', left > 2);
+};
+
+hypotrack.markWideTables = function () {
+  document.querySelectorAll('.scrolled').forEach(hypotrack.markWide);
 };
 
 /** Numbers before texts before nothing. */
@@ -54,10 +69,27 @@ hypotrack.comparisonCell = function (cell, digits) {
     td.appendChild(hypotrack.element('span', {class: 'sd',
                                               text: ' ± ' + cell.sd.toFixed(digits)}));
   if (cell.best) td.appendChild(hypotrack.element('span', {class: 'hidden', text: ' best'}));
-  if (cell.same) td.appendChild(hypotrack.element('span', {class: 'same', text: ' ≈'}));
-  if (cell.p !== null) td.title = 'difference from the best: p = ' + cell.p.toPrecision(2);
+  if (cell.same)
+    td.appendChild(hypotrack.element('span', {class: 'same',
+                                              text: ' ≈' + hypotrack.seedsText(cell, ' ')}));
+  if (cell.p !== null)
+    td.title = 'difference from the best: p = ' + cell.p.toPrecision(2) +
+               (cell.seeds_needed ? ';' + hypotrack.seedsText(cell, ' ') +
+                                    ' seeds would find it with a power of 80 %' : '');
   else if (cell.best) td.title = 'best';
+  if (cell.detail) td.appendChild(hypotrack.element('div', {class: 'detail', text: cell.detail}));
   return td;
+};
+
+/** The seeds that would find a difference, after `before`; nothing where that is not known. */
+hypotrack.seedsText = function (cell, before) {
+  if (!cell.seeds_needed) return '';
+  return before + (cell.seeds_needed > 1000 ? '>1000' : cell.seeds_needed);
+};
+
+/** The number of runs, and of those that differ where some are the same. */
+hypotrack.runsText = function (row) {
+  return row.samples < row.runs ? row.runs + ' (' + row.samples + ' distinct)' : String(row.runs);
 };
 
 hypotrack.comparisonTable = function (table) {
@@ -68,7 +100,7 @@ hypotrack.comparisonTable = function (table) {
     var cells = row.keys.map(function (key) {
       return hypotrack.element('th', {scope: 'row', text: key});
     });
-    [row.runs].concat(failures ? [row.failed] : []).forEach(function (count) {
+    [hypotrack.runsText(row)].concat(failures ? [row.failed] : []).forEach(function (count) {
       cells.push(hypotrack.element('td', {class: 'number', text: count}));
     });
     row.cells.forEach(function (cell, i) {
@@ -81,6 +113,7 @@ hypotrack.comparisonTable = function (table) {
   return hypotrack.element('div', {class: 'table', id: table.id}, [
     hypotrack.element('h3', {text: table.title}),
     hypotrack.sortableTable(headings, rows, table.title),
+    table.identical ? hypotrack.element('p', {class: 'note warning', text: table.identical}) : null,
     hypotrack.note(table.note),
   ]);
 };

@@ -54,6 +54,14 @@ class ReportTest(unittest.TestCase):
         single = next((study / "runs").glob("*_s1"))
         subprocess.run([PROGRAM, "report", single, "--no-images"], check=True,
                        stdout=subprocess.DEVNULL)
+        after = pathlib.Path(cls.folder.name) / "after"
+        shutil.copytree(study, after)
+        for metrics in (after / "runs").glob("stereo_*/metrics.json"):
+            numbers = json.loads(metrics.read_text())
+            numbers["mean_error_mm"] -= 1
+            metrics.write_text(json.dumps(numbers))
+        subprocess.run([PROGRAM, "report", study, after], check=True, stdout=subprocess.DEVNULL)
+        cls.changes_page = (after / "changes.html").as_uri()
         cls.study_page = (study / "report.html").as_uri()
         cls.run_page = (single / "report.html").as_uri()
         cls.browser = start_browser(cls.folder.name + "/profile")
@@ -73,7 +81,8 @@ class ReportTest(unittest.TestCase):
         for kind in ("browser", "performance"):
             self.browser.get_log(kind)  # what came before
         self.browser.get(page)
-        self.until(lambda: self.script("return document.querySelectorAll('.plot svg').length") > 0)
+        shown = ".table" if page == self.changes_page else ".plot svg"
+        self.until(lambda: self.find(shown))
 
     def script(self, text, *arguments):
         return self.browser.execute_script(text, *arguments)
@@ -210,6 +219,67 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(len(self.find(".stage canvas")), 1)
         self.assertEqual(len(self.find("#error svg")), 1)
         self.assert_quiet()
+
+    def test_a_study_before_and_after_a_change_is_one_page(self):
+        self.open(self.changes_page, width=390)
+        self.assertEqual(len(self.find(".table")), 2)
+        cells = self.script("""
+            return Array.from(document.querySelectorAll('#change-1 tbody tr')).map(function (row) {
+              return row.querySelector('.detail').textContent;
+            });""")
+        self.assertEqual(len(cells), 6)
+        for cell in cells:
+            self.assertTrue(cell.startswith("−1.00"), cell)
+        self.assertGreaterEqual(len(self.find("#change-2 .same")), 6)
+        self.assert_no_sideways_scroll()
+        self.assert_quiet()
+
+    def test_tables_show_that_they_go_on_to_the_right(self):
+        for width in (1280, 400):
+            self.open(self.study_page, width=width)
+            boxes = self.script("""
+                return Array.from(document.querySelectorAll('.table .scrolled')).map(function (box) {
+                  return [box.firstChild.scrollWidth > box.firstChild.clientWidth + 2,
+                          box.querySelector('.more').offsetHeight > 0];
+                });""")
+            self.assertIn([True, True], boxes)
+            for wide, told in boxes:
+                self.assertEqual(told, wide)
+            self.script("document.querySelectorAll('.scroll').forEach(function (scroll) {"
+                        "  scroll.scrollLeft = 1e5; });")
+            self.until(lambda: not self.find(".goes-right"))
+            self.assertTrue(self.find(".goes-left"))
+
+    def test_axes_end_where_the_data_ends(self):
+        self.open(self.study_page)
+        ends = self.script("""
+            return ['plot-1-curve', 'plot-2-success'].map(function (id) {
+              var chart = hypotrack.charts.find(function (c) { return c.plot.id === id; });
+              return [chart.view.scale('x').domain()[1], chart.view.scale('y').domain()[1],
+                      hypotrack.rangeOf(chart.plot, hypotrack.band)[1],
+                      hypotrack.endOfRise(chart.plot)];
+            });""")
+        (curve_x, curve_y, most, _), (success_x, _, _, rise) = ends
+        self.assertEqual([curve_x, curve_y], [64, most])
+        self.assertEqual(success_x, rise)
+        self.assertLess(rise, 50)  # where the table of shares ends
+
+    def test_names_are_whole_where_there_is_room(self):
+        self.open(self.study_page)
+        long = "a method whose name has more words than others"
+        texts = self.script("""
+            var plot = {kind: 'bars', title: 't', color: {label: 'c', values: [arguments[0], 'b']},
+                        x: {label: 'x', values: [arguments[0], 'short']}, y: {label: 'y'}, facets:
+                        [{label: '', rows: [{x: arguments[0], color: 'b', mean: 1, sd: 0, n: 2}]}]};
+            var chart = {plot: plot, width: 0, view: null,
+                         holder: document.querySelector('.plot')};
+            hypotrack.drawChart(chart);
+            return chart.view.runAsync().then(function () {
+              return Array.from(chart.holder.querySelectorAll('text')).map(function (text) {
+                return text.textContent;
+              });
+            });""", long)
+        self.assertEqual(texts.count(long), 2)  # in the legend and at the axis
 
     def test_nothing_is_wider_than_a_phone(self):
         self.open(self.study_page, width=390)

@@ -77,7 +77,8 @@ TEST_F(ReportTest, OfAStudyIsOneFileWithTablesBesideIt) {
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http", "{{title"})
     EXPECT_FALSE(holds(page, outside)) << outside;
   const std::string table = read_text(path("study") / "report/tables/table-1-stereo.csv");
-  EXPECT_THAT(table, testing::StartsWith("particles,generations,runs,failed,mean_error_mm_mean,"));
+  EXPECT_THAT(table,
+              testing::StartsWith("particles,generations,runs,samples,failed,mean_error_mm_mean,"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
   for (const char* timed : {"fps", "frame_seconds"})
     EXPECT_THAT(table, Not(HasSubstr(timed)));  // the same study gives the same tables

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lab/report/power.hpp"
 #include "lab/report/significance.hpp"
 
 namespace hypotrack {
@@ -96,6 +97,44 @@ TEST(StatisticsTest, SmallestProbabilitiesAreReached) {
   EXPECT_EQ(smallest_signed_rank_p(6), signed_rank_test(Numbers{1, 2, 3, 4, 5, 6}, Numbers(6, 0.)));
   EXPECT_EQ(smallest_rank_sum_p(3, 4), rank_sum_test(Numbers{1, 2, 3}, Numbers{4, 5, 6, 7}));
   EXPECT_EQ(smallest_signed_rank_p(1), 1);
+}
+
+/// Pairs whose differences have the mean `effect` and the standard deviation 1.
+std::optional<int> pairs_for(double effect, double alpha = 0.05) {
+  const double spread = std::sqrt(0.5);
+  return pairs_needed(Numbers{effect + spread, effect - spread}, Numbers{0, 0}, alpha);
+}
+
+TEST(PowerTest, PairsAreThoseOfATTestOverTheEfficiencyOfRanks) {
+  // (1.95996 + 0.84162)^2 = 7.84888; + 1.95996^2 / 2 = 1.92073; all times pi / 3 = 1.04720.
+  EXPECT_EQ(pairs_for(1), 11);    // 9.76961 * 1.04720 = 10.23
+  EXPECT_EQ(pairs_for(0.5), 35);  // (31.39552 + 1.92073) * 1.04720 = 34.89
+  EXPECT_EQ(pairs_for(-0.5), 35);
+  EXPECT_EQ(pairs_for(0.2), 208);    // (196.222 + 1.92073) * 1.04720 = 207.50
+  EXPECT_EQ(pairs_for(0.01), 1001);  // more than is told
+}
+
+TEST(PowerTest, FewerPairsThanTheExactTestCanSeparateAreNeverEnough) {
+  EXPECT_EQ(pairs_for(10), 6);            // 2 / 2^6 = 0.03
+  EXPECT_EQ(pairs_for(10, 0.05 / 3), 7);  // 2 / 2^7 = 0.0156
+  EXPECT_EQ(fewest_pairs(0.05), 6);
+  EXPECT_EQ(pairs_needed(Numbers{3, 4}, Numbers{1, 2}, 0.05), 6);  // always 2 apart
+}
+
+TEST(PowerTest, IndependentSamplesNeedAboutTwiceAsManyEach) {
+  // 2 * 7.84888 / 1 + 1.92073 / 2 = 16.6581; * 1.04720 = 17.44.
+  const double spread = std::sqrt(0.5);
+  const Numbers a{1 + spread, 1 - spread}, b{spread, -spread};
+  EXPECT_EQ(values_needed(a, b, 0.05), 18);
+  EXPECT_EQ(values_needed(Numbers{9, 9.1}, Numbers{1, 1.1}, 0.05), 4);  // 2 / C(8, 4) = 0.029
+}
+
+TEST(PowerTest, NoNumberOfSeedsFindsADifferenceThatWasNotSeen) {
+  EXPECT_EQ(pairs_needed(Numbers{1, 2}, Numbers{2, 1}, 0.05), std::nullopt);
+  EXPECT_EQ(pairs_needed(Numbers{1}, Numbers{2}, 0.05), std::nullopt);
+  EXPECT_EQ(values_needed(Numbers{1, 2}, Numbers{2, 1}, 0.05), std::nullopt);
+  EXPECT_EQ(values_needed(Numbers{1, 2}, Numbers{3}, 0.05), std::nullopt);
+  EXPECT_THROW(pairs_needed(Numbers{1}, Numbers{1, 2}, 0.05), std::invalid_argument);
 }
 
 }  // namespace

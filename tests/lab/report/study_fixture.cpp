@@ -204,7 +204,8 @@ void write_study(const fs::path& directory, const StudyFixture& study) {
       for (const int generations : study.generations)
         for (int seed = 1; seed <= study.seeds; ++seed) {
           RunFixture run = study.run;
-          run.seed = static_cast<unsigned>(++number);
+          if (seed == 1 || !study.same) ++number;
+          run.seed = static_cast<unsigned>(number);
           run.trace = study.trace;
           run.generation = particles;
           run.error_mm *= std::sqrt(1024.0 / (particles * generations)) *

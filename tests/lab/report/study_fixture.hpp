@@ -34,6 +34,7 @@ struct StudyFixture {
   bool trace = false;                ///< of all runs
   std::string plots = {};            ///< YAML of the list; empty: none
   std::string failure_message = {};  ///< not empty: the last run failed with it
+  bool same = false;                 ///< whether all seeds of a cell give the same result
   double scene_gain = 0.8;           ///< error of the second scene relative to the first
 };
 

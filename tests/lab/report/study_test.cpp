@@ -131,6 +131,7 @@ TEST_F(StudyTest, TablesMarkTheBestAndWhatSeedsDoNotSeparateFromIt) {
   ASSERT_THAT(tables, SizeIs(3));
   EXPECT_EQ(tables[0]["id"], "table-scenes");
   const auto& rows = tables[1]["rows"];
+  EXPECT_EQ(tables[1]["identical"], "");
   EXPECT_EQ(tables[1]["columns"][0]["label"], "mean error (mm)");
   EXPECT_EQ(rows[1]["keys"][0], "256");
   EXPECT_TRUE(rows[1]["cells"][0]["best"]);
@@ -143,14 +144,15 @@ TEST_F(StudyTest, ATablePerValueOfAnAxisComparesRowsWithinIt) {
   study({.seeds = 8, .particles = {16, 256}, .generations = {16, 64}});
   std::ofstream(folder() / "study.yaml", std::ios::app) << "\ntable_per: optimizer.generations\n";
   const auto tables = table_data(read_study(folder()));
-  ASSERT_THAT(tables, SizeIs(5));  // the scenes side by side, then two of each scene
-  EXPECT_EQ(tables[1]["id"], "table-1-stereo-16");
-  EXPECT_EQ(tables[2]["id"], "table-1-stereo-64");
-  EXPECT_THAT(tables[2]["title"].get<std::string>(), HasSubstr("generations 64"));
-  for (const int table : {1, 2}) {
+  ASSERT_THAT(tables, SizeIs(6));  // two with the scenes side by side, then two of each scene
+  EXPECT_EQ(tables[1]["id"], "table-scenes-64");
+  EXPECT_EQ(tables[2]["id"], "table-1-stereo-16");
+  EXPECT_EQ(tables[3]["id"], "table-1-stereo-64");
+  EXPECT_THAT(tables[3]["title"].get<std::string>(), HasSubstr("generations 64"));
+  for (const int table : {2, 3}) {
     const auto& rows = tables[table]["rows"];
     ASSERT_THAT(rows, SizeIs(2));
-    EXPECT_EQ(rows[0]["keys"][1], table == 1 ? "16" : "64");
+    EXPECT_EQ(rows[0]["keys"][1], table == 2 ? "16" : "64");
     EXPECT_TRUE(rows[1]["cells"][0]["best"]);
     EXPECT_DOUBLE_EQ(rows[0]["cells"][0]["p"], 2 / 256.0);  // one comparison
   }
@@ -160,7 +162,62 @@ TEST_F(StudyTest, TablesSayWhenThereAreTooFewSeedsForAnyTest) {
   const auto tables = table_data(study({.seeds = 3, .particles = {16, 256}, .generations = {16}}));
   EXPECT_TRUE(tables[1]["rows"][0]["cells"][0]["same"]);
   EXPECT_THAT(tables[1]["note"].get<std::string>(),
-              HasSubstr("even the clearest difference would have p = 0.25"));
+              HasSubstr("even the clearest difference would have p = 0.25; at least 6 seeds are "
+                        "needed"));
+  EXPECT_GE(tables[1]["rows"][0]["cells"][0]["seeds_needed"], 6);
+}
+
+TEST_F(StudyTest, TheTableOfScenesMarksTheBestSettingOfEachScene) {
+  const auto tables = table_data(study({.seeds = 8, .particles = {16, 256}, .generations = {16}}));
+  const auto& rows = tables[0]["rows"];
+  ASSERT_EQ(tables[0]["columns"].size(), 2U);
+  for (const int scene : {0, 1}) {
+    EXPECT_FALSE(rows[0]["cells"][scene]["best"]);
+    EXPECT_TRUE(rows[1]["cells"][scene]["best"]);
+    EXPECT_EQ(rows[1]["cells"][scene]["mean"],
+              tables[static_cast<std::size_t>(1 + scene)]["rows"][1]["cells"][0]["mean"]);
+  }
+  EXPECT_EQ(rows[0]["runs"], 16);
+  EXPECT_THAT(rows[1]["cells"][0]["detail"].get<std::string>(),
+              testing::MatchesRegex("1024 evaluations · [0-9.]+ fps · [0-9.]+ % lost"));
+}
+
+TEST_F(StudyTest, TablesShowTheCostBesideTheError) {
+  std::vector<std::string> keys;
+  const auto tables = table_data(study());
+  for (const auto& column : tables[1]["columns"]) keys.push_back(column["key"]);
+  keys.resize(4);
+  EXPECT_THAT(keys, ElementsAre("mean_error_mm", "lost_share", "evaluations_per_frame", "fps"));
+}
+
+TEST_F(StudyTest, RunsThatAreTheSameBitByBitAreOneSample) {
+  const StudyData data =
+      study({.seeds = 8, .particles = {16, 256}, .generations = {16}, .same = true});
+  const auto table = table_data(data)[1];
+  const auto& row = table["rows"][0];
+  EXPECT_EQ(row["runs"], 8);
+  EXPECT_EQ(row["samples"], 1);
+  EXPECT_EQ(row["cells"][0]["n"], 1);
+  EXPECT_TRUE(row["cells"][0]["sd"].is_null());
+  EXPECT_EQ(row["cells"][0]["p"], 1);  // of 8 pairs it would be 0.008
+  EXPECT_TRUE(row["cells"][0]["same"]);
+  EXPECT_THAT(table["identical"].get<std::string>(),
+              testing::AllOf(HasSubstr("count as one sample"),
+                             HasSubstr("16, 16: 8 runs, 1 sample; 256, 16: 8 runs, 1 sample")));
+}
+
+TEST_F(StudyTest, TimesDoNotMakeResultsDifferent) {
+  study({.seeds = 2, .same = true});
+  const fs::path file = fs::path("runs") / "stereo_p16_g16_s2" / "track.csv";
+  std::ifstream in(folder() / file);
+  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  const auto samples = [&] { return table_data(read_study(folder()))[1]["rows"][0]["samples"]; };
+  text.replace(text.find(",1024,") + 6, 1, "7");  // milliseconds
+  overwrite(file, text);
+  EXPECT_EQ(samples(), 1);
+  text.replace(text.find(",1024,"), 6, ",1023,");
+  overwrite(file, text);
+  EXPECT_EQ(samples(), 2);
 }
 
 TEST(ComparisonTest, PairsEqualSeedsAndRanksOthers) {
@@ -236,7 +293,7 @@ TEST_F(StudyTest, PlotsOfErrorsAreEmptyWhereNoTruthIsKnown) {
   EXPECT_EQ(data.runs[0].number("frames"), 12);
   for (const auto& plot : plot_data(data))
     for (const auto& facet : plot["facets"]) EXPECT_THAT(facet["rows"], IsEmpty());
-  EXPECT_EQ(table_data(data)[0]["columns"][0]["key"], "fps");
+  EXPECT_EQ(table_data(data)[0]["columns"][0]["key"], "evaluations_per_frame");
 }
 
 TEST_F(StudyTest, RunsHaveTheTimeOfAFrameToo) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "expect_error.hpp"
@@ -117,7 +118,7 @@ TEST_F(PlanTest, WhatSceneFilesTakeFromOthersCounts) {
   const Plan after = plan(small_study());
   EXPECT_NE(after.runs.front().id, before.runs.front().id);  // box
   EXPECT_EQ(after.runs.back().id, before.runs.back().id);    // hand
-  EXPECT_NE(recording_id(after, after.cells[0]), recording_id(before, before.cells[0]));
+  EXPECT_NE(recording_id(after, after.runs[0]), recording_id(before, before.runs[0]));
 }
 
 TEST_F(PlanTest, ScenesWhosePartsAreNotThereAreRefusedWithTheirPlace) {
@@ -140,9 +141,80 @@ TEST_F(PlanTest, CellsShareTheRecordingOfTheSameModelsAndSource) {
   text.replace(text.find("random: {"), 9, "random: {source.frames: 7, ");
   const Plan plan = this->plan(text);
   std::set<std::string> recordings;
-  for (const study::Cell& cell : plan.cells) recordings.insert(recording_id(plan, cell));
+  for (const study::PlannedRun& run : plan.runs) recordings.insert(recording_id(plan, run));
   EXPECT_THAT(recordings, SizeIs(4));  // two scenes, with and without the change of the source
-  EXPECT_EQ(recording_id(plan, plan.cells[0]), recording_id(plan, plan.cells[2]));
+  EXPECT_EQ(recording_id(plan, plan.runs[0]), recording_id(plan, plan.runs[2]));
+}
+
+/// A study of a rendered scene and of one that reads pictures, in three seeds.
+std::string rendered_study() {
+  return R"(title: Rendered
+scenes:
+  drawn: {file: drawn.yaml}
+  read: {file: hand.yaml, set: {source: {type: image_sequence}}}
+grid: {optimizer.particles: [8, 16]}
+seeds: 3
+)";
+}
+
+class RedrawTest : public PlanTest {
+ protected:
+  RedrawTest() {
+    write("drawn.yaml", "models: []\nsource: {type: synthetic, sensor: {seed: 7}}\n");
+  }
+
+  /// What the runs of the first scene redraw, by seed.
+  std::vector<std::string> redrawn(const std::string& text) const {
+    const Plan plan = this->plan(text);
+    std::vector<std::string> all;
+    for (const study::PlannedRun& run : plan.runs)
+      if (run.cell == 0) all.push_back(plan.changes_of(run).back().assignment());
+    return all;
+  }
+
+  static std::string with(const std::string& piece, const std::string& by) {
+    std::string text = rendered_study();
+    return text.replace(text.find(piece), piece.size(), by);
+  }
+};
+
+TEST_F(RedrawTest, SeedsAfterTheFirstRedrawTheNoiseOfRenderedPictures) {
+  EXPECT_THAT(redrawn(rendered_study()),
+              ElementsAre("optimizer.particles=8", "source.sensor.seed=8", "source.sensor.seed=9"));
+  EXPECT_THAT(redrawn(with("seeds: 3", "seeds: [9223372036854775807, 0]")),
+              ElementsAre("source.sensor.seed=5", "source.sensor.seed=6"));
+}
+
+TEST_F(RedrawTest, TheSeedOfTheNoiseIsThatOfTheChangedScene) {
+  const auto changed = [&](const std::string& set) {
+    return redrawn(with("{file: drawn.yaml}", "{file: drawn.yaml, set: " + set + "}"))[1];
+  };
+  EXPECT_EQ(changed("{source.sensor.seed: 3}"), "source.sensor.seed=4");
+  EXPECT_EQ(changed("{source.sensor: {noise_sigma: 2}}"), "source.sensor.seed=2");
+  EXPECT_EQ(changed("{source: {type: depth_from_stereo, source: \"@source\"}}"),
+            "source.source.sensor.seed=8");
+}
+
+TEST_F(RedrawTest, EverySettingOfASeedReadsTheSameRecording) {
+  const Plan plan = this->plan(rendered_study());
+  std::map<std::pair<std::size_t, std::int64_t>, std::set<std::string>> recordings;
+  std::set<std::string> all;
+  for (const study::PlannedRun& run : plan.runs) {
+    const std::string id = recording_id(plan, run);
+    recordings[{plan.cells[run.cell].scene, run.seed}].insert(id);
+    all.insert(id);
+  }
+  for (const auto& [place, names] : recordings) EXPECT_THAT(names, SizeIs(1));
+  EXPECT_THAT(all, SizeIs(3 + 1));  // rendered in each seed, read in all
+}
+
+TEST_F(RedrawTest, RunsWhosePicturesStayTheSameKeepTheirIds) {
+  const Plan once = plan(rendered_study() + "redraw: nothing\n");
+  const Plan anew = plan(rendered_study());
+  for (std::size_t i = 0; i < anew.runs.size(); ++i) {
+    const bool drawn_again = anew.cells[anew.runs[i].cell].scene == 0 && anew.runs[i].seed > 1;
+    EXPECT_EQ(anew.runs[i].id != once.runs[i].id, drawn_again) << i;
+  }
 }
 
 TEST_F(PlanTest, ShardsShareOutTheRunsAndTheCells) {

@@ -81,6 +81,31 @@ TEST_F(StudyFileTest, AVariantReplacesWhatItNames) {
       ElementsAre("tile.padding=0.1", "objective={type: stereo_color, window: 3}", "tile.size=16"));
 }
 
+TEST_F(StudyFileTest, EveryStudyHasAQuickVariantOfFewFramesSeedsAndTheEndsOfItsValues) {
+  std::string text = small_study();
+  text.erase(text.find("variants:"));
+  text.replace(text.find("[8, 16]"), 7, "[8, 16, 32, 64]");
+  text.replace(text.find("seeds: 2"), 8, "seeds: 6");
+  text.replace(text.find("frames: 5"), 9, "frames: 50");
+  const study::Study quick = load(text, "quick");
+  EXPECT_THAT(quick.seeds, ElementsAre(1, 2));
+  EXPECT_EQ(quick.frames, 10);
+  EXPECT_THAT(labels(quick.axes[0]), ElementsAre("8", "64"));
+  EXPECT_THAT(labels(quick.axes[1]), ElementsAre("pso", "random"));
+  EXPECT_THAT(message_of<ConfigError>([&] { load(text, "quik"); }),
+              HasSubstr("did you mean 'quick'?; its variants are: quick"));
+}
+
+TEST_F(StudyFileTest, AStudysOwnQuickVariantChangesTheQuickStudy) {
+  std::string text = small_study();
+  text.replace(text.find("seeds: [7], "), 12, "");
+  text.replace(text.find("seeds: 2"), 8, "seeds: 6");
+  const study::Study quick = load(text, "quick");
+  EXPECT_THAT(quick.seeds, ElementsAre(1, 2));
+  EXPECT_EQ(quick.frames, 3);
+  EXPECT_THAT(labels(quick.axes[0]), ElementsAre("4"));
+}
+
 TEST_F(StudyFileTest, TheResolvedStudyIsAStudyFileOfTheSameStudy) {
   const study::Study study = load(small_study(), "one");
   const std::string text = to_yaml(study);

@@ -149,5 +149,18 @@ TEST_F(StudyFolderTest, AFolderThatIsNoStudysIsRefused) {
               HasSubstr("is a file; name a folder"));
 }
 
+TEST_F(StudyFolderTest, AStudyOfOneRecordingIsNotContinuedWithRedrawnNoise) {
+  write("box.yaml", "models: []\nsource: {type: synthetic}\n");
+  const Plan once = plan(small_study() + "redraw: nothing\n");
+  StudyFolder(path("out"), once).begin();
+  std::string before = read(path("out/study.yaml"));
+  before.erase(before.find("redraw: nothing\n"), 16);  // of a program without the key
+  write("out/study.yaml", before);
+  EXPECT_NO_THROW(StudyFolder(path("out"), once));
+  EXPECT_THAT(complaint(plan(small_study())),
+              AllOf(HasSubstr("4 of its 16 runs are not part of this one"),
+                    HasSubstr("they differ in: redraw (the folder's is nothing)")));
+}
+
 }  // namespace
 }  // namespace hypotrack::test

@@ -257,6 +257,12 @@ TEST_F(BadInputTest, WithoutACalibrationItIsSaidWhatIsMissing) {
                    {"--set", std::string("source=") + source});
 }
 
+TEST_F(BadInputTest, ABudgetOfBothClocks) {
+  expect_refused(box_scene() + "budget: {seconds: 1, cpu_seconds: 1}\n",
+                 {"scene.yaml:13:35: budget.cpu_seconds: the budget has `seconds` of wall time too",
+                  "give one of them"});
+}
+
 TEST_F(BadInputTest, OutputFolderUnderAFile) {
   write_text(path("file"), "");
   const std::string out = path("file/out").string();

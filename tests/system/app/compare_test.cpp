@@ -1,6 +1,7 @@
 #include "compare_test.hpp"
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace hypotrack::test {
 namespace {
@@ -43,9 +44,9 @@ TEST_F(CompareTest, ARunIsWhatTheProgramMakesOfItsSceneAndSettings) {
   const auto found = std::find_if(names.begin(), names.end(),
                                   [&](const auto& name) { return cell_of(name) == expected; });
   ASSERT_NE(found, names.end());
-  const Outcome alone =
-      run_program({"run", path("box.yaml").string(), "--out", path("alone").string(), "--set",
-                   "optimizer.particles=8", "--seed", "2", "--frames", "3"});
+  const Outcome alone = run_program(
+      {"run", path("box.yaml").string(), "--out", path("alone").string(), "--set",
+       "optimizer.particles=8", "--set", "source.sensor.seed=2", "--seed", "2", "--frames", "3"});
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(track_without_times(path("out/runs") / *found), track_without_times(path("alone")));
 }
@@ -107,7 +108,7 @@ TEST_F(CompareTest, RecordedSourcesAreMadeOnceForAllRuns) {
   const std::string text = replaced(study(), "{file: box.yaml}",
                                     "{file: box.yaml}\n  far: {file: box.yaml, set: "
                                     "{source.cameras.focal_px: 120, tile.size: 48}}") +
-                           "recordings: true\n";
+                           "recordings: true\nredraw: nothing\n";
   const Outcome outcome = compare(text, "a");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_in(path("a/recordings")), SizeIs(2));  // of 4 cells with 2 seeds each
@@ -116,6 +117,21 @@ TEST_F(CompareTest, RecordedSourcesAreMadeOnceForAllRuns) {
   EXPECT_THAT(protocol, AllOf(HasSubstr("type: image_sequence"), HasSubstr("size: 48")));
   ASSERT_EQ(compare(text, "b").exit_code, 0);
   EXPECT_EQ(table("results.csv", "a"), table("results.csv", "b"));
+}
+
+TEST_F(CompareTest, SeedsGetPicturesOfTheirOwnThatAllSettingsShare) {
+  const std::string recorded = study() + "recordings: true\n";
+  ASSERT_EQ(compare(recorded, "out", {"--shard", "1/2"}).exit_code, 0);
+  std::set<std::string> pictures;
+  const auto recordings = names_in(path("out/recordings"));
+  ASSERT_THAT(recordings, SizeIs(2));  // of 2 cells with 2 seeds each; the other half needs them
+  for (const std::string& name : recordings)
+    pictures.insert(read_text(path("out/recordings") / name / "recording/left_000000.png"));
+  EXPECT_THAT(pictures, SizeIs(2));
+  ASSERT_EQ(compare(recorded, "out", {"--shard", "2/2"}).exit_code, 0);
+  EXPECT_THAT(names_in(path("out/recordings")), testing::IsEmpty());
+  ASSERT_EQ(compare(study(), "unrecorded").exit_code, 0);
+  EXPECT_EQ(table("results.csv"), table("results.csv", "unrecorded"));
 }
 
 TEST_F(CompareTest, APartOfTheSceneGoesIntoAnother) {

@@ -34,6 +34,15 @@ class RunTest : public AppTest {
   }
 };
 
+TEST_F(RunTest, ABudgetOfCpuTimeEndsSearchesWithoutEnd) {
+  const Outcome outcome = run(
+      replaced(box_scene(), "{type: pso, particles: 8, generations: 4}", "{type: random_search}") +
+          "budget: {evaluations: 1000000000000, cpu_seconds: 0.01}\n",
+      {"--frames", "2"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+}
+
 TEST_F(RunTest, WritesEveryResultOfASceneWithTruth) {
   const Outcome outcome = run(replaced(box_scene(), "overlay: false", "overlay: true"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

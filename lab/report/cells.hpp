@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lab/report/comparison.hpp"
+#include "lab/report/metric_info.hpp"
+#include "lab/report/study_data.hpp"
+
+namespace hypotrack {
+
+/// The runs of a scene that differ in their seed only.
+struct StudyCell {
+  std::vector<std::string> settings;  ///< one per axis
+  std::vector<const StudyRun*> runs;  ///< finished
+  int failed = 0;
+};
+
+/// Returns the cells of a scene in the order of the runs. With `part`, only those with this value
+/// of the axis that has a table for each value.
+std::vector<StudyCell> cells_of(const StudyData& study, const std::string& scene,
+                                const std::string& part = {});
+
+/// Returns the runs without those whose results are, bit by bit, those of an earlier run.
+std::vector<const StudyRun*> distinct_runs(const std::vector<const StudyRun*>& runs);
+
+/// Returns a metric of the distinct runs that have it, in the unit of tables.
+Sample sample_of(const std::vector<const StudyRun*>& runs, const MetricInfo& metric);
+
+}  // namespace hypotrack

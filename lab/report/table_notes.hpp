@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "lab/report/cells.hpp"
+
+namespace hypotrack {
+
+/// Explains the marks of a table whose rows are compared within each column, `comparisons` of them.
+/// Warns if the seeds are too few to separate anything.
+std::string note_on_tests(const std::vector<StudyCell>& cells, std::size_t comparisons);
+
+/// Names the cells with runs that are the same bit by bit and count as one. Empty if none has.
+std::string note_on_identical_runs(const std::vector<StudyCell>& cells);
+
+}  // namespace hypotrack
