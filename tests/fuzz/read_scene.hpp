@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -54,11 +55,11 @@ inline bool read_scene(std::string_view text, const std::filesystem::path& folde
     dump_params(ParamReader(optimizer, {"type"}).read<SampleParams>());
     return true;
   } catch (const ConfigError& error) {
-    const std::string_view message = error.what();
-    if (!message.starts_with(file.string() + ":") &&
-        !message.starts_with((folder / "other.yaml").string() + ":") &&
-        !message.starts_with((folder / "trackers" / "quick.yaml").string() + ":")) {
-      throw std::logic_error("no position: " + std::string(message));
+    // A value may come from another file: of this folder or of those that the program brings.
+    static const std::regex position("^/[^:]*\\.yaml:[0-9]+:[0-9]+: ");
+    const std::string message = error.what();
+    if (!message.starts_with(file.string() + ":") && !std::regex_search(message, position)) {
+      throw std::logic_error("no position: " + message);
     }
     return false;
   }
