@@ -150,7 +150,7 @@ TEST_F(BenchTest, MistakesAreOneMessage) {
   expect_refusal(bench(table(), {"--backends", "cpu,gpu"}), {"--backends gpu", "cpu, one"});
   expect_refusal(bench(table(), {"no_such.yaml"}), {"no_such.yaml", "no such scene file"});
   expect_refusal(bench(table(), {"--set", "tile.sise=2"}), {"tile.sise", "did you mean 'size'"});
-  expect_refusal(bench(table(), {"--variant", "quick"}), {"has no variant 'quick'"});
+  expect_refusal(bench(table(), {"--variant", "fast"}), {"has no variant 'fast'"});
   expect_refusal(bench(table(), {}, "rows.txt"), {"rows.txt", ".csv or .json"});
   expect_refusal(bench("title: none\nscenes: {box: {file: box.yaml}}\n"),
                  {"needs an axis 'backend'"});
