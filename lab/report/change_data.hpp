@@ -7,7 +7,7 @@
 
 namespace hypotrack {
 
-/// Compares a study before and after a change, cell by cell. Returns the page:
+/// Compares a study before and after a change, cell by cell. Returns the page in this form:
 ///
 ///   {kind: "change", title, about, version, left_out, facts: [[name, text], ...],
 ///    tables: [{id, title, note, keys: [label, ...], columns: [{key, label, digits}, ...],

@@ -6,9 +6,9 @@
 namespace hypotrack {
 
 // How many seeds a test needs to find, with a probability (power) of 80 %, a difference as large
-// as that seen. The number is that of a t test (Guenther, The American Statistician 35, 1981)
-// divided by the efficiency of ranks for normal values, 3/pi (Hodges and Lehmann, Annals of
-// Mathematical Statistics 27, 1956). It is never below what the exact test can separate at all.
+// as that seen. A t test's number (Guenther, The American Statistician 35, 1981) is divided by the
+// efficiency of ranks for normal values, 3/pi (Hodges and Lehmann, Annals of Mathematical
+// Statistics 27, 1956). It is never below what the exact test can separate at all.
 
 inline constexpr double kPower = 0.8;
 /// The largest number of seeds that is told; one more stands for all above.

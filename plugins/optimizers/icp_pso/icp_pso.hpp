@@ -28,9 +28,8 @@ struct IcpPsoParams {
        .min = 1,
        .max = 1 << 20});
     v("local_evaluations", local_evaluations,
-      {.help =
-           "evaluations of a particle in a generation, that of its position included; 0: enough "
-           "for two Jacobians with three steps each",
+      {.help = "evaluations of a particle in a generation; 0: what two Jacobians with three steps "
+               "each take",
        .min = 0,
        .max = 1 << 20});
     start.visit(v);
@@ -42,10 +41,11 @@ struct IcpPsoParams {
   }
 };
 
-/// A particle swarm whose particles are refined between generations, after C. Qian, X. Sun, Y. Wei,
-/// X. Tang and J. Sun, "Realtime and robust hand tracking from depth", CVPR 2014, who combine
-/// gradient-based (ICP) and stochastic (PSO) search: in every generation each particle first makes
-/// local steps from its position; then the swarm moves (Clerc and Kennedy 2002, as in `pso`).
+/// Moves a swarm whose particles are refined between generations.
+///
+/// The idea is that of C. Qian, X. Sun, Y. Wei, X. Tang and J. Sun, "Realtime and robust hand
+/// tracking from depth", CVPR 2014. In every generation each particle first makes local steps from
+/// its position. Then the swarm moves (Clerc and Kennedy 2002, as in `pso`).
 ///
 /// Unlike there, a step minimises the linearised residuals of the scene (by `optimizer`), not
 /// distances between a depth image and the closest spheres of a hand. Their finger detection and
