@@ -29,7 +29,7 @@ constexpr std::int64_t kMaxSeeds = 10'000;
 
 /// The keys of a study file.
 struct StudyKeys {
-  std::string title, about;
+  std::string title, about, extends;
   ConfigNode scenes, set, grid, seeds, variants;
   std::optional<int> frames;
   bool overlay = false, recordings = false, trace = false;
@@ -39,6 +39,7 @@ struct StudyKeys {
   std::string table_per;
   std::filesystem::path directory;
   void visit(ParamVisitor& v) {
+    v("extends", extends, {.help = "another study, to which this one adds"});
     v("title", title, {.help = "heading of the report", .required = true});
     v("about", about, {.help = "one paragraph: what is compared and why"});
     v("scenes", scenes,
@@ -308,7 +309,7 @@ void Plot::visit(ParamVisitor& v) {
 }
 
 Study load_study(const std::filesystem::path& file, const std::optional<std::string>& variant) {
-  const ConfigNode root = ConfigNode::load(file);
+  const ConfigNode root = ConfigNode::load_study(file);
   if (!root.is_map()) fail_type(root, "a study: a map with title, scenes, grid, ...");
   if (root.get("models").defined() && !root.get("scenes").defined())
     throw ConfigError(

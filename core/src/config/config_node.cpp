@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "config/extends.hpp"
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
 #include "config/toml.hpp"
@@ -47,6 +48,10 @@ ConfigNode ConfigNode::load_scene(const std::filesystem::path& file,
   includes.resolve(root, path);
   for (const std::string& assignment : left) detail::apply_override(*root, assignment);
   return ConfigNode(std::shared_ptr<const YamlNode>(std::move(root)));
+}
+
+ConfigNode ConfigNode::load_study(const std::filesystem::path& file) {
+  return ConfigNode(std::shared_ptr<const YamlNode>(detail::read_study_file(file)));
 }
 
 ConfigNode ConfigNode::parse(std::string_view text, std::string name,

@@ -1,20 +1,17 @@
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
+#include "config/file_name.hpp"
 #include "config/includes.hpp"
 #include "config/overrides.hpp"
 #include "config/yaml.hpp"
-#include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/suggest.hpp"
 
 namespace hypotrack::detail {
 namespace {
@@ -25,70 +22,24 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 8> kKeysOfTrackers{
     "objective", "optimizer", "budget", "tile", "photometric", "search", "tracker", "smoothing"};
 
-/// A reference to a tracker file, and where it is written.
-struct TrackerName {
-  std::string text;  ///< without the @
-  fs::path directory;
-  std::string where;
-};
-
-bool is_file_name(std::string_view text) {
-  return text.ends_with(".yaml") || text.ends_with(".yml");
-}
-
 /// Returns the reference that a value of the key `tracker` is or has at `from`.
-std::optional<TrackerName> name_in(const YamlNode& value) {
+std::optional<FileName> name_in(const YamlNode& value) {
   const YamlNode* node = &value;
   if (value.kind == YamlNode::Kind::kMap) {
     const YamlNode::Entry* from = value.find("from");
     if (!from) return std::nullopt;
     node = from->value.get();
   }
-  if (node->kind != YamlNode::Kind::kScalar || !node->text.starts_with('@') ||
-      node->text.starts_with("@@") || node->text.find('#') != std::string::npos)
-    return std::nullopt;
-  return TrackerName{node->text.substr(1), node->origin->directory,
-                     describe_position(*node->origin, node->line, node->column)};
-}
-
-bool is_file(const fs::path& file) {
-  std::error_code error;
-  return fs::is_regular_file(file, error);
-}
-
-/// Returns the references to the trackers that come with hypotrack.
-std::vector<std::string> known_trackers() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(data_file("configs/trackers"), error))
-    names.push_back("@trackers/" + entry.path().stem().string());
-  std::ranges::sort(names);
-  return names;
-}
-
-fs::path find(const TrackerName& name) {
-  const fs::path file = is_file_name(name.text) ? name.text : name.text + ".yaml";
-  fs::path beside = (name.directory / file).lexically_normal();
-  if (is_file(beside)) return beside;
-  std::string hint;
-  if (!is_file_name(name.text)) {
-    const std::vector<std::string> known = known_trackers();
-    const std::string reference = "@" + name.text;
-    if (std::ranges::find(known, reference) != known.end()) return data_file("configs" / file);
-    hint = fmt::format("{}. With hypotrack come {}", did_you_mean(reference, known),
-                       fmt::join(known, ", "));
-  }
-  throw ConfigError(fmt::format("{}: there is no tracker '@{}': {} is no file{}", name.where,
-                                name.text, beside.string(), hint));
+  return file_name_in(*node);
 }
 
 /// Reads a tracker file. Returns null if it is a scene.
-const YamlNode* read(const TrackerName& name, Includes& includes) {
-  const fs::path file = find(name);
+const YamlNode* read(const FileName& name, Includes& includes) {
+  const fs::path file = find_file(name, "tracker");
   try {
     const YamlNode& tracker = includes.document(file);
     const bool is_map = tracker.kind == YamlNode::Kind::kMap;
-    if (is_map && tracker.find("models") && is_file_name(name.text)) return nullptr;
+    if (is_map && tracker.find("models") && name.is_path()) return nullptr;
     for (const char* key : {"models", "source", "scenes"})
       if (!is_map || tracker.find(key))
         throw ConfigError(fmt::format(

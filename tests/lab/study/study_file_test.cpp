@@ -68,6 +68,87 @@ TEST_F(StudyFileTest, SeedsAreACountOrAList) {
   EXPECT_THAT(load(small_study(), "quick").seeds, ElementsAre(7));
 }
 
+/// Loads a study that adds to the small one, which stands in another folder as base/study.yaml.
+class ExtendedStudyTest : public StudyFileTest {
+ protected:
+  ExtendedStudyTest() {
+    for (const char* name : {"base/box.yaml", "base/hand.yaml"}) write(name, "models: []\n");
+    write("base/study.yaml", small_study());
+  }
+  study::Study load_more(const std::string& more,
+                         const std::optional<std::string>& variant = std::nullopt) const {
+    return load("extends: \"@base/study.yaml\"\n" + more, variant);
+  }
+  std::string complaint_about(const std::string& text) const {
+    return message_of<ConfigError>([&] { load(text); });
+  }
+};
+
+TEST_F(ExtendedStudyTest, IsTheOtherWhereItSaysNothing) {
+  const study::Study same = load_more("");
+  EXPECT_EQ(to_yaml(same), to_yaml(study::load_study(path("base/study.yaml"))));
+  EXPECT_EQ(same.directory, path("base"));
+}
+
+TEST_F(ExtendedStudyTest, AddsCasesScenesAndVariants) {
+  const study::Study more = load_more(
+      "title: Mine\n"
+      "scenes: {small: {file: box.yaml}}\n"
+      "grid: {method: {mine: {optimizer: {type: mine}}, pso: {optimizer: {type: cma_es}}}}\n"
+      "variants: {one: {frames: 2}}\n",
+      "one");
+  EXPECT_EQ(more.title, "Mine");
+  EXPECT_THAT(labels(more.axes[1]), ElementsAre("pso", "random", "mine"));
+  EXPECT_THAT(assignments(more.axes[1].choices[0].changes),
+              ElementsAre("optimizer={type: cma_es}"));
+  EXPECT_EQ(more.frames, 2);
+  ASSERT_EQ(more.scenes.size(), 1U) << "the scenes of the other's variant `one`";
+  const study::Study all = load_more("scenes: {small: {file: box.yaml}}\n");
+  ASSERT_EQ(all.scenes.size(), 3U);
+  EXPECT_EQ(all.scenes[2].file, path("box.yaml"))
+      << "paths of scenes refer to the file they are in";
+}
+
+TEST_F(ExtendedStudyTest, ReplacesListsAndNumbers) {
+  const study::Study more = load_more("seeds: 4\ngrid: {optimizer.particles: [5]}\nplots: []\n");
+  EXPECT_EQ(more.seeds.size(), 4U);
+  EXPECT_THAT(labels(more.axes[0]), ElementsAre("5"));
+  EXPECT_TRUE(more.plots.empty());
+}
+
+TEST_F(ExtendedStudyTest, FindsTheStudiesThatComeWithTheProgram) {
+  const study::Study more = load("extends: \"@studies/goals\"\ntitle: Our goals\nvariants: {}\n");
+  EXPECT_EQ(more.title, "Our goals");
+  EXPECT_FALSE(more.scenes.empty());
+}
+
+TEST_F(ExtendedStudyTest, SaysWhereAMistakeIsInEitherFile) {
+  EXPECT_THAT(complaint_about("extends: \"@base/study.yaml\"\nseeds: none\n"),
+              HasSubstr("study.yaml:2:8: seeds: "));
+  write("base/study.yaml", "title: Small\nscenes: {}\n");
+  EXPECT_THAT(complaint_about("extends: \"@base/study.yaml\"\n"),
+              HasSubstr("base/study.yaml:2:9: scenes: "));
+}
+
+TEST_F(ExtendedStudyTest, NamesAStudyThatIsThere) {
+  EXPECT_THAT(complaint_about("extends: base/study.yaml\n"),
+              HasSubstr("study.yaml:1:10: extends: expected a study, \"@studies/NAME\" or "
+                        "\"@FILE.yaml\""));
+  EXPECT_THAT(complaint_about("extends: \"@studies/goal\"\n"),
+              AllOf(HasSubstr("there is no study '@studies/goal'"),
+                    HasSubstr("did you mean '@studies/goals'")));
+  write("base/study.yaml", "- a list\n");
+  EXPECT_THAT(complaint_about("extends: \"@base/study.yaml\"\n"), HasSubstr("is no study"));
+}
+
+TEST_F(ExtendedStudyTest, DoesNotExtendItself) {
+  EXPECT_THAT(complaint_about("extends: \"@study.yaml\"\n"),
+              HasSubstr("extends this study itself"));
+  write("base/study.yaml", "extends: \"@../study.yaml\"\n");
+  EXPECT_THAT(complaint_about("extends: \"@base/study.yaml\"\n"),
+              HasSubstr("extends this study itself"));
+}
+
 TEST_F(StudyFileTest, AVariantReplacesWhatItNames) {
   const study::Study quick = load(small_study(), "quick");
   EXPECT_EQ(quick.frames, 3);

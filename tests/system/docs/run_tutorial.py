@@ -2,7 +2,8 @@
 """Runs a tutorial in a new folder: what its hidden comment prepares, the files that it tells to write and its commands.
 
 run_tutorial.py PAGE SOURCE_DIR BUILD_DIR. Exit code 77: a comment `needs: FOLDER` names a folder that is missing,
-for example $HAND_DETECTOR. Commands find the scenes to record in $RECORDINGS and the programs of the tests in $SUPPORT.
+for example $HAND_DETECTOR. Commands find the scenes to record in $RECORDINGS, the programs of the tests in $SUPPORT and
+the build in $BUILD; $PREFIX is where they may install it.
 """
 
 import os
@@ -40,6 +41,7 @@ def main():
         HAND_DETECTOR=f"{data_home}/hypotrack/hand_detector",
         RECORDINGS=str(source / "tests/system/docs/recordings"),
         SUPPORT=str(source / "tests/support"),
+        BUILD=str(build),
     )
     text = page.read_text()
     for needed in re.findall(r"^<!-- needs: (.*) -->$", text, re.M):
@@ -48,6 +50,7 @@ def main():
             return 77
     commands = 0
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:  # a run may still end
+        os.environ["PREFIX"] = str(Path(folder) / "prefix")
         os.symlink(source / "configs", Path(folder) / "configs")
         for content, name in steps(text):
             if name:
