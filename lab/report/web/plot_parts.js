@@ -18,6 +18,8 @@ hypotrack.themes = {
 };
 
 hypotrack.shapes = ['circle', 'square', 'triangle-up', 'diamond', 'cross', 'triangle-down'];
+/** Of lines; the next begins where colours repeat. */
+hypotrack.dashes = [[1, 0], [7, 3], [2, 2], [9, 3, 2, 3]];
 
 /** Whether the values of an axis grow by factors rather than by steps. */
 hypotrack.isGeometric = function (values) {
@@ -128,8 +130,19 @@ hypotrack.colorScales = function (plot, theme) {
   var ordered = plot.color && plot.color.numeric && values.length > 2;
   var range = ordered ? {scheme: 'viridis', count: values.length, extent: theme.ordered}
                       : theme.series;
+  var dashes = values.map(function (value, i) {
+    var turn = ordered ? 0 : Math.floor(i / theme.series.length);
+    return hypotrack.dashes[turn % hypotrack.dashes.length];
+  });
   return [{name: 'color', type: 'ordinal', domain: values, range: range},
+          {name: 'dash', type: 'ordinal', domain: values, range: dashes},
           {name: 'shape', type: 'ordinal', domain: values, range: hypotrack.shapes}];
+};
+
+/** Whether a plot has lines without marks at their points. */
+hypotrack.isBareLine = function (plot) {
+  return ['success', 'convergence', 'targets', 'performance_profile',
+          'data_profile'].indexOf(plot.kind) >= 0;
 };
 
 /** A specification with a panel per facet; `content(name of the data)` gives its axes and marks. */
@@ -151,11 +164,13 @@ hypotrack.facetSpec = function (plot, options, size, scales, content) {
     }),
   };
   if (plot.color && plot.color.values.length > 1) {
-    spec.legends = [{
-      fill: 'color', shape: 'shape', orient: 'top', direction: 'horizontal',
+    spec.legends = [Object.assign({
+      orient: 'top', direction: 'horizontal',
       title: plot.color.label, labelLimit: options.width - 40,
       columns: hypotrack.legendColumns(plot.color.values, options.width),
-    }];
+    }, hypotrack.isBareLine(plot) ? {stroke: 'color', strokeDash: 'dash', symbolType: 'stroke',
+                                     symbolSize: 500}
+                                  : {fill: 'color', shape: 'shape'})];
   }
   return spec;
 };
@@ -181,16 +196,18 @@ hypotrack.axes = function (plot, values, ticks, yValues) {
 };
 
 /** Lines of the mean with bands; `interpolate` is Vega's way between points. */
-hypotrack.lineMarks = function (data, points, interpolate) {
+hypotrack.lineMarks = function (plot, data, interpolate) {
+  var points = !hypotrack.isBareLine(plot);
+  var lines = plot.color ? plot.color.values.length : 1;
   var x = {scale: 'x', field: 'x'}, color = {scale: 'color', field: 'color'};
   var way = {value: interpolate || 'linear'};
   var inner = [
     {type: 'area', from: {data: 'series'}, encode: {update: {
       x: x, y: {scale: 'y', field: 'lo'}, y2: {scale: 'y', field: 'hi'},
-      interpolate: way, fill: color, fillOpacity: {value: 0.18}}}},
+      interpolate: way, fill: color, fillOpacity: {value: Math.min(0.18, 1 / lines)}}}},
     {type: 'line', from: {data: 'series'}, encode: {update: {
       x: x, y: {scale: 'y', field: 'mean'}, stroke: color, strokeWidth: {value: 2},
-      interpolate: way}}},
+      strokeDash: {scale: 'dash', field: 'color'}, interpolate: way}}},
     {type: 'symbol', from: {data: 'series'}, encode: {update: {
       x: x, y: {scale: 'y', field: 'mean'}, fill: color, size: {value: points ? 50 : 60},
       shape: {scale: 'shape', field: 'color'}, opacity: {value: points ? 1 : 0},

@@ -281,6 +281,32 @@ class ReportTest(unittest.TestCase):
             });""", long)
         self.assertEqual(texts.count(long), 2)  # in the legend and at the axis
 
+    def test_lines_of_many_settings_can_be_told_apart(self):
+        self.open(self.study_page)
+        lines = self.script("""
+            var names = Array.from({length: 24}, function (_, i) { return 'm' + i; });
+            var rows = names.map(function (name, i) {
+              return [1, 2].map(function (x) {
+                return {x: x, color: name, mean: 4 * i, n: 1};
+              });
+            }).flat();
+            var plot = {kind: 'performance_profile', title: 't', counted: 'frames',
+                        color: {label: 'c', values: names}, x: {label: 'x'}, y: {label: 'y'},
+                        facets: [{label: '', rows: rows}]};
+            var chart = {plot: plot, width: 0, view: null,
+                         holder: document.querySelector('.plot')};
+            hypotrack.drawChart(chart);
+            return chart.view.runAsync().then(function () {
+              return ['.mark-line path', '.role-legend-symbol path'].map(function (marks) {
+                return Array.from(chart.holder.querySelectorAll(marks)).map(function (path) {
+                  return path.getAttribute('stroke') + ' ' + path.getAttribute('stroke-dasharray');
+                });
+              });
+            });""")
+        for kind in lines:  # those of the plot and those of its legend
+            self.assertEqual(len(kind), 24)
+            self.assertEqual(len(set(kind)), 24)
+
     def test_nothing_is_wider_than_a_phone(self):
         self.open(self.study_page, width=390)
         self.assert_no_sideways_scroll()
