@@ -114,6 +114,13 @@ hypotrack.wrapped = function (text, width) {
   return lines;
 };
 
+/** Whether any row has a band. */
+hypotrack.hasBands = function (plot) {
+  return plot.facets.some(function (facet) {
+    return facet.rows.some(function (row) { return row.lo !== undefined || row.sd; });
+  });
+};
+
 /** The rows of each facet as data sets, with the bounds of the band and a text to hover. */
 hypotrack.plotTables = function (plot) {
   return plot.facets.map(function (facet, i) {
@@ -195,8 +202,9 @@ hypotrack.axes = function (plot, values, ticks, yValues) {
   ];
 };
 
-/** Lines of the mean with bands; `interpolate` is Vega's way between points. */
-hypotrack.lineMarks = function (plot, data, interpolate) {
+/** Lines of the mean with bands; `interpolate` is Vega's way between points. Points without marks
+    can be hovered over, but not in a file (`options.still`). */
+hypotrack.lineMarks = function (plot, options, data, interpolate) {
   var points = !hypotrack.isBareLine(plot);
   var lines = plot.color ? plot.color.values.length : 1;
   var x = {scale: 'x', field: 'x'}, color = {scale: 'color', field: 'color'};
@@ -213,6 +221,8 @@ hypotrack.lineMarks = function (plot, data, interpolate) {
       shape: {scale: 'shape', field: 'color'}, opacity: {value: points ? 1 : 0},
       tooltip: {field: 'tip'}}}},
   ];
+  if (!points && options.still) inner.pop();
+  if (!hypotrack.hasBands(plot)) inner.shift();
   return [{type: 'group', from: {facet: {data: data, name: 'series', groupby: 'color'}},
            marks: inner}];
 };

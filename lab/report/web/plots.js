@@ -27,7 +27,7 @@ hypotrack.curveSpec = function (plot, options) {
       [x, y].concat(hypotrack.colorScales(plot, options.theme)), function (data) {
         return {axes: hypotrack.axes(plot, values.length <= 12 ? values : null, 8,
                                      y.type === 'log' ? hypotrack.logTicks(y.domain) : null),
-                marks: hypotrack.lineMarks(plot, data)};
+                marks: hypotrack.lineMarks(plot, options, data)};
       });
 };
 
@@ -64,7 +64,8 @@ hypotrack.successSpec = function (plot, options) {
   ];
   return hypotrack.facetSpec(plot, options, size,
       scales.concat(hypotrack.colorScales(plot, options.theme)), function (data) {
-        return {axes: hypotrack.axes(plot, null, 6), marks: hypotrack.lineMarks(plot, data)};
+        return {axes: hypotrack.axes(plot, null, 6),
+                marks: hypotrack.lineMarks(plot, options, data)};
       });
 };
 
@@ -108,7 +109,7 @@ hypotrack.tracedSpec = function (plot, options) {
         var axes = hypotrack.axes(plot, xTicks, 0, yTicks);
         if (!targets) axes[0].format = '~r';
         return {axes: axes,
-                marks: hypotrack.lineMarks(plot, data, targets ? 'linear' : 'step-after')};
+                marks: hypotrack.lineMarks(plot, options, data, targets ? 'linear' : 'step-after')};
       });
 };
 

@@ -13,7 +13,9 @@ async function main(dataFile, folder) {
   var page = JSON.parse(fs.readFileSync(dataFile, 'utf8'));
   var plots = page.kind === 'run' ? hypotrack.runPlots(page.runs[0]) : page.plots;
   for (var plot of plots.filter(hypotrack.hasRows)) {
-    var spec = hypotrack.plotSpec(plot, {width: 960, theme: hypotrack.themes.light});
+    var spec = hypotrack.plotSpec(plot, {
+      width: 960, theme: hypotrack.themes.light, still: true,
+    });
     if (plot.title) spec.title = {text: plot.title, fontSize: 16, offset: 12};
     var view = new vega.View(vega.parse(spec), {renderer: 'none'});
     fs.writeFileSync(path.join(folder, plot.id + '.svg'), await view.toSVG());
