@@ -18,6 +18,7 @@ def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("pictures", help="pattern of the JPEG files")
     parser.add_argument("--rate", type=float, default=30, help="pictures per second")
+    parser.add_argument("--first", type=int, help="play the first N pictures only, over and over")
     parser.add_argument("--port", type=int, default=0, help="0: any that is free")
     parser.add_argument("--port-file", required=True, help="file that gets the port")
     parser.add_argument("--jitter", type=float, default=0, help="largest delay of a picture, s")
@@ -36,7 +37,7 @@ class Camera:
     def __init__(self, given):
         self.given = given
         self.pictures = []
-        for name in sorted(glob.glob(given.pictures)):
+        for name in sorted(glob.glob(given.pictures))[:given.first]:
             with open(name, "rb") as file:
                 self.pictures.append(file.read())
         if not self.pictures:
