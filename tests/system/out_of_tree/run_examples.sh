@@ -66,3 +66,9 @@ END
 "$hypotrack" --plugin-path plugin_source/build run euroc.yaml --out euroc_result
 [ "$(grep -c ',tracked,' euroc_result/track.csv)" = 3 ] || fail "expected three tracked frames"
 [ "$(grep -c ',missing,' euroc_result/track.csv)" = 1 ] || fail "expected one missing frame"
+
+# An installation that lost OpenCV's readers of images says so.
+rm "$(find "$scratch/prefix" -name libhypotrack_media.so)"
+"$hypotrack" run recording/scene.yaml --out without_images 2>message.txt && fail "pictures were read"
+grep -q 'images and videos need .*libhypotrack_media.so, which cannot be loaded: ' message.txt ||
+  fail "unexpected message: $(cat message.txt)"
