@@ -115,6 +115,52 @@ INSTANTIATE_TEST_SUITE_P(
                            "a rectified pair: not all of them are written"}),
     [](const auto& each) { return each.param.fault; });
 
+Outcome run_prior(const std::string& fault) {
+  const test::TemporaryDirectory folder;
+  const auto file = folder.path() / "parameters.yaml";
+  std::ofstream(file) << "fault: " + fault + "\n";
+  return run({"objective",
+              std::string(HYPOTRACK_BROKEN_PLUGINS) + "/libhypotrack_objective_broken_prior.so",
+              file.string()});
+}
+
+const std::string kJacobianRow = "Jacobians are those of the residuals";
+
+class JacobianContract : public ::testing::TestWithParam<Case> {};
+
+TEST_P(JacobianContract, OneFaultNamesTheResidualAndTheParameter) {
+  const Outcome outcome = run_prior(GetParam().fault);
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output, HasSubstr(GetParam().row + ": FAILED\n"));
+  EXPECT_THAT(outcome.output, HasSubstr(GetParam().message)) << outcome.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Objective, JacobianContract,
+    ::testing::Values(
+        Case{"objective", "wrong_sign", kJacobianRow,
+             "the scene at rest, a rectified pair: the Jacobian says -1 for residual 0 by "
+             "'hand.position_z' (number 2 of the state), but differences of residuals are 1"},
+        Case{"objective", "forgets_a_parameter", kJacobianRow,
+             "the Jacobian says 0 for residual 2 by 'hand.thumb_flexion_2' (number 9 of the "
+             "state), but differences of residuals are -1"},
+        Case{"objective", "transposed", kJacobianRow,
+             "the Jacobian is 27 x 3, expected 3 x 27 (residuals x numbers of the state)"},
+        Case{"objective", "infinite_jacobian", kJacobianRow,
+             "the Jacobian is inf for residual 1 by 'hand.rotation_y' (number 5 of the state), "
+             "expected a finite number"},
+        Case{"objective", "other_residuals", kJacobianRow,
+             "with a Jacobian, residual 1 is another one"},
+        Case{"objective", "has_no_jacobian", "it has what its capabilities claim",
+             "they claim a jacobian, and has_jacobian() is false"}),
+    [](const auto& each) { return each.param.fault; });
+
+TEST(ContractProgram, AJacobianWithAKinkPasses) {
+  const Outcome outcome = run_prior("none");
+  EXPECT_EQ(outcome.status, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr(kJacobianRow + ": ok\n"));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Model, Contract,
     ::testing::Values(

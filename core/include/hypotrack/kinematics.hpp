@@ -25,6 +25,12 @@ HYPOTRACK_API std::vector<Eigen::Isometry3d> world_from_bones(const ModelData& d
 HYPOTRACK_API Eigen::Matrix3Xd posed_landmarks(const Model& model,
                                                std::span<const double> parameters);
 
+/// Returns the derivatives of a model's landmarks by its parameters: 3 rows (x, y, z) per landmark,
+/// one column per parameter. Along the quaternion, only derivatives within the unit sphere hold.
+/// Throws Error if the model poses itself.
+HYPOTRACK_API Eigen::MatrixXd landmark_derivatives(const Model& model,
+                                                   std::span<const double> parameters);
+
 /// Returns the world positions of a model's vertices by linear blend skinning, 3xV, metres. The
 /// fast implementations are tested against this reference.
 HYPOTRACK_API Eigen::Matrix3Xf posed_vertices(const Model& model,

@@ -41,6 +41,12 @@ inline Neighbourhood neighbourhood(const Eigen::VectorXd& point, const Eigen::Ve
 /// far above rounding.
 constexpr double kAnalyticShare = 0.01;
 
+/// Returns the share of the spread for linearize(): `difference`, that of numerical Jacobians, if
+/// it draws the neighbours.
+inline double linearize_share(const ResidualCost& residuals, double difference) {
+  return residuals.draws_neighbours() ? difference : kAnalyticShare;
+}
+
 /// Returns normal equations in units of the region's spread.
 inline NormalEquations per_spread(const NormalEquations& equations, const SearchRegion& region) {
   const auto spread = region.spread.asDiagonal();
@@ -81,7 +87,10 @@ class Linearizer {
   }
 
   /// Returns the evaluations that equations() takes.
-  std::int64_t price() const { return differences_ ? region_.start.size() : 1; }
+  std::int64_t price() const {
+    const Eigen::Index d = region_.start.size();
+    return differences_ ? d : cost_.residuals()->linearize_price(d);
+  }
   /// Returns the last point evaluated; empty before the first.
   const Eigen::VectorXd& point() const { return point_; }
 
@@ -95,7 +104,6 @@ class Linearizer {
       cost_.evaluate(point, cost);
     }
     point_ = point;
-    point_cost_ = cost[0];
     best_.update(point, cost);
     return cost[0];
   }
@@ -104,10 +112,12 @@ class Linearizer {
   /// evaluations. Precondition: the point's cost is finite.
   NormalEquations equations() {
     if (!differences_) {
+      ResidualCost& residuals = *cost_.residuals();
+      const double share = linearize_share(residuals, params_.difference);
       const Neighbourhood at =
-          neighbourhood(point_, difference_steps(region_, point_, kAnalyticShare), params_.blur);
-      const NormalEquations found = cost_.residuals()->linearize(at.points, at.steps, at.blur);
-      best_.update(point_, Eigen::VectorXd::Constant(1, point_cost_));
+          neighbourhood(point_, difference_steps(region_, point_, share), params_.blur);
+      const NormalEquations found = residuals.linearize(at.points, at.steps, at.blur);
+      best_.count(price());
       return per_spread(found, region_);
     }
     const Eigen::VectorXd steps = difference_steps(region_, point_, params_.difference);
@@ -126,7 +136,6 @@ class Linearizer {
   BestSoFar& best_;
   std::unique_ptr<ResidualDifferences> differences_;  ///< null: the cost linearises
   Eigen::VectorXd point_;
-  double point_cost_ = 0;
 };
 
 /// Searches from the region's start or, where that is infeasible and gives no derivatives, from its

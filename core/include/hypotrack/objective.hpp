@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,7 +34,13 @@ struct RenderedHypothesis {
   std::span<const DepthTile> views;  ///< one per view; empty if no objective needs rendering
 };
 
-/// The residuals of an objective, for least-squares optimizers.
+/// Derivatives of residuals with respect to a scene's normalised state: one row per residual, one
+/// column per number of the state, in the order of Scene::parameters(). Stored row after row.
+using Jacobian = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// The residuals of an objective, for least-squares optimizers. Least squares with analytic
+/// Jacobians takes write_jacobian() where a term has it, otherwise write_slopes(), otherwise
+/// differences of residuals. Terms of all three kinds can be in one scene.
 class HYPOTRACK_API ResidualTerm {
  public:
   ResidualTerm() = default;
@@ -69,6 +76,17 @@ class HYPOTRACK_API ResidualTerm {
   /// several threads at once.
   virtual void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
                             std::span<float> residuals, std::span<float> slopes) const;
+
+  /// Returns true if write_jacobian() works. The answer never changes.
+  virtual bool has_jacobian() const { return false; }
+
+  /// Writes the residuals of a hypothesis and their derivatives, d residuals[i] / d state[k] at
+  /// (i, k). `jacobian` comes in its final size and filled with zeros.
+  /// Along a unit quaternion, only derivatives within the unit sphere matter: whether the residual
+  /// normalises it does not. Where a residual has a kink, any slope between those of its sides
+  /// will do. Called from several threads at once.
+  virtual void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                              Jacobian& jacobian) const;
 };
 
 /// A number for every pixel of one view's tile, for pictures that explain a cost.

@@ -77,9 +77,17 @@ class HYPOTRACK_API ResidualCost {
 
   /// Returns true if linearize() is available.
   virtual bool can_linearize() const { return false; }
-  /// Computes the normal equations at points.col(0), the only point that is drawn; counts as one
-  /// evaluation. points.col(1 + i) differs from it by steps[i] in dimension i; its surfaces are
-  /// posed only.
+  /// Returns true if linearize() also draws the neighbours of a point, because a term offers
+  /// nothing but residuals.
+  virtual bool draws_neighbours() const { return false; }
+  /// Returns the evaluations that linearize() counts as: one, and D more if it draws the
+  /// neighbours.
+  std::int64_t linearize_price(Eigen::Index dimension) const {
+    return draws_neighbours() ? 1 + dimension : 1;
+  }
+  /// Computes the normal equations at points.col(0); counts as linearize_price() evaluations.
+  /// points.col(1 + i) differs from it by steps[i] in dimension i. Its surfaces are only posed,
+  /// unless draws_neighbours().
   /// Columns of J are derivatives per unit of the search point, 0 where the step is 0. `blur`: the
   /// residual of a pixel changes over this many pixels of motion of a silhouette that crosses it.
   virtual NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,

@@ -98,6 +98,8 @@ class BestSoFar {
     }
     result_.evaluations += costs.size();
   }
+  /// Counts evaluations that returned no costs: those of linearize().
+  void count(std::int64_t evaluations) { result_.evaluations += evaluations; }
   const OptimizerResult& result() const { return result_; }
 
  private:

@@ -78,6 +78,7 @@ class HostCost final : public Cost, public StateResiduals {
     return std::make_unique<Differences>(*this, difference_memory_);
   }
   bool can_linearize() const override { return linearizers_.has_value(); }
+  bool draws_neighbours() const override { return Linearizer::draws_neighbours(terms()); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
     const Neighbourhood at{states, steps, blur};

@@ -19,6 +19,10 @@ void ResidualTerm::write_slopes(const RenderedHypothesis&, std::size_t, std::spa
                                 std::span<float>) const {
   throw Error("this objective has no slopes of residuals");
 }
+
+void ResidualTerm::write_jacobian(const RenderedHypothesis&, std::span<float>, Jacobian&) const {
+  throw Error("this objective has no Jacobian of its residuals");
+}
 Objective::~Objective() = default;
 const ResidualTerm* Objective::residual_term() const { return nullptr; }
 double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,

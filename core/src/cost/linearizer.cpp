@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "cost/drawn_differences.hpp"
 #include "cost/pixel_rows.hpp"
 #include "cost/posed_neighbours.hpp"
+#include "cost/term_equations.hpp"
 
 namespace hypotrack {
 namespace {
@@ -36,6 +39,26 @@ void add(const Products& all, const std::vector<Eigen::Index>& dimensions, Norma
       if (k != i) sums.a(column, row) += all(i, k);
     }
   }
+}
+
+bool has_jacobian(const ObjectiveTerm& term) {
+  return term.objective->residual_term()->has_jacobian();
+}
+
+bool has_slopes(const ObjectiveTerm& term) { return term.objective->residual_term()->has_slopes(); }
+
+/// Returns the terms that need rendering and have neither slopes nor a Jacobian.
+std::vector<ObjectiveTerm> with_residuals_only(const std::vector<ObjectiveTerm>& terms) {
+  std::vector<ObjectiveTerm> out;
+  std::ranges::copy_if(terms, std::back_inserter(out), [](const ObjectiveTerm& term) {
+    return term.weight != 0 && term.objective->needs_rendering() && !has_jacobian(term) &&
+           !has_slopes(term);
+  });
+  return out;
+}
+
+std::span<const double> state_of(const Eigen::MatrixXd& states) {
+  return {states.col(0).data(), static_cast<std::size_t>(states.rows())};
 }
 
 }  // namespace
@@ -68,21 +91,19 @@ struct Linearizer::Impl {
     std::vector<PixelRows> bands;          // of the tile's rows
   };
 
-  struct StatePart {
-    const ResidualTerm* term;
-    double weight;
-  };
-
-  Impl(const Scene& scene, const std::vector<ObjectiveTerm>& scene_terms, int threads,
+  Impl(const Scene& own_scene, const std::vector<ObjectiveTerm>& scene_terms, int threads,
        int band_count)
-      : plan(scene),
+      : scene(own_scene),
+        plan(scene),
         terms(scene_terms),
         bands(static_cast<std::size_t>(band_count)),
-        neighbours(plan, threads) {}
+        neighbours(plan, threads),
+        differences(plan, with_residuals_only(terms), threads) {}
 
   /// Collects what the terms read in the prepared frame.
   void take_terms() {
     others.clear();
+    jacobians.clear();
     for (ViewPart& view : views) view.parts.clear();
     for (const ObjectiveTerm& term : terms) {
       if (term.weight != 0) add_term(term);
@@ -91,11 +112,10 @@ struct Linearizer::Impl {
   }
 
   void add_term(const ObjectiveTerm& term) {
+    if (!term.objective->needs_rendering()) return others.push_back(term);
+    if (has_jacobian(term)) return jacobians.push_back(term);
+    if (!has_slopes(term)) return;  // the differences have it
     const ResidualTerm* own = term.objective->residual_term();
-    if (!term.objective->needs_rendering()) {
-      others.push_back({own, term.weight});
-      return;
-    }
     const std::span<const int> wanted = own->pixel_views();
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       const auto view = static_cast<std::size_t>(wanted[i]);
@@ -166,10 +186,10 @@ struct Linearizer::Impl {
     });
   }
 
-  /// Adds the terms that look at pixels, by the slopes of their residuals.
+  /// Adds the terms that look at what is drawn, by the slopes of their pixels or their Jacobians.
   void add_pixels(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps, float blur,
                   NormalEquations& sums) {
-    if (views.empty()) return;
+    if (views.empty() && jacobians.empty()) return;
     std::vector<Eigen::Index> moved;
     std::vector<float> per_step;
     for (Eigen::Index i = 0; i < steps.size(); ++i) {
@@ -178,9 +198,12 @@ struct Linearizer::Impl {
       per_step.push_back(static_cast<float>(1 / steps[i]));
     }
     neighbours.draw(states, moved);
-    const RenderedHypothesis hypothesis{
-        {states.col(0).data(), static_cast<std::size_t>(states.rows())},
-        neighbours.centre().tiles()};
+    const RenderedHypothesis hypothesis{state_of(states), neighbours.centre().tiles()};
+    const Eigen::MatrixXd derivatives = state_derivatives(scene, states, steps);
+    for (const ObjectiveTerm& term : jacobians) {
+      add_by_jacobian(term, hypothesis, derivatives, sums);
+    }
+    if (views.empty()) return;
     write_slopes(hypothesis);
     sum_rows(hypothesis, per_step, blur);
     Products products;
@@ -193,44 +216,42 @@ struct Linearizer::Impl {
   /// Adds the terms of the state alone.
   void add_others(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
                   NormalEquations& sums) const {
-    for (const StatePart& part : others) add_differences(part, states, steps, sums);
+    const RenderedHypothesis hypothesis{state_of(states), {}};
+    const Eigen::MatrixXd derivatives = state_derivatives(scene, states, steps);
+    for (const ObjectiveTerm& term : others) {
+      if (has_jacobian(term)) {
+        add_by_jacobian(term, hypothesis, derivatives, sums);
+      } else {
+        add_by_differences(term, states, steps, sums);
+      }
+    }
   }
 
-  /// Adds a term of the state by differences.
-  void add_differences(const StatePart& part, const Eigen::MatrixXd& states,
-                       const Eigen::VectorXd& steps, NormalEquations& sums) const {
-    const auto count = static_cast<std::size_t>(part.term->residual_count());
-    Eigen::MatrixXf r(part.term->residual_count(), states.cols());
-    for (Eigen::Index i = 0; i < states.cols(); ++i) {
-      part.term->write_residuals(
-          {{states.col(i).data(), static_cast<std::size_t>(states.rows())}, {}},
-          {r.col(i).data(), count});
-    }
-    const Eigen::VectorXd at = r.col(0).cast<double>();
-    Eigen::MatrixXd j(r.rows(), steps.size());
-    for (Eigen::Index i = 0; i < steps.size(); ++i) {
-      j.col(i) = steps[i] == 0 ? Eigen::VectorXd::Zero(r.rows())
-                               : ((r.col(i + 1).cast<double>() - at) / steps[i]).eval();
-    }
-    sums.a += part.weight * j.transpose() * j;
-    sums.g += part.weight * j.transpose() * at;
-  }
-
+  const Scene& scene;
   ScenePlan plan;
   std::vector<ObjectiveTerm> terms;
   std::size_t bands;
   FrameProjection frame;
   PosedNeighbours neighbours;
   std::vector<ViewPart> views;
-  std::vector<StatePart> others;
+  std::vector<ObjectiveTerm> jacobians;  // that need rendering
+  std::vector<ObjectiveTerm> others;     // that need none
+  DrawnDifferences differences;
 };
 
 bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
-  return std::ranges::all_of(terms, [](const ObjectiveTerm& term) {
-    if (term.weight == 0) return true;
-    const ResidualTerm* residuals = term.objective->residual_term();
-    return residuals && (!term.objective->needs_rendering() || residuals->has_slopes());
-  });
+  bool draws = false, analytic = false;
+  for (const ObjectiveTerm& term : terms) {
+    if (term.weight == 0) continue;
+    if (!term.objective->residual_term()) return false;
+    draws |= term.objective->needs_rendering();
+    analytic |= term.objective->needs_rendering() && (has_jacobian(term) || has_slopes(term));
+  }
+  return analytic || !draws;
+}
+
+bool Linearizer::draws_neighbours(const std::vector<ObjectiveTerm>& terms) {
+  return !with_residuals_only(terms).empty();
 }
 
 Linearizer::Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
@@ -243,6 +264,7 @@ void Linearizer::prepare(const Observation& observation) {
   Impl& self = *impl_;
   self.frame = FrameProjection(observation);
   self.neighbours.prepare(self.frame);
+  self.differences.prepare(self.frame);
   self.take_terms();
 }
 
@@ -250,10 +272,11 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
                                       double blur) {
   const Eigen::Index d = steps.size();
   const NormalEquations nothing{Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)};
-  NormalEquations pixels = nothing, others = nothing;
+  NormalEquations pixels = nothing, others = nothing, drawn = nothing;
   tbb::parallel_invoke([&] { impl_->add_pixels(states, steps, static_cast<float>(blur), pixels); },
-                       [&] { impl_->add_others(states, steps, others); });
-  return {pixels.a + others.a, pixels.g + others.g};
+                       [&] { impl_->add_others(states, steps, others); },
+                       [&] { impl_->differences.add(states, steps, drawn); });
+  return {pixels.a + others.a + drawn.a, pixels.g + others.g + drawn.g};
 }
 
 }  // namespace hypotrack

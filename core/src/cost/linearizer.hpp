@@ -11,13 +11,17 @@
 
 namespace hypotrack {
 
-/// Computes normal equations of the terms' residuals from one drawn hypothesis. PixelRows handles
-/// pixels; terms that need no rendering use differences. The result does not depend on the number
-/// of threads.
+/// Computes normal equations of the terms' residuals. A term gives them by its Jacobian, or by the
+/// slopes of its pixels (PixelRows), or by differences. All analytic terms share one drawn
+/// hypothesis; for differences of terms that need rendering, neighbours are drawn. The result does
+/// not depend on the number of threads.
 class Linearizer {
  public:
-  /// Returns true if every term (of a sum of squares) needs no rendering or has slopes.
+  /// Returns true if the terms are a sum of squares and one that needs rendering has a Jacobian or
+  /// slopes, or none needs rendering.
   static bool can_linearize(const std::vector<ObjectiveTerm>& terms);
+  /// See ResidualCost::draws_neighbours(); the terms are a sum of squares.
+  static bool draws_neighbours(const std::vector<ObjectiveTerm>& terms);
 
   /// Rows of a tile are summed in this many parts at the same time by default. The number does not
   /// follow that of the threads, as the sums would then depend on it.

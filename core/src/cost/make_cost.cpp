@@ -36,7 +36,8 @@ std::string why_automatic_on_cpu(const Scene& scene, const std::vector<Objective
   if (requirements.least_squares && requirements.jacobian != Linearization::unused) {
     const bool needed = requirements.jacobian == Linearization::needed;
     const std::string why = cuda::why_not_linearized(terms);
-    if (!why.empty() && (needed || (!requirements.device && Linearizer::can_linearize(terms)))) {
+    const bool better = Linearizer::can_linearize(terms) && !Linearizer::draws_neighbours(terms);
+    if (!why.empty() && (needed || (!requirements.device && better))) {
       return "the optimizer takes analytic Jacobians, and " + why;
     }
   }
@@ -52,7 +53,8 @@ CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, Backend backend, boo
       offer.no_jacobian = fmt::format("{}{}, or `backend: cpu`", why, kInstead);
     }
   } else if (!Linearizer::can_linearize(terms)) {
-    offer.no_jacobian = fmt::format("a term has no slopes of its residuals{}", kInstead);
+    offer.no_jacobian = fmt::format(
+        "no term that needs rendering has slopes or a Jacobian of its residuals{}", kInstead);
   }
   return offer;
 }

@@ -43,7 +43,8 @@ void check_requirements(const Requirements& requirements, const ResidualCost* re
         "pso}`";
   } else if (!residuals->can_linearize()) {
     offer.no_jacobian =
-        "a term of this cost has no slopes of its residuals where it is evaluated. Write "
+        "no term of this cost that needs rendering has slopes or a Jacobian of its residuals "
+        "where it is evaluated. Write "
         "`jacobian: "
         "auto` or `numerical` in the optimizer";
   }

@@ -79,6 +79,26 @@ void CheckedObjective::write_slopes(const RenderedHypothesis& hypothesis, std::s
   check_finite(slopes, "slopes of residuals");
 }
 
+void CheckedObjective::write_jacobian(const RenderedHypothesis& hypothesis,
+                                      std::span<float> residuals, Jacobian& jacobian) const {
+  const Eigen::Index rows = jacobian.rows(), columns = jacobian.cols();
+  detail::call_plugin(who_, [&] { residuals_->write_jacobian(hypothesis, residuals, jacobian); });
+  if (jacobian.rows() != rows || jacobian.cols() != columns)
+    throw PluginError(
+        fmt::format("{}: its Jacobian is {} x {}, expected {} x {} (residuals x numbers of the "
+                    "state); this is a bug in the objective",
+                    who_, jacobian.rows(), jacobian.cols(), rows, columns));
+  check_finite(residuals, "residuals");
+  const auto size = static_cast<std::size_t>(jacobian.size());
+  if (all_finite({jacobian.data(), size})) return;
+  Eigen::Index i = 0;
+  while (std::isfinite(jacobian.data()[i])) ++i;
+  throw PluginError(fmt::format(
+      "{}: its Jacobian has {} for residual {} of {} and number {} of {} of the state, expected "
+      "finite numbers; this is a bug in the objective",
+      who_, jacobian.data()[i], i / columns, rows, i % columns, columns));
+}
+
 void CheckedObjective::check_finite(std::span<const float> numbers, const char* what) const {
   if (all_finite(numbers)) return;
   std::size_t i = 0;

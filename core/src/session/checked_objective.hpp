@@ -40,6 +40,10 @@ class CheckedObjective final : public Objective, public ResidualTerm {
   std::span<const int> pixel_views() const override;
   void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
                     std::span<float> slopes) const override;
+  bool has_jacobian() const override { return residuals_->has_jacobian(); }
+  /// Throws PluginError if residuals or Jacobian are not finite, or the Jacobian's size is another.
+  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      Jacobian& jacobian) const override;
 
  private:
   void check_finite(std::span<const float> numbers, const char* what) const;

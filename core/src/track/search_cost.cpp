@@ -86,8 +86,9 @@ std::unique_ptr<ResidualDifferences> SearchCost::differences() {
 NormalEquations SearchCost::linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                       const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) {
   const Eigen::MatrixXd states = space_.states(points, prior_);
-  NormalEquations out =
-      tally_.count(1, [&] { return cost_.least_squares()->linearize(states, steps, blur); });
+  NormalEquations out = tally_.count(linearize_price(steps.size()), [&] {
+    return cost_.least_squares()->linearize(states, steps, blur);
+  });
   tally_.trace();
   return out;
 }
@@ -97,8 +98,9 @@ std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbou
   for (const Neighbourhood& at : points) {
     states.push_back({space_.states(at.points, prior_), at.steps, at.blur});
   }
-  std::vector<NormalEquations> out = tally_.count(
-      std::ssize(states), [&] { return cost_.least_squares()->linearize_each(states); });
+  std::vector<NormalEquations> out =
+      tally_.count(std::ssize(states) * linearize_price(dimension()),
+                   [&] { return cost_.least_squares()->linearize_each(states); });
   tally_.trace();
   return out;
 }

@@ -38,6 +38,7 @@ class SearchCost final : public CostFunction, public ResidualCost {
                 Eigen::Ref<Eigen::MatrixXf> residuals, Eigen::Ref<Eigen::VectorXd> costs) override;
   std::unique_ptr<ResidualDifferences> differences() override;
   bool can_linearize() const override { return cost_.least_squares()->can_linearize(); }
+  bool draws_neighbours() const override { return cost_.least_squares()->draws_neighbours(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& points,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override;
   std::vector<NormalEquations> linearize_each(std::span<const Neighbourhood> points) override;

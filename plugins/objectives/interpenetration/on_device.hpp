@@ -11,7 +11,7 @@ namespace hypotrack::interpenetration {
 /// it.
 std::unique_ptr<cuda::DeviceObjective> on_device(const CollisionTerm& term);
 
-/// Returns the capabilities for `plugins info`: "residuals", and the GPU's in a build with CUDA.
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::interpenetration

@@ -89,6 +89,17 @@ double Landmarks::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                        residuals);
 }
 
+bool Landmarks::has_jacobian() const {
+  return std::ranges::none_of(hands_,
+                              [](const Hand& hand) { return hand.item->model->poses_itself(); });
+}
+
+void Landmarks::write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                               Jacobian& jacobian) const {
+  cost_and_residuals(hypothesis, residuals);
+  landmarks::write_jacobian(sights_, {params_.free, params_.sigma}, hypothesis.state, jacobian);
+}
+
 Detector networks(const LandmarksParams& params, const Scene& scene) {
   if (std::ranges::none_of(scene.items(), [](const Scene::Item& item) {
         return hand_model(*item.model).has_value();

@@ -43,6 +43,10 @@ class Landmarks : public Objective, public ResidualTerm {
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
+  /// Returns false if a hand poses itself.
+  bool has_jacobian() const override;
+  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      Jacobian& jacobian) const override;
 
  private:
   struct Hand {

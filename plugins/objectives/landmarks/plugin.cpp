@@ -14,4 +14,4 @@ class Plugin final : public hypotrack::landmarks::Landmarks {
 }  // namespace
 
 HYPOTRACK_PLUGIN(Plugin, "pulls hands to where a learned detector sees their landmarks",
-                 "residuals")
+                 "residuals jacobian")

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "hypotrack/objective.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack::landmarks {
@@ -37,5 +38,10 @@ std::int64_t residual_count(std::span<const HandSights> hands);
 /// The cost is their sum of squares.
 double cost_and_residuals(std::span<const HandSights> hands, const Deviation& deviation,
                           std::span<const double> state, std::span<float> residuals);
+
+/// Writes the derivatives of all residuals by a normalised state into a Jacobian of zeros. No model
+/// poses itself.
+void write_jacobian(std::span<const HandSights> hands, const Deviation& deviation,
+                    std::span<const double> state, Jacobian& jacobian);
 
 }  // namespace hypotrack::landmarks

@@ -3,5 +3,5 @@
 
 namespace hypotrack::plausible_motion {
 std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame) { return nullptr; }
-const char* capabilities() { return "residuals"; }
+const char* capabilities() { return "residuals jacobian"; }
 }  // namespace hypotrack::plausible_motion

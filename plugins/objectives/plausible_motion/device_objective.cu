@@ -37,6 +37,6 @@ std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame term_of_frame) {
   return std::make_unique<OnDevice>(std::move(term_of_frame));
 }
 
-const char* capabilities() { return "device residuals device_residuals"; }
+const char* capabilities() { return "device residuals jacobian device_residuals"; }
 
 }  // namespace hypotrack::plausible_motion

@@ -14,7 +14,7 @@ using TermOfFrame = std::function<MotionTerm(const Observation&)>;
 /// Makes the term on the GPU; null in a build without CUDA.
 std::unique_ptr<cuda::DeviceObjective> on_device(TermOfFrame term_of_frame);
 
-/// Returns the capabilities for `plugins info`: "residuals", and the GPU's in a build with CUDA.
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::plausible_motion

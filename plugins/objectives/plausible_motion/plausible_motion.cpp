@@ -28,6 +28,15 @@ double PlausibleMotion::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                   put);
 }
 
+void PlausibleMotion::write_jacobian(const RenderedHypothesis& hypothesis,
+                                     std::span<float> residuals, Jacobian& jacobian) const {
+  cost_and_residuals(hypothesis, residuals);
+  for (Eigen::Index i = 0; i < jacobian.rows(); ++i) {
+    const LinearResidual& r = term_.residuals[i];
+    for (int k = 0; k < 2; ++k) jacobian(i, r.index[k]) += static_cast<float>(r.factor[k]);
+  }
+}
+
 std::unique_ptr<cuda::DeviceObjective> PlausibleMotion::on_device() const {
   return plausible_motion::on_device(
       [residuals = residuals_](const Observation& observation) mutable {

@@ -44,6 +44,9 @@ class PlausibleMotion : public Objective, public ResidualTerm {
                        std::span<float> residuals) const override;
   double cost_and_residuals(const RenderedHypothesis& hypothesis,
                             std::span<float> residuals) const override;
+  bool has_jacobian() const override { return true; }
+  void write_jacobian(const RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      Jacobian& jacobian) const override;
 
  private:
   FrameResiduals residuals_;

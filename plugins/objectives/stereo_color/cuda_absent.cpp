@@ -5,6 +5,6 @@
 namespace hypotrack::stereo_color {
 
 std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings&) { return nullptr; }
-const char* capabilities() { return "residuals"; }
+const char* capabilities() { return "residuals slopes"; }
 
 }  // namespace hypotrack::stereo_color

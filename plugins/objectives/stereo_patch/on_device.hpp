@@ -16,7 +16,7 @@ namespace hypotrack::stereo_patch {
 /// it prepares a frame.
 std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& settings);
 
-/// Returns the capabilities for `plugins info`: "residuals", and the GPU's in a build with CUDA.
+/// Returns the capabilities for `plugins info`; the GPU's only in a build with CUDA.
 const char* capabilities();
 
 }  // namespace hypotrack::stereo_patch

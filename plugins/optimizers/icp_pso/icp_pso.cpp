@@ -66,8 +66,12 @@ std::int64_t IcpPso::default_evaluations() const {
 
 std::int64_t IcpPso::local_evaluations(CostFunction& cost) const {
   if (params_.local_evaluations > 0) return params_.local_evaluations;
-  const bool by_differences = cost.residuals() && !cost.residuals()->can_linearize();
-  const std::int64_t jacobian = by_differences ? cost.dimension() : 1;
+  const ResidualCost* residuals = cost.residuals();
+  std::int64_t jacobian = 1;
+  if (residuals) {
+    jacobian = residuals->can_linearize() ? residuals->linearize_price(cost.dimension())
+                                          : cost.dimension();
+  }
   return 1 + 2 * (jacobian + 3);
 }
 

@@ -8,11 +8,11 @@
 namespace hypotrack {
 
 LeastSquaresSearch::LeastSquaresSearch(const SearchRegion& region, std::int64_t evaluations,
-                                       const LevenbergMarquardtParams& params, bool analytic)
+                                       const LevenbergMarquardtParams& params, Source source)
     : region_(region),
       evaluations_(evaluations),
       params_(params),
-      analytic_(analytic),
+      source_(source),
       x_(region.start),
       damping_({.first = params.damping, .least = 1e-7, .most = 1e7, .accepted = 1, .rejected = 1}),
       points_(region.start) {}
@@ -48,24 +48,30 @@ Eigen::Index LeastSquaresSearch::take(const Eigen::VectorXd& costs) {
   return -1;
 }
 
+std::int64_t LeastSquaresSearch::price() const {
+  const Eigen::Index here = source_ == Source::differences ? 0 : 1;
+  return here + (source_ == Source::analytic ? 0 : x_.size());
+}
+
 void LeastSquaresSearch::want_equations() {
   const bool allowed = params_.iterations == 0 || jacobians_ < params_.iterations;
-  const std::int64_t price = analytic_ ? 1 : x_.size();
-  const bool enough = remaining() > price;  // otherwise nothing would be left for a step
-  const bool possible = std::isfinite(cost_at_x_) || !analytic_;
+  const bool enough = remaining() > price();  // otherwise nothing would be left for a step
+  const bool possible = std::isfinite(cost_at_x_) || source_ == Source::differences;
   wants_ = allowed && enough && possible ? Wants::equations : Wants::nothing;
 }
 
 Neighbourhood LeastSquaresSearch::neighbourhood() const {
-  const double share = analytic_ ? kAnalyticShare : params_.difference * fineness_;
+  const double share =
+      source_ == Source::analytic ? kAnalyticShare : params_.difference * fineness_;
   return hypotrack::neighbourhood(x_, difference_steps(region_, x_, share, sign_),
                                   params_.blur * fineness_);
 }
 
 void LeastSquaresSearch::take(const NormalEquations& equations) {
   ++jacobians_;
-  best_.update(x_, Eigen::VectorXd::Constant(1, cost_at_x_));
+  best_.count(price());
   equations_ = per_spread(equations, region_);
+  if (source_ == Source::mixed) sign_ = -sign_;
   want_trials(0);
 }
 
@@ -126,7 +132,7 @@ void LeastSquaresSearch::want_trials(int round) {
 }
 
 void LeastSquaresSearch::end_of_steps(bool gained) {
-  const int patience = analytic_ ? 1 : 2;  // numerical Jacobians have two signs
+  const int patience = source_ == Source::analytic ? 1 : 2;  // differences have two signs
   if (gained) {
     failed_ = 0;
   } else if (++failed_ == patience) {

@@ -17,9 +17,16 @@ class LeastSquaresSearch {
   /// What the search waits for.
   enum class Wants { costs, equations, nothing };
 
+  /// Where the equations come from.
+  enum class Source {
+    differences,  ///< of all residuals
+    analytic,     ///< linearize(), of one drawn point
+    mixed,        ///< linearize(), which also draws the neighbours
+  };
+
   /// The region must outlive the search.
   LeastSquaresSearch(const SearchRegion& region, std::int64_t evaluations,
-                     const LevenbergMarquardtParams& params, bool analytic);
+                     const LevenbergMarquardtParams& params, Source source);
 
   Wants wants() const { return wants_; }
 
@@ -30,7 +37,7 @@ class LeastSquaresSearch {
 
   /// Returns the point and neighbours whose equations it wants.
   Neighbourhood neighbourhood() const;
-  /// Takes normal equations from linearize(); counts an evaluation.
+  /// Takes normal equations from linearize(); counts their evaluations.
   void take(const NormalEquations& equations);
   /// Takes normal equations from differences, and the costs of the neighbours, which count as
   /// evaluations. Returns the index of the neighbour that the search moved to, or -1.
@@ -43,6 +50,8 @@ class LeastSquaresSearch {
   std::int64_t remaining() const { return evaluations_ - best_.result().evaluations; }
   Eigen::VectorXd step(double damping) const;
   void move_to(Eigen::Index point, const Eigen::VectorXd& costs);
+  /// Returns the evaluations that the next equations take.
+  std::int64_t price() const;
   void want_equations();
   void want_trials(int round);
   void end_of_steps(bool gained);
@@ -50,7 +59,7 @@ class LeastSquaresSearch {
   const SearchRegion& region_;
   const std::int64_t evaluations_;
   const LevenbergMarquardtParams params_;
-  const bool analytic_;
+  const Source source_;
   BestSoFar best_;
   Wants wants_ = Wants::costs;
 

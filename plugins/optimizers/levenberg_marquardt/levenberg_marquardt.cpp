@@ -114,12 +114,16 @@ std::vector<OptimizerResult> LevenbergMarquardt::search_each(CostFunction& cost,
                                                              const Budget& budget) const {
   ResidualCost* residuals = cost.residuals();
   check_requirements(requirements(), residuals, nullptr);
+  using Source = LeastSquaresSearch::Source;
   const bool analytic = is_analytic(*residuals);
+  const Source source = !analytic                       ? Source::differences
+                        : residuals->draws_neighbours() ? Source::mixed
+                                                        : Source::analytic;
   const Deadline deadline(budget.seconds);
   std::vector<LeastSquaresSearch> searches;
   for (const SearchRegion& region : regions) {
     check_search(cost, region, budget);
-    searches.emplace_back(region, budget.evaluations, params_, analytic);
+    searches.emplace_back(region, budget.evaluations, params_, source);
   }
   if (analytic) {
     run_in_step(cost, *residuals, deadline, searches);

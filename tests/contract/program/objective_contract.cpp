@@ -4,6 +4,7 @@
 
 #include "device_contract.hpp"
 #include "drawn_tiles.hpp"
+#include "jacobian_contract.hpp"
 #include "subject.hpp"
 
 namespace hypotrack::contract {
@@ -179,14 +180,31 @@ void check_slopes(const Setting& setting) {
   }
 }
 
+void check_jacobians(const Setting& setting) {
+  const ResidualTerm* term = setting.objective->residual_term();
+  if (!term || !term->has_jacobian()) throw Skipped("it offers none");
+  for (std::size_t i = 0; i < setting.hypotheses.size(); ++i) {
+    check_jacobian(*setting.objective, *setting.observation.scene,
+                   as_drawn_for(*setting.objective, setting.hypotheses[i]), setting.at(i));
+  }
+}
+
+void check_claims(const Subject& subject) {
+  const auto objective = subject.make<Objective>();
+  const ResidualTerm* term = objective->residual_term();
+  require(term || !subject.claims("residuals"),
+          "they claim residuals, and residual_term() is null");
+  require((term && term->has_slopes()) || !subject.claims("slopes"),
+          "they claim slopes, and has_slopes() is false");
+  require((term && term->has_jacobian()) || !subject.claims("jacobian"),
+          "they claim a jacobian, and has_jacobian() is false");
+}
+
 }  // namespace
 
 void check_objective(Report& report, const Subject& subject) {
   if (!check_parameters<Objective>(report, subject)) return;
-  report.row("it has what its capabilities claim", [&] {
-    require(subject.make<Objective>()->residual_term() || !subject.claims("residuals"),
-            "they claim residuals, and residual_term() is null");
-  });
+  report.row("it has what its capabilities claim", [&] { check_claims(subject); });
   std::vector<Setting> settings;
   report.row("it takes observations in or refuses them with a DataError", [&] {
     settings = make_settings(subject);
@@ -208,6 +226,7 @@ void check_objective(Report& report, const Subject& subject) {
              [&] { each(check_residuals); });
   report.row("residuals of pixels have finite slopes, and are the same with them",
              [&] { each(check_slopes); });
+  report.row("Jacobians are those of the residuals", [&] { each(check_jacobians); });
   check_on_device(report, subject);
 }
 

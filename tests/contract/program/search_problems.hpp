@@ -73,20 +73,29 @@ class RecordingCost final : public CostFunction, public ResidualCost {
 
   /// Linearises by differences, which is exact for linear residuals.
   bool can_linearize() const override { return linearizes; }
+  bool draws_neighbours() const override { return draws; }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& beside,
-                            const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
+                            const Eigen::Ref<const Eigen::VectorXd>& offsets,
+                            double blur) override {
     blurs.push_back(blur);
+    steps.push_back(offsets);
     const Eigen::VectorXd r = function_.residuals(beside.col(0));
-    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(r.size(), steps.size());
-    for (Eigen::Index i = 0; i < steps.size(); ++i) {
-      if (steps[i] != 0) j.col(i) = (function_.residuals(beside.col(i + 1)) - r) / steps[i];
+    Eigen::MatrixXd j = Eigen::MatrixXd::Zero(r.size(), offsets.size());
+    for (Eigen::Index i = 0; i < offsets.size(); ++i) {
+      if (offsets[i] != 0) j.col(i) = (function_.residuals(beside.col(i + 1)) - r) / offsets[i];
     }
     return {j.transpose() * j, j.transpose() * r};
   }
 
   bool has_residuals = true;
   bool linearizes = false;
+  bool draws = false;         ///< linearize() also takes the neighbours
   std::vector<double> blurs;  ///< of every linearisation
+  /// Returns what was evaluated, linearisations included.
+  std::int64_t evaluations() const {
+    return std::ssize(points) + std::ssize(blurs) * linearize_price(dimension_);
+  }
+  std::vector<Eigen::VectorXd> steps;  ///< likewise
   std::vector<Eigen::VectorXd> points;
   std::vector<double> costs;
   std::vector<int> batches;

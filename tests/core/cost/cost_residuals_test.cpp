@@ -71,12 +71,13 @@ TEST_F(CostResiduals, RefusesAnalyticJacobiansOnAGpuOfTermsWithoutSlopesThere) {
 
 TEST_F(CostResiduals, RefusesAnalyticJacobiansOfTermsWithoutSlopes) {
   const std::vector<ObjectiveTerm> terms = {{1, std::make_shared<DrawnSquares>(3)}};
-  EXPECT_THAT(message_of<ConfigError>([&] {
-                make_cost(scene_, terms, threads(1),
-                          {.least_squares = true, .jacobian = Linearization::needed});
-              }),
-              testing::EndsWith("a term has no slopes of its residuals. Write `jacobian: auto` or "
-                                "`numerical` in the optimizer"));
+  EXPECT_THAT(
+      message_of<ConfigError>([&] {
+        make_cost(scene_, terms, threads(1),
+                  {.least_squares = true, .jacobian = Linearization::needed});
+      }),
+      testing::EndsWith("no term that needs rendering has slopes or a Jacobian of its "
+                        "residuals. Write `jacobian: auto` or `numerical` in the optimizer"));
   EXPECT_NO_THROW(make_cost(scene_, terms, threads(1),
                             {.least_squares = true, .jacobian = Linearization::welcome}));
 }

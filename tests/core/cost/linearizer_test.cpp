@@ -1,121 +1,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <memory>
 
 #include "cost/cost.hpp"
 #include "hypotrack/error.hpp"
+#include "linearized_terms.hpp"
 #include "observations.hpp"
 #include "test_models.hpp"
-#include "track/tangent.hpp"
 
 namespace hypotrack {
 namespace {
 
-// A made-up residual per pixel of both views, smooth in the depth of what is drawn there.
-class DepthPattern : public Objective, public ResidualTerm {
- public:
-  DepthPattern(float per_inverse_depth, float uncovered)
-      : factor_(per_inverse_depth), uncovered_(uncovered) {}
-
-  void prepare(const Observation& observation) override {
-    count_ = 0;
-    for (const TileView& view : observation.views) {
-      count_ += std::int64_t{view.camera.width} * view.camera.height;
-    }
-  }
-  double cost(const RenderedHypothesis& hypothesis) const override {
-    double sum = 0;
-    for (const DepthTile& tile : hypothesis.views) {
-      for (int y = 0; y < tile.height; ++y) {
-        for (int x = 0; x < tile.width; ++x) {
-          const double r = residual(tile, x, y);
-          sum += r * r;
-        }
-      }
-    }
-    return sum;
-  }
-
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return count_; }
-  void write_residuals(const RenderedHypothesis& hypothesis,
-                       std::span<float> residuals) const override {
-    std::size_t i = 0;
-    for (const DepthTile& tile : hypothesis.views) {
-      for (int y = 0; y < tile.height; ++y) {
-        for (int x = 0; x < tile.width; ++x) residuals[i++] = residual(tile, x, y);
-      }
-    }
-  }
-  bool has_slopes() const override { return true; }
-  std::span<const int> pixel_views() const override { return kViews; }
-  void write_slopes(const RenderedHypothesis& hypothesis, std::size_t i, std::span<float> residuals,
-                    std::span<float> slopes) const override {
-    const DepthTile& tile = hypothesis.views[i];
-    std::size_t at = 0;
-    for (int y = 0; y < tile.height; ++y) {
-      for (int x = 0; x < tile.width; ++x, ++at) {
-        residuals[at] = residual(tile, x, y);
-        slopes[at] = tile.inverse_depth[y * tile.stride + x] > 0 ? factor_ : 0;
-      }
-    }
-  }
-
- private:
-  static constexpr std::array<int, 2> kViews{0, 1};
-
-  float residual(const DepthTile& tile, int x, int y) const {
-    const float w = tile.inverse_depth[y * tile.stride + x];
-    if (w == 0) return uncovered_;
-    const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
-    return 0.5f + 0.4f * std::sin(0.05f * fx + 0.02f * fy - 4.2f) + factor_ * (w - 2);
-  }
-
-  float factor_, uncovered_;
-  std::int64_t count_ = 0;
-};
-
-// Residuals that are the first three numbers of a state.
-class Position : public Objective, public ResidualTerm {
- public:
-  bool needs_rendering() const override { return false; }
-  void prepare(const Observation&) override {}
-  double cost(const RenderedHypothesis& h) const override {
-    return h.state[0] * h.state[0] + h.state[1] * h.state[1] + h.state[2] * h.state[2];
-  }
-  const ResidualTerm* residual_term() const override { return this; }
-  std::int64_t residual_count() const override { return 3; }
-  void write_residuals(const RenderedHypothesis& h, std::span<float> residuals) const override {
-    for (std::size_t i = 0; i < 3; ++i) residuals[i] = static_cast<float>(h.state[i]);
-  }
-};
-
-/// A state moved along each dimension of a difference in turn.
-Eigen::MatrixXd moved_states(const Scene& scene, const Eigen::VectorXd& state,
-                             const Eigen::VectorXd& steps) {
-  Eigen::MatrixXd states(state.size(), steps.size() + 1);
-  states.col(0) = state;
-  for (Eigen::Index i = 0; i < steps.size(); ++i) {
-    states.col(i + 1) = moved(scene, state, steps[i] * Eigen::VectorXd::Unit(steps.size(), i));
-  }
-  return states;
-}
-
-Eigen::VectorXd hand_state(const Scene& scene) {
-  Eigen::VectorXd state = scene.rest_state();
-  state[0] = 0.01;
-  state[2] = 0.5;
-  state.segment<4>(3) << 0.05, 0.99, 0.1, 0.05;
-  for (Eigen::Index i = 7; i < state.size(); ++i) {
-    const Parameter& p = scene.parameters()[static_cast<std::size_t>(i)];
-    state[i] = 0.7 * p.lower + 0.3 * p.upper;
-  }
-  scene.normalize(state);
-  return state;
-}
+using test::DepthPattern;
+using test::hand_state;
+using test::metres_and_radians;
+using test::moved_states;
+using test::Position;
 
 /// Derivatives of half a cost by central differences.
 Eigen::VectorXd half_gradient(Cost& cost, const Scene& scene, const Eigen::VectorXd& state,
@@ -126,12 +28,6 @@ Eigen::VectorXd half_gradient(Cost& cost, const Scene& scene, const Eigen::Vecto
   cost.evaluate(forth, plus);
   cost.evaluate(back, minus);
   return (plus - minus).tail(steps.size()).cwiseQuotient(4 * steps);
-}
-
-Eigen::VectorXd metres_and_radians(Eigen::Index size, double metres, double radians) {
-  Eigen::VectorXd steps = Eigen::VectorXd::Constant(size, radians);
-  steps.head<3>().setConstant(metres);
-  return steps;
 }
 
 /// A cost of one pattern, prepared for a frame, which must outlive it.
@@ -426,27 +322,6 @@ TEST_F(Differences, GoOnFromANeighbour) {
   const NormalEquations expected = dense(*cost, states_);
   EXPECT_TRUE(found.a.isApprox(expected.a, 1e-4));
   EXPECT_TRUE(found.g.isApprox(expected.g, 1e-4));
-}
-
-// Residuals of both tiles, but no slopes.
-class WithoutSlopes : public DepthPattern {
- public:
-  using DepthPattern::DepthPattern;
-  bool has_slopes() const override { return false; }
-};
-
-TEST(Linearizer, NeedsSlopesOfEveryTermThatIsDrawn) {
-  const Scene scene = test::hand_scene();
-  const auto can = [&](const std::vector<ObjectiveTerm>& terms) {
-    return make_cost(scene, terms, {.backend = Backend::cpu, .threads = 1}, {.least_squares = true})
-        ->least_squares()
-        ->can_linearize();
-  };
-  const auto pattern = std::make_shared<DepthPattern>(0.2f, 0.5f);
-  const auto without = std::make_shared<WithoutSlopes>(0.2f, 0.5f);
-  EXPECT_TRUE(can({{1, pattern}, {1, std::make_shared<Position>()}}));
-  EXPECT_FALSE(can({{1, pattern}, {1, without}}));
-  EXPECT_TRUE(can({{1, pattern}, {0, without}}));
 }
 
 }  // namespace

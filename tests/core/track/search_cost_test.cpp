@@ -15,6 +15,8 @@ class SquaredDistance final : public Cost, public StateResiduals {
  public:
   explicit SquaredDistance(const Scene& scene) : Cost(scene, {}) { prepare(Observation()); }
 
+  bool draws = false;  ///< linearize() takes neighbours, too
+
   std::string backend() const override { return "none"; }
   StateResiduals* least_squares() override { return this; }
 
@@ -27,6 +29,7 @@ class SquaredDistance final : public Cost, public StateResiduals {
   }
   std::vector<ResidualRows> pose_only() const override { return {}; }
   bool can_linearize() const override { return true; }
+  bool draws_neighbours() const override { return draws; }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double) override {
     return {Eigen::MatrixXd::Identity(steps.size(), steps.size()),
@@ -73,6 +76,18 @@ TEST_F(SearchCostTest, CountsEveryJacobianAsAnEvaluation) {
   const std::vector<Neighbourhood> two{at, around(point(0.2))};
   search.linearize_each(two);
   EXPECT_EQ(search.tally().evaluations, 3);
+}
+
+TEST_F(SearchCostTest, CountsTheNeighboursThatAJacobianTakes) {
+  cost.draws = true;
+  SearchCost search(cost, space, prior);
+  const Neighbourhood at = around(point(0.1));
+  search.linearize(at.points, at.steps, 1);
+  const std::int64_t each = 1 + space.dimension();
+  EXPECT_EQ(search.tally().evaluations, each);
+  const std::vector<Neighbourhood> two{at, at};
+  search.linearize_each(two);
+  EXPECT_EQ(search.tally().evaluations, 3 * each);
 }
 
 }  // namespace

@@ -87,6 +87,17 @@ TEST_P(Ceres, CountsJacobiansAndKeepsTheBudget) {
   }
 }
 
+TEST_P(Ceres, CountsTheNeighboursThatAJacobianTakes) {
+  const SearchRegion region = test::tracking_region(9);
+  for (const std::int64_t budget : {1, 10, 11, 12, 57}) {
+    RecordingCost cost(9, test::rosenbrock(region, test::hidden_target(region, 3)));
+    cost.linearizes = cost.draws = true;
+    const OptimizerResult result = minimize(cost, region, {budget});
+    EXPECT_EQ(result.evaluations, cost.evaluations());
+    EXPECT_LE(result.evaluations, budget);
+  }
+}
+
 TEST_P(Ceres, WritesNothingOnStderrWhereTheBudgetEndsOrAnExceptionDoes) {
   const SearchRegion region = test::tracking_region(9);
   testing::internal::CaptureStderr();

@@ -99,6 +99,18 @@ TEST(IcpPso, LeavesAnEvaluationForEveryJacobianAndStep) {
   }
 }
 
+TEST(IcpPso, LeavesEvaluationsForJacobiansThatDrawNeighbours) {
+  const SearchRegion region = test::tracking_region(12);
+  RecordingCost cost(12, test::rosenbrock(region, test::hidden_target(region, 3)));
+  cost.linearizes = cost.draws = true;
+  IcpPsoParams params;
+  params.particles = 4;
+  const std::int64_t budget = 4 * (1 + 2 * (13 + 3));
+  IcpPso(params, least_squares()).minimize(cost, region, {budget}, 1);
+  EXPECT_EQ(std::ssize(cost.blurs), 4 * 2);
+  EXPECT_LE(cost.evaluations(), budget);
+}
+
 TEST(IcpPso, NeedsWhatItsStepsNeed) {
   EXPECT_TRUE(IcpPso({}, least_squares()).requirements().least_squares);
   const auto random = [] { return std::make_unique<RandomSearch>(RandomSearchParams{}); };

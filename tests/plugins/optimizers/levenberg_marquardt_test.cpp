@@ -81,6 +81,29 @@ TEST(LevenbergMarquardt, TakesOneEvaluationForAJacobianWhereTheCostLinearizes) {
   EXPECT_THAT(cost.blurs, ::testing::ElementsAre(params.blur));
 }
 
+TEST(LevenbergMarquardt, CountsTheNeighboursThatAJacobianTakes) {
+  const SearchRegion region = test::tracking_region(9);
+  for (const std::int64_t budget : {1, 5, 12, 13, 40, 200}) {
+    RecordingCost cost(9, test::rosenbrock(region, test::hidden_target(region, 3)));
+    cost.linearizes = cost.draws = true;
+    const OptimizerResult result = minimize(cost, region, budget);
+    EXPECT_EQ(result.evaluations, cost.evaluations());
+    EXPECT_LE(result.evaluations, budget);
+    EXPECT_EQ(cost.blurs.empty(), budget < 13) << budget;
+  }
+}
+
+TEST(LevenbergMarquardt, TakesStepsOfDifferencesWhereNeighboursAreDrawn) {
+  const SearchRegion region = test::tracking_region(9);
+  RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));
+  cost.linearizes = cost.draws = true;
+  LevenbergMarquardtParams params;
+  params.difference = 0.07;
+  minimize(cost, region, 40, params);
+  ASSERT_FALSE(cost.steps.empty());
+  EXPECT_NEAR(cost.steps[0][0], 0.07 * region.spread[0], 1e-12);
+}
+
 TEST(LevenbergMarquardt, MakesItsOwnJacobianWhereItIsToldTo) {
   const SearchRegion region = test::tracking_region(9);
   RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));
@@ -109,9 +132,11 @@ TEST(LevenbergMarquardt, RefusesAnAnalyticJacobianThatIsNotThere) {
   RecordingCost cost(3, test::sphere(region, region.start));
   LevenbergMarquardtParams params;
   params.jacobian = Jacobian::analytic;
-  EXPECT_THAT([&] { minimize(cost, region, 10, params); },
-              ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
-                  "the optimizer takes analytic Jacobians: a term of this cost has no slopes")));
+  EXPECT_THAT(
+      [&] { minimize(cost, region, 10, params); },
+      ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
+          "the optimizer takes analytic Jacobians: no term of this cost that needs rendering "
+          "has slopes or a Jacobian")));
 }
 
 TEST(LevenbergMarquardt, FollowsACurvedValley) {

@@ -114,6 +114,17 @@ TEST(NloptGradients, TakeOneEvaluationOrOnePerDimension) {
   }
 }
 
+TEST(NloptGradients, TakeOneEvaluationMoreThanDimensionsWhereNeighboursAreDrawn) {
+  const SearchRegion region = test::tracking_region(9);
+  RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));
+  cost.linearizes = cost.draws = true;
+  const OptimizerResult result =
+      Nlopt(follows_gradients_by("LBFGS")).minimize(cost, region, {60}, 1);
+  EXPECT_EQ(result.evaluations, cost.evaluations());
+  EXPECT_LE(result.evaluations, 60);
+  EXPECT_FALSE(cost.blurs.empty());
+}
+
 TEST(NloptGradients, BlurIsThatOfTheParameters) {
   const SearchRegion region = test::tracking_region(9);
   RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));

@@ -8,11 +8,21 @@
 
 namespace {
 
-enum class How { kDevice, kException, kInt, kSegfault, kNanResidual, kNegativeCount };
+enum class How {
+  kDevice,
+  kException,
+  kInt,
+  kSegfault,
+  kNanResidual,
+  kNegativeCount,
+  kNanJacobian,
+  kNarrowJacobian,
+};
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 6> kNames = {
-      "device", "exception", "int", "segfault", "nan_residual", "negative_count"};
+  static constexpr std::array<std::string_view, 8> kNames = {
+      "device",       "exception",      "int",          "segfault",
+      "nan_residual", "negative_count", "nan_jacobian", "narrow_jacobian"};
   return kNames;
 }
 
@@ -49,10 +59,21 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
     if (fails() && params_.how == How::kNanResidual)
       residuals[0] = std::numeric_limits<float>::quiet_NaN();
   }
+  bool has_jacobian() const override {
+    return params_.how == How::kNanJacobian || params_.how == How::kNarrowJacobian;
+  }
+  void write_jacobian(const hypotrack::RenderedHypothesis& hypothesis, std::span<float> residuals,
+                      hypotrack::Jacobian& jacobian) const override {
+    write_residuals(hypothesis, residuals);
+    jacobian(0, 0) = 1;
+    if (!fails()) return;
+    if (params_.how == How::kNanJacobian) jacobian(0, 2) = std::numeric_limits<float>::quiet_NaN();
+    if (params_.how == How::kNarrowJacobian) jacobian.resize(1, 6);
+  }
 
  private:
   bool has_residuals() const {
-    return params_.how == How::kNanResidual || params_.how == How::kNegativeCount;
+    return params_.how == How::kNanResidual || params_.how == How::kNegativeCount || has_jacobian();
   }
   bool fails() const {
     const int after = frames_ - params_.frames;

@@ -67,6 +67,16 @@ TEST_F(PluginErrorsTest, ResidualsThatBreakTheContractAreRefused) {
                "libhypotrack_objective_failing.so", "has -7 residuals, expected 0 to");
 }
 
+TEST_F(PluginErrorsTest, JacobiansThatBreakTheContractAreRefused) {
+  expect_named(run_objective("nan_jacobian", "levenberg_marquardt"), "objective 'failing'",
+               "libhypotrack_objective_failing.so",
+               "its Jacobian has nan for residual 0 of 1 and number 2 of 7 of the state, expected "
+               "finite numbers");
+  expect_named(run_objective("narrow_jacobian", "levenberg_marquardt"), "objective 'failing'",
+               "libhypotrack_objective_failing.so",
+               "its Jacobian is 1 x 6, expected 1 x 7 (residuals x numbers of the state)");
+}
+
 TEST_F(PluginErrorsTest, AnAnswerThatBreaksTheContractIsRefused) {
   expect_optimizer_named("short_point", "its answer has 3 numbers, expected ");
   expect_optimizer_named("outside", "number 0 of its answer is inf, expected ");

@@ -13,7 +13,8 @@ fail() { echo "$1"; exit 1; }
 cmake --install "$build_dir" --prefix "$scratch/prefix" >"$scratch/install.log"
 hypotrack=$scratch/prefix/bin/hypotrack
 cd "$scratch"
-cp -r "$source_dir/examples/track_frames" "$source_dir/examples/plugin_source" .
+cp -r "$source_dir/examples/track_frames" "$source_dir/examples/plugin_source" \
+  "$source_dir/examples/plugin_prior" .
 "$hypotrack" synth "$source_dir/configs/scenes/demo.yaml" --frames 4 --out recording
 python3 "$source_dir/tests/system/out_of_tree/make_euroc.py" recording euroc
 
@@ -66,6 +67,38 @@ END
 "$hypotrack" --plugin-path plugin_source/build run euroc.yaml --out euroc_result
 [ "$(grep -c ',tracked,' euroc_result/track.csv)" = 3 ] || fail "expected three tracked frames"
 [ "$(grep -c ',missing,' euroc_result/track.csv)" = 1 ] || fail "expected one missing frame"
+
+# A prior with a Jacobian of its own, beside a term with slopes.
+mkdir plugin_prior/build
+echo "file: $scratch/recording/truth_states.csv" >plugin_prior/build/contract.yaml
+cmake -S plugin_prior -B plugin_prior/build -DCMAKE_PREFIX_PATH="$scratch/prefix"
+cmake --build plugin_prior/build
+ctest --test-dir plugin_prior/build --output-on-failure
+cat >prior.yaml <<'END'
+models:
+  - {name: hand, type: hand}
+source: {type: image_sequence, left: recording/left_%06d.png, right: recording/right_%06d.png,
+         calibration: {file: recording/calibration.yaml}}
+objective:
+  - {type: stereo_color, beta: 5}
+  - {type: regressor, file: recording/truth_states.csv, weight: 10}
+optimizer: {type: levenberg_marquardt, jacobian: analytic}
+search: {rotation_as: tangent}
+init:
+  pose:
+    hand: {position_mm: [60, 80, 500], rotation_deg: [180, 0, 0], angles_deg: {thumb_abduction: 25}}
+END
+"$hypotrack" --plugin-path plugin_prior/build run prior.yaml --out prior_result
+[ "$(grep -c ',tracked,' prior_result/track.csv)" = 4 ] || fail "expected four tracked frames"
+python3 - <<'END'
+import csv
+rows, truths = (list(csv.DictReader(open(file)))
+                for file in ["prior_result/track.csv", "recording/truth_states.csv"])
+for row, truth in zip(rows, truths):
+    for axis in "xyz":
+        name = f"hand.position_{axis}"
+        assert abs(float(row[name]) - float(truth[name])) < 0.005, (row["frame"], name)
+END
 
 # An installation that lost OpenCV's readers of images says so.
 rm "$(find "$scratch/prefix" -name libhypotrack_media.so)"

@@ -83,7 +83,7 @@ std::vector<NormalEquations> LeastSquares::linearize(std::vector<Descent>& all) 
     points.rightCols(steps.size()).diagonal() += steps;
     states.push_back({space_.states(points, one.at->state), steps, kBlur});
   }
-  evaluations_ += std::ssize(all);
+  evaluations_ += std::ssize(all) * cost_.least_squares()->linearize_price(step_.size());
   return cost_.least_squares()->linearize_each(states);
 }
 

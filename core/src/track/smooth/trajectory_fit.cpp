@@ -67,7 +67,8 @@ struct PerturbedStates {
 }  // namespace
 
 std::int64_t TrajectoryFit::evaluations_per_linearization() const {
-  return residuals_->can_linearize() ? 2 : motion_->weight().size() + 1;
+  const Eigen::Index d = motion_->weight().size();
+  return residuals_->can_linearize() ? 1 + residuals_->linearize_price(d) : 1 + d;
 }
 
 TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
@@ -77,7 +78,8 @@ TrajectoryFit::LinearizedFrame TrajectoryFit::linearize(const FrameTiles& tiles,
   if (!tiles) return frame;
   cost_->prepare(*tiles);
   if (residuals_->can_linearize()) {
-    const PerturbedStates perturbed(*scene_, state, kSlopeShare);
+    const double share = residuals_->draws_neighbours() ? 1 : kSlopeShare;
+    const PerturbedStates perturbed(*scene_, state, share);
     Eigen::VectorXd cost(1);
     cost_->evaluate(state, cost);
     frame.cost = cost[0];

@@ -38,6 +38,6 @@ std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& set
   return std::make_unique<DeviceSkin>(settings);
 }
 
-const char* capabilities() { return "device residuals device_residuals"; }
+const char* capabilities() { return "device residuals slopes device_residuals"; }
 
 }  // namespace hypotrack::skin

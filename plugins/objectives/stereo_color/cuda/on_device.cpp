@@ -8,6 +8,6 @@ std::unique_ptr<cuda::DeviceObjective> make_device_objective(const Settings& set
   return settings.lookup == Lookup::bilinear ? make_bilinear(settings) : make_nearest(settings);
 }
 
-const char* capabilities() { return "device residuals device_residuals"; }
+const char* capabilities() { return "device residuals slopes device_residuals"; }
 
 }  // namespace hypotrack::stereo_color

@@ -7,6 +7,7 @@
 #include "expect_error.hpp"
 #include "hands_in_view.hpp"
 #include "hypotrack/error.hpp"
+#include "jacobian_contract.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::landmarks {
@@ -150,6 +151,21 @@ TEST_F(LandmarksCost, IsThatOfTheHandsInSight) {
   prepare();
   EXPECT_EQ(cost(bent(relaxed(), "left.index", 1)), cost(relaxed()));
   EXPECT_GT(cost(bent(relaxed(), "hand.index", 1)), 0.1);
+}
+
+TEST_F(LandmarksCost, HasTheJacobianOfItsResiduals) {
+  ASSERT_TRUE(objective_->has_jacobian());
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::VectorXd off = Eigen::VectorXd::LinSpaced(relaxed().size(), 1, 9 + i);
+    Eigen::VectorXd state = relaxed() + 0.05 * off.array().sin().matrix();
+    test::two_hands().normalize(state);
+    EXPECT_NO_THROW(contract::check_jacobian(*objective_, test::two_hands(), hypothesis(state),
+                                             "state " + std::to_string(i)));
+  }
+  sees_.left = false;
+  prepare();
+  EXPECT_NO_THROW(
+      contract::check_jacobian(*objective_, test::two_hands(), hypothesis(relaxed()), "one hand"));
 }
 
 TEST(Landmarks, OfASceneWithoutHandsAreNoneAndNeedNoDetector) {

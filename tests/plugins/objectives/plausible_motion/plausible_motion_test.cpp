@@ -8,6 +8,7 @@
 
 #include "hypotrack/observation.hpp"
 #include "hypotrack/plugin.hpp"
+#include "jacobian_contract.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack::plausible_motion {
@@ -222,6 +223,22 @@ TEST_F(PlausibleMotionTest, FollowsTheStartOfEveryFrame) {
   objective.prepare(second);
   EXPECT_GT(cost_of(first.start), 1);
   EXPECT_NEAR(cost_of(second.start), 0, 1e-6);
+}
+
+TEST_F(PlausibleMotionTest, HasTheJacobianOfItsResiduals) {
+  PlausibleMotion objective({}, scene_);
+  Observation observation;
+  observation.scene = &scene_;
+  observation.start = start_;
+  std::mt19937_64 random(4);
+  Eigen::VectorXd state = hypotrack::test::random_state(scene_, random);
+  scene_.normalize(state);
+  for (const bool no_motion_prior : {false, true}) {
+    observation.context.no_motion_prior = no_motion_prior;
+    objective.prepare(observation);
+    EXPECT_NO_THROW(contract::check_jacobian(
+        objective, scene_, {{state.data(), static_cast<std::size_t>(state.size())}, {}}, "state"));
+  }
 }
 
 }  // namespace
