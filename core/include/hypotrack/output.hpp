@@ -29,8 +29,8 @@ class HYPOTRACK_API OutputContext {
   virtual double frame_rate() const = 0;
   /// Returns true if the run smooths solutions over a fixed lag of later frames.
   virtual bool fixed_lag() const = 0;
-  /// Returns the path at which to write the file of this name, one of Output::file_names(). The
-  /// file gets its name when the run ends. Throws PluginError for other names.
+  /// Returns the path at which to write the file of this name, one of Output::file_names(). Others
+  /// may read the file while it grows. Throws PluginError for other names.
   virtual std::filesystem::path file(const std::string& name) = 0;
   /// Returns the run's renderer, made at the first call. Use it in calls of the output. Throws
   /// DeviceError.

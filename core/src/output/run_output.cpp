@@ -41,10 +41,16 @@ class ResultNames {
         throw ConfigError(fmt::format("output: {} and {} both write {}; leave one of them out",
                                       other->second, owner, name));
       owners_.emplace(name, owner);
-      if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+      if (name != kSummaryFile && std::ranges::find(names_, name) == names_.end())
+        names_.push_back(name);
     }
   }
-  const std::vector<std::string>& all() const { return names_; }
+  /// Returns the names; the last is that of the file which says that a run is finished.
+  std::vector<std::string> all() const {
+    std::vector<std::string> names = names_;
+    names.emplace_back(kSummaryFile);
+    return names;
+  }
 
  private:
   std::vector<std::string> names_ = {kProtocol,    "track.csv",         "joints.csv",
@@ -85,7 +91,7 @@ class RunOutput::Context final : public OutputContext {
           "output '{}' wants to write '{}', which is none of its file_names(); this is a bug in "
           "the output",
           name_, name));
-    return run_->directory_.part(name);
+    return run_->directory_.file(name);
   }
   Renderer& renderer() override {
     draws_ = draws_ || begins_;
@@ -113,7 +119,7 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
       metrics_(new MetricsOutput(options_.worst_frames, options_.backend)),
       outputs_(with_metrics(metrics_, std::move(outputs))),
       directory_(options_.directory, result_names(outputs_)) {
-  TextFile(directory_.part(kProtocol)).write(options_.resolved);
+  TextFile(directory_.file(kProtocol)).write(options_.resolved);
   try {
     for (const NamedOutput& output : outputs_) {
       contexts_.push_back(std::make_unique<Context>(*this, output));

@@ -66,8 +66,8 @@ class RunOutput {
   /// Describes what evaluates hypotheses, after it changed, for the summary.
   void set_backend(std::string backend) { metrics_->set_backend(std::move(backend)); }
 
-  /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
-  /// frame was added.
+  /// Closes all files; summary.json, which appears last, says so. Without it the files stay as they
+  /// are, or are removed if no frame was added.
   Summary finish(bool complete, const ClockTimes& clock = {});
 
   bool empty() const { return frames_ == 0; }

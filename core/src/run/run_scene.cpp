@@ -166,16 +166,16 @@ class Results {
     try {
       return output_.finish(complete, clock);
     } catch (...) {
-      tell_of_parts();
+      tell_of_frames();
       throw;
     }
   }
 
-  /// Says where the unfinished files with the frames so far are.
-  void tell_of_parts() {
-    if (output_.empty() || !std::filesystem::exists(folder_ / ".part.track.csv")) return;
-    watcher_.say(fmt::format("the frames so far are in {}/.part.track.csv and the files beside it",
-                             folder_.string()));
+  /// Says where the files with the frames so far are.
+  void tell_of_frames() {
+    if (output_.empty()) return;
+    watcher_.say(
+        fmt::format("the frames so far are in {}; the run counts as unfinished", folder_.string()));
   }
 
   /// Keeps the frames tracked so far after an exception, which is being handled.
@@ -370,7 +370,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     device.look("smoothing");
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
-    if (results) results->tell_of_parts();
+    if (results) results->tell_of_frames();
     throw;
   } catch (...) {
     if (results) results->finish_after_error(times());

@@ -109,11 +109,11 @@ class RunOutputTest : public ::testing::Test {
   const Scene scene_{{{"box", std::make_shared<Model>(test::make_test_box())}}};
 };
 
-TEST_F(RunOutputTest, FilesOfAnOutputGetTheirNamesWithThoseOfTheRun) {
+TEST_F(RunOutputTest, FilesGrowUnderTheirNamesAndTheSummaryComesLast) {
   const auto output = open("diary.txt");
   output->add(frame(0), solution(0));
   output->add(frame(1), solution(1));
-  EXPECT_THAT(names(), UnorderedElementsAre(".part.diary.txt", ".part.run.yaml"));
+  EXPECT_THAT(names(), UnorderedElementsAre("diary.txt", "run.yaml"));
   output->finish(true);
   EXPECT_THAT(names(), UnorderedElementsAre("diary.txt", "run.yaml", "summary.json"));
   EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0 online 1 frame 1 finish");
@@ -132,9 +132,9 @@ TEST_F(RunOutputTest, WithoutFramesNothingStays) {
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
-TEST_F(RunOutputTest, FramesSoFarStayUnderTheirUnfinishedNames) {
+TEST_F(RunOutputTest, FramesSoFarStay) {
   open("diary.txt")->add(frame(0), solution(0));
-  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0");
+  EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0");
 }
 
 TEST_F(RunOutputTest, AnOutputThatFailsAtTheEndLeavesTheOthersWhole) {
@@ -145,7 +145,7 @@ TEST_F(RunOutputTest, AnOutputThatFailsAtTheEndLeavesTheOthersWhole) {
   const auto output = open(std::move(outputs));
   output->add(frame(0), solution(0));
   EXPECT_EQ(message_of<OutputError>([&] { output->finish(true); }), "the diary is full");
-  EXPECT_EQ(text(".part.good.txt"), "begin online 0 frame 0 finish");
+  EXPECT_EQ(text("good.txt"), "begin online 0 frame 0 finish");
 }
 
 TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
@@ -192,7 +192,7 @@ TEST_F(RunOutputTest, AQueueGivesAllFramesInOrderToDrawingAndPlainOutputs) {
   for (int i = 0; i < 40; ++i) {
     queue.add(frame(i), solution(i));
     expected += fmt::format(" online {0} frame {0}", i);
-    EXPECT_EQ(text(".part.plain.txt"), expected) << "a crash must not lose it";
+    EXPECT_EQ(text("plain.txt"), expected) << "a crash must not lose it";
   }
   queue.settle();
   output->finish(true);
@@ -211,7 +211,7 @@ TEST_F(RunOutputTest, AQueueTellsAnErrorOfADrawingOutputOnceAndDrawsNothingAfter
   EXPECT_EQ(message_of<OutputError>([&] { queue.settle(); }), "the diary is full");
   queue.add(frame(2), solution(2));
   EXPECT_NO_THROW(queue.settle());
-  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0 online 1");
+  EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0 online 1");
 }
 
 }  // namespace
