@@ -8,6 +8,9 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include <ranges>
+#include <span>
+#include <string_view>
 #include "hypotrack/text_file.hpp"
 #include "output/true_landmarks.hpp"
 
@@ -116,7 +119,8 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
     : scene_(&scene),
       cameras_(std::move(cameras)),
       options_(std::move(options)),
-      metrics_(new MetricsOutput(options_.worst_frames, options_.backend)),
+      metrics_(new MetricsOutput(options_.worst_frames, options_.backend, options_.notes,
+                                 options_.term_times)),
       outputs_(with_metrics(metrics_, std::move(outputs))),
       directory_(options_.directory, result_names(outputs_)) {
   TextFile(directory_.file(kProtocol)).write(options_.resolved);
@@ -185,7 +189,7 @@ void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which)
 Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
   metrics_->set_clock(clock);
   std::exception_ptr first_error;
-  for (const NamedOutput& output : outputs_) {
+  for (const NamedOutput& output : std::views::reverse(outputs_)) {  // the summary last
     try {
       output.output->finish(complete);
     } catch (...) {  // the others' files are to be whole

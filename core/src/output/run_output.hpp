@@ -10,6 +10,7 @@
 #include "hypotrack/scene.hpp"
 #include "output/metrics_output.hpp"
 #include "output/run_directory.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
@@ -33,6 +34,8 @@ class RunOutput {
     std::string resolved;  ///< content of run.yaml
     std::string backend;
     bool fixed_lag = false;  ///< fixed-lag smoothing: frames come twice, online and smoothed
+    std::shared_ptr<const PluginNotes> notes = nullptr;  ///< for the summary; null: none
+    std::vector<NamedTermTimes> term_times = {};         ///< for the summary
   };
 
   /// The scene must outlive the object. Throws ConfigError if two outputs write a file of one name,

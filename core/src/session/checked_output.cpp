@@ -25,14 +25,17 @@ bool CheckedOutput::wants_search(const Frame& frame) const {
 
 void CheckedOutput::search(const Frame& frame, const Solution& solution,
                            const SearchRecord& record) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->search(frame, solution, record); });
 }
 
 void CheckedOutput::online(const Frame& frame, const Solution& solution) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->online(frame, solution); });
 }
 
 void CheckedOutput::frame(const Frame& frame, const Solution& solution) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->frame(frame, solution); });
 }
 
