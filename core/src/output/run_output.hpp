@@ -15,8 +15,8 @@
 
 namespace hypotrack {
 
-/// Throws ConfigError if two outputs of a run write a file of one name, PluginError if a file's
-/// name is none.
+/// Throws ConfigError if two outputs of a run write a file or a column of one name, PluginError if
+/// a name is none.
 void check_outputs(const std::vector<NamedOutput>& outputs);
 
 /// Which outputs of a run get a frame. Drawing ones took the renderer in Output::begin(): they are
@@ -38,9 +38,8 @@ class RunOutput {
     std::vector<NamedTermTimes> term_times = {};         ///< for the summary
   };
 
-  /// The scene must outlive the object. Throws ConfigError if two outputs write a file of one name,
-  /// PluginError if a file's name is none, OutputError or DeviceError, and then leaves nothing
-  /// behind.
+  /// The scene must outlive the object. Throws as check_outputs(), OutputError or DeviceError, and
+  /// then leaves nothing behind.
   RunOutput(const Scene& scene, std::vector<Camera> cameras, Options options,
             std::vector<NamedOutput> outputs);
 
@@ -86,6 +85,7 @@ class RunOutput {
   Options options_;
   MetricsOutput* metrics_;  ///< the first output
   std::vector<NamedOutput> outputs_;
+  std::vector<std::vector<std::string>> columns_;  ///< that each output adds to track.csv
   RunDirectory directory_;
   std::unique_ptr<Renderer> renderer_;              ///< made when there is something to draw
   std::unique_ptr<Renderer> drawing_renderer_;      ///< of the drawing outputs

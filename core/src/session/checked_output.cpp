@@ -39,6 +39,15 @@ void CheckedOutput::frame(const Frame& frame, const Solution& solution) {
   call_explaining_plugin(who_, [&] { output_->frame(frame, solution); });
 }
 
+std::vector<std::string> CheckedOutput::columns() const {
+  return call_explaining_plugin(who_, [&] { return output_->columns(); });
+}
+
+void CheckedOutput::values(const Frame& frame, const Solution& solution, std::span<double> values) {
+  const detail::ThreadFrame of_thread(frame.index);
+  call_explaining_plugin(who_, [&] { output_->values(frame, solution, values); });
+}
+
 void CheckedOutput::finish(bool complete) {
   call_explaining_plugin(who_, [&] { output_->finish(complete); });
 }

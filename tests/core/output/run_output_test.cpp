@@ -45,6 +45,9 @@ class Diary final : public Output {
     file_->write(complete ? " finish" : " finish early");
   }
 
+  std::vector<std::string> columns() const override { return own_columns; }
+
+  std::vector<std::string> own_columns;
   std::string asks_for;
   bool draws = false;
   bool fails = false;
@@ -179,6 +182,26 @@ TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
   output->add(frame(0), solution(0));
   output->finish(true);
   EXPECT_THAT(names(), UnorderedElementsAre("page_7.txt", "run.yaml", "summary.json"));
+}
+
+TEST_F(RunOutputTest, ADrawingOutputWithColumnsIsRefused) {
+  auto diary = std::make_unique<Diary>("diary.txt");
+  diary->draws = true;
+  diary->own_columns = {"depth"};
+  EXPECT_THAT(message_of<PluginError>([&] { open(one(std::move(diary))); }),
+              AllOf(HasSubstr("'diary' adds columns"), HasSubstr("takes the renderer in begin()")));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RunOutputTest, TwoOutputsOfOneColumnAreFoundWithoutARun) {
+  std::vector<NamedOutput> outputs;
+  for (const char* name : {"a", "b"}) {
+    auto diary = std::make_unique<Diary>(std::string(name) + ".txt");
+    diary->own_columns = {"depth"};
+    outputs.push_back({name, std::move(diary)});
+  }
+  EXPECT_THAT(message_of<ConfigError>([&] { check_outputs(outputs); }),
+              HasSubstr("output: a and b both add the column 'depth' to track.csv"));
 }
 
 TEST_F(RunOutputTest, AQueueGivesAllFramesInOrderToDrawingAndPlainOutputs) {
