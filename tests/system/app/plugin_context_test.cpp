@@ -148,10 +148,7 @@ TEST_F(PluginContextTest, AnOutputAddsColumnsToTheTable) {
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("note: output.also (telling), frame 3: sees a frame"),
                                  HasSubstr("note: output.also (telling): ends")));
   EXPECT_EQ(summary().at("notes").size(), 2U) << "also what is said at the end";
-  for (const std::vector<std::string>& reader :
-       {std::vector<std::string>{"evaluate", path("out").string()},
-        {"report", path("out").string(), "--out", path("report.html").string()}})
-    EXPECT_EQ(run_program(reader).exit_code, 0) << reader.front();
+  EXPECT_EQ(run_program({"evaluate", path("out").string()}).exit_code, 0);
   const std::string again = replaced(box_scene(), "{from: truth}",
                                      "{from: file, file: " + path("out/track.csv").string() + "}");
   EXPECT_EQ(run_program({"validate", scene(again, "again.yaml")}).exit_code, 0);
