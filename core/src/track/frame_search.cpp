@@ -61,7 +61,7 @@ Eigen::VectorXd FrameSearch::drawn(Eigen::VectorXd state) const {
 
 void FrameSearch::remember(std::shared_ptr<PreviousSolution> answer, const Frame* frame) {
   if (answer && frame && keeps_tiles_) {
-    TilePlan plan = tiles_.plan(*frame, drawn(answer->state));
+    TilePlan plan = tiles_.plan(*frame, answer->state);
     photometric_.apply(plan);
     answer->views = tiles_.resample(*frame, plan).views;
     for (TileView& view : answer->views) view = {view.camera, view.color, view.valid, {}, {}, {}};
