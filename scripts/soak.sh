@@ -31,7 +31,7 @@ value() { awk -v key="$1:" '$1 == key {print $2}' "/proc/$run/status"; }
 echo seconds,frames,rss_mib,descriptors,threads,cpu_seconds,frame_ms,gpu_mib >"$folder/soak.csv"
 begin=$SECONDS
 ticks=$(getconf CLK_TCK)
-table=$folder/run/.part.track.csv
+table=$folder/run/track.csv
 while [ $((SECONDS - begin)) -lt $((60 * minutes)) ] && kill -0 "$run" 2>/dev/null; do
   sleep "$period"
   [ -r "$table" ] && [ -r "/proc/$run/stat" ] || continue

@@ -58,6 +58,7 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
     tracker.check(first);
     if (draw && looks) draw_on_first(found_start(session, tracker, first));
     for (const std::string& note : session.notes) tell("note: {}\n", note);
+    for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
     tell_notes(*session.source, tracker, first);
     tell_faults(*session.source, tracker, first);
   }

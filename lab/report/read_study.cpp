@@ -8,6 +8,7 @@
 #include "hypotrack/params.hpp"
 #include "lab/report/read_run.hpp"
 #include "lab/report/study_data.hpp"
+#include "output/run_directory.hpp"
 
 namespace hypotrack {
 namespace {
@@ -153,8 +154,10 @@ StudyData read_study(const fs::path& directory) {
         "`hypotrack run`)",
         directory.string()));
   if (!fs::exists(directory / "study.yaml")) {
-    if (fs::exists(directory / "track.csv") && fs::exists(directory / "run.yaml"))
+    if (fs::exists(directory / "track.csv") && fs::exists(directory / "run.yaml")) {
+      expect_finished_run(directory);
       return single_run(directory);
+    }
     throw DataError(
         fmt::format("{}: is neither a study folder (it has no study.yaml) nor a run folder (it "
                     "has no track.csv and run.yaml); expected what `hypotrack compare` or "

@@ -103,6 +103,7 @@ struct ImageUse {
   bool mask = true;
   bool depth = true;
   bool background = false;  ///< TileView::background, which the tracker learns
+  bool previous = false;    ///< PreviousSolution::views, colour only
 };
 
 /// A term of the cost: how badly a hypothesis explains a frame. A scene adds weighted terms.

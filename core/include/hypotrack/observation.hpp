@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <limits>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
@@ -33,6 +35,18 @@ struct TileView {
                        ///< empty while nothing is known
 };
 
+/// The answer of an earlier frame, from which the tracker goes on.
+struct PreviousSolution {
+  int frame = 0;
+  double time = 0;        ///< seconds
+  double cost = 0;        ///< NaN if it was not evaluated
+  Eigen::VectorXd state;  ///< Scene::dimension() numbers, unsmoothed
+  /// The tiles around `state` in that frame, with camera, colour and `valid` only. Empty unless a
+  /// term of the scene has ImageUse::previous. They are in memory of the CPU, also where hypotheses
+  /// are evaluated on a GPU.
+  std::vector<TileView> views;
+};
+
 /// What a tracker tells objectives of a frame besides its images and cameras.
 struct FrameContext {
   /// True until a solution exists: the start is then the scene's given start, perhaps some
@@ -46,6 +60,12 @@ struct FrameContext {
   /// and after photometric correction. It is mostly noise. Euclidean norm of RGB in 0..1; 0 =
   /// unknown.
   double color_difference = 0;
+  /// The last frame that was tracked or uncertain, the same for all searches of a frame. It stays
+  /// while models are lost. Null before the first one, after the models were forgotten, and with
+  /// `no_motion_prior`. A term may keep it.
+  std::shared_ptr<const PreviousSolution> previous;
+  /// Seconds from `previous` to this frame, above 0; NaN without `previous`.
+  double seconds_since_previous = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The tiles of one frame, with views in the order of the source's cameras.

@@ -134,6 +134,10 @@ struct SearchRegion {
   Eigen::VectorXd spread;  ///< plausible distance of the answer from `start`, to each side; > 0
   /// A partition of the dimensions into groups. Empty: unknown.
   std::vector<SearchGroup> groups = {};
+  /// The search point of the previous frame's answer, perhaps outside the bounds. Empty: none, as
+  /// for FrameContext::previous. `start` is there already or at its extrapolated motion.
+  Eigen::VectorXd previous = {};
+  double seconds_since_previous = std::numeric_limits<double>::quiet_NaN();  ///< NaN without it
 };
 
 /// The limits of a search. Evaluations count single points, not batches.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,12 +30,18 @@ class HYPOTRACK_API OutputContext {
   virtual double frame_rate() const = 0;
   /// Returns true if the run smooths solutions over a fixed lag of later frames.
   virtual bool fixed_lag() const = 0;
-  /// Returns the path at which to write the file of this name, one of Output::file_names(). The
-  /// file gets its name when the run ends. Throws PluginError for other names.
+  /// Returns the path at which to write the file of this name, one of Output::file_names(). Others
+  /// may read the file while it grows. Throws PluginError for other names.
   virtual std::filesystem::path file(const std::string& name) = 0;
   /// Returns the run's renderer, made at the first call. Use it in calls of the output. Throws
   /// DeviceError.
   virtual Renderer& renderer() = 0;
+  /// Returns the names of the columns that the run's outputs add to track.csv.
+  virtual std::vector<std::string> columns() const { return {}; }
+  /// Returns a number for each of columns(), NaN where an output knows none.
+  virtual std::vector<double> values(const Frame& /*frame*/, const Solution& /*solution*/) {
+    return {};
+  }
 };
 
 /// Writes something of every solution of a run.
@@ -74,6 +81,15 @@ class HYPOTRACK_API Output {
   /// Receives every frame and its final solution, in order. With fixed-lag smoothing it comes some
   /// frames later and without pictures. A missing frame has no views either.
   virtual void frame(const Frame& frame, const Solution& solution) = 0;
+
+  /// Returns the names of columns that this output adds to track.csv: letters, digits and _, none
+  /// of the table's own names. The answer never changes. An output with columns must not take the
+  /// renderer in begin().
+  virtual std::vector<std::string> columns() const { return {}; }
+  /// Writes a number for each of columns(); they are NaN before, which leaves the cell empty. Is
+  /// called for every frame before frame(), with the same arguments.
+  virtual void values(const Frame& /*frame*/, const Solution& /*solution*/,
+                      std::span<double> /*values*/) {}
 
   /// Completes the files. `complete` is false if the run was interrupted or an error ended it.
   virtual void finish(bool /*complete*/) {}

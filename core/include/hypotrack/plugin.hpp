@@ -19,6 +19,7 @@
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/plugin_log.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
 #include "hypotrack/start.hpp"
@@ -62,27 +63,32 @@ class HYPOTRACK_API PluginLoader {
 
   /// Makes the object that `config` (a map with a `type`) describes. The caller reads the keys
   /// `also_allowed` itself. `resolved`, if given, receives all parameters with their values as
-  /// YAML, `type` first. Throws ConfigError or PluginError.
+  /// YAML, `type` first. `notes`, if given, receives what the object tells the user. Throws
+  /// ConfigError or PluginError.
   template <PluginInterface T>
   std::unique_ptr<T> make(const ConfigNode& config, const Scene* scene = nullptr,
                           std::vector<std::string> also_allowed = {},
-                          std::string* resolved = nullptr) {
-    return std::unique_ptr<T>(static_cast<T*>(
-        make_object(kPluginKind<T>, config, scene, std::move(also_allowed), resolved)));
+                          std::string* resolved = nullptr,
+                          std::shared_ptr<PluginNotes> notes = nullptr) {
+    return std::unique_ptr<T>(static_cast<T*>(make_object(
+        kPluginKind<T>, config, scene, std::move(also_allowed), resolved, std::move(notes))));
   }
 
  private:
   void* make_object(std::string_view kind, const ConfigNode& config, const Scene* scene,
-                    std::vector<std::string> also_allowed, std::string* resolved);
+                    std::vector<std::string> also_allowed, std::string* resolved,
+                    std::shared_ptr<PluginNotes> notes);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// Services for a plugin's constructor: the scene, other plugins, and the node of its parameters.
+/// Services for a plugin's constructor: the scene, other plugins, a log, and the node of its
+/// parameters.
 class HYPOTRACK_API PluginContext {
  public:
   PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
-                std::vector<std::string> also_allowed);
+                std::vector<std::string> also_allowed, std::shared_ptr<PluginNotes> notes = nullptr,
+                std::string who = {});
 
   /// Reads the parameters strictly and records their values for the run's protocol.
   template <ParamStruct P>
@@ -99,10 +105,12 @@ class HYPOTRACK_API PluginContext {
   template <PluginInterface T>
   std::unique_ptr<T> make(const ConfigNode& config) {
     std::string resolved;
-    auto object = plugins_->make<T>(config, scene_, {}, &resolved);
+    auto object = plugins_->make<T>(config, scene_, {}, &resolved, notes_);
     record_nested(config, resolved);
     return object;
   }
+  /// Returns the log that tells the user something under the plugin's name. Keep a copy.
+  PluginLog log() const { return {notes_, who_}; }
   /// Returns the node of the parameters, for error messages: config().where().
   const ConfigNode& config() const { return config_; }
   const std::string& resolved() const { return resolved_; }
@@ -115,6 +123,8 @@ class HYPOTRACK_API PluginContext {
   PluginLoader* plugins_;
   std::vector<std::string> also_allowed_;
   std::string resolved_;
+  std::shared_ptr<PluginNotes> notes_;
+  std::string who_;
 };
 
 inline constexpr std::uint32_t kAbiVersion = 19;

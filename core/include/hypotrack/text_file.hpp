@@ -1,25 +1,30 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string_view>
 
 #include "hypotrack/export.hpp"
 
 namespace hypotrack {
 
-/// A text file that is written line by line. Every line is on disk when `write` returns, so that a
-/// killed run loses no frame.
+/// A text file that grows by whole lines. Every line is in the file when `write` returns, so that a
+/// killed run loses no frame and other programs can follow it.
 class HYPOTRACK_API TextFile {
  public:
   /// Throws OutputError.
   explicit TextFile(std::filesystem::path path);
-  /// Throws OutputError, for example on a full disk.
+  ~TextFile();
+  TextFile(TextFile&& other) noexcept;
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+  /// Appends a text, or nothing. Throws OutputError, for example on a full disk.
   void write(std::string_view text);
 
  private:
   std::filesystem::path path_;
-  std::ofstream out_;
+  int descriptor_ = -1;    ///< -1 after a move
+  std::int64_t size_ = 0;  ///< of the lines written
 };
 
 }  // namespace hypotrack

@@ -39,6 +39,8 @@ class HYPOTRACK_API Tracker {
   const std::vector<Camera>& cameras() const;
   /// Describes what evaluates hypotheses: the CPU and its threads, or the GPU.
   std::string backend() const;
+  /// Returns lines for the user that the plugins told since the last call, each text once.
+  std::vector<std::string> take_notes();
 
  private:
   friend class Session;

@@ -1,31 +1,54 @@
 #include "base/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
 
-TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)), out_(path_) {
-  if (!out_)
+TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)) {
+  constexpr mode_t kMode = 0666;  // less what umask takes
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, kMode);
+  if (descriptor_ < 0)
     throw OutputError(
         fmt::format("{}: cannot be opened for writing: {}; name another folder with --out",
                     path_.string(), std::strerror(errno)));
 }
 
+TextFile::TextFile(TextFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      size_(other.size_) {}
+
+TextFile::~TextFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 void TextFile::write(std::string_view text) {
-  errno = 0;
-  out_ << text << std::flush;
-  if (!out_)
-    throw OutputError(fmt::format(
-        "{}: cannot be written: {}; the lines before this one are in the file. Make room or name "
-        "another folder with --out",
-        path_.string(), errno != 0 ? std::strerror(errno) : "unknown reason"));
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(descriptor_, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int problem = errno;
+      // A torn line would look like a whole one to who reads the file.
+      [[maybe_unused]] const int cut = ::ftruncate(descriptor_, size_);
+      throw OutputError(fmt::format(
+          "{}: cannot be written: {}; the lines before this one are in the file. Make room or name "
+          "another folder with --out",
+          path_.string(), std::strerror(problem)));
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  size_ += static_cast<std::int64_t>(done);
 }
 
 void expect_writable(const std::filesystem::path& file, std::string_view option) {

@@ -29,6 +29,7 @@ ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
     all.mask = all.mask || use.mask;
     all.depth = all.depth || use.depth;
     all.background = all.background || use.background;
+    all.previous = all.previous || use.previous;
   }
   return all;
 }

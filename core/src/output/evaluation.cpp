@@ -12,6 +12,7 @@
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
+#include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"
 
@@ -29,12 +30,12 @@ fs::path run_table(const fs::path& run) {
         fmt::format("{}: is missing; expected a folder of 'hypotrack run' or a table of landmarks",
                     run.string()));
   if (!fs::is_directory(run)) return run;
+  expect_finished_run(run);
   const fs::path table = run / "joints.csv";
   if (fs::exists(table)) return table;
-  const bool unfinished = fs::exists(run / ".part.joints.csv");
   throw DataError(fmt::format(
-      "{}: has no joints.csv{}; expected a folder of 'hypotrack run' or a table of landmarks",
-      run.string(), unfinished ? " (the run has not ended, or was killed)" : ""));
+      "{}: has no joints.csv; expected a folder of 'hypotrack run' or a table of landmarks",
+      run.string()));
 }
 
 fs::path truth_table(const EvaluationInput& input) {
@@ -48,6 +49,7 @@ fs::path truth_table(const EvaluationInput& input) {
         "{}: is missing; expected a recording, a run with ground truth or a table of landmarks",
         truth.string()));
   if (!fs::is_directory(truth)) return truth;
+  expect_finished_run(truth);
   const fs::path table = truth / "truth_landmarks.csv";
   if (fs::exists(table)) return table;
   throw DataError(fmt::format(

@@ -5,13 +5,14 @@
 #include "hypotrack/picture.hpp"
 #include "hypotrack/text_file.hpp"
 #include "output/frame_statuses.hpp"
+#include "output/run_directory.hpp"
 #include "output/true_landmarks.hpp"
 
 namespace hypotrack {
 
 std::vector<std::string> MetricsOutput::file_names() const {
   return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",   "uncertainty.csv", "trace.csv",
-          "truth_costs.csv",  "worst_#.jpg",         "metrics.json", "summary.json"};
+          "truth_costs.csv",  "worst_#.jpg",         "metrics.json", kSummaryFile};
 }
 
 void MetricsOutput::begin(OutputContext& run) {
@@ -69,6 +70,9 @@ Summary MetricsOutput::summarize(bool complete) const {
   summary.backend = backend_;
   summary.clock = clock_;
   summary.faults = faults_;
+  for (const auto& [name, times] : term_times_)
+    summary.terms.push_back({name, times->prepare.seconds(), times->cost.seconds()});
+  if (notes_) summary.notes = notes_->all();
   summary.metrics = metrics_->metrics();
   summary.mean_sigma = uncertainty_->mean_sigma();
   summary.reliability = uncertainty_->reliability();
@@ -84,7 +88,7 @@ void MetricsOutput::finish(bool complete) {
   summary_ = summarize(complete);
   worst_.write(*run_);
   if (truth_->known()) TextFile(run_->file("metrics.json")).write(to_json(summary_.metrics));
-  TextFile(run_->file("summary.json")).write(to_json(summary_));
+  TextFile(run_->file(kSummaryFile)).write(to_json(summary_));
 }
 
 }  // namespace hypotrack

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "output/truth_output.hpp"
 #include "output/uncertainty_output.hpp"
 #include "output/worst_frames.hpp"
+#include "session/term_times.hpp"
 
 namespace hypotrack {
 
@@ -22,9 +24,15 @@ namespace hypotrack {
 /// traced frames: trace.csv and, with a true state, truth_costs.csv.
 class MetricsOutput final : public Output {
  public:
-  /// `backend` describes what evaluates hypotheses.
-  MetricsOutput(int worst_frames, std::string backend)
-      : backend_(std::move(backend)), worst_(worst_frames) {}
+  /// `backend` describes what evaluates hypotheses. `notes`: what plugins tell the user; null:
+  /// none.
+  MetricsOutput(int worst_frames, std::string backend,
+                std::shared_ptr<const PluginNotes> notes = nullptr,
+                std::vector<NamedTermTimes> term_times = {})
+      : backend_(std::move(backend)),
+        notes_(std::move(notes)),
+        term_times_(std::move(term_times)),
+        worst_(worst_frames) {}
 
   std::vector<std::string> file_names() const override;
   void begin(OutputContext& run) override;
@@ -50,6 +58,8 @@ class MetricsOutput final : public Output {
 
   OutputContext* run_ = nullptr;
   std::string backend_;
+  std::shared_ptr<const PluginNotes> notes_;
+  std::vector<NamedTermTimes> term_times_;
   std::optional<MetricsCollector> metrics_;
   std::optional<TruthOutput> truth_;
   std::optional<UncertaintyOutput> uncertainty_;

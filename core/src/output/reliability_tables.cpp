@@ -11,6 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
 #include "output/metrics/landmark_errors.hpp"
+#include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 
 namespace hypotrack {
@@ -48,6 +49,7 @@ std::map<int, std::string> status_by_frame(const fs::path& file) {
 }  // namespace
 
 void add_run(const fs::path& run, UncertaintyCalibration& calibration) {
+  expect_finished_run(run);
   const SigmaTable sigmas(
       table_in(run, "uncertainty.csv", " with tracker.uncertainty.enabled, which has ended"));
   const auto estimates = landmarks_by_frame(table_in(run, "joints.csv", ""), sigmas.names());

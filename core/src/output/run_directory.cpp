@@ -14,9 +14,27 @@
 namespace hypotrack {
 namespace {
 
-constexpr const char* kPartPrefix = ".part.";
+constexpr const char* kFirst = "run.yaml";     // of every run
+constexpr const char* kUnfinished = ".part.";  // before the name of the last result
+
+/// Throws OutputError that says what failed, after an error of the file system.
+[[noreturn]] void fail(const std::filesystem::path& file, const std::error_code& error) {
+  throw OutputError(fmt::format(
+      "{}: cannot be moved or removed ({}); check the permissions of its folder, or name another "
+      "with --out",
+      file.string(), error.message()));
+}
 
 }  // namespace
+
+void expect_finished_run(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / kFirst) || std::filesystem::exists(folder / kSummaryFile))
+    return;
+  throw DataError(fmt::format(
+      "{}: the run has not ended, or was killed: it has a {} and no {}; wait for its end, or run "
+      "it again",
+      folder.string(), kFirst, kSummaryFile));
+}
 
 bool is_result(std::string_view name, std::string_view result) {
   const std::size_t hash = result.find('#');
@@ -29,7 +47,10 @@ bool is_result(std::string_view name, std::string_view result) {
 }
 
 RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::string> results)
-    : directory_(std::move(directory)), results_(std::move(results)) {
+    : directory_(std::move(directory)),
+      previous_(directory_ / ".previous"),
+      moving_(directory_ / ".previous.moving"),
+      results_(std::move(results)) {
   std::error_code error;
   made_ = std::filesystem::create_directories(directory_, error);
   if (error || !std::filesystem::is_directory(directory_))
@@ -42,7 +63,7 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
         "--out",
         directory_.string()));
   // Check this now: found at the end, it would cost the whole run.
-  for (const std::string& name : results_there(""))
+  for (const std::string& name : results_in(directory_))
     if (std::filesystem::is_directory(directory_ / name))
       throw OutputError(fmt::format(
           "{}: is a folder, and a result of the run has this name; move it away or name "
@@ -50,18 +71,18 @@ RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::str
           (directory_ / name).string()));
   spare_foreign_files();
   lock();
-  for (const std::string& name : results_there(kPartPrefix))
-    std::filesystem::remove(directory_ / name, error);
+  try {
+    set_aside();
+  } catch (...) {
+    if (descriptor_ >= 0) close(descriptor_);
+    throw;
+  }
 }
 
 void RunDirectory::spare_foreign_files() const {
-  const std::vector<std::string> there = results_there("");
-  const std::vector<std::string> parts = results_there(kPartPrefix);  // of a run that was killed at
-                                                                      // its end
-  const bool of_a_run =
-      std::ranges::any_of(
-          there, [&](const std::string& name) { return is_result(name, results_.front()); }) ||
-      std::ranges::find(parts, kPartPrefix + results_.front()) != parts.end();
+  const std::vector<std::string> there = results_in(directory_);
+  const bool of_a_run = std::ranges::find(there, results_.front()) != there.end() ||
+                        std::filesystem::exists(moving_ / results_.front());
   if (there.empty() || of_a_run) return;
   throw OutputError(fmt::format(
       "{}: a run would replace or remove this file, which is not of a run (there is no {} beside "
@@ -72,10 +93,68 @@ void RunDirectory::spare_foreign_files() const {
 RunDirectory::~RunDirectory() {
   if (!keep_) {
     std::error_code ignored;
-    for (const std::string& name : names_) std::filesystem::remove(part_path(name), ignored);
+    for (const std::string& name : names_) std::filesystem::remove(path_of(name), ignored);
+    try {
+      put_back();
+    } catch (const OutputError&) {  // the next run does it
+    }
     if (made_) std::filesystem::remove(directory_, ignored);  // succeeds only if it is empty
   }
   if (descriptor_ >= 0) close(descriptor_);
+}
+
+void RunDirectory::move_all(const std::filesystem::path& from, const std::filesystem::path& to,
+                            const std::vector<std::string>& names) {
+  std::error_code error;
+  std::filesystem::create_directory(to, error);
+  if (error) fail(to, error);
+  for (const std::string& name : names) {
+    std::filesystem::rename(from / name, to / name, error);
+    if (error) fail(from / name, error);
+  }
+}
+
+// A kill may come after any of these steps. While `.previous.moving` exists, what is there and in
+// the folder is of one run. Afterwards the earlier run is whole in `.previous`.
+void RunDirectory::set_aside() {
+  std::error_code error;
+  std::filesystem::remove(directory_ / (kUnfinished + results_.back()), error);
+  if (std::filesystem::exists(moving_)) put_back_moved();
+  const std::vector<std::string> there = results_in(directory_);
+  const bool finished = std::ranges::find(there, results_.back()) != there.end();
+  if (std::filesystem::exists(previous_)) {
+    if (finished) {  // killed when it had just finished
+      std::filesystem::remove_all(previous_, error);
+      if (error) fail(previous_, error);
+    } else {
+      for (const std::string& name : there) {
+        std::filesystem::remove(directory_ / name, error);
+        if (error) fail(directory_ / name, error);
+      }
+      return;
+    }
+  }
+  if (there.empty()) return;
+  move_all(directory_, moving_, there);
+  std::filesystem::rename(moving_, previous_, error);
+  if (error) fail(moving_, error);
+}
+
+void RunDirectory::put_back() {
+  if (!std::filesystem::exists(previous_)) return;
+  std::error_code error;
+  std::filesystem::rename(previous_, moving_, error);
+  if (error) fail(previous_, error);
+  put_back_moved();
+}
+
+void RunDirectory::put_back_moved() {
+  std::vector<std::string> names;  // perhaps of outputs that this run does not have
+  for (const auto& entry : std::filesystem::directory_iterator(moving_))
+    names.push_back(entry.path().filename().string());
+  move_all(moving_, directory_, names);
+  std::error_code ignored;
+  std::filesystem::remove(moving_, ignored);
 }
 
 void RunDirectory::lock() {
@@ -89,51 +168,42 @@ void RunDirectory::lock() {
       directory_.string()));
 }
 
-std::filesystem::path RunDirectory::part_path(const std::string& name) const {
-  return directory_ / (kPartPrefix + name);
+std::filesystem::path RunDirectory::path_of(const std::string& name) const {
+  return directory_ / (name == results_.back() ? kUnfinished + name : name);
 }
 
-std::vector<std::string> RunDirectory::results_there(const std::string& prefix) const {
+std::vector<std::string> RunDirectory::results_in(const std::filesystem::path& folder) const {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(directory_, error)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix)) continue;
-    const std::string_view result = std::string_view(name).substr(prefix.size());
-    if (std::any_of(results_.begin(), results_.end(),
-                    [&](const std::string& allowed) { return is_result(result, allowed); }))
+    if (std::ranges::any_of(results_,
+                            [&](const std::string& result) { return is_result(name, result); }))
       names.push_back(name);
   }
   return names;
 }
 
-std::filesystem::path RunDirectory::part(const std::string& name) {
+std::filesystem::path RunDirectory::file(const std::string& name) {
   const std::lock_guard lock(mutex_);
   if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
-  return part_path(name);
+  return path_of(name);
 }
 
 void RunDirectory::finish() {
   keep_ = true;
-  // All or none: look before the first is renamed.
   for (const std::string& name : names_)
-    if (!std::filesystem::exists(part_path(name)))
-      throw OutputError(fmt::format("{}: was never written, so the results stay in {}*",
-                                    part_path(name).string(), part_path("").string()));
-  for (const std::string& name : names_) {
-    std::error_code error;
-    std::filesystem::rename(part_path(name), directory_ / name, error);
-    if (error)
-      throw OutputError(fmt::format("{}: cannot be written ({}); the results so far are in {}",
-                                    (directory_ / name).string(), error.message(),
-                                    part_path(name).string()));
-  }
-  for (const std::string& name : results_there("")) {
-    std::error_code error;
-    if (std::find(names_.begin(), names_.end(), name) == names_.end())
-      std::filesystem::remove(directory_ / name, error);
-  }
+    if (!std::filesystem::exists(path_of(name)))
+      throw OutputError(fmt::format("{}: was never written, so the run counts as unfinished",
+                                    path_of(name).string()));
+  std::error_code error;
+  std::filesystem::rename(path_of(results_.back()), directory_ / results_.back(), error);
+  if (error)
+    throw OutputError(fmt::format("{}: cannot be written ({}); the results so far are in {}",
+                                  (directory_ / results_.back()).string(), error.message(),
+                                  directory_.string()));
   names_.clear();
+  std::filesystem::remove_all(previous_, error);  // the next run does it if this fails
 }
 
 }  // namespace hypotrack

@@ -7,50 +7,70 @@
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/export.hpp"
+
 namespace hypotrack {
 
 /// Returns whether a file's name is that of a result. A # in the latter stands for any number.
 bool is_result(std::string_view name, std::string_view result);
 
-/// The folder of a run's results. Files are written under temporary names (`.part.track.csv`) and
-/// renamed together when the run ends, so that a file with its final name is complete.
+/// The last file of a run: it says, by being there, that the run is finished.
+inline constexpr const char* kSummaryFile = "summary.json";
+
+/// Throws DataError if a folder holds a run without its last file: the run goes on,
+/// or was killed.
+HYPOTRACK_API void expect_finished_run(const std::filesystem::path& folder);
+
+/// The folder of a run's results. Files have their names from the start and may be read while they
+/// grow. The last result appears when all others are complete: with it, a run is finished. Results
+/// of an earlier run are kept in the folder `.previous` until then.
 class RunDirectory {
  public:
-  /// Makes the folder if needed and removes unfinished files of an earlier, killed run. `results`
-  /// are the names that a run may write; a # in one stands for any number ("worst_#.jpg"). Every
-  /// run writes the first of them. Throws OutputError in three cases: the folder cannot be made or
-  /// written; another run is writing there; a folder, or a file that no run wrote, has the name of
-  /// a result.
+  /// Makes the folder if needed, sets the results of an earlier run aside, and removes those of a
+  /// killed run that began after it. `results` are the names that a run may write; a # in one
+  /// stands for any number ("worst_#.jpg"). Every run writes the first of them at its start and the
+  /// last at its end. Throws OutputError in three cases: the folder cannot be made or written;
+  /// another run is writing there; a folder, or a file that no run wrote, has the name of a result.
   RunDirectory(std::filesystem::path directory, std::vector<std::string> results);
 
-  /// Removes the unfinished files, and the folder if it was made here, unless keep() was called.
+  /// Removes the files of this run and puts the earlier ones back, unless keep() was called.
   ~RunDirectory();
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
   const std::filesystem::path& path() const { return directory_; }
 
-  /// Returns the path at which to write the file that will be called `name`, the same for every
-  /// call. Keeps a video's suffix. May be called from several threads.
-  std::filesystem::path part(const std::string& name);
+  /// Returns the path at which to write the file `name`, the same for every call. May be called
+  /// from several threads.
+  std::filesystem::path file(const std::string& name);
 
-  /// Keeps unfinished files from now on, whatever happens.
+  /// Keeps the files from now on, whatever happens.
   void keep() { keep_ = true; }
 
-  /// Gives every file of part() its final name, replacing results of an earlier run. Removes
-  /// earlier results that this run did not write. Throws OutputError.
+  /// Gives the last result its name and removes the results of the earlier run. Throws OutputError.
   void finish();
 
  private:
-  std::filesystem::path part_path(const std::string& name) const;
-  /// Returns the names in the folder that consist of `prefix` and a result's name.
-  std::vector<std::string> results_there(const std::string& prefix) const;
+  std::filesystem::path path_of(const std::string& name) const;
+  /// Returns the names of results in a folder.
+  std::vector<std::string> results_in(const std::filesystem::path& folder) const;
   /// Throws OutputError if the folder is not a run's but has files with names of results, such as
   /// the truth of a recording.
   void spare_foreign_files() const;
   /// Locks the folder for the life of the object. Throws OutputError if another run holds the lock.
   void lock();
+  /// Moves the results in the folder to `.previous`.
+  void set_aside();
+  /// Moves what set_aside() moved back.
+  void put_back();
+  void put_back_moved();
+  /// Moves files from a folder to another one, which it makes. Throws OutputError.
+  static void move_all(const std::filesystem::path& from, const std::filesystem::path& to,
+                       const std::vector<std::string>& names);
+
   std::filesystem::path directory_;
+  std::filesystem::path previous_;  ///< results of the earlier run
+  std::filesystem::path moving_;    ///< the same, while they are moved
   std::vector<std::string> results_;
   std::mutex mutex_;                ///< guards the names
   std::vector<std::string> names_;  ///< of the files of this run

@@ -3,8 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <exception>
+#include <limits>
 #include <map>
+#include <ranges>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include "hypotrack/error.hpp"
@@ -41,16 +47,52 @@ class ResultNames {
         throw ConfigError(fmt::format("output: {} and {} both write {}; leave one of them out",
                                       other->second, owner, name));
       owners_.emplace(name, owner);
-      if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
+      if (name != kSummaryFile && std::ranges::find(names_, name) == names_.end())
+        names_.push_back(name);
     }
   }
-  const std::vector<std::string>& all() const { return names_; }
+  /// Returns the names; the last is that of the file which says that a run is finished.
+  std::vector<std::string> all() const {
+    std::vector<std::string> names = names_;
+    names.emplace_back(kSummaryFile);
+    return names;
+  }
 
  private:
   std::vector<std::string> names_ = {kProtocol,    "track.csv",         "joints.csv",
                                      "online.csv", "online_joints.csv", "overlay.mp4"};
   std::map<std::string, std::string> owners_ = {{kProtocol, "the run"}};
 };
+
+/// Returns the names of the columns that each output adds to track.csv. Throws ConfigError if two
+/// have the same name, PluginError if the table has it already or it is no name.
+std::vector<std::vector<std::string>> own_columns(const std::vector<NamedOutput>& outputs) {
+  constexpr std::array<std::string_view, 8> kTaken = {
+      "frame", "time", "status", "cost", "evaluations", "milliseconds", "probability", "fault"};
+  std::map<std::string, std::string> owners;
+  std::vector<std::vector<std::string>> all;
+  for (const auto& [owner, output] : outputs) {
+    all.push_back(output->columns());
+    for (const std::string& name : all.back()) {
+      const bool is_name = !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+        return c == '_' || (c < 128 && std::isalnum(c));
+      });
+      if (!is_name || std::ranges::find(kTaken, name) != kTaken.end())
+        throw PluginError(fmt::format(
+            "output '{}' wants to add the column '{}' to track.csv, {}; this is a bug in the "
+            "output",
+            owner, name,
+            is_name ? "which the table has already; expected another name"
+                    : "expected letters, digits and _"));
+      const auto [other, is_new] = owners.emplace(name, owner);
+      if (!is_new)
+        throw ConfigError(fmt::format(
+            "output: {} and {} both add the column '{}' to track.csv; leave one of them out",
+            other->second, owner, name));
+    }
+  }
+  return all;
+}
 
 std::vector<std::string> result_names(const std::vector<NamedOutput>& outputs) {
   ResultNames names;
@@ -64,6 +106,7 @@ void check_outputs(const std::vector<NamedOutput>& outputs) {
   ResultNames names;
   names.add("metrics", MetricsOutput(0, ""));
   for (const auto& [owner, output] : outputs) names.add(owner, *output);
+  own_columns(outputs);
 }
 
 OutputContext::~OutputContext() = default;
@@ -85,15 +128,40 @@ class RunOutput::Context final : public OutputContext {
           "output '{}' wants to write '{}', which is none of its file_names(); this is a bug in "
           "the output",
           name_, name));
-    return run_->directory_.part(name);
+    return run_->directory_.file(name);
   }
   Renderer& renderer() override {
     draws_ = draws_ || begins_;
     return run_->renderer(draws_);
   }
 
-  /// Says that Output::begin() is over.
-  void begun() { begins_ = false; }
+  std::vector<std::string> columns() const override {
+    std::vector<std::string> all;
+    for (const auto& own : run_->columns_) all.insert(all.end(), own.begin(), own.end());
+    return all;
+  }
+  std::vector<double> values(const Frame& frame, const Solution& solution) override {
+    std::vector<double> all(columns().size(), std::numeric_limits<double>::quiet_NaN());
+    std::span<double> rest = all;
+    for (std::size_t i = 0; i < run_->outputs_.size(); ++i) {
+      const std::size_t count = run_->columns_[i].size();
+      if (count == 0) continue;
+      run_->outputs_[i].output->values(frame, solution, rest.first(count));
+      rest = rest.subspan(count);
+    }
+    return all;
+  }
+
+  /// Says that Output::begin() is over. Throws PluginError if the output is to draw and adds
+  /// columns, which are written while other threads draw.
+  void begun() {
+    begins_ = false;
+    if (draws_ && !run_->columns_[run_->contexts_.size() - 1].empty())
+      throw PluginError(fmt::format(
+          "output '{}' adds columns to track.csv and takes the renderer in begin(); expected one "
+          "of them; this is a bug in the output",
+          name_));
+  }
   /// Returns true if the output took the renderer in Output::begin().
   bool draws() const { return draws_; }
 
@@ -110,10 +178,12 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
     : scene_(&scene),
       cameras_(std::move(cameras)),
       options_(std::move(options)),
-      metrics_(new MetricsOutput(options_.worst_frames, options_.backend)),
+      metrics_(new MetricsOutput(options_.worst_frames, options_.backend, options_.notes,
+                                 options_.term_times)),
       outputs_(with_metrics(metrics_, std::move(outputs))),
+      columns_(own_columns(outputs_)),
       directory_(options_.directory, result_names(outputs_)) {
-  TextFile(directory_.part(kProtocol)).write(options_.resolved);
+  TextFile(directory_.file(kProtocol)).write(options_.resolved);
   try {
     for (const NamedOutput& output : outputs_) {
       contexts_.push_back(std::make_unique<Context>(*this, output));
@@ -179,7 +249,7 @@ void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which)
 Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
   metrics_->set_clock(clock);
   std::exception_ptr first_error;
-  for (const NamedOutput& output : outputs_) {
+  for (const NamedOutput& output : std::views::reverse(outputs_)) {  // the summary last
     try {
       output.output->finish(complete);
     } catch (...) {  // the others' files are to be whole

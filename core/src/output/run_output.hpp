@@ -10,12 +10,13 @@
 #include "hypotrack/scene.hpp"
 #include "output/metrics_output.hpp"
 #include "output/run_directory.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
 
-/// Throws ConfigError if two outputs of a run write a file of one name, PluginError if a file's
-/// name is none.
+/// Throws ConfigError if two outputs of a run write a file or a column of one name, PluginError if
+/// a name is none.
 void check_outputs(const std::vector<NamedOutput>& outputs);
 
 /// Which outputs of a run get a frame. Drawing ones took the renderer in Output::begin(): they are
@@ -33,11 +34,12 @@ class RunOutput {
     std::string resolved;  ///< content of run.yaml
     std::string backend;
     bool fixed_lag = false;  ///< fixed-lag smoothing: frames come twice, online and smoothed
+    std::shared_ptr<const PluginNotes> notes = nullptr;  ///< for the summary; null: none
+    std::vector<NamedTermTimes> term_times = {};         ///< for the summary
   };
 
-  /// The scene must outlive the object. Throws ConfigError if two outputs write a file of one name,
-  /// PluginError if a file's name is none, OutputError or DeviceError, and then leaves nothing
-  /// behind.
+  /// The scene must outlive the object. Throws as check_outputs(), OutputError or DeviceError, and
+  /// then leaves nothing behind.
   RunOutput(const Scene& scene, std::vector<Camera> cameras, Options options,
             std::vector<NamedOutput> outputs);
 
@@ -66,8 +68,8 @@ class RunOutput {
   /// Describes what evaluates hypotheses, after it changed, for the summary.
   void set_backend(std::string backend) { metrics_->set_backend(std::move(backend)); }
 
-  /// Closes all files and renames them. Without it the unfinished files stay, or are removed if no
-  /// frame was added.
+  /// Closes all files; summary.json, which appears last, says so. Without it the files stay as they
+  /// are, or are removed if no frame was added.
   Summary finish(bool complete, const ClockTimes& clock = {});
 
   bool empty() const { return frames_ == 0; }
@@ -83,6 +85,7 @@ class RunOutput {
   Options options_;
   MetricsOutput* metrics_;  ///< the first output
   std::vector<NamedOutput> outputs_;
+  std::vector<std::vector<std::string>> columns_;  ///< that each output adds to track.csv
   RunDirectory directory_;
   std::unique_ptr<Renderer> renderer_;              ///< made when there is something to draw
   std::unique_ptr<Renderer> drawing_renderer_;      ///< of the drawing outputs

@@ -23,6 +23,9 @@ std::string to_json(const Summary& s) {
                    {"reading_s", s.clock.reading},
                    {"tracking_s", s.clock.tracking},
                    {"writing_s", s.clock.writing}};
+  for (const TermSeconds& term : s.terms)
+    json["terms"].push_back(
+        {{"term", term.name}, {"prepare_s", term.prepare}, {"cost_s", term.cost}});
   const StatusMetrics& status = s.metrics.status;
   json["lost_frames"] = s.metrics.lost_frames;
   json["tracked_frames"] = status.tracked_frames;
@@ -32,6 +35,14 @@ std::string to_json(const Summary& s) {
   json["missing_frames"] = s.metrics.missing_frames;
   json["faults"] = s.faults;
   json["backend"] = s.backend;
+  for (const PluginNote& note : s.notes) {
+    nlohmann::ordered_json entry = {{"plugin", note.who},
+                                    {"level", note.warning ? "warning" : "note"},
+                                    {"text", note.text},
+                                    {"count", note.count}};
+    if (note.frame) entry["first_frame"] = *note.frame;
+    json["notes"].push_back(std::move(entry));
+  }
   if (s.metrics.evaluated_frames > 0) {
     json["mean_joint_error_mm"] = s.metrics.mean_error_mm;
     json["median_joint_error_mm"] = s.metrics.median_error_mm;
@@ -55,7 +66,7 @@ std::string to_json(const Summary& s) {
     for (const int sigmas : {1, 2, 3})
       json[fmt::format("within_{}_sigma", sigmas)] = s.reliability.within(sigmas);
   }
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace hypotrack

@@ -3,9 +3,11 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "output/metrics/metrics.hpp"
 #include "output/metrics/reliability.hpp"
+#include "plugin/plugin_notes.hpp"
 
 namespace hypotrack {
 
@@ -17,6 +19,13 @@ struct ClockTimes {
   double writing = 0;   ///< the outputs
 };
 
+/// How long a term of the objective worked on the CPU, in all threads together, in seconds.
+struct TermSeconds {
+  std::string name;  ///< `objective.1 (edges)`
+  double prepare = 0;
+  double cost = 0;
+};
+
 /// Summary of a run: summary.json.
 struct Summary {
   bool complete = false;  ///< false if the run was interrupted or ended by an error
@@ -26,9 +35,11 @@ struct Summary {
   std::optional<double> search_fps;
   double evaluations_per_second = 0;
   ClockTimes clock;
+  std::vector<TermSeconds> terms;
   std::string backend;
   Metrics metrics;
   std::map<std::string, int> faults;  ///< number of frames, by what was wrong with them
+  std::vector<PluginNote> notes;      ///< what plugins told the user
   std::optional<double> mean_sigma;   ///< metres; nothing if uncertainty is off
   Reliability reliability;
 };

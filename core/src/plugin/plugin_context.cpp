@@ -19,11 +19,14 @@ std::vector<std::string> steps_between(const std::string& outer, const std::stri
 }  // namespace
 
 PluginContext::PluginContext(ConfigNode config, const Scene* scene, PluginLoader& plugins,
-                             std::vector<std::string> also_allowed)
+                             std::vector<std::string> also_allowed,
+                             std::shared_ptr<PluginNotes> notes, std::string who)
     : config_(std::move(config)),
       scene_(scene),
       plugins_(&plugins),
-      also_allowed_(std::move(also_allowed)) {}
+      also_allowed_(std::move(also_allowed)),
+      notes_(std::move(notes)),
+      who_(std::move(who)) {}
 
 const Scene& PluginContext::scene() const {
   if (!scene_) {

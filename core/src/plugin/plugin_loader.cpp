@@ -137,11 +137,14 @@ const std::vector<std::filesystem::path>& PluginLoader::search_path() const {
 }
 
 void* PluginLoader::make_object(std::string_view kind, const ConfigNode& config, const Scene* scene,
-                                std::vector<std::string> also_allowed, std::string* resolved) {
+                                std::vector<std::string> also_allowed, std::string* resolved,
+                                std::shared_ptr<PluginNotes> notes) {
   const std::string name = type_of(kind, config);
   const HypotrackPlugin& plugin = impl_->get(kind, name, config.get("type"));
   also_allowed.insert(also_allowed.begin(), "type");
-  PluginContext context(config, scene, *this, std::move(also_allowed));
+  const std::string path = config.path();
+  PluginContext context(config, scene, *this, std::move(also_allowed), std::move(notes),
+                        fmt::format("{} ({})", path.empty() ? kind : path, name));
   void* object = create(plugin, context);
   if (resolved) *resolved = fmt::format("type: {}\n{}", name, context.resolved());
   return object;

@@ -20,6 +20,9 @@ namespace {
 constexpr int kNoFrame = -1;
 std::atomic<int> g_frame{kNoFrame};
 
+constexpr int kTrackedFrame = -2;
+thread_local int t_frame = kTrackedFrame;
+
 /// A text of limited length.
 class FixedText {
  public:
@@ -53,6 +56,15 @@ RunningPlugin::~RunningPlugin() {
 
 RunningFrame::RunningFrame(int index) { g_frame = index; }
 RunningFrame::~RunningFrame() { g_frame = kNoFrame; }
+
+ThreadFrame::ThreadFrame(std::optional<int> index)
+    : before_(std::exchange(t_frame, index.value_or(kNoFrame))) {}
+ThreadFrame::~ThreadFrame() { t_frame = before_; }
+
+std::optional<int> running_frame() {
+  const int frame = t_frame == kTrackedFrame ? g_frame.load() : t_frame;
+  return frame == kNoFrame ? std::nullopt : std::optional(frame);
+}
 
 void report_end(const char* ends) {
   FixedText line;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 namespace hypotrack::detail {
 
 /// Names the plugin whose code the calling thread runs during this object's lifetime, for the
@@ -26,6 +28,22 @@ class RunningFrame {
   RunningFrame(const RunningFrame&) = delete;
   RunningFrame& operator=(const RunningFrame&) = delete;
 };
+
+/// Names the frame that the calling thread works on during this object's lifetime, where that is
+/// not the frame that is tracked. Nothing: an unknown frame.
+class ThreadFrame {
+ public:
+  explicit ThreadFrame(std::optional<int> index);
+  ~ThreadFrame();
+  ThreadFrame(const ThreadFrame&) = delete;
+  ThreadFrame& operator=(const ThreadFrame&) = delete;
+
+ private:
+  int before_;
+};
+
+/// Returns the frame that the calling thread works on or, if it named none, that is tracked.
+std::optional<int> running_frame();
 
 /// Writes to stderr that the program `ends`, and in which plugin and frame. Allocates nothing, so
 /// that signal handlers may call it.

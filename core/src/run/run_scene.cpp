@@ -18,6 +18,7 @@
 #include "output/output_queue.hpp"
 #include "output/run_output.hpp"
 #include "output/true_landmarks.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "run/read_ahead.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/estimated_scene.hpp"
@@ -124,7 +125,9 @@ class Results {
                  .frame_rate = scene.source->frame_rate(),
                  .resolved = scene.resolved,
                  .backend = backend,
-                 .fixed_lag = smooths_},
+                 .fixed_lag = smooths_,
+                 .notes = scene.plugin_notes,
+                 .term_times = scene.term_times},
                 std::move(scene.outputs)),
         queue_(output_),
         frames_(*scene.scene, std::move(smoother), queue_) {}
@@ -166,16 +169,16 @@ class Results {
     try {
       return output_.finish(complete, clock);
     } catch (...) {
-      tell_of_parts();
+      tell_of_frames();
       throw;
     }
   }
 
-  /// Says where the unfinished files with the frames so far are.
-  void tell_of_parts() {
-    if (output_.empty() || !std::filesystem::exists(folder_ / ".part.track.csv")) return;
-    watcher_.say(fmt::format("the frames so far are in {}/.part.track.csv and the files beside it",
-                             folder_.string()));
+  /// Says where the files with the frames so far are.
+  void tell_of_frames() {
+    if (output_.empty()) return;
+    watcher_.say(
+        fmt::format("the frames so far are in {}; the run counts as unfinished", folder_.string()));
   }
 
   /// Keeps the frames tracked so far after an exception, which is being handled.
@@ -238,6 +241,23 @@ class FaultNotes {
   std::set<std::pair<FrameFault, int>> said_;
 };
 
+/// Says what plugins tell the user.
+class PluginLines {
+ public:
+  PluginLines(RunWatcher& watcher, PluginNotes& notes) : watcher_(watcher), notes_(notes) {}
+  void say_new() {
+    for (const std::string& line : notes_.take_lines()) watcher_.say(line);
+  }
+  void say_repeated() {
+    say_new();
+    for (const std::string& line : notes_.repeated_lines()) watcher_.say(line);
+  }
+
+ private:
+  RunWatcher& watcher_;
+  PluginNotes& notes_;
+};
+
 /// Says once that the CPU took the place of a device, whether it failed in tracking or in
 /// smoothing.
 class DeviceNotes {
@@ -270,7 +290,8 @@ double seconds_since(SteadyClock::time_point begin) {
 /// tracking took.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
                const std::vector<Frame>& first, const RunOptions& options, Latch& latch,
-               const std::function<bool()>& searches_anew, DeviceNotes& device, ClockTimes& clock) {
+               const std::function<bool()>& searches_anew, DeviceNotes& device,
+               PluginLines& plugin_lines, ClockTimes& clock) {
   const std::optional<int> limit = options.frames;
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
@@ -302,6 +323,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     if (trace) results->add_trace(frame->index, *trace);
     if (results) results->add(tracker, *frame, solution);
     device.look(fmt::format("frame {}", frame->index));
+    plugin_lines.say_new();
     const bool smooths = results && results->smooths();
     watcher.frame(
         *frame, solution,
@@ -355,6 +377,8 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
        {problem_of_pair(opened.source->cameras()), tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
   DeviceNotes device(watcher, tracker, results.get());
+  PluginLines plugin_lines(watcher, *opened.plugin_notes);
+  plugin_lines.say_new();
   RunResult result;
   ClockTimes clock;
   const auto begin = SteadyClock::now();
@@ -364,20 +388,23 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     return clock;
   };
   try {
-    result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
-                                options, latch, additions.searches_anew, device, clock);
+    result.complete =
+        track_all(*opened.scene, *opened.source, tracker, results.get(), first, options, latch,
+                  additions.searches_anew, device, plugin_lines, clock);
     if (results) results->settle();
     device.look("smoothing");
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
-    if (results) results->tell_of_parts();
+    if (results) results->tell_of_frames();
     throw;
   } catch (...) {
     if (results) results->finish_after_error(times());
+    plugin_lines.say_repeated();
     say_statistics(*opened.source, watcher);
     throw;
   }
   if (results) result.summary = results->finish(result.complete, times());
+  plugin_lines.say_repeated();
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "base/stop_scope.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/error.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "run/tracker_impl.hpp"
 
 namespace hypotrack {
@@ -129,6 +130,7 @@ Solution Tracker::track(const Frame& frame, const StopTest& stop) {
 
 const Scene& Tracker::scene() const { return *impl_->scene.scene; }
 const std::vector<Camera>& Tracker::cameras() const { return impl_->cameras; }
+std::vector<std::string> Tracker::take_notes() { return impl_->scene.plugin_notes->take_lines(); }
 std::string Tracker::backend() const {
   return impl_->tracker ? impl_->tracker->backend() : "not chosen before the first frame";
 }

@@ -28,15 +28,18 @@ CheckedObjective::CheckedObjective(std::unique_ptr<Objective> objective, std::st
 }
 
 void CheckedObjective::prepare(const Observation& observation) {
+  const TimeSum::Scope time(times_->prepare);
   detail::call_plugin(who_, [&] { objective_->prepare(observation); });
 }
 
 double CheckedObjective::cost(const RenderedHypothesis& hypothesis) const {
+  const TimeSum::Scope time(times_->cost);
   return detail::call_plugin(who_, [&] { return objective_->cost(hypothesis); });
 }
 
 double CheckedObjective::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                             std::span<float> residuals) const {
+  const TimeSum::Scope time(times_->cost);
   const double cost = detail::call_plugin(
       who_, [&] { return objective_->cost_and_residuals(hypothesis, residuals); });
   if (std::isfinite(cost)) check_finite(residuals, "residuals");
@@ -64,6 +67,7 @@ std::int64_t CheckedObjective::residual_count() const {
 
 void CheckedObjective::write_residuals(const RenderedHypothesis& hypothesis,
                                        std::span<float> residuals) const {
+  const TimeSum::Scope time(times_->cost);
   detail::call_plugin(who_, [&] { residuals_->write_residuals(hypothesis, residuals); });
   check_finite(residuals, "residuals");
 }
@@ -74,6 +78,7 @@ std::span<const int> CheckedObjective::pixel_views() const {
 
 void CheckedObjective::write_slopes(const RenderedHypothesis& hypothesis, std::size_t i,
                                     std::span<float> residuals, std::span<float> slopes) const {
+  const TimeSum::Scope time(times_->cost);
   detail::call_plugin(who_, [&] { residuals_->write_slopes(hypothesis, i, residuals, slopes); });
   check_finite(residuals, "residuals");
   check_finite(slopes, "slopes of residuals");

@@ -7,15 +7,19 @@
 #include <vector>
 
 #include "hypotrack/objective.hpp"
+#include "session/term_times.hpp"
 
 namespace hypotrack {
 
-/// Wraps a plugin's objective: names it in what it throws and where it crashes, and checks its
-/// residuals.
+/// Wraps a plugin's objective: names it in what it throws and where it crashes, checks its
+/// residuals, and measures how long it works.
 class CheckedObjective final : public Objective, public ResidualTerm {
  public:
   /// `who`: plugin_label() of the objective, which must not be null.
   CheckedObjective(std::unique_ptr<Objective> objective, std::string who);
+
+  /// Returns how long the objective has worked so far; grows.
+  std::shared_ptr<const TermTimes> times() const { return times_; }
 
   // Objective
   bool needs_rendering() const override { return objective_->needs_rendering(); }
@@ -51,6 +55,7 @@ class CheckedObjective final : public Objective, public ResidualTerm {
   std::unique_ptr<Objective> objective_;
   const ResidualTerm* residuals_;  ///< of the objective; null: none
   std::string who_;
+  std::shared_ptr<TermTimes> times_ = std::make_shared<TermTimes>();
 };
 
 }  // namespace hypotrack

@@ -25,15 +25,27 @@ bool CheckedOutput::wants_search(const Frame& frame) const {
 
 void CheckedOutput::search(const Frame& frame, const Solution& solution,
                            const SearchRecord& record) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->search(frame, solution, record); });
 }
 
 void CheckedOutput::online(const Frame& frame, const Solution& solution) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->online(frame, solution); });
 }
 
 void CheckedOutput::frame(const Frame& frame, const Solution& solution) {
+  const detail::ThreadFrame of_thread(frame.index);
   call_explaining_plugin(who_, [&] { output_->frame(frame, solution); });
+}
+
+std::vector<std::string> CheckedOutput::columns() const {
+  return call_explaining_plugin(who_, [&] { return output_->columns(); });
+}
+
+void CheckedOutput::values(const Frame& frame, const Solution& solution, std::span<double> values) {
+  const detail::ThreadFrame of_thread(frame.index);
+  call_explaining_plugin(who_, [&] { output_->values(frame, solution, values); });
 }
 
 void CheckedOutput::finish(bool complete) {

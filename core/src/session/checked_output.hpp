@@ -20,6 +20,8 @@ class CheckedOutput final : public Output {
   void search(const Frame& frame, const Solution& solution, const SearchRecord& record) override;
   void online(const Frame& frame, const Solution& solution) override;
   void frame(const Frame& frame, const Solution& solution) override;
+  std::vector<std::string> columns() const override;
+  void values(const Frame& frame, const Solution& solution, std::span<double> values) override;
   void finish(bool complete) override;
 
  private:

@@ -37,6 +37,7 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
 }
 
 std::optional<Frame> CheckedSource::next() {
+  const detail::ThreadFrame unknown(std::nullopt);  // it may read ahead of the tracker
   std::optional<Frame> frame =
       detail::call_explaining_plugin(who_, [&] { return source_->next(); });
   if (!frame) return frame;

@@ -11,6 +11,7 @@
 #include "cost/cuda/page_locked_images.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "session/checked_objective.hpp"
 #include "session/checked_output.hpp"
 #include "session/checked_source.hpp"
@@ -29,7 +30,9 @@ class Opening {
       : file_(std::move(scene.file)),
         root_(std::move(scene.root)),
         plugins_(&plugins),
-        record_(dump_params(file_)) {}
+        record_(dump_params(file_)) {
+    session_.plugin_notes = std::make_shared<PluginNotes>();
+  }
 
   /// Makes everything but the source.
   void tracker();
@@ -50,7 +53,8 @@ class Opening {
   std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
                           YamlDocument& record) {
     std::string resolved;
-    auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved);
+    auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved,
+                                    session_.plugin_notes);
     const ConfigNode parameters = ConfigNode::parse(resolved, "the plugin's parameters");
     for (const std::string& key : also_allowed)
       if (parameters.get(key).defined())
@@ -170,6 +174,8 @@ void Opening::objective() {
     ObjectiveTerm term;
     term.name = text_of(node, "type", "");
     term.objective = make_checked<CheckedObjective, Objective>(node, {"weight"}, record);
+    session_.term_times.push_back({fmt::format("{} ({})", node.path(), term.name),
+                                   static_cast<CheckedObjective&>(*term.objective).times()});
     const ConfigNode weight = node.get("weight");
     if (weight.defined()) term.weight = ParamReader(node, node.keys()).read<WeightParam>().weight;
     record.set_plain("weight", fmt::format("{}", term.weight));

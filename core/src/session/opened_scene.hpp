@@ -15,6 +15,7 @@
 #include "hypotrack/source.hpp"
 #include "hypotrack/start.hpp"
 #include "session/scene_file.hpp"
+#include "session/term_times.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
@@ -34,12 +35,14 @@ struct OpenedScene {
   std::unique_ptr<Start> start;  ///< null: `parts.starts` look for the models
   InitSettings init;
   OutputSettings output;
-  std::vector<NamedOutput> outputs;  ///< of a scene with a source
+  std::vector<NamedTermTimes> term_times;  ///< how long each term has worked so far
+  std::vector<NamedOutput> outputs;        ///< of a scene with a source
   std::uint64_t seed = 0;
   ShapeEstimateSettings shape;
-  std::vector<std::string> notes;  ///< for the user: what was not used, and why
-  std::string resolved;            ///< YAML that repeats the run, with the value of every parameter
-  std::string source_resolved;     ///< YAML of the source alone, with the value of every parameter
+  std::shared_ptr<PluginNotes> plugin_notes;  ///< what the plugins tell the user
+  std::vector<std::string> notes;             ///< for the user: what was not used, and why
+  std::string resolved;         ///< YAML that repeats the run, with the value of every parameter
+  std::string source_resolved;  ///< YAML of the source alone, with the value of every parameter
 };
 
 /// Opens a scene: models first, then the objective, the optimizer, the start and the source. Throws

@@ -39,7 +39,8 @@ FrameSearch::FrameSearch(const Scene& scene, TrackerParts& parts)
       cost_(scene, parts.objective, parts.evaluate, requirements_of(parts)),
       optimizer_(std::move(parts.optimizer)),
       optimizer_label_(parts.optimizer_label),
-      clock_(parts.clock) {}
+      clock_(parts.clock),
+      keeps_tiles_(joined_use(parts.objective).previous) {}
 
 void FrameSearch::show(const std::vector<bool>& models, const std::vector<bool>& moving) {
   const std::vector<bool>& moves = moving.empty() ? models : moving;
@@ -58,6 +59,23 @@ Eigen::VectorXd FrameSearch::drawn(Eigen::VectorXd state) const {
   return state;
 }
 
+void FrameSearch::remember(std::shared_ptr<PreviousSolution> answer, const Frame* frame) {
+  if (answer && frame && keeps_tiles_) {
+    TilePlan plan = tiles_.plan(*frame, answer->state);
+    photometric_.apply(plan);
+    answer->views = tiles_.resample(*frame, plan).views;
+    for (TileView& view : answer->views) view = {view.camera, view.color, view.valid, {}, {}, {}};
+  }
+  previous_ = std::move(answer);
+}
+
+void FrameSearch::add_previous(const Frame& frame, TilePlan& plan) const {
+  FrameContext& context = plan.header.context;
+  if (!previous_ || context.no_motion_prior) return;
+  context.previous = previous_;
+  context.seconds_since_previous = frame.time - previous_->time;
+}
+
 void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess) {
   plan_ = tiles_.plan(frame, start);
   const Eigen::VectorXd posed = drawn(start);
@@ -68,12 +86,16 @@ void FrameSearch::look(const Frame& frame, const Eigen::VectorXd& start, bool is
   for (std::size_t m = 0; m < shown_.size(); ++m)
     if (!shown_[m]) plan_.header.start.segment<3>(scene_.items()[m].offset) = some_position(start);
   plan_.header.context.start_is_guess = is_guess;
+  add_previous(frame, plan_);
+  context_ = plan_.header.context;
   if (background_) background_->add_to(plan_, tiles_.resamplers());
   cost_->prepare(tiles_, frame, plan_);
 }
 
 void FrameSearch::take_in(const TileMaker& tiles, const Frame& frame, TilePlan plan) {
   photometric_.apply(plan);
+  add_previous(frame, plan);
+  context_ = plan.header.context;
   if (background_) background_->add_to(plan, tiles.resamplers());
   cost_->prepare(tiles, frame, std::move(plan));
 }
@@ -136,7 +158,12 @@ Found FrameSearch::from(const Eigen::VectorXd& prior, const Budget& budget,
   std::optional<SearchTracer> tracer;
   if (traced) tracer.emplace(*traced);
   SearchCost cost(*cost_, space_, posed, record, tracer ? &*tracer : nullptr);
-  const OptimizerResult result = minimize(cost, space_.region(posed, reach), budget, seed);
+  SearchRegion region = space_.region(posed, reach);
+  if (context_.previous) {
+    region.previous = space_.point(context_.previous->state, posed);
+    region.seconds_since_previous = context_.seconds_since_previous;
+  }
+  const OptimizerResult result = minimize(cost, region, budget, seed);
   if (traced) {
     tracer->add(result.evaluations, result.cost);  // of a search in GPU memory, the only step
     traced->truth_cost = truth_cost();

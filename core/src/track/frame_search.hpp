@@ -46,6 +46,9 @@ class FrameSearch {
   /// draws them.
   Eigen::VectorXd drawn(Eigen::VectorXd state) const;
 
+  /// Remembers the answer of a frame for later ones. Null: the models are forgotten.
+  void remember(std::shared_ptr<PreviousSolution> answer, const Frame* frame = nullptr);
+
   /// Prepares a frame for searches from `start`. `is_guess` sets FrameContext::start_is_guess.
   void look(const Frame& frame, const Eigen::VectorXd& start, bool is_guess);
 
@@ -104,6 +107,8 @@ class FrameSearch {
   /// Calls the optimizer and checks its answer. Throws PluginError, naming it.
   OptimizerResult minimize(SearchCost& cost, const SearchRegion& region, const Budget& budget,
                            std::uint64_t seed);
+  /// Writes the previous answer into a plan, unless it must not assume a motion.
+  void add_previous(const Frame& frame, TilePlan& plan) const;
   Eigen::Vector3d some_position(const Eigen::VectorXd& state) const;
 
   const Scene& scene_;
@@ -118,10 +123,13 @@ class FrameSearch {
   std::unique_ptr<Optimizer> optimizer_;
   std::string optimizer_label_;
   SearchClock clock_;
-  TilePlan plan_;                                  ///< of the last frame
-  std::vector<RecordedSearch>* record_ = nullptr;  ///< receives searches; null: nothing does
-  FrameTrace* trace_ = nullptr;                    ///< the same
-  const GroundTruth* truth_ = nullptr;             ///< of the traced frame; null: unknown
+  bool keeps_tiles_;                                  ///< a term reads tiles of `previous_`
+  std::shared_ptr<const PreviousSolution> previous_;  ///< null: none
+  FrameContext context_;                              ///< of the prepared frame
+  TilePlan plan_;                                     ///< of the last frame
+  std::vector<RecordedSearch>* record_ = nullptr;     ///< receives searches; null: nothing does
+  FrameTrace* trace_ = nullptr;                       ///< the same
+  const GroundTruth* truth_ = nullptr;                ///< of the traced frame; null: unknown
 };
 
 }  // namespace hypotrack

@@ -417,6 +417,10 @@ void SceneTracker::conclude(const Frame& frame, const Candidate& best, Solution&
       good[m] = good[m] || (best.shown[m] && (!recovers() || never_found));
     }
   go_on_from(frame, best, good);
+  if (best.answers() && any(good))
+    finder_.search().remember(std::make_shared<PreviousSolution>(PreviousSolution{
+                                  frame.index, frame.time, best.found.cost, best.found.state, {}}),
+                              &frame);
   finder_.accept(frame, best, tracked);
   keep(frame, best, tracked);
   // A model that comes back did not move there continuously.
@@ -555,6 +559,7 @@ void SceneTracker::search_anew() {
   }
   if (!recovers()) found_any_ = false;
   looked_ = doubts_ = 0;
+  finder_.search().remember(nullptr);
   predictor_.begin_anew();
   smoother_.begin_anew();
 }

@@ -99,6 +99,32 @@ SearchRegion SearchSpace::region(const Eigen::VectorXd& prior,
   return region;
 }
 
+Eigen::VectorXd SearchSpace::point(const Eigen::VectorXd& state,
+                                   const Eigen::VectorXd& prior) const {
+  Eigen::VectorXd point(dimension_);
+  int out = 0;
+  const auto quaternion = [](const Eigen::VectorXd& of, int i) {
+    return Eigen::Quaterniond(of[i], of[i + 1], of[i + 2], of[i + 3]);
+  };
+  for (std::size_t k = 0; k < moving_.size(); ++k) {
+    const int i = moving_[k];
+    if (scene_->parameters()[static_cast<std::size_t>(i)].kind != ParameterKind::quaternion) {
+      point[out++] = state[i];
+      continue;
+    }
+    if (rotation_vectors()) {
+      point.segment<3>(out) = rotation_log(quaternion(prior, i).conjugate() * quaternion(state, i));
+      out += 3;
+    } else {
+      const double sign = prior.segment<4>(i).dot(state.segment<4>(i)) < 0 ? -1 : 1;
+      point.segment<4>(out) = sign * state.segment<4>(i);
+      out += 4;
+    }
+    k += 3;
+  }
+  return point;
+}
+
 Eigen::MatrixXd SearchSpace::states(const Eigen::Ref<const Eigen::MatrixXd>& points,
                                     const Eigen::VectorXd& prior) const {
   if (points.rows() != dimension_)

@@ -79,6 +79,9 @@ class SearchSpace {
   SearchRegion region(const Eigen::VectorXd& prior,
                       const std::optional<Reach>& reach = std::nullopt) const;
 
+  /// Returns the search point of a normalised state, around a prior.
+  Eigen::VectorXd point(const Eigen::VectorXd& state, const Eigen::VectorXd& prior) const;
+
   /// Returns the states (DxN, normalised) of search points (dimension() x N) around a prior.
   Eigen::MatrixXd states(const Eigen::Ref<const Eigen::MatrixXd>& points,
                          const Eigen::VectorXd& prior) const;

@@ -8,8 +8,8 @@
 namespace hypotrack {
 namespace {
 
-/// Returns the header line of track.csv.
-std::string track_header(const Scene& scene) {
+/// Returns the header line of track.csv with columns of other outputs.
+std::string track_header(const Scene& scene, const std::vector<std::string>& others) {
   std::string line = "frame,time,status,cost,evaluations,milliseconds";
   if (scene.items().size() == 1)
     line += ",probability";
@@ -17,11 +17,13 @@ std::string track_header(const Scene& scene) {
     for (const Scene::Item& item : scene.items())
       line += fmt::format(",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) line += "," + p.name;
-  return line + ",fault\n";
+  line += ",fault";
+  for (const std::string& name : others) line += "," + name;
+  return line + "\n";
 }
 
-/// Returns a line of track.csv.
-std::string track_line(const Solution& solution) {
+/// Returns a line of track.csv with values of other outputs.
+std::string track_line(const Solution& solution, const std::vector<double>& others) {
   std::string line = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                  to_string(solution.status), solution.cost, solution.evaluations,
                                  1000 * solution.seconds);
@@ -32,19 +34,21 @@ std::string track_line(const Solution& solution) {
   for (const double value : solution.state) line += fmt::format(",{}", value);
   line += ',';
   if (solution.fault != FrameFault::none) line += to_string(solution.fault);
+  for (const double value : others) line += fmt::format(",{}", value);
   return line + "\n";
 }
 
 /// A table of solutions and one of their landmarks.
 class Pair {
  public:
-  Pair(OutputContext& run, const std::string& solutions, const std::string& landmarks)
+  Pair(OutputContext& run, const std::string& solutions, const std::string& landmarks,
+       const std::vector<std::string>& others)
       : scene_(&run.scene()), solutions_(run.file(solutions)), landmarks_(run.file(landmarks)) {
-    solutions_.write(track_header(*scene_));
+    solutions_.write(track_header(*scene_, others));
     landmarks_.write(landmarks_header(scene_->landmark_names()));
   }
-  void add(const Solution& solution) {
-    solutions_.write(track_line(solution));
+  void add(const Solution& solution, const std::vector<double>& others) {
+    solutions_.write(track_line(solution, others));
     landmarks_.write(
         table_line(solution.frame, solution.time, scene_->landmarks(solution.state).reshaped()));
   }
@@ -65,15 +69,20 @@ class Tables final : public Output {
     return {"track.csv", "joints.csv", "online.csv", "online_joints.csv"};
   }
   void begin(OutputContext& run) override {
-    track_.emplace(run, "track.csv", "joints.csv");
-    if (run.fixed_lag()) online_.emplace(run, "online.csv", "online_joints.csv");
+    run_ = &run;
+    track_.emplace(run, "track.csv", "joints.csv", run.columns());
+    if (run.fixed_lag())
+      online_.emplace(run, "online.csv", "online_joints.csv", std::vector<std::string>());
   }
   void online(const Frame& /*frame*/, const Solution& solution) override {
-    if (online_) online_->add(solution);
+    if (online_) online_->add(solution, {});
   }
-  void frame(const Frame& /*frame*/, const Solution& solution) override { track_->add(solution); }
+  void frame(const Frame& frame, const Solution& solution) override {
+    track_->add(solution, run_->values(frame, solution));
+  }
 
  private:
+  OutputContext* run_ = nullptr;
   std::optional<Pair> track_, online_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <opencv2/core.hpp>
 #include <random>
@@ -144,15 +145,21 @@ std::vector<Step> make_steps(const TestRun& run) {
 /// Passes frames to an output as a run does; with fixed-lag smoothing all are smoothed at the end.
 void pass(Output& output, TestRun& run, int count, bool complete) {
   output.begin(run);
+  std::vector<double> values(output.columns().size());
+  const auto frame = [&](const Step& step) {
+    std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
+    if (!values.empty()) output.values(step.frame, step.solution, values);
+    output.frame(step.frame, step.solution);
+  };
   std::vector<Step> steps = make_steps(run);
   steps.resize(static_cast<std::size_t>(count));
   for (const Step& step : steps) {
     output.online(step.frame, step.solution);
-    if (!run.fixed_lag()) output.frame(step.frame, step.solution);
+    if (!run.fixed_lag()) frame(step);
   }
   for (Step& step : steps) {
     step.frame.views.clear();
-    if (run.fixed_lag()) output.frame(step.frame, step.solution);
+    if (run.fixed_lag()) frame(step);
   }
   output.finish(complete);
 }

@@ -205,10 +205,24 @@ TEST_F(EvaluationTest, WhatIsNotThere) {
   EXPECT_THAT(refusal(input), HasSubstr("empty: has no truth_landmarks.csv"));
   input.run = path("empty");
   EXPECT_THAT(refusal(input), HasSubstr("empty: has no joints.csv"));
-  write("empty/.part.joints.csv", kRun);
-  EXPECT_THAT(refusal(input), HasSubstr("the run has not ended"));
   input.run = path("none");
   EXPECT_THAT(refusal(input), HasSubstr("none: is missing"));
+}
+
+TEST_F(EvaluationTest, ARunThatGoesOnIsNotEvaluated) {
+  for (const auto& [name, text] :
+       {std::pair("run.yaml", std::string("seed: 1")), std::pair("joints.csv", kRun),
+        std::pair("truth_landmarks.csv", kTruth)})
+    write(std::string("run/") + name, text);
+  EvaluationInput input;
+  input.run = path("run");
+  EXPECT_THAT(refusal(input), AllOf(HasSubstr("run: the run has not ended, or was killed"),
+                                    HasSubstr("no summary.json"), HasSubstr("run it again")));
+  EvaluationInput other = tables(kRun);
+  other.truth = path("run");
+  EXPECT_THAT(refusal(other), HasSubstr("the run has not ended"));
+  write("run/summary.json", "{}");
+  EXPECT_NO_THROW(evaluate(input));
 }
 
 TEST_F(EvaluationTest, ATableOfOtherThings) {

@@ -1,8 +1,11 @@
 #include "output/run_directory.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
+#include <csignal>
 #include <fstream>
+#include <sstream>
 
 #include "base/text_file.hpp"
 #include "expect_error.hpp"
@@ -14,108 +17,182 @@ namespace {
 
 using std::filesystem::exists;
 
-TEST(RunDirectory, FilesGetTheirNamesAllTogether) {
-  const test::TemporaryDirectory folder;
-  RunDirectory directory(folder.path() / "new" / "out", {"a.csv", "b.csv"});
-  TextFile(directory.part("a.csv")).write("a");
-  TextFile(directory.part("b.csv")).write("b");
-  EXPECT_FALSE(exists(directory.path() / "a.csv"));
-  directory.finish();
-  EXPECT_TRUE(exists(directory.path() / "a.csv"));
-  EXPECT_TRUE(exists(directory.path() / "b.csv"));
-  EXPECT_FALSE(exists(directory.path() / ".part.a.csv"));
-}
-
-TEST(RunDirectory, NoFileGetsItsNameWhenOneWasNeverWritten) {
-  const test::TemporaryDirectory folder;
-  std::ofstream(folder.path() / "a.csv") << "old";
-  RunDirectory directory(folder.path(), {"a.csv", "b.csv"});
-  TextFile(directory.part("a.csv")).write("new");
-  directory.part("b.csv");
-  EXPECT_THAT(test::message_of<OutputError>([&] { directory.finish(); }),
-              ::testing::HasSubstr(".part.b.csv: was never written"));
-  EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
-  EXPECT_EQ(std::filesystem::file_size(folder.path() / "a.csv"), 3U);
-}
-
-TEST(RunDirectory, WithoutAnythingToKeepNothingStays) {
-  const test::TemporaryDirectory folder;
-  {
-    RunDirectory directory(folder.path() / "out", {"a.csv"});
-    TextFile(directory.part("a.csv")).write("a");
+class RunDirectoryTest : public testing::Test {
+ protected:
+  std::filesystem::path path() const { return folder_.path() / "out"; }
+  std::filesystem::path path(const std::string& name) const { return path() / name; }
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(path(name).parent_path());
+    std::ofstream(path(name)) << text;
   }
-  EXPECT_FALSE(exists(folder.path() / "out"));
-}
-
-TEST(RunDirectory, WhatIsWorthKeepingStaysUnderItsUnfinishedName) {
-  const test::TemporaryDirectory folder;
-  {
-    RunDirectory directory(folder.path(), {"a.csv"});
-    TextFile(directory.part("a.csv")).write("a");
+  std::string text(const std::string& name) const {
+    std::stringstream text;
+    text << std::ifstream(path(name)).rdbuf();
+    return text.str();
+  }
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path()))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+  /// Leaves what a run leaves that is killed before it calls finish().
+  void killed_run(const std::string& text) const {
+    RunDirectory directory(path(), results_);
+    for (const char* name : {"run.yaml", "a.csv"}) TextFile(directory.file(name)).write(text);
     directory.keep();
   }
-  EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
+  void whole_run(const std::string& text) const {
+    RunDirectory directory(path(), results_);
+    for (const std::string& name : results_) TextFile(directory.file(name)).write(text);
+    directory.finish();
+  }
+
+  const test::TemporaryDirectory folder_;
+  const std::vector<std::string> results_{"run.yaml", "a.csv", "b.csv", "summary.json"};
+};
+
+TEST_F(RunDirectoryTest, FilesGrowUnderTheirNamesAndTheLastAppearsAtTheEnd) {
+  RunDirectory directory(path("new"), results_);
+  for (const std::string& name : results_) TextFile(directory.file(name)).write(name);
+  EXPECT_EQ(text("new/a.csv"), "a.csv");
+  EXPECT_FALSE(exists(path("new/summary.json")));
+  directory.finish();
+  EXPECT_EQ(text("new/summary.json"), "summary.json");
+  EXPECT_FALSE(exists(path("new/.part.summary.json")));
 }
 
-TEST(RunDirectory, RemovesOldResultsAndOldUnfinishedFilesButNothingElse) {
-  const test::TemporaryDirectory folder;
-  for (const char* name : {"a.csv", "b.csv", ".part.b.csv", ".part.mine", "mine"})
-    std::ofstream(folder.path() / name) << "old";
-  RunDirectory directory(folder.path(), {"a.csv", "b.csv"});
-  EXPECT_FALSE(exists(folder.path() / ".part.b.csv"));
-  EXPECT_TRUE(exists(folder.path() / "b.csv"));  // until there is something better
-  TextFile(directory.part("a.csv")).write("new");
-  directory.finish();
-  EXPECT_FALSE(exists(folder.path() / "b.csv"));
-  EXPECT_TRUE(exists(folder.path() / "mine"));
-  EXPECT_TRUE(exists(folder.path() / ".part.mine"));
+TEST_F(RunDirectoryTest, IsNotFinishedWhenAFileWasNeverWritten) {
+  whole_run("old");
+  RunDirectory directory(path(), results_);
+  TextFile(directory.file("summary.json")).write("new");
+  directory.file("b.csv");
+  EXPECT_THAT(test::message_of<OutputError>([&] { directory.finish(); }),
+              testing::HasSubstr("b.csv: was never written"));
+  EXPECT_FALSE(exists(path("summary.json")));
+  EXPECT_EQ(text(".previous/summary.json"), "old");
+}
+
+TEST_F(RunDirectoryTest, WithoutAnythingToKeepNothingStays) {
+  {
+    RunDirectory directory(path(), results_);
+    TextFile(directory.file("a.csv")).write("a");
+  }
+  EXPECT_FALSE(exists(path()));
+}
+
+TEST_F(RunDirectoryTest, WithoutAnythingToKeepTheEarlierResultIsBack) {
+  whole_run("old");
+  {
+    RunDirectory directory(path(), results_);
+    TextFile(directory.file("a.csv")).write("new");
+  }
+  EXPECT_THAT(names(), testing::UnorderedElementsAreArray(results_));
+  EXPECT_EQ(text("a.csv"), "old");
+}
+
+TEST_F(RunDirectoryTest, WhatIsWorthKeepingStays) {
+  killed_run("new");
+  EXPECT_EQ(text("a.csv"), "new");
+  EXPECT_FALSE(exists(path("summary.json")));
+}
+
+TEST_F(RunDirectoryTest, TheEarlierResultStaysAsideUntilARunEnds) {
+  whole_run("old");
+  killed_run("killed");
+  EXPECT_EQ(text("a.csv"), "killed");
+  killed_run("killed again");
+  EXPECT_EQ(text("a.csv"), "killed again");
+  for (const std::string& name : results_) EXPECT_EQ(text(".previous/" + name), "old") << name;
+  whole_run("new");
+  EXPECT_THAT(names(), testing::UnorderedElementsAreArray(results_));
+  EXPECT_EQ(text("a.csv"), "new");
+}
+
+TEST_F(RunDirectoryTest, AKillWhileTheEarlierResultIsMovedLosesNothing) {
+  whole_run("old");
+  for (const char* name : {"summary.json", "run.yaml"}) {  // killed half-way
+    std::filesystem::create_directory(path(".previous.moving"));
+    std::filesystem::rename(path(name), path(".previous.moving") / name);
+  }
+  killed_run("killed");
+  for (const std::string& name : results_) EXPECT_EQ(text(".previous/" + name), "old") << name;
+}
+
+TEST_F(RunDirectoryTest, AKillBeforeTheEarlierResultIsRemovedLosesNothing) {
+  whole_run("new");
+  write(".previous/a.csv", "old");
+  { RunDirectory directory(path(), results_); }
+  EXPECT_EQ(text("a.csv"), "new");
+  EXPECT_THAT(names(), testing::UnorderedElementsAreArray(results_));
+}
+
+TEST_F(RunDirectoryTest, RemovesOldResultsAndNothingElse) {
+  whole_run("old");
+  write("mine", "mine");
+  {
+    RunDirectory directory(path(), results_);
+    for (const char* name : {"run.yaml", "summary.json"})
+      TextFile(directory.file(name)).write("new");
+    directory.finish();
+  }
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("run.yaml", "summary.json", "mine"));
+}
+
+TEST_F(RunDirectoryTest, AResultOfAnOutputThatTheNextRunLacksStays) {
+  { RunDirectory(path(), results_); }
+  write("run.yaml", "old");
+  write("c.csv", "old");
+  write(".previous.moving/a.csv", "old");
+  write(".previous.moving/d.csv", "old");
+  { RunDirectory directory(path(), results_); }
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("run.yaml", "a.csv", "c.csv", "d.csv"));
 }
 
 TEST(RunDirectory, FilesOfOthersWithTheNamesOfResultsAreRefusedAndStay) {
   const test::TemporaryDirectory folder;
-  const std::vector<std::string> results{"run.yaml", "a.csv", "b.csv"};
+  const std::vector<std::string> results{"run.yaml", "a.csv", "b.csv", "summary.json"};
   std::ofstream(folder.path() / "b.csv") << "mine";
   EXPECT_THAT(
       test::message_of<OutputError>([&] { RunDirectory(folder.path(), results); }),
       testing::AllOf(testing::HasSubstr((folder.path() / "b.csv").string()),
                      testing::HasSubstr("no run.yaml beside it"), testing::HasSubstr("--out")));
   EXPECT_TRUE(exists(folder.path() / "b.csv"));
-  std::ofstream(folder.path() / ".part.run.yaml") << "of a run that was killed at its end";
+  std::filesystem::create_directory(folder.path() / ".previous.moving");
+  std::ofstream(folder.path() / ".previous.moving/run.yaml") << "of a run that was killed";
   RunDirectory(folder.path(), results);
 }
 
-TEST(RunDirectory, AHashInAResultStandsForAnyNumber) {
-  const test::TemporaryDirectory folder;
-  for (const char* name : {"worst_7.jpg", "worst_case.jpg", "worst_.jpg", ".part.worst_12.jpg"})
-    std::ofstream(folder.path() / name) << "old";
-  RunDirectory directory(folder.path(), {"worst_#.jpg"});
-  EXPECT_FALSE(exists(folder.path() / ".part.worst_12.jpg"));
-  TextFile(directory.part("worst_30.jpg")).write("new");
+TEST_F(RunDirectoryTest, AHashInAResultStandsForAnyNumber) {
+  for (const char* name : {"run.yaml", "worst_7.jpg", "worst_case.jpg", "worst_.jpg"})
+    write(name, "old");
+  RunDirectory directory(path(), {"run.yaml", "worst_#.jpg", "summary.json"});
+  for (const char* name : {"run.yaml", "worst_30.jpg", "summary.json"})
+    TextFile(directory.file(name)).write("new");
   directory.finish();
-  EXPECT_FALSE(exists(folder.path() / "worst_7.jpg"));
-  EXPECT_TRUE(exists(folder.path() / "worst_30.jpg"));
-  EXPECT_TRUE(exists(folder.path() / "worst_case.jpg"));
-  EXPECT_TRUE(exists(folder.path() / "worst_.jpg"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("run.yaml", "worst_30.jpg", "worst_case.jpg",
+                                                     "worst_.jpg", "summary.json"));
 }
 
-TEST(RunDirectory, ASecondRunIsKeptOutUntilTheFirstEnds) {
-  const test::TemporaryDirectory folder;
+TEST_F(RunDirectoryTest, ASecondRunIsKeptOutUntilTheFirstEnds) {
   {
-    RunDirectory first(folder.path(), {"a.csv"});
-    TextFile(first.part("a.csv")).write("first");
-    EXPECT_THAT(test::message_of<OutputError>([&] { RunDirectory(folder.path(), {"a.csv"}); }),
-                testing::AllOf(testing::HasSubstr(folder.path().string()),
+    RunDirectory first(path(), results_);
+    for (const std::string& name : results_) TextFile(first.file(name)).write("first");
+    EXPECT_THAT(test::message_of<OutputError>([&] { RunDirectory(path(), results_); }),
+                testing::AllOf(testing::HasSubstr(path().string()),
                                testing::HasSubstr("another run"), testing::HasSubstr("--out")));
-    EXPECT_TRUE(exists(folder.path() / ".part.a.csv"));
+    EXPECT_EQ(text("a.csv"), "first");
     first.finish();
   }
-  RunDirectory(folder.path(), {"a.csv"});
+  RunDirectory(path(), results_);
 }
 
 TEST(RunDirectory, AFolderWithTheNameOfANumberedResultIsRefused) {
   const test::TemporaryDirectory folder;
   std::filesystem::create_directory(folder.path() / "worst_7.jpg");
-  EXPECT_THAT(test::message_of<OutputError>([&] { RunDirectory(folder.path(), {"worst_#.jpg"}); }),
+  EXPECT_THAT(test::message_of<OutputError>([&] {
+                RunDirectory(folder.path(), {"worst_#.jpg", "b"});
+              }),
               testing::HasSubstr("worst_7.jpg: is a folder"));
 }
 
@@ -129,6 +206,26 @@ TEST(TextFile, ADiskThatIsFullIsReported) {
     EXPECT_THAT(error.what(), testing::HasSubstr("/dev/full: cannot be written: No space left"));
     EXPECT_THAT(error.what(), testing::HasSubstr("Make room"));
   }
+}
+
+TEST(TextFile, ALineThatDoesNotFitIsNotLeftInPart) {
+  const test::TemporaryDirectory folder;
+  const auto path = folder.path() / "a.csv";
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto ignore = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 8;
+  TextFile file(path);
+  file.write("12345\n");
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string message = test::message_of<OutputError>([&] { file.write("67890\n"); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, ignore);
+  EXPECT_THAT(message, testing::HasSubstr("File too large"));
+  EXPECT_EQ(std::filesystem::file_size(path), 6U);
+  file.write("67890\n");
+  EXPECT_EQ(std::filesystem::file_size(path), 12U);
 }
 
 }  // namespace

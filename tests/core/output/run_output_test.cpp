@@ -45,6 +45,9 @@ class Diary final : public Output {
     file_->write(complete ? " finish" : " finish early");
   }
 
+  std::vector<std::string> columns() const override { return own_columns; }
+
+  std::vector<std::string> own_columns;
   std::string asks_for;
   bool draws = false;
   bool fails = false;
@@ -109,11 +112,11 @@ class RunOutputTest : public ::testing::Test {
   const Scene scene_{{{"box", std::make_shared<Model>(test::make_test_box())}}};
 };
 
-TEST_F(RunOutputTest, FilesOfAnOutputGetTheirNamesWithThoseOfTheRun) {
+TEST_F(RunOutputTest, FilesGrowUnderTheirNamesAndTheSummaryComesLast) {
   const auto output = open("diary.txt");
   output->add(frame(0), solution(0));
   output->add(frame(1), solution(1));
-  EXPECT_THAT(names(), UnorderedElementsAre(".part.diary.txt", ".part.run.yaml"));
+  EXPECT_THAT(names(), UnorderedElementsAre("diary.txt", "run.yaml"));
   output->finish(true);
   EXPECT_THAT(names(), UnorderedElementsAre("diary.txt", "run.yaml", "summary.json"));
   EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0 online 1 frame 1 finish");
@@ -132,9 +135,9 @@ TEST_F(RunOutputTest, WithoutFramesNothingStays) {
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
-TEST_F(RunOutputTest, FramesSoFarStayUnderTheirUnfinishedNames) {
+TEST_F(RunOutputTest, FramesSoFarStay) {
   open("diary.txt")->add(frame(0), solution(0));
-  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0");
+  EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0");
 }
 
 TEST_F(RunOutputTest, AnOutputThatFailsAtTheEndLeavesTheOthersWhole) {
@@ -145,7 +148,7 @@ TEST_F(RunOutputTest, AnOutputThatFailsAtTheEndLeavesTheOthersWhole) {
   const auto output = open(std::move(outputs));
   output->add(frame(0), solution(0));
   EXPECT_EQ(message_of<OutputError>([&] { output->finish(true); }), "the diary is full");
-  EXPECT_EQ(text(".part.good.txt"), "begin online 0 frame 0 finish");
+  EXPECT_EQ(text("good.txt"), "begin online 0 frame 0 finish");
 }
 
 TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
@@ -181,6 +184,26 @@ TEST_F(RunOutputTest, FilesThatAnOutputDoesNotNameAreRefused) {
   EXPECT_THAT(names(), UnorderedElementsAre("page_7.txt", "run.yaml", "summary.json"));
 }
 
+TEST_F(RunOutputTest, ADrawingOutputWithColumnsIsRefused) {
+  auto diary = std::make_unique<Diary>("diary.txt");
+  diary->draws = true;
+  diary->own_columns = {"depth"};
+  EXPECT_THAT(message_of<PluginError>([&] { open(one(std::move(diary))); }),
+              AllOf(HasSubstr("'diary' adds columns"), HasSubstr("takes the renderer in begin()")));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+}
+
+TEST_F(RunOutputTest, TwoOutputsOfOneColumnAreFoundWithoutARun) {
+  std::vector<NamedOutput> outputs;
+  for (const char* name : {"a", "b"}) {
+    auto diary = std::make_unique<Diary>(std::string(name) + ".txt");
+    diary->own_columns = {"depth"};
+    outputs.push_back({name, std::move(diary)});
+  }
+  EXPECT_THAT(message_of<ConfigError>([&] { check_outputs(outputs); }),
+              HasSubstr("output: a and b both add the column 'depth' to track.csv"));
+}
+
 TEST_F(RunOutputTest, AQueueGivesAllFramesInOrderToDrawingAndPlainOutputs) {
   auto drawing = std::make_unique<Diary>("drawing.txt");
   drawing->draws = true;
@@ -192,7 +215,7 @@ TEST_F(RunOutputTest, AQueueGivesAllFramesInOrderToDrawingAndPlainOutputs) {
   for (int i = 0; i < 40; ++i) {
     queue.add(frame(i), solution(i));
     expected += fmt::format(" online {0} frame {0}", i);
-    EXPECT_EQ(text(".part.plain.txt"), expected) << "a crash must not lose it";
+    EXPECT_EQ(text("plain.txt"), expected) << "a crash must not lose it";
   }
   queue.settle();
   output->finish(true);
@@ -211,7 +234,7 @@ TEST_F(RunOutputTest, AQueueTellsAnErrorOfADrawingOutputOnceAndDrawsNothingAfter
   EXPECT_EQ(message_of<OutputError>([&] { queue.settle(); }), "the diary is full");
   queue.add(frame(2), solution(2));
   EXPECT_NO_THROW(queue.settle());
-  EXPECT_EQ(text(".part.diary.txt"), "begin online 0 frame 0 online 1");
+  EXPECT_EQ(text("diary.txt"), "begin online 0 frame 0 online 1");
 }
 
 }  // namespace

@@ -115,6 +115,26 @@ TEST_P(BothParametrisations, TheStartIsThePrior) {
   EXPECT_LT((states.col(0) - prior).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+TEST_P(BothParametrisations, ThePointOfAStateLeadsBackToIt) {
+  const Scene scene = hand_and_box();
+  std::mt19937_64 random(3);
+  SearchSettings settings;
+  settings.rotation_as = GetParam();
+  for (const std::vector<bool>& moving : {std::vector<bool>{true, true}, {false, true}}) {
+    const SearchSpace space(scene, settings, moving);
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::VectorXd prior = test::random_state(scene, random);
+      Eigen::VectorXd state = test::random_state(scene, random);
+      if (!moving[0]) state.head<27>() = prior.head<27>();
+      const Eigen::VectorXd found = space.states(space.point(state, prior), prior);
+      for (const auto& item : scene.items())  // q and -q are one rotation
+        if (rotation_of(found, item.offset).dot(rotation_of(state, item.offset)) < 0)
+          state.segment<4>(item.offset + 3) *= -1;
+      EXPECT_LT((found - state).cwiseAbs().maxCoeff(), 1e-9);
+    }
+  }
+}
+
 TEST_P(BothParametrisations, StatesHaveUnitQuaternions) {
   const Scene scene = hand_and_box();
   std::mt19937_64 random(2);

@@ -299,7 +299,7 @@ TEST_F(BadInputTest, WithoutMp4NothingIsWrittenAndTheWayOutIsSaid) {
   expect_refusal(run_program(start), {"overlay.mp4", "--set output.overlay=false"});
 }
 
-TEST_F(BadInputTest, AFullDiskOrALimitOnFileSizesIsReportedAndLeavesNoFinishedName) {
+TEST_F(BadInputTest, AFullDiskOrALimitOnFileSizesIsReportedAndLeavesNoFinishedRun) {
   Start start;
   start.arguments = {"run", scene(box_scene()), "--out", path("out").string()};
   start.largest_file = 4096;
@@ -308,9 +308,9 @@ TEST_F(BadInputTest, AFullDiskOrALimitOnFileSizesIsReportedAndLeavesNoFinishedNa
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("cannot be written: File too large"));
   EXPECT_THAT(outcome.err, HasSubstr("Make room"));
-  EXPECT_THAT(outcome.err, HasSubstr(path("out/.part.track.csv").string()));
-  for (const std::string& name : names_in(path("out")))
-    EXPECT_THAT(name, testing::StartsWith(".part."));
+  EXPECT_THAT(outcome.err, HasSubstr(path("out/track.csv").string()));
+  EXPECT_THAT(names_in(path("out")), testing::Not(testing::Contains("summary.json")));
+  EXPECT_THAT(read_text(path("out/track.csv")), testing::EndsWith("\n"));
 }
 
 }  // namespace

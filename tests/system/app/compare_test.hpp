@@ -60,7 +60,7 @@ frames: 3
     const auto tracking = [&] {
       std::size_t count = 0;
       for (const std::string& name : names_in(path(out) / ".working"))
-        count += std::filesystem::exists(path(out) / ".working" / name / ".part.track.csv");
+        count += std::filesystem::exists(path(out) / ".working" / name / "track.csv");
       return count;
     };
     while (program.running() && tracking() < tracks)

@@ -53,7 +53,7 @@ class InterruptTest : public AppTest {
 
 TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
   Program program(long_run(true));
-  wait_for_lines(program, "out/.part.track.csv", 4);
+  wait_for_lines(program, "out/track.csv", 4);
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
@@ -91,7 +91,7 @@ TEST(InterruptGuard, LeavesAProgramAloneThatAnswers) {
 
 TEST_F(InterruptTest, AClosedTerminalFinishesTheFrameAndTheFiles) {
   Program program(long_run());
-  wait_for_lines(program, "out/.part.track.csv", 4);
+  wait_for_lines(program, "out/track.csv", 4);
   program.signal(SIGHUP);
   program.signal(SIGHUP);  // a shell passes on what it got, and the kernel tells all
   const Outcome outcome = program.wait();
@@ -109,7 +109,7 @@ TEST_F(InterruptTest, CtrlCThatEndsTheReaderOfItsOutputFinishesTheFiles) {
   Start start = long_run();
   start.out = start.err = pipe;  // as `2>&1 | tee log`
   Program program(start);
-  wait_for_lines(program, "out/.part.track.csv", 4);
+  wait_for_lines(program, "out/track.csv", 4);
   close(reader);
   program.signal(SIGINT);
   EXPECT_NE(program.wait().exit_code, 0);
@@ -138,7 +138,7 @@ TEST_F(InterruptTest, CtrlCLeavesTheFramesThatSmoothingStillWaitedFor) {
   for (const char* set : {"smoothing.fixed_lag.enabled=true", "budget.evaluations=256"})
     start.arguments.insert(start.arguments.end(), {"--set", set});
   Program program(start);
-  wait_for_lines(program, "out/.part.online.csv", 4);
+  wait_for_lines(program, "out/online.csv", 4);
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
@@ -150,12 +150,14 @@ TEST_F(InterruptTest, CtrlCLeavesTheFramesThatSmoothingStillWaitedFor) {
 TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
   {
     Program program(long_run());
-    wait_for_lines(program, "out/.part.track.csv", 4);
+    wait_for_lines(program, "out/track.csv", 4);
     program.signal(SIGKILL);
     EXPECT_EQ(program.wait().exit_code, 128 + SIGKILL);
   }
-  EXPECT_THAT(names_in(path("out")), Each(StartsWith(".part.")));
-  expect_whole_lines(path("out/.part.track.csv"));
+  EXPECT_THAT(names_in(path("out")), testing::Not(testing::Contains("summary.json")));
+  expect_whole_lines(path("out/track.csv"));
+  EXPECT_THAT(run_program({"evaluate", path("out").string()}).err,
+              HasSubstr("the run has not ended, or was killed"));
   const Outcome outcome = run(box_scene());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(names_in(path("out")),
@@ -163,6 +165,25 @@ TEST_F(InterruptTest, AKilledRunLeavesWholeLinesAndTheNextCleansUp) {
                           "track.csv", "truth_landmarks.csv", "truth_states.csv",
                           testing::MatchesRegex("worst_[0-4]\\.jpg")));
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(6));
+}
+
+TEST_F(InterruptTest, AKilledRunKeepsTheEarlierResultUntilAnotherOneEnds) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  const std::string earlier = read_text(path("out/track.csv"));
+  const auto names = names_in(path("out"));
+  Program program(long_run());
+  wait_for_lines(program, "out/track.csv", 8);  // the earlier one has 6
+  program.signal(SIGKILL);
+  program.wait();
+  EXPECT_EQ(names_in(path("out/.previous")), names);
+  EXPECT_EQ(read_text(path("out/.previous/track.csv")), earlier);
+  EXPECT_EQ(run_program({"evaluate", path("out/.previous").string()}).exit_code, 0);
+  EXPECT_THAT(run_program({"evaluate", path("out").string()}).err,
+              HasSubstr("the run has not ended, or was killed"));
+  EXPECT_EQ(run("models: 1\n").exit_code, 1);
+  EXPECT_EQ(read_text(path("out/.previous/track.csv")), earlier);
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  EXPECT_EQ(names_in(path("out")), names);
 }
 
 class FailingPluginTest : public InterruptTest {
@@ -188,7 +209,7 @@ TEST_P(LongFrameTest, CtrlCEndsTheFrameAndKeepsThoseBefore) {
   start.arguments.insert(start.arguments.begin(), {"--plugin-path", fixtures()});
   start.arguments.insert(start.arguments.end(), {"--set", "tracker.recovery.enabled=false"});
   Program program(start);
-  wait_for_lines(program, "out/.part.track.csv", 3);
+  wait_for_lines(program, "out/track.csv", 3);
   const auto begin = std::chrono::steady_clock::now();
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
@@ -228,13 +249,13 @@ TEST_F(FailingPluginTest, AnExceptionOnTheFirstFrameLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(path("out")));
 }
 
-TEST_F(FailingPluginTest, ACrashLeavesOnlyPartFilesWithWholeLines) {
+TEST_F(FailingPluginTest, ACrashLeavesWholeLinesOfAnUnfinishedRun) {
   const Outcome outcome = fail("{type: failing, frames: 2, how: segfault}");
   EXPECT_NE(outcome.exit_code, 0);
   EXPECT_NE(outcome.exit_code, 1);
-  EXPECT_THAT(names_in(path("out")), Each(StartsWith(".part.")));
-  EXPECT_THAT(lines_of(read_text(path("out/.part.track.csv"))), SizeIs(3));
-  expect_whole_lines(path("out/.part.track.csv"));
+  EXPECT_THAT(names_in(path("out")), testing::Not(testing::Contains("summary.json")));
+  EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
+  expect_whole_lines(path("out/track.csv"));
 }
 
 TEST_F(InterruptTest, CtrlCLeavesAShorterRecording) {

@@ -42,6 +42,16 @@ TEST_F(LabCommandsTest, OptionsOfBenchMayStandBeforeTheScene) {
               HasSubstr("--backends none: the table has no such case"));
 }
 
+TEST_F(LabCommandsTest, ARunThatGoesOnIsNotRead) {
+  ASSERT_EQ(run(box_scene()).exit_code, 0);
+  std::filesystem::remove(path("out/summary.json"));  // the last file of a run
+  for (const char* command : {"reliability", "report"}) {
+    const Outcome outcome = run_program({command, path("out").string()});
+    EXPECT_EQ(outcome.exit_code, 1) << command;
+    EXPECT_THAT(outcome.err, HasSubstr("the run has not ended, or was killed")) << command;
+  }
+}
+
 TEST_F(LabCommandsTest, ASceneIsNoStudy) {
   expect_refusal(run_program({"compare", scene(box_scene()), "--out", path("out").string()}),
                  {"scene.yaml: this is a scene, no study", "`hypotrack run`"});

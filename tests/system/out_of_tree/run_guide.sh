@@ -49,6 +49,7 @@ cmp euroc.cpp "$(dirname "$guide")/examples/plugin_source/euroc.cpp"
 bash -e step_build.sh
 bash -e step_run.sh
 check_run result cpu
+head -n 1 result/track.csv | grep -q ',distance_m$' || fail "track.csv lacks the column distance_m"
 [ "$(wc -l <result/trajectory.txt)" = 10 ] || fail "the trajectory has not a line for every frame"
 
 built_with_cuda() { compgen -G 'build/CMakeFiles/*/CMakeCUDACompiler.cmake' >/dev/null; }

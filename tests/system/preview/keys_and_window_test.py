@@ -119,8 +119,7 @@ class PreviewTest(unittest.TestCase):
 
     def frames(self):
         """Returns the number of frames whose results are written."""
-        part = self.out / ".part.track.csv"
-        table = part if part.exists() else self.out / "track.csv"
+        table = self.out / "track.csv"
         return len(table.read_text().splitlines()) - 1 if table.exists() else 0
 
     def set(self, key):
@@ -229,7 +228,7 @@ class PreviewTest(unittest.TestCase):
         self.set("r")
         self.step()
         evaluations = [int(line.split(",")[4]) for line in
-                       (self.out / ".part.track.csv").read_text().splitlines()[1:]]
+                       (self.out / "track.csv").read_text().splitlines()[1:]]
         self.assertGreater(evaluations[-1], 10 * min(evaluations[1:-1]))
         self.end(frames + 1)
 

@@ -58,7 +58,12 @@ FixedLagSmoother::FixedLagSmoother(const Scene& scene, std::vector<ObjectiveTerm
 }
 
 void FixedLagSmoother::add(FrameTiles tiles, const TimedState& found) {
-  if (tiles) tiles->context.no_motion_prior = true;
+  if (tiles) {
+    FrameContext& context = tiles->context;
+    context.no_motion_prior = true;
+    context.previous = nullptr;
+    context.seconds_since_previous = FrameContext().seconds_since_previous;
+  }
   tiles_.push_back(std::move(tiles));
   states_.push_back(found);
   evaluations_.push_back(0);
