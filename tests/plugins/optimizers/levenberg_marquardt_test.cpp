@@ -89,7 +89,7 @@ TEST(LevenbergMarquardt, CountsTheNeighboursThatAJacobianTakes) {
     const OptimizerResult result = minimize(cost, region, budget);
     EXPECT_EQ(result.evaluations, cost.evaluations());
     EXPECT_LE(result.evaluations, budget);
-    EXPECT_EQ(cost.blurs.empty(), budget < 13) << budget;
+    EXPECT_EQ(cost.blurs.empty(), budget < 12) << budget;
   }
 }
 
