@@ -42,7 +42,8 @@ class HYPOTRACK_API ConfigNode {
   static ConfigNode load_scene(const std::filesystem::path& file,
                                std::span<const std::string> overrides = {});
 
-  /// Reads a study file as load() does, joined with the study that it `extends`. Throws ConfigError.
+  /// Reads a study file as load() does, joined with the study that it `extends`. Throws
+  /// ConfigError.
   static ConfigNode load_study(const std::filesystem::path& file);
 
   /// Parses YAML text under the rules of load(). `name` replaces the file name in messages.

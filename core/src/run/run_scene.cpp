@@ -160,6 +160,7 @@ class Results {
   bool traces() const { return traces_; }
   /// Returns true if frames are smoothed before they are written.
   bool smooths() const { return smooths_; }
+  const std::filesystem::path& folder() const { return folder_; }
   /// Returns how long the outputs have worked, in seconds.
   double writing_seconds() const { return queue_.seconds(); }
 
@@ -279,6 +280,26 @@ class DeviceNotes {
   bool said_ = false;
 };
 
+/// Says once that the outputs take longer than tracking, as on a slow disk.
+class OutputNote {
+ public:
+  OutputNote(RunWatcher& watcher, const Results* results) : watcher_(watcher), results_(results) {}
+  void look(const ClockTimes& clock) {
+    constexpr double kLeast = 2;  // seconds, for what begins slowly
+    const double writing = results_ ? results_->writing_seconds() : 0;
+    if (writing < std::max(kLeast, clock.tracking) || std::exchange(said_, true)) return;
+    watcher_.say(fmt::format(
+        "note: outputs have taken {:.1f} s so far, and tracking {:.1f} s; is the disk of {} slow? "
+        "The run is faster with another folder or with fewer outputs",
+        writing, clock.tracking, results_->folder().string()));
+  }
+
+ private:
+  RunWatcher& watcher_;
+  const Results* results_;
+  bool said_ = false;
+};
+
 using SteadyClock = std::chrono::steady_clock;
 
 double seconds_since(SteadyClock::time_point begin) {
@@ -298,6 +319,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
   FaultNotes notes(watcher);
+  OutputNote outputs(watcher, results);
   const int read = static_cast<int>(first.size());
   ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt);
   for (int done = 0; !limit || done < *limit; ++done) {
@@ -324,6 +346,7 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
     if (results) results->add(tracker, *frame, solution);
     device.look(fmt::format("frame {}", frame->index));
     plugin_lines.say_new();
+    outputs.look(clock);
     const bool smooths = results && results->smooths();
     watcher.frame(
         *frame, solution,

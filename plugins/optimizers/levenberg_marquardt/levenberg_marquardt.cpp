@@ -92,21 +92,21 @@ void run_numerically(ResidualCost& residuals, const SearchRegion& region, const 
 
 }  // namespace
 
-std::span<const std::string_view> enum_names(Jacobian) {
+std::span<const std::string_view> enum_names(JacobianMethod) {
   static constexpr std::array<std::string_view, 3> kNames{"auto", "numerical", "analytic"};
   return kNames;
 }
 
 Requirements LevenbergMarquardt::requirements() const {
   Requirements out{.least_squares = true, .jacobian = Linearization::welcome};
-  if (params_.jacobian == Jacobian::numerical) out.jacobian = Linearization::unused;
-  if (params_.jacobian == Jacobian::analytic) out.jacobian = Linearization::needed;
+  if (params_.jacobian == JacobianMethod::numerical) out.jacobian = Linearization::unused;
+  if (params_.jacobian == JacobianMethod::analytic) out.jacobian = Linearization::needed;
   return out;
 }
 
 bool LevenbergMarquardt::is_analytic(const ResidualCost& residuals) const {
-  return params_.jacobian == Jacobian::analytic ||
-         (params_.jacobian == Jacobian::automatic && residuals.can_linearize());
+  return params_.jacobian == JacobianMethod::analytic ||
+         (params_.jacobian == JacobianMethod::automatic && residuals.can_linearize());
 }
 
 std::vector<OptimizerResult> LevenbergMarquardt::search_each(CostFunction& cost,

@@ -9,17 +9,17 @@
 namespace hypotrack {
 
 /// Method of computing Jacobians.
-enum class Jacobian {
+enum class JacobianMethod {
   automatic,  ///< analytic if the cost can be linearised, otherwise numerical
   numerical,  ///< an evaluation per dimension
   analytic,   ///< ResidualCost::linearize
 };
-std::span<const std::string_view> enum_names(Jacobian);
+std::span<const std::string_view> enum_names(JacobianMethod);
 
 struct LevenbergMarquardtParams {
   int evaluations = 512;
   int iterations = 0;
-  Jacobian jacobian = Jacobian::automatic;
+  JacobianMethod jacobian = JacobianMethod::automatic;
   double blur = 1.5;
   int trials = 3;
   double difference = 0.05;

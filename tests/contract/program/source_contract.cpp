@@ -8,7 +8,7 @@ namespace hypotrack::contract {
 namespace {
 
 // Enough to judge a source; a recording may be long.
-constexpr int kFrames = 20;
+constexpr int kMostFrames = 20;
 constexpr int kLongest = 500;
 
 std::vector<Frame> read(Source& source, int at_most) {
@@ -127,7 +127,7 @@ void check_source(Report& report, const Subject& subject) {
   });
   std::vector<Frame> frames;
   report.row("it yields frames", [&] {
-    frames = read(*source, kFrames);
+    frames = read(*source, kMostFrames);
     require(!frames.empty(), "there is none");
   });
   if (frames.empty()) return;
@@ -147,7 +147,7 @@ void check_source(Report& report, const Subject& subject) {
   });
   report.row("a second object yields the same frames", [&] {
     const auto second = subject.make<Source>();
-    const std::vector<Frame> again = read(*second, kFrames);
+    const std::vector<Frame> again = read(*second, kMostFrames);
     require(again.size() == frames.size(), "it yields " + std::to_string(again.size()) +
                                                " frames, expected " +
                                                std::to_string(frames.size()));

@@ -109,7 +109,7 @@ TEST(LevenbergMarquardt, MakesItsOwnJacobianWhereItIsToldTo) {
   RecordingCost cost(9, test::sphere(region, test::hidden_target(region, 3)));
   cost.linearizes = true;
   LevenbergMarquardtParams params;
-  params.jacobian = Jacobian::numerical;
+  params.jacobian = JacobianMethod::numerical;
   minimize(cost, region, 100, params);
   EXPECT_TRUE(cost.blurs.empty());
   EXPECT_GT(std::ranges::count(cost.batches, 9), 0);
@@ -131,7 +131,7 @@ TEST(LevenbergMarquardt, RefusesAnAnalyticJacobianThatIsNotThere) {
   const SearchRegion region = test::tracking_region(3);
   RecordingCost cost(3, test::sphere(region, region.start));
   LevenbergMarquardtParams params;
-  params.jacobian = Jacobian::analytic;
+  params.jacobian = JacobianMethod::analytic;
   EXPECT_THAT(
       [&] { minimize(cost, region, 10, params); },
       ::testing::ThrowsMessage<ConfigError>(::testing::StartsWith(
@@ -216,26 +216,27 @@ TEST(LevenbergMarquardt, NeedsResidualsWithinOtherOptimizersToo) {
 }
 
 TEST(LevenbergMarquardt, SaysWhatItWantsOfAnalyticJacobiansWithinOtherOptimizersToo) {
-  const auto with = [](Jacobian jacobian) {
+  const auto with = [](JacobianMethod jacobian) {
     LevenbergMarquardtParams params;
     params.jacobian = jacobian;
     return std::make_unique<LevenbergMarquardt>(params);
   };
-  EXPECT_EQ(with(Jacobian::numerical)->requirements().jacobian, Linearization::unused);
-  EXPECT_EQ(with(Jacobian::automatic)->requirements().jacobian, Linearization::welcome);
-  EXPECT_EQ(MultiStart({}, with(Jacobian::analytic)).requirements().jacobian,
+  EXPECT_EQ(with(JacobianMethod::numerical)->requirements().jacobian, Linearization::unused);
+  EXPECT_EQ(with(JacobianMethod::automatic)->requirements().jacobian, Linearization::welcome);
+  EXPECT_EQ(MultiStart({}, with(JacobianMethod::analytic)).requirements().jacobian,
             Linearization::needed);
-  EXPECT_EQ(LimbSearch({}, with(Jacobian::analytic)).requirements().jacobian,
+  EXPECT_EQ(LimbSearch({}, with(JacobianMethod::analytic)).requirements().jacobian,
             Linearization::needed);
-  const auto of_stages = [&](Jacobian first, Jacobian second) {
+  const auto of_stages = [&](JacobianMethod first, JacobianMethod second) {
     std::vector<PipelineStage> stages;
     stages.push_back({"levenberg_marquardt", with(first)});
     stages.push_back({"levenberg_marquardt", with(second)});
     return Pipeline(std::move(stages), 100).requirements().jacobian;
   };
-  EXPECT_EQ(of_stages(Jacobian::analytic, Jacobian::numerical), Linearization::needed);
-  EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::automatic), Linearization::welcome);
-  EXPECT_EQ(of_stages(Jacobian::numerical, Jacobian::numerical), Linearization::unused);
+  EXPECT_EQ(of_stages(JacobianMethod::analytic, JacobianMethod::numerical), Linearization::needed);
+  EXPECT_EQ(of_stages(JacobianMethod::numerical, JacobianMethod::automatic),
+            Linearization::welcome);
+  EXPECT_EQ(of_stages(JacobianMethod::numerical, JacobianMethod::numerical), Linearization::unused);
 }
 
 TEST(LeastSquares, ASearchWithoutResidualsAsksForNoJacobian) {
