@@ -22,4 +22,10 @@ mkdir -p "$out"
       echo "- [$name](${kind}_$name.md): $(sed -n 3p "$out/${kind}_$name.md")"
     done
   done
+  echo
+  echo "## Capabilities"
+  echo
+  echo "What a plugin offers or needs beyond its kind."
+  echo
+  "$hypotrack" plugins capabilities --markdown
 } >"$out/index.md"

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "model_info.hpp"
+#include "plugin/capabilities.hpp"
 #include "plugin/inspect.hpp"
 
 namespace hypotrack::app {
@@ -20,12 +23,30 @@ int list(const CommonOptions& common) {
   return 0;
 }
 
-int info(const CommonOptions& common, const std::string& name, bool markdown) {
-  const PluginLoader loader(common.plugin_path);
+/// Returns what a model has, or why that cannot be said.
+std::string text_on_model(PluginLoader& loader, const PluginRow& row,
+                          const std::vector<std::string>& settings, bool markdown) {
+  try {
+    const ModelInfo found = describe_model(loader, row.name, settings);
+    return markdown ? format_model_markdown(found) : format_model(found);
+  } catch (const Error& error) {
+    if (!settings.empty()) throw;
+    if (markdown) return "\nDegrees of freedom and landmarks depend on the parameters.\n";
+    return fmt::format("degrees of freedom: depend on the parameters; give them with --set ({})\n",
+                       error.what());
+  }
+}
+
+int info(const CommonOptions& common, const std::string& name,
+         const std::vector<std::string>& settings, bool markdown) {
+  PluginLoader loader(common.plugin_path);
   const std::vector<PluginRow> rows = find_plugins(loader.search_path(), name);
-  for (const PluginRow& row : rows)
+  for (const PluginRow& row : rows) {
     fmt::print("{}{}", &row == &rows.front() ? "" : "\n",
                markdown ? format_markdown(row) : format_info(row));
+    if (row.usable() && row.kind == "model")
+      fmt::print("{}", text_on_model(loader, row, settings, markdown));
+  }
   return std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.usable(); }) ? 0
                                                                                              : 1;
 }
@@ -57,7 +78,19 @@ void add_plugins_command(const Command& root, CommonOptions& common, int& exit_c
                    {.required = true});
   auto markdown = std::make_shared<bool>(false);
   info_command.add("--markdown", markdown.get(), "Print a page for the documentation");
-  info_command.on_call([=, &common, &exit_code] { exit_code = info(common, *name, *markdown); });
+  auto settings = std::make_shared<std::vector<std::string>>();
+  info_command.add("--set", settings.get(), "A parameter of a model, as file=lamp.urdf",
+                   {.value_name = "KEY=VALUE"});
+  info_command.on_call(
+      [=, &common, &exit_code] { exit_code = info(common, *name, *settings, *markdown); });
+
+  auto as_table = std::make_shared<bool>(false);
+  const Command capabilities =
+      command.add_command("capabilities", "What the words under a plugin's capabilities mean");
+  capabilities.add("--markdown", as_table.get(), "Print a table for the documentation");
+  capabilities.on_call([=] {
+    fmt::print("{}", *as_table ? format_capabilities_markdown() : format_capabilities());
+  });
 
   add_new_plugin_command(command, common, exit_code);
 

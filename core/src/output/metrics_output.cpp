@@ -70,8 +70,10 @@ Summary MetricsOutput::summarize(bool complete) const {
   summary.backend = backend_;
   summary.clock = clock_;
   summary.faults = faults_;
-  for (const auto& [name, times] : term_times_)
-    summary.terms.push_back({name, times->prepare.seconds(), times->cost.seconds()});
+  for (const auto& [name, times] : term_times_) {
+    const TermSeconds term{name, times->prepare.seconds(), times->cost.seconds()};
+    if (term.prepare + term.cost > 0) summary.terms.push_back(term);  // otherwise on a GPU
+  }
   if (notes_) summary.notes = notes_->all();
   summary.metrics = metrics_->metrics();
   summary.mean_sigma = uncertainty_->mean_sigma();

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "base/subprocess.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
+#include "plugin/capabilities.hpp"
 #include "plugin/folders.hpp"
 #include "plugin/library.hpp"
 #include "plugin/probe.hpp"
@@ -99,6 +101,17 @@ std::string plural(std::size_t count, std::string_view noun) {
   return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }
 
+/// Returns a line per capability of a plugin. Those of others may be words that nobody knows here.
+std::string capability_lines(const PluginRow& row) {
+  std::string out;
+  std::istringstream words(row.capabilities);
+  for (std::string word; words >> word;) {
+    const Capability* known = find_capability(row.kind, word);
+    out += known ? fmt::format("  {}: {}\n", word, known->meaning) : fmt::format("  {}\n", word);
+  }
+  return out;
+}
+
 }  // namespace
 
 PluginRow check_plugin(const std::filesystem::path& file, std::chrono::milliseconds limit) {
@@ -180,11 +193,11 @@ std::string format_info(const PluginRow& row) {
   return fmt::format(
       "{} '{}' {}: {}\n"
       "  licence       {}\n"
-      "  capabilities  {}\n"
       "  library       {}\n"
+      "capabilities{}\n{}"
       "parameters{}\n{}",
-      row.kind, row.name, row.version, row.summary, row.licence,
-      row.capabilities.empty() ? "none" : row.capabilities, row.path.string(),
+      row.kind, row.name, row.version, row.summary, row.licence, row.path.string(),
+      row.capabilities.empty() ? ": none" : "", capability_lines(row),
       row.parameters.empty() ? ": none" : "", row.parameters);
 }
 

@@ -51,8 +51,8 @@ std::string format_table(std::span<const PluginRow> rows);
 /// Formats everything about one plugin, its parameters last.
 std::string format_info(const PluginRow& row);
 
-/// Returns a page of the documentation: summary and a table of the parameters. Leaves out what
-/// depends on the build, such as capabilities.
+/// Returns a page of the documentation: summary, capabilities and a table of the parameters. Leaves
+/// out what depends on the build.
 std::string format_markdown(const PluginRow& row);
 
 /// Formats "FILE: optimizer 'pso' 0.1.0 can be used", or why it cannot.

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "plugin/capabilities.hpp"
 #include "plugin/inspect.hpp"
 
 namespace hypotrack {
@@ -60,6 +63,18 @@ std::pair<std::string_view, std::string_view> split_default(std::string_view typ
   return {type.substr(0, at), type.substr(at + kDefault.size())};
 }
 
+/// Returns a sentence on the capabilities of every build; empty if there are none.
+std::string capabilities(const PluginRow& row) {
+  std::vector<std::string> words;
+  std::istringstream in(row.capabilities);
+  for (std::string word; in >> word;) {
+    const Capability* known = find_capability(row.kind, word);
+    if (!known || !known->by_build) words.push_back(fmt::format("`{}`", word));
+  }
+  if (words.empty()) return "";
+  return fmt::format("[Capabilities](index.md#capabilities): {}.\n\n", fmt::join(words, ", "));
+}
+
 }  // namespace
 
 std::string format_markdown(const PluginRow& row) {
@@ -67,6 +82,7 @@ std::string format_markdown(const PluginRow& row) {
   if (!summary.empty())
     summary[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(summary[0])));
   std::string out = fmt::format("# {} `{}`\n\n{}.\n\n", row.kind, row.name, summary);
+  out += capabilities(row);
   if (row.parameters.empty()) return out + "It has no parameters.\n";
   out += "| parameter | type | default | meaning |\n|---|---|---|---|\n";
   std::vector<std::string> path;

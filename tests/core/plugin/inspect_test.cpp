@@ -135,8 +135,8 @@ TEST(Inspect, InfoEndsWithTheParameters) {
   EXPECT_EQ(format_info(sample_row()),
             "optimizer 'pso' 0.1.0: a swarm\n"
             "  licence       MIT\n"
-            "  capabilities  none\n"
             "  library       /p/libhypotrack_optimizer_pso.so\n"
+            "capabilities: none\n"
             "parameters\n"
             "  particles  integer\n");
   PluginRow broken = sample_row();
@@ -145,6 +145,24 @@ TEST(Inspect, InfoEndsWithTheParameters) {
             "optimizer 'pso' cannot be used: crashed\n"
             "  library       /p/libhypotrack_optimizer_pso.so\n");
   EXPECT_EQ(format_check(broken), "/p/libhypotrack_optimizer_pso.so: crashed\n");
+}
+
+TEST(Inspect, SaysWhatCapabilitiesMean) {
+  PluginRow row = sample_row();
+  row.capabilities = "seeded of_my_own";
+  EXPECT_THAT(format_info(row),
+              HasSubstr("capabilities\n"
+                        "  seeded: takes random numbers; equal seeds repeat its answer\n"
+                        "  of_my_own\n"));
+}
+
+TEST(Inspect, PagesLeaveOutWhatOnlySomeBuildsHave) {
+  PluginRow row = sample_row();
+  row.kind = "objective";
+  row.capabilities = "device residuals";
+  EXPECT_THAT(format_markdown(row),
+              AllOf(HasSubstr("[Capabilities](index.md#capabilities): `residuals`.\n"),
+                    Not(HasSubstr("device"))));
 }
 
 }  // namespace

@@ -61,7 +61,8 @@ TEST_F(PluginContextTest, NotesNameThePluginAndTheFrameAndAreSaidOnce) {
   EXPECT_EQ(count(outcome.err, "prepares frames"), 2) << "once, and at the end how often";
   EXPECT_THAT(outcome.err, testing::ContainsRegex("prepares frames \\([0-9]+ times\\)"));
   std::int64_t costs = 0;
-  for (const auto& note : summary().at("notes")) {
+  const auto told = summary();
+  for (const auto& note : told.at("notes")) {
     EXPECT_EQ(note.at("plugin"), "objective.0 (telling)");
     if (note.at("level") != "warning") continue;
     EXPECT_EQ(note.at("text"), "a cost of several threads");

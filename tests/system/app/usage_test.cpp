@@ -1,4 +1,8 @@
+#include <sstream>
+
 #include "app_test.hpp"
+#include "plugin/capabilities.hpp"
+#include "plugin/inspect.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -167,6 +171,42 @@ TEST_F(UsageTest, InfoTellsAPluginsParameters) {
   const Outcome unknown = run_program({"plugins", "info", "psso"});
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean 'pso'"));
+}
+
+TEST_F(UsageTest, ModelsAreDescribedWithTheirParameters) {
+  const Outcome hand = run_program({"plugins", "info", "model/hand"});
+  EXPECT_EQ(hand.exit_code, 0) << hand.err;
+  EXPECT_THAT(hand.out,
+              AllOf(HasSubstr("degrees of freedom: 26, 6 of its pose and 20 of its joints"),
+                    HasSubstr("thumb_abduction"), HasSubstr("landmarks\n  wrist, ")));
+  const Outcome box =
+      run_program({"plugins", "info", "rigid_box", "--set", "size_mm=[10, 20, 30]"});
+  EXPECT_THAT(box.out, HasSubstr("degrees of freedom: 6, of its pose\n"));
+  const Outcome unknown = run_program({"plugins", "info", "articulated"});
+  EXPECT_EQ(unknown.exit_code, 0) << unknown.err;
+  EXPECT_THAT(unknown.out, HasSubstr("degrees of freedom: depend on the parameters; give them with "
+                                     "--set"));
+  const std::string file =
+      "file=" + std::string(HYPOTRACK_SOURCE_DIR) + "/configs/objects/scissors.urdf";
+  const Outcome known = run_program({"plugins", "info", "articulated", "--set", file});
+  EXPECT_EQ(known.exit_code, 0) << known.err;
+  EXPECT_THAT(known.out, HasSubstr("degrees of freedom: 7, 6 of its pose and 1 of its joints"));
+  const Outcome wrong = run_program({"plugins", "info", "rigid_box", "--set", "size_mm=red"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.err, HasSubstr("size_mm"));
+}
+
+TEST_F(UsageTest, EveryCapabilityOfOursIsExplained) {
+  int explained = 0;
+  for (const PluginRow& row : list_plugins(std::vector{build_dir() / "lib/hypotrack/plugins"})) {
+    std::istringstream words(row.capabilities);
+    for (std::string word; words >> word; ++explained)
+      EXPECT_NE(find_capability(row.kind, word), nullptr)
+          << row.kind << " " << row.name << ": " << word;
+  }
+  EXPECT_GT(explained, 20);
+  EXPECT_THAT(run_program({"plugins", "capabilities"}).out,
+              HasSubstr("needs_least_squares  works only if every objective has residuals\n"));
 }
 
 TEST_F(UsageTest, CheckSaysWhyAPluginCannotBeUsed) {
