@@ -56,7 +56,8 @@ fs::path find_file(const FileName& name, std::string_view kind) {
     const std::vector<std::string> known = known_names(plural(kind));
     const std::string reference = "@" + name.text;
     if (std::ranges::find(known, reference) != known.end()) return data_file("configs" / file);
-    hint = fmt::format("{}. With hypotrack come {}", did_you_mean(reference, known),
+    const std::string nearest = did_you_mean(reference, known);
+    hint = fmt::format("{} With hypotrack come {}", nearest.empty() ? "." : nearest,
                        fmt::join(known, ", "));
   }
   throw ConfigError(fmt::format("{}: there is no {} '@{}': {} is no file{}", name.where, kind,

@@ -96,7 +96,7 @@ TEST_F(TrackerFile, IsRefusedWithWhatThereIs) {
               AllOf(StartsWith(file("scene.yaml").string() +
                                ":1:10: there is no tracker '@trackers/real_tim': " +
                                file("trackers/real_tim.yaml").string() +
-                               " is no file; did you mean '@trackers/real_time'?"),
+                               " is no file; did you mean '@trackers/real_time'? With "),
                     HasSubstr("@trackers/recommended")));
   write("trackers/scene.yaml", "models: []\nsource: {}\n");
   EXPECT_THAT(error("tracker: \"@trackers/scene\""), HasSubstr("is no tracker; expected a map"));
