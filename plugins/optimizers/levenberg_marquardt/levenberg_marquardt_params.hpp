@@ -36,9 +36,9 @@ struct LevenbergMarquardtParams {
     v("iterations", iterations,
       {.help = "Jacobians per search; 0: as many as the budget allows", .min = 0, .max = 1 << 20});
     v("jacobian", jacobian,
-      {.help = "numerical: by an evaluation per number; analytic: by Jacobians, slopes of pixels "
-               "and the motion of what is drawn, which takes one, and by differences of terms "
-               "without; auto: analytic where a term over pixels allows it"});
+      {.help = "numerical: differences, an evaluation per number. analytic: slopes of pixels and "
+               "Jacobians of terms; terms without them by differences. auto: analytic where a term "
+               "over pixels allows it"});
     v("blur_px", blur,
       {.help = "for analytic Jacobians: pixels over which a passing silhouette is felt at first; "
                "halved where differences would be",
