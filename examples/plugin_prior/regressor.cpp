@@ -75,7 +75,9 @@ class Regressor final : public hypotrack::Objective, public hypotrack::ResidualT
   }
 
   bool needs_rendering() const override { return false; }
-  hypotrack::ImageUse image_use() const override { return {.mask = false, .depth = false}; }
+  hypotrack::ImageUse image_use() const override {
+    return {.color = false, .mask = false, .depth = false};
+  }
 
   void prepare(const hypotrack::Observation& observation) override {
     const auto found = poses_.find(observation.frame);

@@ -3,6 +3,7 @@
 
 #include "device.hpp"
 #include "device_scores.hpp"
+#include "linearized_terms.hpp"
 #include "observations.hpp"
 #include "plausible_motion.hpp"
 #include "skin.hpp"
@@ -125,6 +126,17 @@ TEST_F(DeviceLinearizer, TakesTermsOfTheStateAlone) {
                                        std::make_shared<plausible_motion::PlausibleMotion>(
                                            plausible_motion::PlausibleMotionParams{}, scene),
                                        "plausible_motion"}};
+  };
+  compare(scene, test::colored(test::rectified_pair(scene, 128)), terms(), terms(),
+          steps_of(scene));
+}
+
+TEST_F(DeviceLinearizer, AddsTermsThatStayOnTheCpu) {
+  const Scene scene = test::hand_scene();
+  const auto terms = [&] {
+    std::vector<ObjectiveTerm> all = terms_with_slopes(scene);
+    all.push_back({300, std::make_shared<test::Position>(), "position"});
+    return all;
   };
   compare(scene, test::colored(test::rectified_pair(scene, 128)), terms(), terms(),
           steps_of(scene));

@@ -9,6 +9,7 @@
 #include "expect_error.hpp"
 #include "hypotrack/error.hpp"
 #include "interpenetration.hpp"
+#include "linearized_terms.hpp"
 #include "observations.hpp"
 #include "plausible_motion.hpp"
 #include "probes.hpp"
@@ -60,6 +61,32 @@ TEST_F(DeviceResiduals, OfSeveralTermsAreThoseOfTheCpu) {
     test::expect_residuals_like_the_cpu(scene, frame_of(scene, 256), many_terms(scene),
                                         many_terms(scene), test::scored_states(scene).leftCols(29));
   }
+}
+
+TEST_F(DeviceResiduals, OfTermsOnTheCpuStandBesideThoseOfTheGpu) {
+  const Scene scene = test::hand_scene();
+  const auto terms = [&] {
+    std::vector<ObjectiveTerm> all = many_terms(scene);
+    all.push_back({0.7, std::make_shared<test::Position>(), "position"});
+    return all;
+  };
+  test::expect_residuals_like_the_cpu(scene, frame_of(scene, 256), terms(), terms(),
+                                      test::scored_states(scene).leftCols(29));
+  const auto gpu = make_cost(scene, terms(), {.backend = Backend::cuda}, {.least_squares = true});
+  EXPECT_THAT(gpu->backend(), testing::MatchesRegex("cuda \\(.*\\); on the CPU: position"));
+}
+
+TEST_F(DeviceResiduals, OfTermsOnTheCpuLeaveNoSearchOnTheGpu) {
+  const Scene scene = test::hand_scene();
+  const std::vector<ObjectiveTerm> terms = {
+      {1, colors(stereo_color::Direction::both), "stereo_color"},
+      {1, std::make_shared<test::Position>(), "position"}};
+  const Requirements device{
+      .device = true, .device_by = "pso_cuda", .instead_of_device = "write `type: pso`"};
+  EXPECT_EQ(test::message_of<DeviceError>(
+                [&] { make_cost(scene, terms, {.backend = Backend::cuda}, device); }),
+            "pso_cuda searches on the GPU, and these terms are evaluated on the CPU: position. "
+            "Leave them out, or write `type: pso`");
 }
 
 TEST_F(DeviceResiduals, WithAChargeAreThoseOfTheCpu) {

@@ -98,8 +98,9 @@ struct PixelMap {
   float highest = 1;  ///< shown as the brightest colour
 };
 
-/// The images that an objective reads besides colour.
+/// The images that an objective reads.
 struct ImageUse {
+  bool color = true;
   bool mask = true;
   bool depth = true;
   bool background = false;  ///< TileView::background, which the tracker learns
@@ -148,7 +149,8 @@ class HYPOTRACK_API Objective {
   virtual std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const;
 
   /// Returns the GPU implementation (hypotrack/cuda/device_objective.hpp), or null without one or
-  /// without CUDA. With null, the scene is evaluated on the CPU. The objective outlives the result.
+  /// without CUDA. With null, a term that needs rendering keeps the scene on the CPU; another term
+  /// is evaluated there alone. The objective outlives the result.
   virtual std::unique_ptr<cuda::DeviceObjective> on_device() const;
 };
 

@@ -188,6 +188,8 @@ struct CostOffer {
   std::string no_least_squares = {};  ///< why there are no residuals() and what to do; or empty
   std::string no_jacobian = {};       ///< why linearize() is not available; or empty
   bool device = false;                ///< whether there is a device()
+  /// Why there is no device() where the scene is evaluated on a GPU, and what to do; or empty.
+  std::string no_device = {};
 };
 
 /// Throws unless a cost has what is required: ConfigError for residuals and analytic Jacobians,

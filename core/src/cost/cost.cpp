@@ -23,9 +23,10 @@ Frame looked_at(const Frame& frame, const ImageUse& use) {
 }  // namespace
 
 ImageUse joined_use(const std::vector<ObjectiveTerm>& terms) {
-  ImageUse all{.mask = false, .depth = false};
+  ImageUse all{.color = false, .mask = false, .depth = false};
   for (const ObjectiveTerm& term : terms) {
     const ImageUse use = term.objective->image_use();
+    all.color = all.color || use.color;
     all.mask = all.mask || use.mask;
     all.depth = all.depth || use.depth;
     all.background = all.background || use.background;

@@ -7,6 +7,7 @@
 
 #include "cost/backends.hpp"
 #include "cost/linearizer.hpp"
+#include "cost/split_cost.hpp"
 #include "cost/term_residuals.hpp"
 #include "hypotrack/error.hpp"
 
@@ -41,13 +42,31 @@ std::string why_automatic_on_cpu(const Scene& scene, const std::vector<Objective
       return "the optimizer takes analytic Jacobians, and " + why;
     }
   }
-  return cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares);
+  return cuda::why_not_evaluated(scene, split_terms(terms, requirements.least_squares).gpu,
+                                 settings, requirements.least_squares);
+}
+
+/// Evaluates with CUDA, and on the CPU what needs no rendering and has no part for a GPU.
+std::unique_ptr<Cost> make_cuda_cost(const Scene& scene, const SplitTerms& terms,
+                                     const EvaluateSettings& settings, bool residuals) {
+  auto on_gpu = cuda::make_cost(scene, terms.gpu, settings, residuals);
+  if (terms.cpu.empty()) return on_gpu;
+  std::string backend = on_gpu->backend() + "; on the CPU: " + terms.cpu_names();
+  return make_split_cost(scene, terms, std::move(on_gpu),
+                         make_host_cost(scene, terms.cpu, settings), std::move(backend));
 }
 
 /// Returns what the terms and the backend offer; `on_gpu` says whether CUDA evaluates the terms.
-CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, Backend backend, bool on_gpu) {
+CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, const Requirements& requirements,
+                   Backend backend, bool on_gpu) {
   constexpr const char* kInstead = ". Write `jacobian: auto` or `numerical` in the optimizer";
   CostOffer offer{.no_least_squares = TermResiduals::why_none(terms), .device = on_gpu};
+  const SplitTerms split = split_terms(terms, requirements.least_squares);
+  if (on_gpu && !split.cpu.empty()) {
+    offer.device = false;
+    offer.no_device =
+        fmt::format("these terms are evaluated on the CPU: {}. Leave them out", split.cpu_names());
+  }
   if (backend == Backend::cuda) {
     if (const std::string why = cuda::why_not_linearized(terms); !why.empty()) {
       offer.no_jacobian = fmt::format("{}{}, or `backend: cpu`", why, kInstead);
@@ -90,10 +109,9 @@ std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> t
   const std::string why_on_cpu =
       automatic ? why_automatic_on_cpu(scene, terms, settings, requirements) : std::string();
   const bool with_cuda = automatic ? why_on_cpu.empty() : settings.backend == Backend::cuda;
-  check_requirements(requirements, offer_of(terms, settings.backend, with_cuda));
-  if (with_cuda) {
-    return cuda::make_cost(scene, std::move(terms), settings, requirements.least_squares);
-  }
+  check_requirements(requirements, offer_of(terms, requirements, settings.backend, with_cuda));
+  const bool residuals = requirements.least_squares;
+  if (with_cuda) return make_cuda_cost(scene, split_terms(terms, residuals), settings, residuals);
   if (settings.backend == Backend::egl) {
     return make_egl_cost(scene, std::move(terms), settings, requirements);
   }
@@ -106,8 +124,10 @@ bool evaluates_with_cuda(const Scene& scene, const std::vector<ObjectiveTerm>& t
   if (settings.backend == Backend::automatic) {
     return why_automatic_on_cpu(scene, terms, settings, requirements).empty();
   }
+  const bool residuals = requirements.least_squares;
   return settings.backend == Backend::cuda &&
-         cuda::why_not_evaluated(scene, terms, settings, requirements.least_squares).empty();
+         cuda::why_not_evaluated(scene, split_terms(terms, residuals).gpu, settings, residuals)
+             .empty();
 }
 
 void refuse_cost(const ObjectiveTerm& term, Eigen::Index index, const char* what) {

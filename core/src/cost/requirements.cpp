@@ -26,10 +26,11 @@ void check_requirements(const Requirements& requirements, const CostOffer& offer
     throw ConfigError("the optimizer takes analytic Jacobians: " + offer.no_jacobian);
   }
   if (requirements.device && !offer.device) {
+    constexpr const char* kElsewhere =
+        "this scene is not evaluated there. Write `evaluate: {backend: cuda}`";
     throw DeviceError(
         (requirements.device_by.empty() ? "the optimizer" : requirements.device_by) +
-        " searches on the GPU, and this scene is not evaluated there. Write `evaluate: {backend: "
-        "cuda}`" +
+        " searches on the GPU, and " + (offer.no_device.empty() ? kElsewhere : offer.no_device) +
         (requirements.instead_of_device.empty() ? "" : ", or " + requirements.instead_of_device));
   }
 }

@@ -8,7 +8,6 @@
 #include <exception>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -249,9 +248,9 @@ void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which)
 Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
   metrics_->set_clock(clock);
   std::exception_ptr first_error;
-  for (const NamedOutput& output : std::views::reverse(outputs_)) {  // the summary last
+  for (auto output = outputs_.rbegin(); output != outputs_.rend(); ++output) {  // the summary last
     try {
-      output.output->finish(complete);
+      output->output->finish(complete);
     } catch (...) {  // the others' files are to be whole
       if (!first_error) first_error = std::current_exception();
     }

@@ -86,6 +86,7 @@ void CheckedObjective::write_slopes(const RenderedHypothesis& hypothesis, std::s
 
 void CheckedObjective::write_jacobian(const RenderedHypothesis& hypothesis,
                                       std::span<float> residuals, Jacobian& jacobian) const {
+  const TimeSum::Scope time(times_->cost);
   const Eigen::Index rows = jacobian.rows(), columns = jacobian.cols();
   detail::call_plugin(who_, [&] { residuals_->write_jacobian(hypothesis, residuals, jacobian); });
   if (jacobian.rows() != rows || jacobian.cols() != columns)

@@ -42,7 +42,7 @@ class Interpenetration : public Objective, public ResidualTerm {
                    const std::string& where = "interpenetration");
 
   bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
+  ImageUse image_use() const override { return {.color = false, .mask = false, .depth = false}; }
   void prepare(const Observation&) override {}
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;

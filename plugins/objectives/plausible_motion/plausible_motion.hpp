@@ -33,7 +33,7 @@ class PlausibleMotion : public Objective, public ResidualTerm {
   PlausibleMotion(const Params& params, const Scene& scene) : residuals_(params, scene) {}
 
   bool needs_rendering() const override { return false; }
-  ImageUse image_use() const override { return {.mask = false, .depth = false}; }
+  ImageUse image_use() const override { return {.color = false, .mask = false, .depth = false}; }
   void prepare(const Observation& observation) override;
   double cost(const RenderedHypothesis& hypothesis) const override;
   std::unique_ptr<cuda::DeviceObjective> on_device() const override;

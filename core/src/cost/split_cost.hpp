@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cost/cost.hpp"
+
+namespace hypotrack {
+
+/// The terms of a scene that a GPU evaluates, and those that stay on the CPU.
+struct SplitTerms {
+  std::vector<ObjectiveTerm> gpu;
+  std::vector<ObjectiveTerm> cpu;
+  /// Returns the names of the terms on the CPU: `landmarks, prior`.
+  std::string cpu_names() const;
+};
+
+/// Leaves terms on the CPU that need no rendering and have no part for a GPU. With `residuals`, a
+/// part without residuals is none. All terms are for the GPU if none of the others needs rendering.
+SplitTerms split_terms(const std::vector<ObjectiveTerm>& terms, bool residuals);
+
+/// Adds the costs of a scene's terms: those for the GPU, in `drawn`, and those on the CPU, in
+/// `posed`. Residuals are in this order too. `backend`: the description of both.
+std::unique_ptr<Cost> make_split_cost(const Scene& scene, const SplitTerms& terms,
+                                      std::unique_ptr<Cost> drawn, std::unique_ptr<Cost> posed,
+                                      std::string backend);
+
+}  // namespace hypotrack
