@@ -7,22 +7,18 @@
 #include <iterator>
 #include <limits>
 #include <memory>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "base/stop_scope.hpp"
 #include "camera/pair_check.hpp"
 #include "hypotrack/error.hpp"
-#include "output/fixed_lag_output.hpp"
-#include "output/output_queue.hpp"
-#include "output/run_output.hpp"
 #include "output/true_landmarks.hpp"
-#include "plugin/plugin_notes.hpp"
 #include "run/read_ahead.hpp"
+#include "run/results.hpp"
+#include "run/run_notes.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/estimated_scene.hpp"
-#include "track/faults/fault_text.hpp"
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
@@ -108,104 +104,6 @@ EstimatedScene open_for_run(const std::filesystem::path& scene,
   return opened;
 }
 
-/// Results of a run in a folder.
-class Results {
- public:
-  /// Takes the outputs of the scene.
-  Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
-          const std::string& backend, const std::filesystem::path& folder, RunWatcher& watcher)
-      : watcher_(watcher),
-        folder_(folder),
-        backend_(backend),
-        smooths_(smoother != nullptr),
-        traces_(scene.output.trace),
-        output_(*scene.scene, scene.source->cameras(),
-                {.directory = folder,
-                 .worst_frames = scene.output.worst_frames,
-                 .frame_rate = scene.source->frame_rate(),
-                 .resolved = scene.resolved,
-                 .backend = backend,
-                 .fixed_lag = smooths_,
-                 .notes = scene.plugin_notes,
-                 .term_times = scene.term_times},
-                std::move(scene.outputs)),
-        queue_(output_),
-        frames_(*scene.scene, std::move(smoother), queue_) {}
-
-  bool want_search(const Frame& frame) const { return output_.want_search(frame); }
-  void add_search(const Frame& frame, const Solution& solution, SearchRecord record) {
-    queue_.add_search(frame, solution, std::move(record));
-  }
-
-  void add_trace(int frame, const FrameTrace& trace) { queue_.add_trace(frame, trace); }
-
-  void add(const SceneTracker& tracker, const Frame& frame, const Solution& solution) {
-    frames_.add(tracker, frame, solution);
-  }
-
-  /// Smooths and writes the frames that still wait.
-  void settle() {
-    frames_.finish();
-    queue_.settle();
-  }
-
-  /// Returns the error after which smoothing left a device; empty: there was none.
-  std::string device_error() const { return frames_.device_error(); }
-  /// Notes for the summary that the CPU took the place of a device.
-  void add_device_error(const std::string& error) {
-    output_.set_backend(fmt::format("{}, then the CPU after: {}", backend_, error));
-  }
-
-  /// Returns true if the run writes how searches converge.
-  bool traces() const { return traces_; }
-  /// Returns true if frames are smoothed before they are written.
-  bool smooths() const { return smooths_; }
-  const std::filesystem::path& folder() const { return folder_; }
-  /// Returns how long the outputs have worked, in seconds.
-  double writing_seconds() const { return queue_.seconds(); }
-
-  /// Closes the files. Returns nothing if there is no frame.
-  std::optional<Summary> finish(bool complete, const ClockTimes& clock) {
-    if (output_.empty()) return std::nullopt;
-    try {
-      return output_.finish(complete, clock);
-    } catch (...) {
-      tell_of_frames();
-      throw;
-    }
-  }
-
-  /// Says where the files with the frames so far are.
-  void tell_of_frames() {
-    if (output_.empty()) return;
-    watcher_.say(
-        fmt::format("the frames so far are in {}; the run counts as unfinished", folder_.string()));
-  }
-
-  /// Keeps the frames tracked so far after an exception, which is being handled.
-  void finish_after_error(const ClockTimes& clock) {
-    try {
-      frames_.finish_unchanged();
-      queue_.settle();
-      if (output_.empty()) return;
-      output_.finish(false, clock);
-      watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder_.string()));
-    } catch (const std::exception& e) {
-      watcher_.say(e.what());
-    }
-  }
-
- private:
-  RunWatcher& watcher_;
-  std::filesystem::path folder_;
-  std::string backend_;
-  bool smooths_;
-  bool traces_;
-  RunOutput output_;
-  OutputQueue queue_;
-  FixedLagOutput frames_;
-};
-
 /// Returns the mean distance of the landmarks from the ground truth, in metres; NaN: unknown.
 double error_of(const Scene& scene, const Frame& frame, const Solution& solution) {
   const auto truth = true_landmarks(scene, frame);
@@ -225,79 +123,6 @@ class WatchedFrames {
 
  private:
   RunWatcher& watcher_;
-};
-
-/// Says each fault of a view once.
-class FaultNotes {
- public:
-  explicit FaultNotes(RunWatcher& watcher) : watcher_(watcher) {}
-  void add(const Solution& solution) {
-    const auto& [fault, view] = std::pair(solution.fault, solution.fault_view);
-    if (fault != FrameFault::none && said_.emplace(fault, view).second)
-      watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
-  }
-
- private:
-  RunWatcher& watcher_;
-  std::set<std::pair<FrameFault, int>> said_;
-};
-
-/// Says what plugins tell the user.
-class PluginLines {
- public:
-  PluginLines(RunWatcher& watcher, PluginNotes& notes) : watcher_(watcher), notes_(notes) {}
-  void say_new() {
-    for (const std::string& line : notes_.take_lines()) watcher_.say(line);
-  }
-  void say_repeated() {
-    say_new();
-    for (const std::string& line : notes_.repeated_lines()) watcher_.say(line);
-  }
-
- private:
-  RunWatcher& watcher_;
-  PluginNotes& notes_;
-};
-
-/// Says once that the CPU took the place of a device, whether it failed in tracking or in
-/// smoothing.
-class DeviceNotes {
- public:
-  DeviceNotes(RunWatcher& watcher, const SceneTracker& tracker, Results* results)
-      : watcher_(watcher), tracker_(tracker), results_(results) {}
-  void look(const std::string& where) {
-    std::string error = tracker_.device_error();
-    if (error.empty() && results_) error = results_->device_error();
-    if (error.empty() || std::exchange(said_, true)) return;
-    watcher_.say(fmt::format("note: {}: {}; the run goes on with the CPU", where, error));
-    if (results_) results_->add_device_error(error);
-  }
-
- private:
-  RunWatcher& watcher_;
-  const SceneTracker& tracker_;
-  Results* results_;
-  bool said_ = false;
-};
-
-/// Says once that the outputs take longer than tracking, as on a slow disk.
-class OutputNote {
- public:
-  OutputNote(RunWatcher& watcher, const Results* results) : watcher_(watcher), results_(results) {}
-  void look(const ClockTimes& clock) {
-    constexpr double kLeast = 2;  // seconds, for what begins slowly
-    const double writing = results_ ? results_->writing_seconds() : 0;
-    if (writing < std::max(kLeast, clock.tracking) || std::exchange(said_, true)) return;
-    watcher_.say(fmt::format(
-        "note: outputs have taken {:.1f} s so far, and tracking {:.1f} s; is the disk of {} slow? "
-        "The run is faster with another folder or with fewer outputs",
-        writing, clock.tracking, results_->folder().string()));
-  }
-
- private:
-  RunWatcher& watcher_;
-  const Results* results_;
-  bool said_ = false;
 };
 
 using SteadyClock = std::chrono::steady_clock;
