@@ -3,42 +3,69 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "track/faults/fault_text.hpp"
 
 namespace hypotrack {
 
-void FaultNotes::add(const Solution& solution) {
+void RunNotes::add(const Solution& solution, const ClockTimes& clock) {
+  add_fault(solution);
+  look_at_start(solution);
+  look_at_device(fmt::format("frame {}", solution.frame));
+  say_plugin_lines();
+  look_at_outputs(clock);
+}
+
+void RunNotes::add_fault(const Solution& solution) {
   const auto& [fault, view] = std::pair(solution.fault, solution.fault_view);
-  if (fault != FrameFault::none && said_.emplace(fault, view).second)
+  if (fault != FrameFault::none && faults_said_.emplace(fault, view).second)
     watcher_.say(fmt::format("note: frame {}: {}", solution.frame, describe(fault, view)));
 }
 
-void PluginLines::say_new() {
-  for (const std::string& line : notes_.take_lines()) watcher_.say(line);
+/// Says if the pictures contradict what the first frame finds from a start that was given.
+void RunNotes::look_at_start(const Solution& solution) {
+  if (solution.status == Status::missing || std::exchange(start_said_, true)) return;
+  for (std::size_t m = 0; m < solution.models.size(); ++m) {
+    const double probability = solution.probabilities[m];
+    if (solution.models[m] != Status::lost || std::isnan(probability)) continue;
+    watcher_.say(fmt::format(
+        "note: frame {}: judged by the pictures, the pose found from the start is wrong "
+        "(probability {:.2f} that it is right). Is the start (init) where the models are? If so, "
+        "the judgement may not suit them, as it was fitted to hands and boxes: set "
+        "tracker.evidence to false",
+        solution.frame, probability));
+    return;
+  }
 }
 
-void PluginLines::say_repeated() {
-  say_new();
-  for (const std::string& line : notes_.repeated_lines()) watcher_.say(line);
-}
-
-void DeviceNotes::look(const std::string& where) {
+/// Says that the CPU took the place of a device, whether it failed in tracking or in smoothing.
+void RunNotes::look_at_device(const std::string& where) {
   std::string error = tracker_.device_error();
   if (error.empty() && results_) error = results_->device_error();
-  if (error.empty() || std::exchange(said_, true)) return;
+  if (error.empty() || std::exchange(device_said_, true)) return;
   watcher_.say(fmt::format("note: {}: {}; the run goes on with the CPU", where, error));
   if (results_) results_->add_device_error(error);
 }
 
-void OutputNote::look(const ClockTimes& clock) {
+/// Says that the outputs take longer than tracking, as on a slow disk.
+void RunNotes::look_at_outputs(const ClockTimes& clock) {
   constexpr double kLeast = 2;  // seconds, for what begins slowly
   const double writing = results_ ? results_->writing_seconds() : 0;
-  if (writing < std::max(kLeast, clock.tracking) || std::exchange(said_, true)) return;
+  if (writing < std::max(kLeast, clock.tracking) || std::exchange(outputs_said_, true)) return;
   watcher_.say(fmt::format(
       "note: outputs have taken {:.1f} s so far, and tracking {:.1f} s; is the disk of {} slow? "
       "The run is faster with another folder or with fewer outputs",
       writing, clock.tracking, results_->folder().string()));
+}
+
+void RunNotes::say_plugin_lines() {
+  for (const std::string& line : plugins_.take_lines()) watcher_.say(line);
+}
+
+void RunNotes::finish() {
+  say_plugin_lines();
+  for (const std::string& line : plugins_.repeated_lines()) watcher_.say(line);
 }
 
 }  // namespace hypotrack

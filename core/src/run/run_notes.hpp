@@ -11,56 +11,38 @@
 
 namespace hypotrack {
 
-/// Says each fault of a view once.
-class FaultNotes {
+/// Says what a run's user should know while it goes on, each thing once.
+class RunNotes {
  public:
-  explicit FaultNotes(RunWatcher& watcher) : watcher_(watcher) {}
-  void add(const Solution& solution);
+  /// `given_start`: whether the scene gives a start. `results` may be null. All must outlive it.
+  RunNotes(RunWatcher& watcher, const SceneTracker& tracker, bool given_start, PluginNotes& plugins,
+           Results* results)
+      : watcher_(watcher),
+        tracker_(tracker),
+        plugins_(plugins),
+        results_(results),
+        start_said_(!given_start) {}
+
+  /// Looks at a frame that was tracked and whose results were added.
+  void add(const Solution& solution, const ClockTimes& clock);
+  /// Looks for a device that failed; `where`: `frame 12`.
+  void look_at_device(const std::string& where);
+  /// Says what plugins told since the last call.
+  void say_plugin_lines();
+  /// Says that too, and how often plugins repeated it.
+  void finish();
 
  private:
-  RunWatcher& watcher_;
-  std::set<std::pair<FrameFault, int>> said_;
-};
+  void add_fault(const Solution& solution);
+  void look_at_start(const Solution& solution);
+  void look_at_outputs(const ClockTimes& clock);
 
-/// Says what plugins tell the user.
-class PluginLines {
- public:
-  PluginLines(RunWatcher& watcher, PluginNotes& notes) : watcher_(watcher), notes_(notes) {}
-  void say_new();
-  void say_repeated();
-
- private:
-  RunWatcher& watcher_;
-  PluginNotes& notes_;
-};
-
-/// Says once that the CPU took the place of a device, whether it failed in tracking or in
-/// smoothing.
-class DeviceNotes {
- public:
-  /// `results` may be null.
-  DeviceNotes(RunWatcher& watcher, const SceneTracker& tracker, Results* results)
-      : watcher_(watcher), tracker_(tracker), results_(results) {}
-  void look(const std::string& where);
-
- private:
   RunWatcher& watcher_;
   const SceneTracker& tracker_;
+  PluginNotes& plugins_;
   Results* results_;
-  bool said_ = false;
-};
-
-/// Says once that the outputs take longer than tracking, as on a slow disk.
-class OutputNote {
- public:
-  /// `results` may be null.
-  OutputNote(RunWatcher& watcher, const Results* results) : watcher_(watcher), results_(results) {}
-  void look(const ClockTimes& clock);
-
- private:
-  RunWatcher& watcher_;
-  const Results* results_;
-  bool said_ = false;
+  std::set<std::pair<FrameFault, int>> faults_said_;
+  bool start_said_, device_said_ = false, outputs_said_ = false;
 };
 
 }  // namespace hypotrack

@@ -136,15 +136,12 @@ double seconds_since(SteadyClock::time_point begin) {
 /// tracking took.
 bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Results* results,
                const std::vector<Frame>& first, const RunOptions& options, Latch& latch,
-               const std::function<bool()>& searches_anew, DeviceNotes& device,
-               PluginLines& plugin_lines, ClockTimes& clock) {
+               const std::function<bool()>& searches_anew, RunNotes& notes, ClockTimes& clock) {
   const std::optional<int> limit = options.frames;
   RunWatcher& watcher = latch.watcher();
   std::optional<int> total = source.frame_count();
   if (limit) total = total ? std::min(*total, *limit) : *limit;
   const WatchedFrames watched(watcher, total);
-  FaultNotes notes(watcher);
-  OutputNote outputs(watcher, results);
   const int read = static_cast<int>(first.size());
   ReadAhead rest(source, limit ? std::optional(*limit - read) : std::nullopt);
   for (int done = 0; !limit || done < *limit; ++done) {
@@ -165,13 +162,10 @@ bool track_all(const Scene& scene, Source& source, SceneTracker& tracker, Result
         }))
       return latch.end();
     clock.tracking += seconds_since(begin);
-    notes.add(solution);
     if (record) results->add_search(*frame, solution, *std::move(record));
     if (trace) results->add_trace(frame->index, *trace);
     if (results) results->add(tracker, *frame, solution);
-    device.look(fmt::format("frame {}", frame->index));
-    plugin_lines.say_new();
-    outputs.look(clock);
+    notes.add(solution, clock);
     const bool smooths = results && results->smooths();
     watcher.frame(
         *frame, solution,
@@ -212,6 +206,7 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   const std::vector<Frame> first = frames_up_to_a_usable(*opened.source, options.frames);
   if (options.out.empty()) opened.parts.fixed_lag.enabled = false;
   std::unique_ptr<FixedLagSmoother> smoother = make_fixed_lag_smoother(opened);
+  const bool given_start = !opened.parts.begins_by_looking;
   SceneTracker tracker(*opened.scene, std::move(opened.parts),
                        initial_state(opened, first.back(), &opened.notes), opened.seed);
   std::unique_ptr<Results> results;
@@ -224,9 +219,8 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   for (const std::string& problem :
        {problem_of_pair(opened.source->cameras()), tracker.problem_of_start(first.back())})
     if (!problem.empty()) watcher.say(fmt::format("note: {}", problem));
-  DeviceNotes device(watcher, tracker, results.get());
-  PluginLines plugin_lines(watcher, *opened.plugin_notes);
-  plugin_lines.say_new();
+  RunNotes notes(watcher, tracker, given_start, *opened.plugin_notes, results.get());
+  notes.say_plugin_lines();
   RunResult result;
   ClockTimes clock;
   const auto begin = SteadyClock::now();
@@ -236,23 +230,22 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     return clock;
   };
   try {
-    result.complete =
-        track_all(*opened.scene, *opened.source, tracker, results.get(), first, options, latch,
-                  additions.searches_anew, device, plugin_lines, clock);
+    result.complete = track_all(*opened.scene, *opened.source, tracker, results.get(), first,
+                                options, latch, additions.searches_anew, notes, clock);
     if (results) results->settle();
-    device.look("smoothing");
+    notes.look_at_device("smoothing");
     say_statistics(*opened.source, watcher);
   } catch (const OutputError&) {  // the files cannot be finished either
     if (results) results->tell_of_frames();
     throw;
   } catch (...) {
     if (results) results->finish_after_error(times());
-    plugin_lines.say_repeated();
+    notes.finish();
     say_statistics(*opened.source, watcher);
     throw;
   }
   if (results) result.summary = results->finish(result.complete, times());
-  plugin_lines.say_repeated();
+  notes.finish();
   return result;
 }
 
