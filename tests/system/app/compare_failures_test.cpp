@@ -178,5 +178,18 @@ TEST_F(CompareFailureTest, AShardIsAPartOfAWhole) {
   }
 }
 
+TEST_F(CompareFailureTest, ADiskThatBecomesReadOnlyEndsTheStudyAndKeepsItsRuns) {
+  Start on_disk = start(study(), "out");
+  on_disk.environment = {"FAILING_DISK=" + path("out").string(), "READ_ONLY_AFTER=1200",
+                         "LD_PRELOAD=" + (build_dir() / "tests/support/failing_disk.so").string()};
+  const Outcome outcome = run_program(on_disk);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr(": Read-only file system"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("unexpected error")));
+  const Outcome again = compare(study(), "out", {"--retry-failed"});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("4 of 4 runs are there, 0 failed"));
+}
+
 }  // namespace
 }  // namespace hypotrack::test
