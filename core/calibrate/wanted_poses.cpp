@@ -24,7 +24,9 @@ void want_tilts(PoseCoverage& out, const std::vector<RoughPose>& poses) {
   const std::array<std::pair<const char*, Eigen::Vector3d>, PoseCoverage::kTilts> directions = {
       {{"top", {0, -1, 0}}, {"bottom", {0, 1, 0}}, {"left", {-1, 0, 0}}, {"right", {1, 0, 0}}}};
   for (const auto& [side, direction] : directions) {
-    const auto tilted = [&](const RoughPose& pose) { return pose.normal.dot(direction) > least; };
+    const auto tilted = [&, &direction = direction](const RoughPose& pose) {
+      return pose.normal.dot(direction) > least;
+    };
     if (std::ranges::any_of(poses, tilted))
       ++out.tilts;
     else

@@ -186,7 +186,8 @@ void LiveServer::Impl::route() {
                                      : httplib::Server::HandlerResponse::Unhandled;
   });
   for (const auto& [address, file] : files)
-    server.Get(pattern_of(address), [this, &file](const Request& request, Response& response) {
+    server.Get(pattern_of(address), [this, &file = file](const Request& request,
+                                                         Response& response) {
       if (!rules.token.empty() && request.has_param("token"))
         response.set_header("Set-Cookie", fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/",
                                                       cookie_name(port), rules.token));

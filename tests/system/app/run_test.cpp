@@ -191,6 +191,20 @@ TEST_F(RunTest, SaysWhatItDid) {
   EXPECT_THAT(outcome.err, testing::Not(HasSubstr("\x1b")));  // no bar where there is no terminal
 }
 
+TEST_F(RunTest, SaysOnceThatThePicturesContradictAStart) {
+  const std::string elsewhere =
+      replaced(box_scene(), "init: {from: truth}",
+               "init: {pose: {box: {position_mm: [0, 60, 500], rotation_deg: [90, 0, 0]}}}");
+  const auto notes = [](const Outcome& outcome) {
+    return std::ranges::count_if(lines_of(outcome.err), [](const std::string& line) {
+      return line.starts_with("note: frame 0: judged by the pictures, the pose found from the ");
+    });
+  };
+  EXPECT_EQ(notes(run(elsewhere)), 1);
+  EXPECT_EQ(notes(run(elsewhere, {"--set", "tracker.evidence=false"})), 0);
+  EXPECT_EQ(notes(run(box_scene())), 0);
+}
+
 TEST_F(RunTest, FramesEndsEarlyAndIsComplete) {
   ASSERT_EQ(run(box_scene(), {"--frames", "2"}).exit_code, 0);
   EXPECT_THAT(lines_of(read_text(path("out/track.csv"))), SizeIs(3));
