@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <thread>
 
 #include "hypotrack/plugin.hpp"
@@ -19,12 +20,13 @@ enum class Fault {
   depends_on_the_object,
   never_repeats,
   refuses_everything,
+  throws_a_stranger,
   needs_a_first_frame,
   infinite_residual,
   leaves_residuals_out,
   has_no_residuals,
 };
-constexpr std::array<std::string_view, 12> kFaults = {"none",
+constexpr std::array<std::string_view, 13> kFaults = {"none",
                                                       "nan_where_nothing_is_covered",
                                                       "overflows_on_noise",
                                                       "remembers",
@@ -32,6 +34,7 @@ constexpr std::array<std::string_view, 12> kFaults = {"none",
                                                       "depends_on_the_object",
                                                       "never_repeats",
                                                       "refuses_everything",
+                                                      "throws_a_stranger",
                                                       "needs_a_first_frame",
                                                       "infinite_residual",
                                                       "leaves_residuals_out",
@@ -49,6 +52,7 @@ class Broken final : public Objective, public ResidualTerm {
 
   void prepare(const Observation& observation) override {
     if (fault_ == Fault::refuses_everything) throw DataError("this is not what I asked for");
+    if (fault_ == Fault::throws_a_stranger) throw std::runtime_error("no luck");
     if (observation.views.size() < 2) throw DataError("expected two views");
     ++frames_;
   }

@@ -2,6 +2,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
 
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/random.hpp"
@@ -21,8 +22,9 @@ enum class Fault {
   swallows_exceptions,
   ignores_time,
   hardly_searches,
+  crashes,
 };
-constexpr std::array<std::string_view, 10> kFaults = {"none",
+constexpr std::array<std::string_view, 11> kFaults = {"none",
                                                       "starts_elsewhere",
                                                       "overspends",
                                                       "miscounts",
@@ -31,7 +33,8 @@ constexpr std::array<std::string_view, 10> kFaults = {"none",
                                                       "ignores_the_seed",
                                                       "swallows_exceptions",
                                                       "ignores_time",
-                                                      "hardly_searches"};
+                                                      "hardly_searches",
+                                                      "crashes"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 /// A (1+1) evolution strategy with the 1/5 success rule.
@@ -49,6 +52,7 @@ class Broken final : public Optimizer {
                            std::uint64_t seed) override {
     static std::atomic<std::uint64_t> calls = 0;
     check_search(cost, region, budget);
+    if (fault_ == Fault::crashes) std::abort();
     const Deadline deadline(budget.seconds);
     if (fault_ == Fault::ignores_the_seed) seed = ++calls;
     std::int64_t limit = budget.evaluations + (fault_ == Fault::overspends ? 1 : 0);

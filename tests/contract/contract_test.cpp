@@ -112,7 +112,12 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"objective", "has_no_residuals", "it has what its capabilities claim",
                            "they claim residuals, and residual_term() is null"},
                       Case{"objective", "leaves_residuals_out", kResidualRow,
-                           "a rectified pair: not all of them are written"}),
+                           "a rectified pair: not all of them are written: residual 1 keeps what "
+                           "was there. residual_count() says 2"},
+                      Case{"objective", "throws_a_stranger",
+                           "it takes observations in or refuses them with a DataError",
+                           "prepare() threw another exception: no luck. Throw hypotrack::DataError "
+                           "where an observation does not suit"}),
     [](const auto& each) { return each.param.fault; });
 
 Outcome run_prior(const std::string& fault) {
@@ -305,6 +310,25 @@ TEST(ContractProgram, RowsForTheDevicePassOrSayWhatIsMissing) {
         "costs on the device repeat to the bit"}) {
     EXPECT_THAT(outcome.output, HasSubstr(row + (why.empty() ? ": ok\n" : ": skipped\n    ")));
   }
+}
+
+TEST(ContractProgram, ParametersHaveHelpAndNamesThatScenesLeaveFree) {
+  const Outcome outcome = run({"objective", std::string(HYPOTRACK_BROKEN_PLUGINS) +
+                                                "/libhypotrack_objective_broken_names.so"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_THAT(outcome.output,
+              AllOf(HasSubstr("no parameter has a name that scenes take: FAILED\n"
+                              "    scenes read 'weight' of every objective themselves"),
+                    HasSubstr("every parameter has a line of help: FAILED\n"
+                              "    the parameter 'sigma' has none: write {.help = ")));
+}
+
+TEST(ContractProgram, ACrashSaysInWhichPluginAndRow) {
+  const Outcome outcome = run("optimizer", "fault: crashes\n");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("it searches in 1 to 54 dimensions"));
+  EXPECT_THAT(outcome.output, HasSubstr("hypotrack: optimizer " + library("optimizer") +
+                                        ": crashed in the row above\n"));
 }
 
 TEST(ContractProgram, AnotherKindIsNoticed) {

@@ -79,10 +79,11 @@ struct LinearizationParams {
 /// the cost can, otherwise by differences. Keeps the best point and counts all evaluations.
 class Linearizer {
  public:
-  /// The arguments must outlive this object. Precondition: the cost has residuals.
+  /// The arguments must outlive this object. Throws ConfigError if the cost has no residuals.
   Linearizer(CostFunction& cost, const SearchRegion& region, const LinearizationParams& params,
              BestSoFar& best)
       : cost_(cost), region_(region), params_(params), best_(best) {
+    check_requirements({.least_squares = true}, cost.residuals(), cost.device());
     if (!cost.residuals()->can_linearize()) differences_ = cost.residuals()->differences();
   }
 

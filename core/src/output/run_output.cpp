@@ -43,8 +43,14 @@ class ResultNames {
         return name == known.first || is_result(name, known.first) || is_result(known.first, name);
       });
       if (other != owners_.end())
-        throw ConfigError(fmt::format("output: {} and {} both write {}; leave one of them out",
-                                      other->second, owner, name));
+        throw ConfigError(
+            other->second == owner
+                ? fmt::format("output: {} is there twice, and both write {}; leave one of them "
+                              "out. A run writes the tables by itself, and the overlay unless "
+                              "output.overlay is false",
+                              owner, name)
+                : fmt::format("output: {} and {} both write {}; leave one of them out",
+                              other->second, owner, name));
       owners_.emplace(name, owner);
       if (name != kSummaryFile && std::ranges::find(names_, name) == names_.end())
         names_.push_back(name);

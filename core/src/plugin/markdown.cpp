@@ -10,41 +10,11 @@
 #include <vector>
 
 #include "plugin/capabilities.hpp"
+#include "plugin/help_lines.hpp"
 #include "plugin/inspect.hpp"
 
 namespace hypotrack {
 namespace {
-
-/// A line of describe_params(): key, type and help, with two spaces or more between them.
-struct HelpLine {
-  std::size_t depth = 0;  ///< 0 for a parameter of the plugin itself
-  std::string_view key, type, help;
-};
-
-std::string_view trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
-}
-
-/// Takes the text before the next two spaces.
-std::string_view take_column(std::string_view& rest) {
-  const std::size_t end = std::min(rest.find("  "), rest.size());
-  const std::string_view column = rest.substr(0, end);
-  rest = trim(rest.substr(end));
-  return column;
-}
-
-HelpLine parse(std::string_view line) {
-  HelpLine out;
-  const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
-  out.depth = indent / 2 > 0 ? indent / 2 - 1 : 0;
-  std::string_view rest = line.substr(indent);
-  out.key = take_column(rest);
-  out.type = take_column(rest);
-  out.help = rest;
-  return out;
-}
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -86,11 +56,7 @@ std::string format_markdown(const PluginRow& row) {
   if (row.parameters.empty()) return out + "It has no parameters.\n";
   out += "| parameter | type | default | meaning |\n|---|---|---|---|\n";
   std::vector<std::string> path;
-  std::string_view rest = row.parameters;
-  while (!rest.empty()) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const HelpLine line = parse(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
+  for (const detail::HelpLine& line : detail::help_lines(row.parameters)) {
     path.resize(std::min(line.depth, path.size()));
     std::string name;
     for (const std::string& parent : path) name += parent + ".";

@@ -12,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
 #include "plugin/plugin_notes.hpp"
+#include "plugin/scene_keys.hpp"
 #include "session/checked_objective.hpp"
 #include "session/checked_output.hpp"
 #include "session/checked_source.hpp"
@@ -50,8 +51,8 @@ class Opening {
 
  private:
   template <class T>
-  std::unique_ptr<T> make(const ConfigNode& node, std::vector<std::string> also_allowed,
-                          YamlDocument& record) {
+  std::unique_ptr<T> make(const ConfigNode& node, YamlDocument& record) {
+    const std::vector<std::string> also_allowed = detail::scene_keys(kPluginKind<T>);
     std::string resolved;
     auto object = plugins_->make<T>(node, session_.scene.get(), also_allowed, &resolved,
                                     session_.plugin_notes);
@@ -68,9 +69,8 @@ class Opening {
 
   /// Makes a plugin and wraps it into a class that checks it and names it in messages.
   template <class Checked, class T>
-  std::unique_ptr<T> make_checked(const ConfigNode& node, std::vector<std::string> also_allowed,
-                                  YamlDocument& record) {
-    auto object = make<T>(node, std::move(also_allowed), record);
+  std::unique_ptr<T> make_checked(const ConfigNode& node, YamlDocument& record) {
+    auto object = make<T>(node, record);
     std::string who = detail::plugin_label(kPluginKind<T>, node, object.get());
     return std::make_unique<Checked>(std::move(object), std::move(who));
   }
@@ -121,7 +121,7 @@ void Opening::models() {
   for (std::size_t i = 0; i < file_.models.size(); ++i) {
     const ConfigNode node = file_.models.at(i);
     YamlDocument record;
-    std::shared_ptr<const Model> model = make<Model>(node, {"name"}, record);
+    std::shared_ptr<const Model> model = make<Model>(node, record);
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
     const auto allowed = [](unsigned char c) {
       return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;  // the rest of UTF-8
@@ -146,7 +146,7 @@ void Opening::models() {
 void Opening::source() {
   if (!file_.source.defined()) detail::fail_at(root_.get("source"), "required key is missing");
   YamlDocument record;
-  auto made = make<Source>(file_.source, {}, record);
+  auto made = make<Source>(file_.source, record);
   std::string who = detail::plugin_label(kPluginKind<Source>, file_.source, made.get());
   std::string plugin =
       fmt::format("{}: source '{}'", file_.source.where(), text_of(file_.source, "type", ""));
@@ -173,7 +173,7 @@ void Opening::objective() {
     YamlDocument record;
     ObjectiveTerm term;
     term.name = text_of(node, "type", "");
-    term.objective = make_checked<CheckedObjective, Objective>(node, {"weight"}, record);
+    term.objective = make_checked<CheckedObjective, Objective>(node, record);
     session_.term_times.push_back({fmt::format("{} ({})", node.path(), term.name),
                                    static_cast<CheckedObjective&>(*term.objective).times()});
     const ConfigNode weight = node.get("weight");
@@ -201,7 +201,7 @@ void Opening::images() {
 
 void Opening::optimizer() {
   YamlDocument record;
-  session_.parts.optimizer = make<Optimizer>(file_.optimizer, {}, record);
+  session_.parts.optimizer = make<Optimizer>(file_.optimizer, record);
   session_.parts.optimizer_label =
       detail::plugin_label(kPluginKind<Optimizer>, file_.optimizer, session_.parts.optimizer.get());
   record_.set("optimizer", record);
@@ -214,7 +214,7 @@ std::vector<std::unique_ptr<Start>> Opening::starts(const ConfigNode& from,
   for (const ConfigNode& node : nodes) {
     YamlDocument record;
     try {
-      all.push_back(make_checked<CheckedStart, Start>(node, {}, record));
+      all.push_back(make_checked<CheckedStart, Start>(node, record));
     } catch (const DataError& e) {
       if (from.scalar() != kStartAuto) throw;
       session_.notes.push_back(fmt::format("{} goes without the start {}: {}", kStartAuto,
@@ -274,7 +274,7 @@ void Opening::start() {
 void Opening::outputs() {
   const auto add = [&](const ConfigNode& node) {
     YamlDocument record;
-    auto output = make_checked<CheckedOutput, Output>(node, {}, record);
+    auto output = make_checked<CheckedOutput, Output>(node, record);
     session_.outputs.push_back({text_of(node, "type", ""), std::move(output)});
     return record;
   };

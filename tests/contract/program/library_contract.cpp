@@ -5,6 +5,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "plugin/help_lines.hpp"
+#include "plugin/scene_keys.hpp"
 #include "subject.hpp"
 
 namespace hypotrack::contract {
@@ -56,24 +58,21 @@ void check_texts(const HypotrackPlugin& plugin) {
   require(plugin.create && plugin.describe, "has no factory or no description");
 }
 
-/// Returns the keys at the outer level of a dump.
-std::vector<std::string> parameter_names(const std::string& dump) {
-  auto keys = ConfigNode::parse(dump, "dump").keys();
-  std::erase(keys, "type");
-  return keys;
+/// Throws unless every line of a plugin's help, also of nested parameters, says what it means.
+void check_help(const std::string& help) {
+  for (const detail::HelpLine& line : detail::help_lines(help))
+    require(!line.help.empty(), "the parameter '" + std::string(line.key) +
+                                    "' has none: write {.help = \"what it does\"} in visit()");
 }
 
-void check_help(const std::string& help, const std::string& dump) {
-  for (const std::string& key : parameter_names(dump)) {
-    std::istringstream lines(help);
-    bool found = false;
-    for (std::string line; std::getline(lines, line);) {
-      std::string word;
-      std::istringstream(line) >> word;
-      found |= word == key;
-    }
-    require(found, "its help has no line for the parameter '" + key + "'");
-  }
+/// Throws if a parameter has the name of a key that scenes read themselves.
+void check_keys(const std::string& help, const std::string& kind) {
+  std::vector<std::string> taken = detail::scene_keys(kind);
+  taken.push_back("type");
+  for (const detail::HelpLine& line : detail::help_lines(help))
+    require(line.depth > 0 || std::ranges::find(taken, line.key) == taken.end(),
+            "scenes read '" + std::string(line.key) + "' of every " + kind +
+                " themselves: give the parameter another name in visit()");
 }
 
 }  // namespace
@@ -115,6 +114,8 @@ bool check_library(Report& report, Subject& subject) {
 template <PluginInterface T>
 bool check_parameters(Report& report, const Subject& subject, bool needs_config) {
   std::string dump;
+  report.row("no parameter has a name that scenes take",
+             [&] { check_keys(open_descriptor(subject.library).describe(), subject.kind); });
   report.row("an object can be made", [&] {
     try {
       subject.make<T>(subject.config(), &dump);
@@ -131,7 +132,7 @@ bool check_parameters(Report& report, const Subject& subject, bool needs_config)
   });
   if (!report.passed()) return false;
   report.row("every parameter has a line of help",
-             [&] { check_help(open_descriptor(subject.library).describe(), dump); });
+             [&] { check_help(open_descriptor(subject.library).describe()); });
   report.row("a dump of the parameters gives the same object", [&] {
     std::string again;
     subject.make<T>(ConfigNode::parse(dump, "dump"), &again);

@@ -4,6 +4,8 @@
 #include <iostream>
 #include <map>
 
+#include "plugin/crash_report.hpp"
+#include "plugin/running_plugin.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"
 
@@ -41,6 +43,9 @@ int main(int argc, char** argv) {
   subject.kind = argv[1];
   subject.library = argv[2];
   if (argc == 4) subject.config_file = argv[3];
+  const std::string who = subject.kind + " " + subject.library.string();
+  const detail::RunningPlugin running(who.c_str(), " in the row above");
+  const detail::CrashReport crash_report;
   try {
     return run(subject);
   } catch (const std::exception& error) {

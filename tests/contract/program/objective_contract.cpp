@@ -55,6 +55,9 @@ std::vector<Setting> make_settings(const Subject& subject) {
     } catch (const DataError& error) {
       refusal = setting.name + ": " + error.what();
       continue;
+    } catch (const std::exception& error) {
+      throw Violation(setting.name + ": prepare() threw another exception: " + error.what() +
+                      ". Throw hypotrack::DataError where an observation does not suit");
     }
     setting.hypotheses = make_hypotheses(*subject.scene, setting.observation);
     for (std::size_t i = 0; i < setting.hypotheses.size(); ++i) setting.order.push_back(i);
@@ -142,7 +145,14 @@ std::vector<float> residuals(const Setting& setting, float before) {
 void check_residuals(const Setting& setting) {
   if (!setting.objective->residual_term()) throw Skipped("it offers none");
   const std::vector<float> expected = residuals(setting, 0.0f);
-  require(residuals(setting, 7.0f) == expected, setting.name + ": not all of them are written");
+  const std::vector<float> again = residuals(setting, 7.0f);
+  const auto differ = std::ranges::mismatch(again, expected);
+  const auto count = static_cast<std::size_t>(setting.objective->residual_term()->residual_count());
+  const auto at = static_cast<std::size_t>(differ.in1 - again.begin());
+  if (differ.in1 != again.end())
+    throw Violation(setting.name + ": not all of them are written: residual " +
+                    std::to_string(at % count) + " keeps what was there. residual_count() says " +
+                    std::to_string(count));
   std::vector<std::future<bool>> threads;
   for (int t = 0; t < 4; ++t) {
     threads.push_back(

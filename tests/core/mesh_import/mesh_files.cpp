@@ -128,10 +128,14 @@ std::string glb(const GlbContent& content) {
     attributes["WEIGHTS_0"] = writer.add(content.weights, "VEC4", kFloat);
   }
   if (!content.uvs.empty()) attributes["TEXCOORD_0"] = writer.add(content.uvs, "VEC2", kFloat);
+  if (!content.colors.empty()) attributes["COLOR_0"] = writer.add(content.colors, "VEC3", kFloat);
   Json primitive = {{"attributes", attributes},
                     {"indices", writer.add(content.indices, "SCALAR", kUnsignedShort)}};
   if (!content.image.empty() || !content.image_uri.empty()) {
     add_texture(writer, content);
+    primitive["material"] = 0;
+  } else if (!content.colors.empty()) {
+    json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", content.base_color}}}}};
     primitive["material"] = 0;
   }
   json["meshes"] = {{{"name", "body"}, {"primitives", {primitive}}}};
@@ -171,6 +175,14 @@ std::string ply() {
          "property float y\nproperty float z\nelement face 4\n"
          "property list uchar int vertex_indices\nend_header\n"
          "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+}
+
+std::string colored_ply() {
+  return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+         "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+         "0 0 0 150 100 100\n1 0 0 100 150 100\n0 1 0 100 100 150\n0 0 1 120 120 120\n"
+         "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 }
 
 std::string binary_ply() {

@@ -29,8 +29,10 @@ struct GlbContent {
       {1, 0, 0, 0}, {1, 0, 0, 0}, {1, 0, 0, 0}, {0.25f, 0.75f, 0, 0}};
   std::vector<GlbBone> bones = {{"root", -1, {0, 0, 0}}, {"tip", 0, {0, 1, 0}}};
   std::vector<std::array<float, 2>> uvs;  ///< glTF's: v downwards
-  std::string image;                      ///< PNG or JPEG to embed
-  std::string image_uri;                  ///< or an image beside the file
+  std::vector<std::array<float, 3>> colors;
+  std::array<float, 4> base_color{1, 1, 1, 1};  ///< of the material, without an image
+  std::string image;                            ///< PNG or JPEG to embed
+  std::string image_uri;                        ///< or an image beside the file
 };
 
 std::string glb(const GlbContent& content);
@@ -39,6 +41,8 @@ std::string glb(const GlbContent& content);
 std::string obj();
 std::string binary_stl();
 std::string ply();
+/// The same with the colours 150 100 100, 100 150 100, 100 100 150 and 120 120 120.
+std::string colored_ply();
 std::string binary_ply();
 
 std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes);

@@ -161,6 +161,14 @@ TEST_F(RunOutputTest, TwoOutputsOfOneFileAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(out()));
 }
 
+TEST_F(RunOutputTest, AnOutputThatIsThereTwiceIsRefusedSayingWhichOnesComeByThemselves) {
+  std::vector<NamedOutput> outputs = one(std::make_unique<Diary>("diary.txt"));
+  outputs.push_back({outputs.front().name, std::make_unique<Diary>("diary.txt")});
+  EXPECT_THAT(message_of<ConfigError>([&] { check_outputs(outputs); }),
+              AllOf(HasSubstr("diary is there twice, and both write diary.txt"),
+                    HasSubstr("the overlay unless output.overlay is false")));
+}
+
 TEST_F(RunOutputTest, TwoOutputsOfOneFileAreFoundWithoutARun) {
   EXPECT_NO_THROW(check_outputs(one(std::make_unique<Diary>("diary.txt"))));
   EXPECT_THAT(

@@ -18,7 +18,11 @@ class PaintedBox {
  public:
   static constexpr double kWide = 0.12, kFace = 0.5;  // metres
 
-  PaintedBox() {
+  /// `wide` and `high` are the edges of its face.
+  explicit PaintedBox(double wide = kWide, double high = kWide)
+      : scene{{{"box", std::make_shared<Model>(make_test_box({wide, high, 0.02}))}}},
+        half_wide_(wide / 2),
+        half_high_(high / 2) {
     Camera camera{640, 480, 500, 500, 319.5, 239.5, DistortionModel::none, {}, {}};
     camera.camera_from_world = Eigen::Isometry3d::Identity();
     cameras = {camera, camera};
@@ -45,12 +49,12 @@ class PaintedBox {
     return out;
   }
 
-  Scene scene{{{"box", std::make_shared<Model>(make_test_box({kWide, kWide, 0.02}))}}};
+  Scene scene;
   std::vector<Camera> cameras;
   std::unique_ptr<TileMaker> tiles;
 
  private:
-  static cv::Mat picture(const Camera& camera, cv::RNG& random) {
+  cv::Mat picture(const Camera& camera, cv::RNG& random) const {
     cv::Mat3b out(camera.height, camera.width);
     random.fill(out, cv::RNG::UNIFORM, 20, 235);
     const double baseline = camera.camera_from_world.translation().x();
@@ -58,7 +62,7 @@ class PaintedBox {
       for (int u = 0; u < out.cols; ++u) {
         const double x = (u - camera.cx) / camera.fx * kFace - baseline;
         const double y = (v - camera.cy) / camera.fy * kFace;
-        if (std::max(std::abs(x), std::abs(y)) > kWide / 2) continue;
+        if (std::abs(x) > half_wide_ || std::abs(y) > half_high_) continue;
         const double wave = std::sin(150 * x + 60 * y), across = std::cos(90 * y - 40 * x);
         out(v, u) = cv::Vec3b(cv::saturate_cast<uchar>(100 + 40 * wave),
                               cv::saturate_cast<uchar>(110 + 35 * across),
@@ -67,6 +71,8 @@ class PaintedBox {
     }
     return out;
   }
+
+  double half_wide_, half_high_;
 };
 
 }  // namespace hypotrack::test

@@ -30,6 +30,15 @@ TEST_F(PoseVerifierTest, BothViewsAgreeWhereTheModelIs) {
   EXPECT_GT(right[Evidence::kAgreement], 0.9);
 }
 
+TEST_F(PoseVerifierTest, ALongThinModelIsMeasuredAsWell) {
+  const test::PaintedBox stick(0.5, 0.02);
+  ModelVerifier verifier(stick.scene, 0, stick.cameras);
+  const Evidence right = verifier.measure_evidence(stick.frame(), stick.state(), {});
+  ASSERT_TRUE(right.known);
+  EXPECT_GT(right[Evidence::kAgreement], 0.8);
+  EXPECT_GT(right[Evidence::kTexture], 0.5);
+}
+
 TEST_F(PoseVerifierTest, SurfacesBesideTheSilhouetteDoNotAgree) {
   const Evidence right = evidence_at(0);
   EXPECT_LT(right[Evidence::kRingTexture], 0.5 * right[Evidence::kTexture]);

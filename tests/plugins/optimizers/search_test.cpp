@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "hypotrack/linearization.hpp"
 #include "search_problems.hpp"
 
 namespace hypotrack {
@@ -15,6 +16,14 @@ using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
 
 const auto kFlat = [](const Eigen::VectorXd&) { return 0.0; };
+
+TEST(Linearizer, RefusesACostWithoutResiduals) {
+  test::RecordingCost cost(8, kFlat);
+  cost.has_residuals = false;
+  const SearchRegion region = test::tracking_region(8);
+  BestSoFar best;
+  EXPECT_THROW(Linearizer(cost, region, {}, best), ConfigError);
+}
 
 TEST(Search, ARegionThatBreaksItsContractIsNamed) {
   test::RecordingCost cost(8, kFlat);

@@ -52,6 +52,13 @@ void check_uvs(const MeshFile& file, const MeshPart& part) {
   }
 }
 
+void check_colors(const MeshFile& file, const MeshPart& part) {
+  if (!part.colors.empty() && part.colors.size() != part.positions.size()) {
+    file.fail(fmt::format("mesh '{}' has {} colours for {} vertices", part.name, part.colors.size(),
+                          part.positions.size()));
+  }
+}
+
 void check_weights(const MeshFile& file, const MeshPart& part) {
   const std::size_t count = part.positions.size();
   for (const mesh_wire::Weight& weight : part.weights) {
@@ -74,6 +81,7 @@ void check_part(const MeshFile& file, const MeshPart& part) {
   check_positions(file, part);
   check_triangles(file, part);
   check_uvs(file, part);
+  check_colors(file, part);
   check_weights(file, part);
 }
 

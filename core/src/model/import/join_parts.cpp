@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <cctype>
+#include <cmath>
+
 #include "model/import/steps.hpp"
 
 namespace hypotrack {
@@ -9,26 +12,55 @@ using mesh_wire::MeshPart;
 
 constexpr std::size_t kMostVertices = 10'000'000;
 
-Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles, bool has_uvs) {
+/// What all parts with triangles have.
+struct Features {
+  bool uvs = true, colors = true;
+};
+
+Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles,
+                const Features& has) {
   Soup soup;
   soup.points.resize(3, static_cast<Eigen::Index>(points));
   soup.triangles.resize(3, static_cast<Eigen::Index>(triangles));
-  if (has_uvs) soup.uvs.resize(points);
+  if (has.uvs) soup.uvs.resize(points);
+  if (has.colors) soup.colors.resize(points);
   if (!file.scene.bones.empty()) soup.influences.resize(points);
   return soup;
 }
 
-void join_part(const MeshFile& file, const MeshPart& part, bool has_uvs, Eigen::Index point,
+/// Returns the factor on the colours of a part's vertices: in glTF the colour of its material.
+Eigen::Vector3f color_factor(const MeshFile& file, const MeshPart& part) {
+  const bool gltf = file.path.extension().string().size() > 2 &&
+                    std::tolower(file.path.extension().string()[1]) == 'g';
+  if (!gltf || part.material >= file.scene.materials.size()) return Eigen::Vector3f::Ones();
+  const Eigen::Map<const Eigen::Vector3f> color(file.scene.materials[part.material].color.data());
+  if (!color.allFinite()) return Eigen::Vector3f::Ones();
+  return color.cwiseMax(0.0f).cwiseMin(1.0f);
+}
+
+void join_colors(const MeshFile& file, const MeshPart& part, std::size_t first, Soup& soup) {
+  if (soup.colors.empty()) return;
+  const Eigen::Vector3f factor = color_factor(file, part);
+  for (std::size_t i = 0; i < part.colors.size(); ++i) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      soup.colors[first + i][c] = static_cast<std::uint8_t>(
+          std::lround(factor[static_cast<Eigen::Index>(c)] * part.colors[i][c]));
+    }
+  }
+}
+
+void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
                Eigen::Index triangle, Soup& soup) {
   const auto first = static_cast<std::size_t>(point);
   for (std::size_t i = 0; i < part.positions.size(); ++i) {
     soup.points.col(point + static_cast<Eigen::Index>(i)) =
         static_cast<float>(file.options.scale) *
         Eigen::Map<const Eigen::Vector3f>(part.positions[i].data());
-    if (has_uvs && !part.uvs.empty()) {
+    if (!soup.uvs.empty() && !part.uvs.empty()) {
       soup.uvs[first + i] = Eigen::Map<const Eigen::Vector2f>(part.uvs[i].data());
     }
   }
+  join_colors(file, part, first, soup);
   for (const auto& corners : part.triangles) {
     for (int k = 0; k < 3; ++k) {
       soup.triangles(k, triangle) =
@@ -48,23 +80,25 @@ void join_part(const MeshFile& file, const MeshPart& part, bool has_uvs, Eigen::
 Soup join_parts(const MeshFile& file) {
   std::size_t points = 0;
   std::size_t triangles = 0;
-  bool has_uvs = true;
+  Features has;
   for (const MeshPart& part : file.scene.meshes) {
     check_part(file, part);
     points += part.positions.size();
     triangles += part.triangles.size();
-    has_uvs = has_uvs && (!part.uvs.empty() || part.triangles.empty());
+    if (part.triangles.empty()) continue;
+    has.uvs = has.uvs && !part.uvs.empty();
+    has.colors = has.colors && !part.colors.empty();
   }
   if (triangles == 0) file.fail("the mesh has no faces");
   if (points > kMostVertices || triangles > kMostVertices) {
     file.fail(
         fmt::format("the mesh has {} vertices and {} triangles: decimate it", points, triangles));
   }
-  Soup soup = empty_soup(file, points, triangles, has_uvs);
+  Soup soup = empty_soup(file, points, triangles, has);
   Eigen::Index point = 0;
   Eigen::Index triangle = 0;
   for (const MeshPart& part : file.scene.meshes) {
-    join_part(file, part, has_uvs, point, triangle, soup);
+    join_part(file, part, point, triangle, soup);
     point += static_cast<Eigen::Index>(part.positions.size());
     triangle += static_cast<Eigen::Index>(part.triangles.size());
   }

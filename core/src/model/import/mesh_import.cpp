@@ -41,6 +41,8 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOpti
   fill_weights(soup, welded, imported.mesh);
   if (!soup.uvs.empty()) fill_uvs(soup, welded.triangles, imported.mesh);
   fill_appearance(file, imported.mesh);
+  if (imported.mesh.texture.empty() && !soup.colors.empty())
+    fill_vertex_colors(soup, welded.triangles, imported.mesh);
   return imported;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -28,6 +30,7 @@ struct Soup {
   Eigen::Matrix3Xf points;
   Eigen::Matrix3Xi triangles;
   std::vector<Eigen::Vector2f> uvs;                 // empty or one per point
+  std::vector<std::array<std::uint8_t, 3>> colors;  // RGB; empty or one per point
   std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
 };
 
@@ -62,6 +65,10 @@ void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
 /// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
 void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
+
+/// Fills the texture and its coordinates with the colours of the points. Points of one colour give
+/// the mesh that colour instead. Requires colours and at least one triangle.
+void fill_vertex_colors(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 
 /// Fills texture or colour; removes the texture coordinates if there is no texture.
 void fill_appearance(const MeshFile& file, Mesh& mesh);

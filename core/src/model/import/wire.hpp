@@ -22,8 +22,9 @@ struct Weight {
 
 struct MeshPart {
   std::string name;
-  std::vector<std::array<float, 3>> positions;  ///< file frame, bind pose
-  std::vector<std::array<float, 2>> uvs;        ///< one per vertex, v upwards; or empty
+  std::vector<std::array<float, 3>> positions;      ///< file frame, bind pose
+  std::vector<std::array<float, 2>> uvs;            ///< one per vertex, v upwards; or empty
+  std::vector<std::array<std::uint8_t, 3>> colors;  ///< RGB, one per vertex; or empty
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Weight> weights;
   std::uint32_t material = 0;
@@ -55,7 +56,7 @@ struct Scene {
   std::vector<Texture> textures;
 };
 
-inline constexpr std::string_view kMagic = "hypotrack mesh 1";
+inline constexpr std::string_view kMagic = "hypotrack mesh 2";
 
 /// Appends values to a byte buffer.
 class Writer {
@@ -133,6 +134,7 @@ void fields(Archive& archive, T& part) {
   archive(part.name);
   archive(part.positions);
   archive(part.uvs);
+  archive(part.colors);
   archive(part.triangles);
   archive(part.weights);
   archive(part.material);

@@ -76,13 +76,16 @@ cv::Mat3f without_local_mean(const cv::Mat3f& color, const cv::Mat1f& weight,
 /// Averages a measurement over pieces of the grid that overlap by half.
 class Pieces {
  public:
-  Pieces() : sum_(kPieces * kPieces), count_(sum_.size()) {}
+  explicit Pieces(int grid)
+      : along_(grid / kStep - 1),
+        sum_(static_cast<std::size_t>(along_) * static_cast<std::size_t>(along_)),
+        count_(sum_.size()) {}
 
   void add(int x, int y, double value) {
     for (const int row : {y / kStep - 1, y / kStep})
       for (const int column : {x / kStep - 1, x / kStep}) {
-        if (row < 0 || column < 0 || row >= kPieces || column >= kPieces) continue;
-        const auto i = static_cast<std::size_t>(row * kPieces + column);
+        if (row < 0 || column < 0 || row >= along_ || column >= along_) continue;
+        const auto i = static_cast<std::size_t>(row * along_ + column);
         sum_[i] += value;
         count_[i] += 1;
       }
@@ -93,7 +96,7 @@ class Pieces {
   double highest(double otherwise) const { return extreme(otherwise, std::greater<>()); }
 
  private:
-  static constexpr int kStep = 4, kPieces = kSampleGrid / kStep - 1;
+  static constexpr int kStep = 4;
 
   template <class Before>
   double extreme(double otherwise, Before before) const {
@@ -108,6 +111,7 @@ class Pieces {
            static_cast<double>(few);
   }
 
+  int along_;  ///< pieces along a side
   std::vector<double> sum_, count_;
 };
 
@@ -138,7 +142,7 @@ Texture texture(const Pairs& pairs) {
   if (sums.count < kLeastPoints) return {};
   cv::boxFilter(products, products, -1, {kWindow, kWindow}, {-1, -1}, false, cv::BORDER_CONSTANT);
   int agree = 0;
-  Pieces pieces;
+  Pieces pieces(a.rows);
   for (int y = 0; y < a.rows; ++y)
     for (int x = 0; x < a.cols; ++x) {
       if (!pairs.mask(y, x)) continue;
@@ -247,7 +251,7 @@ Probability probability(const SurfaceSamples& samples, const ForegroundColors& c
   double sum = 0, lowest = 1, highest = 0;
   int count = 0;
   for (const SampledView& view : samples.views) {
-    Pieces pieces;
+    Pieces pieces(view.color.rows);
     for (int y = 0; y < view.color.rows; ++y)
       for (int x = 0; x < view.color.cols; ++x) {
         if (!(view.*mask)(y, x)) continue;

@@ -83,6 +83,16 @@ void extend(cv::Mat1f& depth, const cv::Mat1b& inside, const cv::Mat1b& ring) {
       if (ring(y, x)) depth(y, x) = of_label[static_cast<std::size_t>(label(y, x))];
 }
 
+/// Returns the points along a side of a model's grid. A model that is larger than a hand has more,
+/// so that its parts are sampled as finely.
+int grid_for(const Mesh& mesh) {
+  constexpr float kHand = 0.35f;  // metres
+  constexpr int kMostTimes = 3;
+  const float size =
+      (mesh.vertices.rowwise().maxCoeff() - mesh.vertices.rowwise().minCoeff()).norm();
+  return kSampleGrid * std::clamp(static_cast<int>(std::ceil(size / kHand)), 1, kMostTimes);
+}
+
 }  // namespace
 
 struct SurfaceSampler::Impl {
@@ -90,7 +100,8 @@ struct SurfaceSampler::Impl {
       : scene(whole_scene),
         item(whole_scene.items()[model]),
         single(std::vector{std::pair{item.name, item.model}}),
-        tiles(single, cameras, {kSampleGrid, kSamplePadding}),
+        grid_size(grid_for(item.model->data().mesh)),
+        tiles(single, cameras, {grid_size, kSamplePadding}),
         single_plan(single),
         single_drawer(single_plan),
         surface(spread_points(item.model->data().mesh, kPoints)) {
@@ -109,6 +120,7 @@ struct SurfaceSampler::Impl {
   const Scene& scene;
   const Scene::Item& item;
   Scene single;
+  int grid_size;
   TileMaker tiles;
   ScenePlan single_plan;
   HypothesisDrawer single_drawer;
@@ -142,18 +154,18 @@ void SurfaceSampler::Impl::draw(const Observation& header, const Eigen::VectorXd
 }
 
 SampledView SurfaceSampler::Impl::measure_evidence(const Lookup& lookup, std::size_t view) const {
-  SampledView out{cv::Mat3f(kSampleGrid, kSampleGrid, cv::Vec3f(0, 0, 0)),
-                  cv::Mat1b(kSampleGrid, kSampleGrid, uchar{0}),
+  SampledView out{cv::Mat3f(grid_size, grid_size, cv::Vec3f(0, 0, 0)),
+                  cv::Mat1b(grid_size, grid_size, uchar{0}),
                   {}};
   const cv::Mat1f &mine = own[view], &nearest = all[view];
-  for (int y = 0; y < kSampleGrid; ++y)
-    for (int x = 0; x < kSampleGrid; ++x)
+  for (int y = 0; y < grid_size; ++y)
+    for (int x = 0; x < grid_size; ++x)
       if (mine(y, x) > 0 && scalar::same_depth(mine(y, x), nearest(y, x), kSameSurface))
         out.inside(y, x) = 255;
   const cv::Mat ball = cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kRing + 1, 2 * kRing + 1});
   cv::dilate(out.inside, out.ring, ball);
-  for (int y = 0; y < kSampleGrid; ++y)
-    for (int x = 0; x < kSampleGrid; ++x) {
+  for (int y = 0; y < grid_size; ++y)
+    for (int x = 0; x < grid_size; ++x) {
       if (!out.ring(y, x)) continue;
       const bool seen = lookup(static_cast<float>(x), static_cast<float>(y), out.color(y, x));
       if (!seen) out.inside(y, x) = 0;
@@ -168,10 +180,10 @@ void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
   const SampledView& first = out.views[0];
   cv::Mat1f depth = own[0].clone();
   extend(depth, first.inside, first.ring);
-  out.other = cv::Mat3f(kSampleGrid, kSampleGrid, cv::Vec3f(0, 0, 0));
-  out.paired = cv::Mat1b(kSampleGrid, kSampleGrid, uchar{0});
-  for (int y = 0; y < kSampleGrid; ++y)
-    for (int x = 0; x < kSampleGrid; ++x) {
+  out.other = cv::Mat3f(grid_size, grid_size, cv::Vec3f(0, 0, 0));
+  out.paired = cv::Mat1b(grid_size, grid_size, uchar{0});
+  for (int y = 0; y < grid_size; ++y)
+    for (int x = 0; x < grid_size; ++x) {
       const float w = depth(y, x);
       if (!(first.inside(y, x) || first.ring(y, x)) || !(w > 0)) continue;
       const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
@@ -179,8 +191,8 @@ void SurfaceSampler::Impl::pair(const Lookup& other, const Observation& header,
                                                      : scalar::map_pixel<false>(map, fx, fy, w);
       if (!scalar::lands_inside<false>(map, at)) continue;
       if (first.inside(y, x)) {
-        const int column = std::clamp(static_cast<int>(pixel::round(at.u)), 0, kSampleGrid - 1);
-        const int row = std::clamp(static_cast<int>(pixel::round(at.v)), 0, kSampleGrid - 1);
+        const int column = std::clamp(static_cast<int>(pixel::round(at.u)), 0, grid_size - 1);
+        const int row = std::clamp(static_cast<int>(pixel::round(at.v)), 0, grid_size - 1);
         if (!scalar::same_depth(at.inverse_depth, all[1](row, column), 2 * kSameSurface)) continue;
       }
       if (other(at.u, at.v, out.other(y, x))) out.paired(y, x) = 255;
@@ -197,7 +209,7 @@ std::vector<SurfaceSamples::Point> SurfaceSampler::Impl::points(const SampledVie
   for (Eigen::Index i = 0; i < world.cols(); ++i) {
     const Eigen::Vector3d p = grid.camera_from_world * world.col(i);
     const cv::Point2d at(grid.fx * p.x() / p.z() + grid.cx, grid.fy * p.y() / p.z() + grid.cy);
-    if (!(at.x >= 0 && at.y >= 0 && at.x < kSampleGrid - 1 && at.y < kSampleGrid - 1)) continue;
+    if (!(at.x >= 0 && at.y >= 0 && at.x < grid_size - 1 && at.y < grid_size - 1)) continue;
     const int x = cvRound(at.x), y = cvRound(at.y);
     const float w = own[0](y, x);
     SurfaceSamples::Point& point = out[static_cast<std::size_t>(i)];

@@ -13,7 +13,7 @@
 
 namespace hypotrack {
 
-/// One view around a drawn model, resampled to a grid of kSampleGrid x kSampleGrid points.
+/// One view around a drawn model, resampled to a square grid of points.
 struct SampledView {
   cv::Mat3f color;   ///< B, G, R, 0 .. 255
   cv::Mat1b inside;  ///< 255 where the model is the nearest surface and the picture shows it
@@ -41,6 +41,7 @@ struct SurfaceSamples {
   bool empty() const { return other.empty(); }
 };
 
+/// Points along a side of the grid around a hand or a smaller model.
 inline constexpr int kSampleGrid = 64;
 
 /// Samples the first two views of a frame around one model of a scene. Reuses its memory, so each

@@ -32,6 +32,16 @@ aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
   return common.value_or(aiMatrix4x4());
 }
 
+/// Converts a colour to bytes. What is no number becomes 0.
+std::array<std::uint8_t, 3> convert_color(const aiColor4D& color) {
+  std::array<std::uint8_t, 3> bytes{};
+  for (unsigned c = 0; c < 3; ++c) {
+    const float value = color[c];
+    bytes[c] = value > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(value, 1.0f))) : 0;
+  }
+  return bytes;
+}
+
 MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, const Bones& bones) {
   MeshPart part;
   part.name = mesh.mName.C_Str();
@@ -42,6 +52,7 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, con
     if (mesh.HasTextureCoords(0)) {
       part.uvs.push_back({mesh.mTextureCoords[0][i].x, mesh.mTextureCoords[0][i].y});
     }
+    if (mesh.HasVertexColors(0)) part.colors.push_back(convert_color(mesh.mColors[0][i]));
   }
   const bool flipped = file_from_mesh.Determinant() < 0;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {

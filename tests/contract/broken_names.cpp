@@ -1,0 +1,25 @@
+// An objective with a parameter that scenes read themselves, and with one without help.
+#include "hypotrack/plugin.hpp"
+
+namespace hypotrack {
+namespace {
+
+class BrokenNames final : public Objective {
+ public:
+  struct Params {
+    double weight = 1, sigma = 1;
+    void visit(ParamVisitor& v) {
+      v("weight", weight, {.help = "of the state"});
+      v("sigma", sigma, {});
+    }
+  };
+  explicit BrokenNames(const Params&) {}
+  bool needs_rendering() const override { return false; }
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis&) const override { return 0; }
+};
+
+}  // namespace
+}  // namespace hypotrack
+
+HYPOTRACK_PLUGIN(hypotrack::BrokenNames, "breaks the contract of parameters", "")

@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "hypotrack/mesh_io.hpp"
+#include "mesh_files.hpp"
+
+namespace hypotrack::test {
+namespace {
+
+/// Looks a texture up between its texels, as OpenGL does. Returns RGB in [0, 1].
+Eigen::Vector3f look_up(const Mesh& mesh, const Eigen::Vector2f& uv) {
+  const float x = uv.x() * static_cast<float>(mesh.texture.cols) - 0.5f;
+  const float y = (1 - uv.y()) * static_cast<float>(mesh.texture.rows) - 0.5f;
+  const int x0 =
+      std::min(static_cast<int>(std::lround(std::floor(x + 1e-4f))), mesh.texture.cols - 2);
+  const int y0 =
+      std::min(static_cast<int>(std::lround(std::floor(y + 1e-4f))), mesh.texture.rows - 2);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const auto texel = [&](int column, int row) {
+    const auto& bgr = mesh.texture.at<cv::Vec3b>(row, column);
+    return Eigen::Vector3f(Eigen::Vector3f(bgr[2], bgr[1], bgr[0]) / 255.0f);
+  };
+  return (1 - fy) * ((1 - fx) * texel(x0, y0) + fx * texel(x0 + 1, y0)) +
+         fy * ((1 - fx) * texel(x0, y0 + 1) + fx * texel(x0 + 1, y0 + 1));
+}
+
+/// The colour of a point of colored_ply()'s tetrahedron, linear in the point.
+Eigen::Vector3f color_at(const Eigen::Vector3f& p) {
+  const Eigen::Vector3f red(150, 100, 100), green(100, 150, 100), blue(100, 100, 150);
+  const Eigen::Vector3f grey(120, 120, 120);
+  return ((1 - p.sum()) * red + p.x() * green + p.y() * blue + p.z() * grey) / 255;
+}
+
+class MeshVertexColors : public ::testing::Test {
+ protected:
+  Mesh import(const char* name, std::string_view bytes) {
+    return import_mesh(write_file(folder_.path() / name, bytes)).mesh;
+  }
+  TemporaryDirectory folder_;
+};
+
+TEST_F(MeshVertexColors, OfAPlyAreInterpolatedOverItsTriangles) {
+  const Mesh mesh = import("a.ply", colored_ply());
+  ASSERT_FALSE(mesh.texture.empty());
+  ASSERT_EQ(mesh.uv_triangles.cols(), mesh.triangles.cols());
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    for (const Eigen::Vector3f& share :
+         {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, 0, 1),
+          Eigen::Vector3f(0, 0.5f, 0.5f), Eigen::Vector3f(0.25f, 0.5f, 0.25f)}) {
+      const Eigen::Vector3f point = mesh.vertices(Eigen::all, mesh.triangles.col(t)) * share;
+      const Eigen::Vector2f uv = mesh.uv(Eigen::all, mesh.uv_triangles.col(t)) * share;
+      const Eigen::Vector3f found = look_up(mesh, uv), expected = color_at(point);
+      EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 0.01f)
+          << "triangle " << t << ": " << found.transpose() << ", not " << expected.transpose();
+    }
+  }
+}
+
+TEST_F(MeshVertexColors, OfAnObjAndAGlbAreReadToo) {
+  const Mesh obj = import("a.obj",
+                          "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nv 0 0 1 1 1 1\n"
+                          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  EXPECT_FALSE(obj.texture.empty());
+  GlbContent content;
+  content.colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  EXPECT_FALSE(import("a.glb", glb(content)).texture.empty());
+}
+
+TEST_F(MeshVertexColors, OfOneColorAreTheColorOfTheMesh) {
+  GlbContent content;
+  content.colors.assign(4, {1, 0.4f, 0});
+  content.base_color = {0.5f, 0.5f, 0.5f, 1};
+  const Mesh mesh = import("a.glb", glb(content));
+  EXPECT_TRUE(mesh.texture.empty());
+  EXPECT_EQ(mesh.uv.cols(), 0);
+  EXPECT_LT((mesh.color - Eigen::Vector3f(0.5f, 0.2f, 0)).cwiseAbs().maxCoeff(), 0.01f)
+      << mesh.color.transpose();
+}
+
+}  // namespace
+}  // namespace hypotrack::test
