@@ -74,7 +74,9 @@ TEST_P(FailingDeviceTest, IsSaidOnceAndTheFramesBeforeStay) {
   }
 }
 
-TEST_P(FailingDeviceTest, OnceFramesWereTrackedTheCpuGoesOnIfAskedTo) {
+class ReplacedDeviceTest : public FailingDeviceTest {};
+
+TEST_P(ReplacedDeviceTest, OnceFramesWereTrackedTheCpuGoesOnIfAskedTo) {
   int went_on = 0;
   for (int call = 0;; call = std::max(call + 1, call * 3 / 2)) {
     SCOPED_TRACE(call);
@@ -101,6 +103,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"memory", "{type: pso_cuda, particles: 8, generations: 4}"},
                     Case{"lost", "{type: levenberg_marquardt}"},
                     Case{"memory", "{type: levenberg_marquardt}"}));
+
+// pso_cuda is refused there: it searches on a GPU only.
+INSTANTIATE_TEST_SUITE_P(Cuda, ReplacedDeviceTest,
+                         testing::Values(Case{"lost", "{type: pso, particles: 8, generations: 4}"},
+                                         Case{"memory",
+                                              "{type: pso, particles: 8, generations: 4}"},
+                                         Case{"lost", "{type: levenberg_marquardt}"},
+                                         Case{"memory", "{type: levenberg_marquardt}"}));
 
 }  // namespace
 }  // namespace hypotrack::test

@@ -25,6 +25,8 @@ HYPOTRACK_FUZZ_TARGET(mesh_answer, "mesh") {
   fill_weights(soup, welded, imported.mesh);
   if (!soup.uvs.empty()) fill_uvs(soup, welded.triangles, imported.mesh);
   fill_appearance(file, imported.mesh);
+  if (imported.mesh.texture.empty() && !soup.colors.empty())
+    fill_vertex_colors(soup, welded.triangles, imported.mesh);
   require(imported.mesh.vertices.allFinite(), "vertices are finite");
   require(imported.mesh.bone_weights.allFinite(), "weights are finite");
   require(imported.mesh.triangles.maxCoeff() < imported.mesh.vertices.cols(), "corners are there");

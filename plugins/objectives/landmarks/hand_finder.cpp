@@ -6,7 +6,8 @@
 namespace hypotrack::landmarks {
 namespace {
 
-constexpr std::size_t kRemembered = 64;  // views of frames; fixed-lag smoothing goes back by some
+// Views of frames: fixed-lag smoothing goes through all of its window again and again, 20 seconds.
+constexpr std::size_t kRemembered = 4096;
 
 bool all_found(const std::vector<std::optional<SeenHand>>& hands) {
   return std::ranges::all_of(hands, [](const auto& hand) { return hand.has_value(); });

@@ -34,6 +34,13 @@ TEST_F(HandFinderTest, LooksOnceAtEachViewOfAFrame) {
   EXPECT_EQ(sees_.refined, 8);
 }
 
+TEST_F(HandFinderTest, LooksOnceAtFramesOfSmoothingThatGoesBackBy20Seconds) {
+  constexpr int kFrames = 600;
+  for (int round = 0; round < 2; ++round)
+    for (int frame = 0; frame < kFrames; ++frame) cost_of(test::observation(relaxed(), frame));
+  EXPECT_EQ(sees_.refined, 4 * kFrames);
+}
+
 TEST_F(HandFinderTest, LooksForHandsInTheWholeTileIfNoneIsWhereTheSearchStarts) {
   Eigen::VectorXd start = relaxed();
   start[0] += 0.15;
