@@ -149,8 +149,8 @@ class HYPOTRACK_API Objective {
   virtual std::vector<PixelMap> maps(const RenderedHypothesis& hypothesis) const;
 
   /// Returns the GPU implementation (hypotrack/cuda/device_objective.hpp), or null without one or
-  /// without CUDA. With null, a term that needs rendering keeps the scene on the CPU; another term
-  /// is evaluated there alone. The objective outlives the result.
+  /// without CUDA. With null, a term that needs rendering keeps the whole scene on the CPU;
+  /// another is evaluated there beside the GPU. The objective outlives the result.
   virtual std::unique_ptr<cuda::DeviceObjective> on_device() const;
 };
 

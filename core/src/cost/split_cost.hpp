@@ -17,7 +17,7 @@ struct SplitTerms {
 };
 
 /// Leaves terms on the CPU that need no rendering and have no part for a GPU. With `residuals`, a
-/// part without residuals is none. All terms are for the GPU if none of the others needs rendering.
+/// part that has none does not count. If no term is drawn on the GPU, all are in `gpu`.
 SplitTerms split_terms(const std::vector<ObjectiveTerm>& terms, bool residuals);
 
 /// Adds the costs of a scene's terms: those for the GPU, in `drawn`, and those on the CPU, in

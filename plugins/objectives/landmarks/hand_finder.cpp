@@ -6,7 +6,8 @@
 namespace hypotrack::landmarks {
 namespace {
 
-// Views of frames: fixed-lag smoothing goes through all of its window again and again, 20 seconds.
+// Views of frames: 68 seconds of two cameras at 30 frames per second. Fixed-lag smoothing goes
+// through all of its window again and again, 20 seconds by default.
 constexpr std::size_t kRemembered = 4096;
 
 bool all_found(const std::vector<std::optional<SeenHand>>& hands) {
