@@ -41,6 +41,22 @@ Observation colored(Observation observation) {
   return observation;
 }
 
+Observation with_depth(Observation observation) {
+  for (TileView& view : observation.views) {
+    const int width = view.camera.width, height = view.camera.height;
+    cv::Mat1f depth(height, width);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const float wave = std::sin(0.1f * static_cast<float>(x + 2 * y));
+        const bool hole = (x / 7 + y / 5) % 6 == 0;
+        depth(y, x) = hole ? 0 : 0.5f + 0.0002f * static_cast<float>(x - y) + 0.01f * wave;
+      }
+    }
+    view.depth = depth;
+  }
+  return observation;
+}
+
 Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation& observation,
                          const MakeObjective& make, const Eigen::MatrixXd& states) {
   const auto cost = make_cost(scene, {{1, make()}}, {.backend = backend});

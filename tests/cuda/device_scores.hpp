@@ -17,6 +17,10 @@ Eigen::MatrixXd scored_states(const Scene& scene);
 /// An observation with the same waves of colour in both views, and a foreground of wide stripes.
 Observation colored(Observation observation);
 
+/// An observation whose views see a slanted, wavy surface about where scored_states() are, with
+/// holes.
+Observation with_depth(Observation observation);
+
 Eigen::VectorXd costs_on(Backend backend, const Scene& scene, const Observation& observation,
                          const MakeObjective& make, const Eigen::MatrixXd& states);
 

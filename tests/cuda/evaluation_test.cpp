@@ -103,6 +103,17 @@ TEST_P(CudaCostTest, CoversTheCpusPixelsInEveryView) {
   }
 }
 
+TEST_P(CudaCostTest, DrawsForAnObjectiveThatOnlyScoresWhatIsDrawn) {
+  const Scene scene = test::hand_and_box_scene();
+  const Eigen::MatrixXd states = random_states(scene, GetParam());
+  for (const Observation& o : {test::rectified_pair(scene), test::general_pair(scene)}) {
+    const Eigen::VectorXd cpu = costs_on(Backend::cpu, scene, o, test::edge_probe(), states);
+    const Eigen::VectorXd gpu = costs_on(Backend::cuda, scene, o, test::edge_probe(), states);
+    EXPECT_GT(cpu.maxCoeff(), 100);
+    EXPECT_LE((gpu - cpu).cwiseAbs().maxCoeff(), 4);  // a pixel that rounding covers has two edges
+  }
+}
+
 TEST_P(CudaCostTest, DrawsTheCpusPixelsToTheLastBit) {
   if (!test::fuses_products_and_sums()) GTEST_SKIP() << "this CPU has no fused multiply-add";
   for (const Scene& scene :

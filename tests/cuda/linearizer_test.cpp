@@ -6,6 +6,7 @@
 #include "linearized_terms.hpp"
 #include "observations.hpp"
 #include "plausible_motion.hpp"
+#include "rgbd_depth.hpp"
 #include "skin.hpp"
 #include "stereo_color.hpp"
 #include "stereo_patch.hpp"
@@ -140,6 +141,45 @@ TEST_F(DeviceLinearizer, AddsTermsThatStayOnTheCpu) {
   };
   compare(scene, test::colored(test::rectified_pair(scene, 128)), terms(), terms(),
           steps_of(scene));
+}
+
+TEST_F(DeviceLinearizer, AddsTermsWithoutSlopesByDrawingTheNeighbours) {
+  const Scene scene = test::hand_scene();
+  const auto terms = [&] {
+    std::vector<ObjectiveTerm> all = terms_with_slopes(scene);
+    all.insert(all.begin() + 3,
+               {0.5, std::make_shared<rgbd_depth::RgbdDepth>(rgbd_depth::Params{}), "rgbd_depth"});
+    return all;
+  };
+  const Observation frame = test::with_depth(test::colored(test::rectified_pair(scene, 128)));
+  compare(scene, frame, terms(), terms(), steps_of(scene));
+  const auto gpu = make_cost(scene, terms(), {.backend = Backend::cuda},
+                             {.least_squares = true, .jacobian = Linearization::needed});
+  EXPECT_TRUE(gpu->least_squares()->draws_neighbours());
+}
+
+TEST_F(DeviceLinearizer, LinearizesManyPointsAsIfEachWereAlone) {
+  const Scene scene = test::hand_scene();
+  std::vector<ObjectiveTerm> terms = terms_with_slopes(scene);
+  terms.push_back(
+      {0.5, std::make_shared<rgbd_depth::RgbdDepth>(rgbd_depth::Params{}), "rgbd_depth"});
+  Observation frame = test::with_depth(test::colored(test::rectified_pair(scene, 96)));
+  frame.start = test::scored_states(scene).col(0);
+  const auto gpu =
+      make_cost(scene, std::move(terms), {.backend = Backend::cuda}, {.least_squares = true});
+  gpu->prepare(frame);
+  const Eigen::VectorXd steps = steps_of(scene);
+  std::vector<Neighbourhood> points;
+  for (Eigen::Index i = 0; i < 11; ++i)  // more than are linearised together
+    points.push_back(
+        {test::moved_states(scene, test::scored_states(scene).col(i), steps), steps, 1.5});
+  const std::vector<NormalEquations> all = gpu->least_squares()->linearize_each(points);
+  ASSERT_EQ(all.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    SCOPED_TRACE(i);
+    const NormalEquations alone = gpu->least_squares()->linearize_each({&points[i], 1}).front();
+    expect_near(all[i], alone, 1e-4);
+  }
 }
 
 TEST_F(DeviceLinearizer, SeesNothingOfAHandBesideThePictures) {

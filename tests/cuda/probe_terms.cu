@@ -66,7 +66,59 @@ class Probe final : public cuda::PixelObjective<Term> {
   Term term_;
 };
 
+constexpr int kEdgeThreads = 128;
+
+/// One block per hypothesis.
+template <bool kTexture>
+__global__ void __launch_bounds__(kEdgeThreads)
+    count_edges(const cuda::FrameLayout* frame, const __grid_constant__ cuda::BatchLayout batch,
+                const __grid_constant__ cuda::DrawnBatch drawn) {
+  __shared__ int sum;
+  cuda::wait_for_previous();
+  if (threadIdx.x == 0) sum = 0;
+  __syncthreads();
+  const int index = static_cast<int>(blockIdx.x);
+  const cuda::DrawnTiles<kTexture> tiles{drawn, *frame, index};
+  for (int v = 0; v < frame->view_count; ++v) {
+    const auto depth = tiles(v);
+    const int width = frame->views[v].width, height = frame->views[v].height;
+    for (int i = static_cast<int>(threadIdx.x); i < width * height; i += kEdgeThreads) {
+      const int x = i % width, y = i / width;
+      if (x + 1 < width && (depth(x, y) > 0) != (depth(x + 1, y) > 0)) atomicAdd(&sum, 1);
+    }
+  }
+  __syncthreads();
+  if (threadIdx.x != 0) return;
+  double& cost = batch.costs[drawn.first + index];
+  cost = (batch.add ? cost : 0.0) + batch.weight * sum;
+}
+
+class EdgeProbe final : public cuda::DeviceObjective {
+ public:
+  bool draws() const override { return false; }
+  void prepare(const cuda::DeviceObservation& observation, cuda::Stream) override {
+    frame_ = observation.frame;
+    ++revision_;
+  }
+  void reserve(const cuda::SceneLayout&, const cuda::DeviceLimits&, std::int64_t) override {}
+  void enqueue_drawn(const cuda::SceneLayout&, const cuda::BatchLayout& batch,
+                     const cuda::DrawnBatch& drawn, cuda::Stream stream) override {
+    const dim3 grid(static_cast<unsigned>(drawn.count));
+    auto* kernel = drawn.texture ? &count_edges<true> : &count_edges<false>;
+    cuda::launch(kernel, grid, dim3(kEdgeThreads), 0, stream, false, frame_, batch, drawn);
+  }
+  std::uint64_t revision() const override { return revision_; }
+
+ private:
+  const cuda::FrameLayout* frame_ = nullptr;
+  std::uint64_t revision_ = 0;
+};
+
 }  // namespace
+
+std::unique_ptr<cuda::DeviceObjective> edge_probe_on_device() {
+  return std::make_unique<EdgeProbe>();
+}
 
 std::unique_ptr<cuda::DeviceObjective> covered_probe_on_device() {
   return std::make_unique<Probe<CoveredTerm>>(CoveredTerm{});

@@ -29,5 +29,6 @@ inline constexpr double kSecondMark = 1 << 26;  ///< more than marks add up to
 std::unique_ptr<cuda::DeviceObjective> covered_probe_on_device();
 std::unique_ptr<cuda::DeviceObjective> seen_probe_on_device(bool uncovered);
 std::unique_ptr<cuda::DeviceObjective> mark_probe_on_device();
+std::unique_ptr<cuda::DeviceObjective> edge_probe_on_device();
 
 }  // namespace hypotrack::test

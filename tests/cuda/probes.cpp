@@ -52,6 +52,25 @@ class MarkProbe final : public Objective {
   }
 };
 
+class EdgeProbe final : public Objective {
+ public:
+  void prepare(const Observation&) override {}
+  double cost(const RenderedHypothesis& hypothesis) const override {
+    int sum = 0;
+    for (const DepthTile& tile : hypothesis.views) {
+      for (int y = 0; y < tile.height; ++y) {
+        for (int x = 0; x + 1 < tile.width; ++x) {
+          sum += (depth_at(tile, x, y) > 0) != (depth_at(tile, x + 1, y) > 0) ? 1 : 0;
+        }
+      }
+    }
+    return sum;
+  }
+  std::unique_ptr<cuda::DeviceObjective> on_device() const override {
+    return edge_probe_on_device();
+  }
+};
+
 class SeenProbe final : public Objective {
  public:
   explicit SeenProbe(bool uncovered) : uncovered_(uncovered) {}
@@ -104,6 +123,7 @@ class SeenProbe final : public Objective {
 
 std::shared_ptr<Objective> mark_probe() { return std::make_shared<MarkProbe>(); }
 std::shared_ptr<Objective> covered_probe() { return std::make_shared<CoveredProbe>(); }
+std::shared_ptr<Objective> edge_probe() { return std::make_shared<EdgeProbe>(); }
 std::shared_ptr<Objective> seen_probe(bool uncovered) {
   return std::make_shared<SeenProbe>(uncovered);
 }

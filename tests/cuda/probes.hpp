@@ -19,4 +19,8 @@ std::shared_ptr<Objective> seen_probe(bool uncovered);
 /// same depth, to the last bit; for tiles of up to 256 x 256 pixels.
 std::shared_ptr<Objective> mark_probe();
 
+/// An objective that counts the pixels of every view that are covered unlike their right neighbour.
+/// On the device it only scores what is drawn.
+std::shared_ptr<Objective> edge_probe();
+
 }  // namespace hypotrack::test

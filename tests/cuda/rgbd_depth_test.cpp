@@ -138,30 +138,15 @@ TEST(RgbdDepthOnDevice, TellsSkinLikeTheCpuForEveryColour) {
   expect_what_the_cpu_observes(frame, observation, settings);
 }
 
-/// Two views of a slanted, wavy surface about where scored_states() are, with holes.
-Observation with_depth(Observation observation) {
-  for (TileView& view : observation.views) {
-    const int width = view.camera.width, height = view.camera.height;
-    cv::Mat1f depth(height, width);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const float wave = std::sin(0.1f * static_cast<float>(x + 2 * y));
-        const bool hole = (x / 7 + y / 5) % 6 == 0;
-        depth(y, x) = hole ? 0 : 0.5f + 0.0002f * static_cast<float>(x - y) + 0.01f * wave;
-      }
-    }
-    view.depth = depth;
-  }
-  return observation;
-}
-
 TEST(RgbdDepthOnDevice, ScoresAndHasTheResidualsOfTheCpu) {
   SKIP_WITHOUT_DEVICE();
   const auto make = [] { return std::make_shared<RgbdDepth>(Params{}); };
   const Scene hand = test::hand_scene(), both = test::hand_and_box_scene();
-  test::expect_like_the_cpu(hand, with_depth(test::colored(test::rectified_pair(hand, 256))), make);
-  test::expect_like_the_cpu(both, with_depth(test::colored(test::general_pair(both, 256))), make);
-  Observation one = with_depth(test::colored(test::general_pair(both, 256)));
+  test::expect_like_the_cpu(hand, test::with_depth(test::colored(test::rectified_pair(hand, 256))),
+                            make);
+  test::expect_like_the_cpu(both, test::with_depth(test::colored(test::general_pair(both, 256))),
+                            make);
+  Observation one = test::with_depth(test::colored(test::general_pair(both, 256)));
   one.views[0].depth.release();
   test::expect_like_the_cpu(both, one, make);
 }

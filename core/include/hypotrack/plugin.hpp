@@ -127,7 +127,7 @@ class HYPOTRACK_API PluginContext {
   std::string who_;
 };
 
-inline constexpr std::uint32_t kAbiVersion = 20;
+inline constexpr std::uint32_t kAbiVersion = 21;
 
 /// The C interface of a plugin library. The loader compares magic, size, version and tag before it
 /// reads anything else. So the struct must stay plain C and may only grow at the end.
@@ -141,9 +141,7 @@ struct HypotrackPlugin {
   const char* version;
   const char* summary;
   const char* licence;
-  /// Space-separated, may be empty. Objectives: `device` (has on_device()), `residuals` (has
-  /// residual_term()), `device_residuals` (on_device() has_residuals()). Optimizers: `needs_device`
-  /// and `needs_least_squares`, for what their requirements() always are.
+  /// Space-separated, may be empty; `hypotrack plugins capabilities` explains the known words.
   const char* capabilities;
   void* (*create)(PluginContext&);
   std::string (*describe)();  ///< help text of the parameters

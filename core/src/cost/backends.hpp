@@ -28,8 +28,12 @@ namespace cuda {
 std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                               const EvaluateSettings& settings, bool residuals);
 
-/// Returns why these terms have no analytic Jacobians on a GPU; empty if they have.
+/// Returns why no term that needs rendering has slopes on a GPU; empty if one has, or none needs
+/// it.
 std::string why_not_linearized(const std::vector<ObjectiveTerm>& terms);
+
+/// Returns why Jacobians on a GPU take a drawing per parameter; empty if they take one in all.
+std::string why_neighbours_are_drawn(const std::vector<ObjectiveTerm>& terms);
 
 /// Makes the cost that poses, draws and scores on the GPU. Throws DeviceError with the reason of
 /// why_not_evaluated(), if there is one.

@@ -33,6 +33,9 @@ double Objective::cost_and_residuals(const RenderedHypothesis& hypothesis,
 std::vector<PixelMap> Objective::maps(const RenderedHypothesis&) const { return {}; }
 std::unique_ptr<cuda::DeviceObjective> Objective::on_device() const { return nullptr; }
 cuda::DeviceObjective::~DeviceObjective() = default;
+void cuda::DeviceObjective::enqueue(const SceneLayout&, const BatchLayout&, Stream) {
+  throw Error("this objective scores hypotheses on the GPU that are drawn before");
+}
 bool cuda::DeviceObjective::enqueue_search(const SceneLayout&, const BatchLayout&,
                                            const SwarmSearch&, Stream) {
   return false;

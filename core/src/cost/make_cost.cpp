@@ -36,11 +36,11 @@ std::string why_automatic_on_cpu(const Scene& scene, const std::vector<Objective
                                  const Requirements& requirements) {
   if (requirements.least_squares && requirements.jacobian != Linearization::unused) {
     const bool needed = requirements.jacobian == Linearization::needed;
-    const std::string why = cuda::why_not_linearized(terms);
     const bool better = Linearizer::can_linearize(terms) && !Linearizer::draws_neighbours(terms);
-    if (!why.empty() && (needed || (!requirements.device && better))) {
-      return "the optimizer takes analytic Jacobians, and " + why;
-    }
+    std::string why;
+    if (needed) why = cuda::why_not_linearized(terms);
+    if (why.empty() && !requirements.device && better) why = cuda::why_neighbours_are_drawn(terms);
+    if (!why.empty()) return "the optimizer takes analytic Jacobians, and " + why;
   }
   return cuda::why_not_evaluated(scene, split_terms(terms, requirements.least_squares).gpu,
                                  settings, requirements.least_squares);

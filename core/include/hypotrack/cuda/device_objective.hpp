@@ -84,9 +84,14 @@ class HYPOTRACK_API DeviceObjective {
   virtual void reserve(const SceneLayout& scene, const DeviceLimits& limits,
                        std::int64_t count) = 0;
 
+  /// Returns false if hypotheses have to be drawn for enqueue_drawn(), because enqueue() is
+  /// missing; the answer never changes. Then kernels see whole tiles, the neighbours of a pixel
+  /// included.
+  virtual bool draws() const { return true; }
+
   /// Enqueues the evaluation of a batch: posing, drawing and scoring. It only launches kernels, so
-  /// that a CUDA graph can capture it.
-  virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream) = 0;
+  /// that a CUDA graph can capture it. Throws Error unless draws().
+  virtual void enqueue(const SceneLayout& scene, const BatchLayout& batch, Stream stream);
 
   /// Enqueues a whole search as one kernel, if the objective has one and all blocks fit on the
   /// device at once. Returns false if it enqueued nothing. reserve() must precede it, with the

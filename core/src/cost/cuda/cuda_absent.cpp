@@ -26,6 +26,8 @@ std::string why_not_evaluated(const Scene&, const std::vector<ObjectiveTerm>&,
 
 std::string why_not_linearized(const std::vector<ObjectiveTerm>&) { return {}; }
 
+std::string why_neighbours_are_drawn(const std::vector<ObjectiveTerm>&) { return {}; }
+
 std::unique_ptr<Cost> make_cost(const Scene&, std::vector<ObjectiveTerm>,
                                 const EvaluateSettings& settings, bool) {
   const Device device(settings.device);

@@ -59,6 +59,7 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
     return std::make_unique<DeviceResiduals>(*this, frame_, batch_, residual_memory_);
   }
   bool can_linearize() const override { return frame_.has_slopes(); }
+  bool draws_neighbours() const override { return frame_.draws_differences(); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
     const Neighbourhood at{states, steps, blur};
@@ -138,6 +139,16 @@ class CudaCost final : public Cost, public StateResiduals, public DeviceCost {
   std::uint64_t revision_ = 0;  // only grows, as those of the terms do
 };
 
+bool draws(const ObjectiveTerm& term) {
+  return term.weight != 0 && term.objective->needs_rendering();
+}
+
+bool has_slopes(const ObjectiveTerm& term) {
+  if (!draws(term)) return false;
+  const auto on_device = term.objective->on_device();
+  return on_device && on_device->has_slopes();
+}
+
 }  // namespace
 
 std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
@@ -156,10 +167,12 @@ std::string why_not_evaluated(const Scene& scene, const std::vector<ObjectiveTer
 }
 
 std::string why_not_linearized(const std::vector<ObjectiveTerm>& terms) {
+  return std::ranges::any_of(terms, has_slopes) ? std::string() : why_neighbours_are_drawn(terms);
+}
+
+std::string why_neighbours_are_drawn(const std::vector<ObjectiveTerm>& terms) {
   for (const ObjectiveTerm& term : terms) {
-    if (term.weight == 0 || !term.objective->needs_rendering()) continue;
-    const auto on_device = term.objective->on_device();
-    if (on_device && on_device->has_slopes()) continue;
+    if (!draws(term) || has_slopes(term)) continue;
     return fmt::format("objective {} has no slopes of its residuals on a GPU", term.name);
   }
   return {};

@@ -6,6 +6,7 @@
 #include "cost/cuda/gram_matrix.hpp"
 #include "cost/cuda/pixel_rows.hpp"
 #include "cost/cuda/transfer.hpp"
+#include "cost/normal_equations.hpp"
 
 namespace hypotrack::cuda {
 namespace {
@@ -41,7 +42,9 @@ std::vector<NormalEquations> DeviceLinearizer::linearize(std::span<const Neighbo
   std::vector<NormalEquations> out;
   frame_.device().use();
   frame_.reserve(static_cast<std::int64_t>(points.size()));
-  const std::size_t most = size(frame_.drawn_at_once());
+  constexpr std::size_t kMostDifferences = 8;  // points whose neighbours' residuals are kept
+  std::size_t most = size(frame_.drawn_at_once());
+  if (frame_.draws_differences()) most = std::min(most, kMostDifferences);
   while (out.size() < points.size()) {
     const auto part = points.subspan(out.size(), std::min(most, points.size() - out.size()));
     linearize_together(part, out);
@@ -63,18 +66,21 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
   if (columns == 0) return;
   const std::span<NormalEquations> out = std::span(all).subspan(before);
   const auto count = static_cast<int>(points.size());
-  const bool differs = frame_.state_residual_count() > 0;
+  const bool differs = frame_.difference_residual_count() > 0;
   reserve(count, columns);
   upload(points, moved, columns);
   // What does not need the drawing runs beside it.
   side_.fork(frame_.stream());
-  if (differs) enqueue_differences(count, columns, side_.stream());
-  if (frame_.draws()) enqueue_rows(count, columns);
+  const bool draws_differences = differs && frame_.draws_differences();
+  if (differs && !draws_differences) enqueue_differences(count, columns);
+  if (frame_.sloped_terms() > 0) enqueue_rows(count, columns);
+  if (draws_differences) enqueue_differences(count, columns);
   side_.join(frame_.stream());
   check(cudaStreamSynchronize(native(frame_.stream())), "linearising");
+  if (draws_differences) batch_.read(costs_, frame_.terms());
   for (std::size_t k = 0; k < points.size(); ++k) {
     const auto d = static_cast<Eigen::Index>(moved[k].size());
-    if (frame_.draws()) {
+    if (frame_.sloped_terms() > 0) {
       const Eigen::MatrixXd sums =
           unpack_rows(row_sums_staging_.data() + k * size(row_numbers(columns)), columns);
       out[k].a(moved[k], moved[k]) =
@@ -82,26 +88,37 @@ void DeviceLinearizer::linearize_together(std::span<const Neighbourhood> points,
       out[k].g(moved[k]) = sums.col(columns).head(d);
     }
     if (differs) {
-      const NormalEquations state = unpack_gram(
-          gram_sums_staging_.data() + k * size(gram_numbers(columns)),
-          Eigen::Map<const Eigen::VectorXf>(numbers_staging_.data() + k * size(columns), columns)
-              .cast<double>());
-      out[k].a(moved[k], moved[k]) += state.a.topLeftCorner(d, d);
-      out[k].g(moved[k]) += state.g.head(d);
+      const NormalEquations differences =
+          unpack_gram(gram_sums_staging_.data() + k * size(gram_numbers(columns)),
+                      per_step(static_cast<int>(k), columns));
+      out[k].a(moved[k], moved[k]) += differences.a.topLeftCorner(d, d);
+      out[k].g(moved[k]) += differences.g.head(d);
     }
   }
 }
 
+Eigen::VectorXd DeviceLinearizer::per_step(int k, int columns) const {
+  Eigen::VectorXd out =
+      Eigen::Map<const Eigen::VectorXf>(numbers_staging_.data() + k * columns, columns)
+          .cast<double>();
+  if (!frame_.draws_differences()) return out;
+  const Eigen::Index side = Eigen::Index{columns} + 1;
+  const Eigen::Index points = costs_.size() / (side + 1);
+  return scale_of_finite(out, costs_.segment(points + k * side + 1, columns));
+}
+
 void DeviceLinearizer::reserve(std::int64_t points, int columns) {
-  const std::int64_t rows = frame_.state_residual_count();
+  const std::int64_t rows = frame_.difference_residual_count();
+  const std::int64_t drawn_each = frame_.draws_differences() ? columns + 2 : 1;
   numbers_.reserve(size(points * (columns + 1)));
   numbers_staging_.reserve(size(points * (columns + 1)));
-  frame_.reserve(points, [&](std::int64_t count) {
+  frame_.reserve(points * drawn_each, [&](std::int64_t hypotheses) {
+    const std::int64_t count = std::max<std::int64_t>(hypotheses / drawn_each, 1);
     const std::int64_t pixels = count * frame_.pixels();
-    if (frame_.draws()) {
+    if (frame_.sloped_terms() > 0) {
       const int sets = frame_.observation().pair ? 1 : frame_.view_count();
       records_.reserve(size(count * record_floats(frame_.scene(), sets, columns)));
-      slopes_.reserve(size(pixels * frame_.drawing_terms()));
+      slopes_.reserve(size(pixels * frame_.sloped_terms()));
       owners_.reserve(size(pixels));
       row_parts_.reserve(size(count * row_numbers(columns) * row_blocks(frame_.pixels(), count)));
     }
@@ -144,7 +161,7 @@ void DeviceLinearizer::enqueue_rows(int points, int columns) {
       .view_count = frame_.view_count(),
       .pair = frame_.observation().pair,
       .pixels = static_cast<int>(frame_.pixels()),
-      .terms = frame_.drawing_terms(),
+      .terms = frame_.sloped_terms(),
       .columns = columns,
       .points = points,
       .states = batch_.layout().points + std::int64_t{points} * frame_.scene().dimension,
@@ -166,13 +183,14 @@ void DeviceLinearizer::enqueue_rows(int points, int columns) {
           stream);
 }
 
-void DeviceLinearizer::enqueue_differences(int points, int columns, Stream stream) {
-  const std::int64_t rows = frame_.state_residual_count();
+void DeviceLinearizer::enqueue_differences(int points, int columns) {
+  const Stream stream = frame_.draws_differences() ? frame_.stream() : side_.stream();
+  const std::int64_t rows = frame_.difference_residual_count();
   BatchLayout states = batch_.layout();
   states.points += std::int64_t{points} * frame_.scene().dimension;
   states.costs += points;  // behind those of the drawn states
   states.count = std::int64_t{points} * (columns + 1);
-  frame_.enqueue_state_residuals(states, residuals_.data(), stream);
+  frame_.enqueue_differences(states, residuals_.data(), stream);
   enqueue_gram({.here = residuals_.data(),
                 .beside = residuals_.data() + rows,
                 .rows = rows,
@@ -184,6 +202,9 @@ void DeviceLinearizer::enqueue_differences(int points, int columns, Stream strea
                stream);
   to_host(gram_sums_staging_, gram_sums_, 0, size(std::int64_t{points} * gram_numbers(columns)),
           stream);
+  if (!frame_.draws_differences()) return;
+  costs_.resize(points * (columns + 2));
+  batch_.download(0, costs_.size(), stream);
 }
 
 }  // namespace hypotrack::cuda

@@ -13,8 +13,8 @@
 
 namespace hypotrack::cuda {
 
-/// Computes normal equations of the terms' residuals on the GPU, each from one drawn hypothesis:
-/// the Linearizer of the CPU, there. The results are the same in every run.
+/// Computes normal equations of the terms' residuals on the GPU: the Linearizer of the CPU, there.
+/// Terms with slopes take one drawn hypothesis. The results are the same in every run.
 class DeviceLinearizer {
  public:
   /// Both must outlive it; `cost` normalises states.
@@ -32,18 +32,21 @@ class DeviceLinearizer {
   void upload(std::span<const Neighbourhood> points,
               const std::vector<std::vector<Eigen::Index>>& moved, int columns);
   void enqueue_rows(int points, int columns);
-  void enqueue_differences(int points, int columns, Stream stream);
+  void enqueue_differences(int points, int columns);
+  /// Returns the reciprocal steps of point `k`; 0 where a neighbour's cost is infinite.
+  Eigen::VectorXd per_step(int k, int columns) const;
 
   Cost& cost_;
   FrameOnDevice& frame_;
   HostBatch batch_;
+  Eigen::VectorXd costs_;  // of the batch, by the terms without slopes; if these draw
   SideStream side_;
   DeviceBuffer<float> numbers_;  // per point the reciprocal steps; then the blurs of all points
   PinnedBuffer<float> numbers_staging_;
   DeviceBuffer<PixelSlope> slopes_;
   DeviceBuffer<std::uint32_t> owners_;
   DeviceBuffer<float> records_, row_parts_;
-  DeviceBuffer<float> residuals_, gram_parts_;  // of terms of the state
+  DeviceBuffer<float> residuals_, gram_parts_;  // of terms without slopes
   DeviceBuffer<double> row_sums_, gram_sums_;
   PinnedBuffer<double> row_sums_staging_, gram_sums_staging_;
 };

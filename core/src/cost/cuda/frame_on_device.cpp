@@ -13,7 +13,11 @@ FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm
                              const EvaluateSettings& settings)
     : device_(settings.device), scene_(scene), terms_(terms) {
   for (const ObjectiveTerm& term : terms_) objectives_.push_back(term.objective->on_device());
-  for (std::size_t i = 0; i < terms_.size(); ++i) drawing_terms_ += draws(i) ? 1 : 0;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    drawing_terms_ += draws(i) ? 1 : 0;
+    sloped_terms_ += has_slopes(i) ? 1 : 0;
+    draws_for_terms_ |= draws(i) && (drawing_terms_ > 1 || !objectives_[i]->draws());
+  }
 }
 
 FrameOnDevice::~FrameOnDevice() { cudaStreamSynchronize(native(stream())); }
@@ -52,6 +56,10 @@ bool FrameOnDevice::draws(std::size_t term) const {
   return terms_[term].weight != 0 && terms_[term].objective->needs_rendering();
 }
 
+bool FrameOnDevice::has_slopes(std::size_t term) const {
+  return draws(term) && objectives_[term]->has_slopes();
+}
+
 template <class Enqueue>
 void FrameOnDevice::add_up(BatchLayout& batch, const Enqueue& enqueue) {
   batch.add = false;
@@ -74,7 +82,7 @@ void FrameOnDevice::draw_parts(const BatchLayout& batch, const Enqueue& enqueue)
 }
 
 void FrameOnDevice::enqueue(BatchLayout batch) {
-  if (drawing_terms_ > 1) {
+  if (draws_for_terms_) {
     draw_parts(batch, [&](const DrawnBatch& drawn) { enqueue_drawn(batch, drawn); });
     return;
   }
@@ -114,25 +122,31 @@ DrawnBatch FrameOnDevice::draw(const BatchLayout& batch) {
 
 void FrameOnDevice::enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes) {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (!draws(i)) continue;
+    if (!has_slopes(i)) continue;
     const auto factor = static_cast<float>(std::sqrt(terms_[i].weight));
     objectives_[i]->enqueue_slopes(scene_.layout(), drawn,
-                                   {slopes, drawing_terms_ * pixels(), factor}, stream());
+                                   {slopes, sloped_terms_ * pixels(), factor}, stream());
     slopes += pixels();
   }
 }
 
-void FrameOnDevice::enqueue_state_residuals(BatchLayout batch, float* residuals, Stream stream) {
-  const DrawnBatch all{.count = static_cast<int>(batch.count)};
-  const std::int64_t stride = state_residual_count();
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (terms_[i].weight == 0 || draws(i)) continue;
-    batch.weight = terms_[i].weight;
-    const auto factor = static_cast<float>(std::sqrt(batch.weight));
-    objectives_[i]->enqueue_residuals(scene_.layout(), batch, all, {residuals, stride, factor},
-                                      stream);
-    residuals += objectives_[i]->residual_count();
-  }
+void FrameOnDevice::enqueue_differences(BatchLayout batch, float* residuals, Stream stream) {
+  const std::int64_t stride = difference_residual_count();
+  const auto add_up = [&](const DrawnBatch& drawn) {
+    float* next = residuals;
+    batch.add = false;
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (terms_[i].weight == 0 || has_slopes(i)) continue;
+      batch.weight = terms_[i].weight;
+      const auto factor = static_cast<float>(std::sqrt(batch.weight));
+      objectives_[i]->enqueue_residuals(scene_.layout(), batch, drawn, {next, stride, factor},
+                                        stream);
+      batch.add = true;
+      next += objectives_[i]->residual_count();
+    }
+  };
+  if (draws_differences()) return draw_parts(batch, add_up);
+  add_up({.count = static_cast<int>(batch.count)});
 }
 
 void FrameOnDevice::clear_costs_without_terms(const BatchLayout& batch) {
@@ -148,17 +162,10 @@ bool FrameOnDevice::has_residuals() const {
   return true;
 }
 
-bool FrameOnDevice::has_slopes() const {
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (draws(i) && !objectives_[i]->has_slopes()) return false;
-  }
-  return has_residuals();
-}
-
-std::int64_t FrameOnDevice::state_residual_count() const {
+std::int64_t FrameOnDevice::difference_residual_count() const {
   std::int64_t count = 0;
   for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (terms_[i].weight != 0 && !draws(i)) count += objectives_[i]->residual_count();
+    if (terms_[i].weight != 0 && !has_slopes(i)) count += objectives_[i]->residual_count();
   }
   return count;
 }

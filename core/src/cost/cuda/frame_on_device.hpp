@@ -58,12 +58,13 @@ class FrameOnDevice {
   void enqueue_drawn(BatchLayout batch, const DrawnBatch& drawn);
   /// Draws a batch of at most drawn_at_once() hypotheses. Sets their costs to 0.
   DrawnBatch draw(const BatchLayout& batch);
-  /// Enqueues the slopes of the terms that need rendering: drawing_terms() x pixels() per drawn
-  /// hypothesis. Requires has_slopes().
+  /// Enqueues the slopes of the terms that have them: sloped_terms() x pixels() per drawn
+  /// hypothesis.
   void enqueue_slopes(const DrawnBatch& drawn, PixelSlope* slopes);
-  /// Enqueues the residuals of the terms that need no rendering: state_residual_count() per
-  /// hypothesis, each times the root of its weight. Overwrites the costs.
-  void enqueue_state_residuals(BatchLayout batch, float* residuals, Stream stream);
+  /// Enqueues the residuals of the terms without slopes: difference_residual_count() per
+  /// hypothesis, each times the root of its weight. Sets the costs to those of these terms. If one
+  /// of them needs rendering (draws_differences()), `stream` must be that of this frame.
+  void enqueue_differences(BatchLayout batch, float* residuals, Stream stream);
 
   const SceneLayout& scene() const { return scene_.layout(); }
   const DeviceObservation& observation() const { return observation_; }
@@ -72,18 +73,20 @@ class FrameOnDevice {
   std::int64_t drawn_at_once() const { return draws() ? drawer_.at_once() : 1 << 20; }
   /// Returns the number of pixels of all views.
   std::int64_t pixels() const { return drawer_.pixels(); }
-  /// Returns the number of terms that need rendering.
-  int drawing_terms() const { return drawing_terms_; }
+  /// Returns the number of terms with slopes.
+  int sloped_terms() const { return sloped_terms_; }
   bool draws() const { return drawing_terms_ > 0; }
+  /// Returns true if terms that need rendering have no slopes.
+  bool draws_differences() const { return drawing_terms_ > sloped_terms_; }
 
   /// Returns true if every term has residuals on the GPU.
   bool has_residuals() const;
-  /// Returns true if they also have slopes there, unless they need no rendering.
-  bool has_slopes() const;
+  /// Returns true if they also have slopes there: one at least, or none needs rendering.
+  bool has_slopes() const { return has_residuals() && (sloped_terms_ > 0 || !draws()); }
   /// Returns the number of residuals per hypothesis of the prepared frame.
   std::int64_t residual_count() const;
-  /// Returns the number of residuals of terms that need no rendering.
-  std::int64_t state_residual_count() const;
+  /// Returns the number of residuals of terms without slopes.
+  std::int64_t difference_residual_count() const;
   /// See StateResiduals::pose_only().
   std::vector<ResidualRows> pose_only_residuals() const;
 
@@ -92,6 +95,7 @@ class FrameOnDevice {
 
  private:
   bool draws(std::size_t term) const;
+  bool has_slopes(std::size_t term) const;
   template <class Enqueue>
   void add_up(BatchLayout& batch, const Enqueue& enqueue);
   template <class Enqueue>
@@ -102,7 +106,8 @@ class FrameOnDevice {
   DeviceScene scene_;
   std::vector<ObjectiveTerm> terms_;
   std::vector<std::unique_ptr<DeviceObjective>> objectives_;  // of the terms
-  int drawing_terms_ = 0;
+  int drawing_terms_ = 0, sloped_terms_ = 0;
+  bool draws_for_terms_ = false;  // because several need it, or one does not draw by itself
   TileUpload upload_;
   TileDrawer drawer_;
   DeviceObservation observation_;
