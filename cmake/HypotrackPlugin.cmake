@@ -48,6 +48,10 @@ function(hypotrack_add_plugin_library kind name)
     message(FATAL_ERROR "hypotrack_add_plugin: '${kind}' is no plugin kind: expected model, "
       "objective, optimizer, source, start or output")
   endif()
+  if(NOT name MATCHES "^[a-z0-9_]+$")
+    message(FATAL_ERROR "hypotrack_add_plugin: '${name}' is no name of a plugin: expected small "
+      "letters, digits and underscores")
+  endif()
   if(NOT ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hypotrack_add_plugin(${kind} ${name}): no source files given")
   endif()
@@ -74,7 +78,10 @@ function(hypotrack_add_plugin_library kind name)
   # Highway's foreach_target includes a source by its name.
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${target} PRIVATE hypotrack::hypotrack ${ARG_LIBRARIES})
-  target_compile_definitions(${target} PRIVATE
+  if(NOT "${HYPOTRACK_SANITIZE} ${CMAKE_CXX_FLAGS}" MATCHES "address|thread|undefined|sanitize")
+    target_link_options(${target} PRIVATE -Wl,-z,defs)  # what is missing is an error now, not when loading
+  endif()
+  target_compile_definitions(${target} PRIVATE $<$<CONFIG:Debug>:_GLIBCXX_ASSERTIONS>
     HYPOTRACK_PLUGIN_KIND=${kind} HYPOTRACK_PLUGIN_NAME=${name}
     HYPOTRACK_PLUGIN_VERSION="${ARG_VERSION}" HYPOTRACK_PLUGIN_LICENCE="${ARG_LICENCE}")
   set_target_properties(${target} PROPERTIES

@@ -22,4 +22,4 @@ class BrokenNames final : public Objective {
 }  // namespace
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::BrokenNames, "breaks the contract of parameters", "")
+HYPOTRACK_PLUGIN(hypotrack::BrokenNames, "breaks the contract of parameters", "devices of_its_own")

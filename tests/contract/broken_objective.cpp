@@ -24,9 +24,10 @@ enum class Fault {
   needs_a_first_frame,
   infinite_residual,
   leaves_residuals_out,
+  writes_too_many_residuals,
   has_no_residuals,
 };
-constexpr std::array<std::string_view, 13> kFaults = {"none",
+constexpr std::array<std::string_view, 14> kFaults = {"none",
                                                       "nan_where_nothing_is_covered",
                                                       "overflows_on_noise",
                                                       "remembers",
@@ -38,6 +39,7 @@ constexpr std::array<std::string_view, 13> kFaults = {"none",
                                                       "needs_a_first_frame",
                                                       "infinite_residual",
                                                       "leaves_residuals_out",
+                                                      "writes_too_many_residuals",
                                                       "has_no_residuals"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
@@ -82,6 +84,7 @@ class Broken final : public Objective, public ResidualTerm {
     const bool covered = hypothesis.views[0].x1 > hypothesis.views[0].x0;
     residuals[0] = fault_ == Fault::infinite_residual ? 1.0f / static_cast<float>(covered) : 1.0f;
     if (fault_ != Fault::leaves_residuals_out) residuals[1] = covered ? 0.0f : 1.0f;
+    if (fault_ == Fault::writes_too_many_residuals) residuals.data()[2] = 1.0f;
   }
 
  private:

@@ -16,18 +16,22 @@ enum class Fault {
   writes_what_it_does_not_name,
   forgets_a_file,
   does_not_ask,
+  names_a_column_badly,
+  writes_too_many_values,
   needs_pictures,
   needs_all_frames,
   never_the_same,
 };
-constexpr std::array<std::string_view, 8> kFaults = {"none",
-                                                     "writes_into_a_folder",
-                                                     "writes_what_it_does_not_name",
-                                                     "forgets_a_file",
-                                                     "does_not_ask",
-                                                     "needs_pictures",
-                                                     "needs_all_frames",
-                                                     "never_the_same"};
+constexpr std::array<std::string_view, 10> kFaults = {"none",
+                                                      "writes_into_a_folder",
+                                                      "writes_what_it_does_not_name",
+                                                      "forgets_a_file",
+                                                      "does_not_ask",
+                                                      "names_a_column_badly",
+                                                      "writes_too_many_values",
+                                                      "needs_pictures",
+                                                      "needs_all_frames",
+                                                      "never_the_same"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
 class Broken final : public Output {
@@ -52,6 +56,13 @@ class Broken final : public Output {
     if (file_) file_->write(std::to_string(last_) + "\n");
     if (has(Fault::needs_pictures) && run_->fixed_lag() && frame.views.empty())
       throw std::out_of_range("views");
+  }
+  std::vector<std::string> columns() const override {
+    return {has(Fault::names_a_column_badly) ? "last frame" : "last_frame"};
+  }
+  void values(const Frame&, const Solution& solution, std::span<double> values) override {
+    values[0] = solution.frame;
+    if (has(Fault::writes_too_many_values)) values.data()[1] = 1;
   }
   void finish(bool complete) override {
     if (has(Fault::needs_all_frames) && !complete) throw std::logic_error("there are more frames");

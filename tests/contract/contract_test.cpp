@@ -114,6 +114,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"objective", "leaves_residuals_out", kResidualRow,
                            "a rectified pair: not all of them are written: residual 1 keeps what "
                            "was there. residual_count() says 2"},
+                      Case{"objective", "writes_too_many_residuals", kResidualRow,
+                           "a rectified pair: more residuals are written than residual_count(), "
+                           "which is 2"},
                       Case{"objective", "throws_a_stranger",
                            "it takes observations in or refuses them with a DataError",
                            "prepare() threw another exception: no luck. Throw hypotrack::DataError "
@@ -236,6 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"start", "never_the_same", "a second object gives the same", "it gives another one"}),
     [](const auto& each) { return each.param.fault; });
 
+const std::string kColumnsRow = "its columns of track.csv have names, and one value each";
 const std::string kFileRow = "it writes the files that it asks for, and they are among its names";
 
 INSTANTIATE_TEST_SUITE_P(
@@ -248,6 +252,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"output", "forgets_a_file", kFileRow,
              "it asked for 'last_5.txt' and did not write it"},
         Case{"output", "does_not_ask", kFileRow, "it wrote 'extra.txt' without asking for it"},
+        Case{"output", "names_a_column_badly", kColumnsRow,
+             "wants to add the column 'last frame' to track.csv"},
+        Case{"output", "writes_too_many_values", kColumnsRow,
+             "more values are written than it has columns, which are 1"},
         Case{"output", "needs_pictures", "it takes smoothed solutions without pictures", "views"},
         Case{"output", "needs_all_frames", "it completes the files of a run that ends early",
              "there are more frames"},
@@ -312,12 +320,15 @@ TEST(ContractProgram, RowsForTheDevicePassOrSayWhatIsMissing) {
   }
 }
 
-TEST(ContractProgram, ParametersHaveHelpAndNamesThatScenesLeaveFree) {
+TEST(ContractProgram, NamesAreKnownOrFreeAndParametersHaveHelp) {
   const Outcome outcome = run({"objective", std::string(HYPOTRACK_BROKEN_PLUGINS) +
                                                 "/libhypotrack_objective_broken_names.so"});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_THAT(outcome.output,
-              AllOf(HasSubstr("no parameter has a name that scenes take: FAILED\n"
+              AllOf(HasSubstr("no capability is misspelt: FAILED\n"
+                              "    nobody knows the capability 'devices'; did you mean 'device'?"),
+                    Not(HasSubstr("of_its_own")),
+                    HasSubstr("no parameter has a name that scenes take: FAILED\n"
                               "    scenes read 'weight' of every objective themselves"),
                     HasSubstr("every parameter has a line of help: FAILED\n"
                               "    the parameter 'sigma' has none: write {.help = ")));

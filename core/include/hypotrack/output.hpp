@@ -86,8 +86,8 @@ class HYPOTRACK_API Output {
   /// of the table's own names. The answer never changes. An output with columns must not take the
   /// renderer in begin().
   virtual std::vector<std::string> columns() const { return {}; }
-  /// Writes a number for each of columns(); they are NaN before, which leaves the cell empty. Is
-  /// called for every frame before frame(), with the same arguments.
+  /// Writes a number for each of columns(); they are NaN before, `nan` in the table. Is called
+  /// for every frame before frame(), with the same arguments.
   virtual void values(const Frame& /*frame*/, const Solution& /*solution*/,
                       std::span<double> /*values*/) {}
 

@@ -5,6 +5,8 @@
 #include <iterator>
 #include <sstream>
 
+#include "hypotrack/suggest.hpp"
+#include "plugin/capabilities.hpp"
 #include "plugin/help_lines.hpp"
 #include "plugin/scene_keys.hpp"
 #include "subject.hpp"
@@ -58,6 +60,20 @@ void check_texts(const HypotrackPlugin& plugin) {
   require(plugin.create && plugin.describe, "has no factory or no description");
 }
 
+/// Throws if a capability is nearly a known one. Plugins may have words of their own.
+void check_capabilities(const HypotrackPlugin& plugin) {
+  std::vector<std::string> known;
+  for (const Capability& one : known_capabilities())
+    if (one.kind == plugin.kind) known.emplace_back(one.word);
+  std::istringstream words(plugin.capabilities);
+  for (std::string word; words >> word;) {
+    if (std::ranges::find(known, word) != known.end()) continue;
+    const std::string nearest = did_you_mean(word, known);
+    require(nearest.empty(), "nobody knows the capability '" + word + "'" + nearest +
+                                 ". `hypotrack plugins capabilities` lists them");
+  }
+}
+
 /// Throws unless every line of a plugin's help, also of nested parameters, says what it means.
 void check_help(const std::string& help) {
   for (const detail::HelpLine& line : detail::help_lines(help))
@@ -104,6 +120,7 @@ bool check_library(Report& report, Subject& subject) {
   if (!report.passed()) return false;
   report.row("library gives version, summary and licence", [&] { check_texts(*plugin); });
   if (!report.passed()) return false;
+  report.row("no capability is misspelt", [&] { check_capabilities(*plugin); });
   subject.name = plugin->name;
   subject.capabilities = plugin->capabilities;
   subject.loader = std::make_unique<PluginLoader>(

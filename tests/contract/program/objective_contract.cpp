@@ -123,6 +123,22 @@ void check_second_object(const Subject& subject, const Setting& setting) {
           setting.name + ": two objects give two costs");
 }
 
+/// Writes the residuals of a hypothesis. Throws unless what lies behind them stays.
+void write_residuals(const Setting& setting, std::size_t i, std::span<float> residuals) {
+  constexpr std::size_t kBehind = 64;
+  constexpr float kUntouched = -8191.25f;
+  std::vector<float> memory(residuals.begin(), residuals.end());
+  memory.resize(residuals.size() + kBehind, kUntouched);
+  setting.objective->residual_term()->write_residuals(
+      as_drawn_for(*setting.objective, setting.hypotheses[i]),
+      std::span(memory).first(residuals.size()));
+  const std::span<const float> behind = std::span(memory).last(kBehind);
+  require(std::ranges::count(behind, kUntouched) == static_cast<std::ptrdiff_t>(kBehind),
+          setting.at(i) + ": more residuals are written than residual_count(), which is " +
+              std::to_string(residuals.size()));
+  std::ranges::copy(std::span(memory).first(residuals.size()), residuals.begin());
+}
+
 /// Writes the residuals of all hypotheses, one after the other, into memory that held `before`.
 std::vector<float> residuals(const Setting& setting, float before) {
   const ResidualTerm& term = *setting.objective->residual_term();
@@ -131,8 +147,7 @@ std::vector<float> residuals(const Setting& setting, float before) {
   const auto size = static_cast<std::size_t>(count);
   std::vector<float> all(size * setting.hypotheses.size(), before);
   for (std::size_t i = 0; i < setting.hypotheses.size(); ++i) {
-    term.write_residuals(as_drawn_for(*setting.objective, setting.hypotheses[i]),
-                         std::span(all).subspan(i * size, size));
+    write_residuals(setting, i, std::span(all).subspan(i * size, size));
     for (std::size_t k = i * size; k < (i + 1) * size; ++k) {
       require(std::isfinite(all[k]), setting.at(i) + ": residual " + std::to_string(k - i * size) +
                                          " is " + std::to_string(all[k]) +

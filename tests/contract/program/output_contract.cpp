@@ -14,6 +14,8 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/output.hpp"
 #include "output/run_directory.hpp"
+#include "output/run_output.hpp"
+#include "session/opened_scene.hpp"
 #include "subject.hpp"
 #include "test_models.hpp"
 
@@ -142,13 +144,24 @@ std::vector<Step> make_steps(const TestRun& run) {
   return steps;
 }
 
+/// Lets an output write the values of its columns. Throws unless what lies behind them stays.
+void write_values(Output& output, const Step& step) {
+  constexpr double kUntouched = -8191.25;
+  const std::size_t count = output.columns().size();
+  if (count == 0) return;
+  std::vector<double> memory(count, std::numeric_limits<double>::quiet_NaN());
+  memory.resize(count + 16, kUntouched);
+  output.values(step.frame, step.solution, std::span(memory).first(count));
+  require(std::ranges::count(memory.begin() + static_cast<std::ptrdiff_t>(count), memory.end(),
+                             kUntouched) == 16,
+          "more values are written than it has columns, which are " + std::to_string(count));
+}
+
 /// Passes frames to an output as a run does; with fixed-lag smoothing all are smoothed at the end.
 void pass(Output& output, TestRun& run, int count, bool complete) {
   output.begin(run);
-  std::vector<double> values(output.columns().size());
   const auto frame = [&](const Step& step) {
-    std::ranges::fill(values, std::numeric_limits<double>::quiet_NaN());
-    if (!values.empty()) output.values(step.frame, step.solution, values);
+    write_values(output, step);
     output.frame(step.frame, step.solution);
   };
   std::vector<Step> steps = make_steps(run);
@@ -199,6 +212,13 @@ void check_output(Report& report, const Subject& subject) {
   report.row("the names of its files are names", [&] { check_names(names); });
   report.row("it writes the files that it asks for, and they are among its names",
              [&] { passed(false, kFrames, true); });
+  report.row("its columns of track.csv have names, and one value each", [&] {
+    std::vector<NamedOutput> outputs(1);
+    outputs[0] = {subject.name, subject.make<Output>()};
+    check_outputs(outputs);
+    const auto run = run_of(false);
+    pass(*outputs[0].output, *run, kFrames, true);
+  });
   report.row("it takes smoothed solutions without pictures", [&] { passed(true, kFrames, true); });
   report.row("it completes the files of a run that ends early", [&] { passed(false, 2, false); });
   report.row("it may be destroyed before the end", [&] {
