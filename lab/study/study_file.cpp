@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/numbers.hpp"
+#include "config/file_name.hpp"
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
@@ -119,16 +120,25 @@ std::vector<std::int64_t> read_seeds(const ConfigNode& node) {
   return seeds;
 }
 
+/// Returns the file of a scene: a path, or a reference such as `"@scenes/demo"`.
+std::filesystem::path scene_file(const ConfigNode& node, const std::filesystem::path& path) {
+  const std::string& text = node.scalar();
+  if (text.starts_with('@'))
+    return detail::find_file({text.substr(1), node.directory(), node.where()}, "scene");
+  if (!std::filesystem::is_regular_file(path))
+    fail_at(node, fmt::format("there is no scene file {}", path.string()));
+  return path;
+}
+
 StudyScene read_scene(const ConfigNode& scenes, const std::string& name,
                       std::vector<Change> changes) {
   const ConfigNode node = scenes.get(name);
   if (!is_word(name))
     fail_at(node, "the name of a scene is a word of letters, digits, '_' and '-'");
   const auto keys = ParamReader(node).read<SceneKeys>();
-  if (!std::filesystem::is_regular_file(keys.file))
-    fail_at(node.get("file"), fmt::format("there is no scene file {}", keys.file.string()));
+  auto file = scene_file(node.get("file"), keys.file);
   add_changes(changes, read_changes(keys.set));
-  return {name, keys.file, keys.label.empty() ? name : keys.label, std::move(changes),
+  return {name, std::move(file), keys.label.empty() ? name : keys.label, std::move(changes),
           scenes.where_key(name)};
 }
 

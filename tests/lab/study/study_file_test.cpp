@@ -51,6 +51,14 @@ TEST_F(StudyFileTest, ScenesHaveTheStudysChangesThenTheirOwn) {
       ElementsAre("tile.size=64", "tile.padding=0.1", "objective={type: stereo_color, window: 3}"));
 }
 
+TEST_F(StudyFileTest, ScenesMayBeThoseOfHypotrack) {
+  std::string text = small_study();
+  text.replace(text.find("box.yaml"), 8, "\"@scenes/demo\"");
+  const study::Study study = load(text);
+  EXPECT_EQ(study.scenes[0].file.filename(), "demo.yaml");
+  EXPECT_TRUE(std::filesystem::is_regular_file(study.scenes[0].file));
+}
+
 TEST_F(StudyFileTest, AxesAreValuesOfAKeyOrNamedCases) {
   const study::Study study = load(small_study());
   ASSERT_EQ(study.axes.size(), 2U);
@@ -203,6 +211,8 @@ TEST_F(StudyFileTest, MistakesAreNamedWithTheirPlaceAndTheNearestName) {
   EXPECT_THAT(complaint("seeds: 2", "seeds: many"), HasSubstr("an integer from 1 to 10000"));
   EXPECT_THAT(complaint("file: box.yaml", "file: bax.yaml"),
               AllOf(HasSubstr("study.yaml:4:15"), HasSubstr("there is no scene file")));
+  EXPECT_THAT(complaint("file: box.yaml", "file: \"@scenes/dmo\""),
+              AllOf(HasSubstr("study.yaml:4:15"), HasSubstr("did you mean '@scenes/demo'?")));
   EXPECT_THAT(complaint("  box:", "  \"a box\":"), HasSubstr("the name of a scene is a word"));
   EXPECT_THAT(
       complaint("frames: 5", "directory: nowhere"),
