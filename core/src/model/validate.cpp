@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "config/yaml_text.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/model.hpp"
 
@@ -14,6 +15,13 @@ namespace hypotrack {
 namespace {
 
 constexpr double kTolerance = 1e-4;  // of weight sums, unit axes and rotation matrices
+
+/// Returns a text without control characters, for messages.
+std::string without_controls(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return std::iscntrl(c); }, ' ');
+  return text;
+}
 
 // Validates one model; every message begins with where the model came from.
 class Validator {
@@ -52,13 +60,15 @@ class Validator {
   void check_column_names(const Items& items, std::string_view kind) const {
     check_names(items, kind);
     for (std::size_t i = 0; i < items.size(); ++i) {
+      if (!detail::is_text(items[i].name))
+        fail("the name of {} {} is no UTF-8: write the file in UTF-8", kind, i);
       const bool fits = std::ranges::none_of(
           items[i].name, [](unsigned char c) { return c == ',' || c == '"' || std::iscntrl(c); });
       if (fits) continue;
       fail(
           "the name of {} {} '{}' may not contain commas, quotes or control characters: it is "
           "written into the headers of CSV tables",
-          kind, i, items[i].name);
+          kind, i, without_controls(items[i].name));
     }
   }
 

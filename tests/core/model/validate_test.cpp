@@ -179,7 +179,9 @@ TEST(Validate, Motions) {
 
 TEST(Validate, NamesFitIntoTheHeaderOfATable) {
   for (const char* name : {"a,b", "a\"b", "a\nb", "a\tb"}) {
-    const std::string refused = std::string("'") + name +
+    std::string shown = name;
+    if (std::iscntrl(shown[1])) shown[1] = ' ';
+    const std::string refused = "'" + shown +
                                 "' may not contain commas, quotes or control characters: it is "
                                 "written into the headers of CSV tables";
     EXPECT_EQ(message([&](ModelData& d) { d.landmarks[1].name = name; }),
@@ -188,6 +190,12 @@ TEST(Validate, NamesFitIntoTheHeaderOfATable) {
               "hand.glb: the name of parameter 9 " + refused);
     EXPECT_EQ(message([&](ModelData& d) { d.bones[2].name = name; }), "no error") << "in no table";
   }
+}
+
+TEST(Validate, NamesAreUtf8) {
+  EXPECT_EQ(message([](ModelData& d) { d.parameters[9].name = "j\xE9"; }),
+            "hand.glb: the name of parameter 9 is no UTF-8: write the file in UTF-8");
+  EXPECT_EQ(message([](ModelData& d) { d.parameters[9].name = "j\xC3\xA9"; }), "no error");
 }
 
 TEST(Validate, Landmarks) {
