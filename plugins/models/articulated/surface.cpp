@@ -1,19 +1,12 @@
 #include "surface.hpp"
 
-#include <opencv2/core.hpp>
 #include <optional>
 
-#include "atlas.hpp"
 #include "hypotrack/kinematics.hpp"
+#include "hypotrack/texture_atlas.hpp"
 
 namespace hypotrack::articulated {
 namespace {
-
-cv::Vec3b bgr(const Eigen::Vector3f& color) {
-  const Eigen::Vector3f scaled = 255 * color;
-  return {cv::saturate_cast<uchar>(scaled.z()), cv::saturate_cast<uchar>(scaled.y()),
-          cv::saturate_cast<uchar>(scaled.x())};
-}
 
 bool has_texture(const Mesh& mesh) { return !mesh.texture.empty(); }
 
@@ -49,14 +42,10 @@ void append_surface(const Part& part, const LinkPlace& place,
 
 /// Appends a part's texture coordinates, moved to its place; without a texture all corners are in
 /// the middle of its colour.
-void append_uvs(const Mesh& part, const Atlas::Place& place, Mesh& mesh) {
+void append_uvs(const Mesh& part, const TextureAtlas& atlas, std::size_t place, Mesh& mesh) {
   const auto first = static_cast<int>(mesh.uv.cols());
   const Eigen::Matrix2Xf own = has_texture(part) ? part.uv : Eigen::Matrix2Xf::Constant(2, 1, 0.5f);
-  Eigen::Matrix2Xf moved(2, own.cols());
-  moved.row(0) = (place.left + place.width * own.row(0).cast<double>().array()).cast<float>();
-  moved.row(1) =
-      (1 - place.top - place.height * (1 - own.row(1).cast<double>().array())).cast<float>();
-  append(mesh.uv, moved);
+  append(mesh.uv, atlas.moved(place, own));
   append(mesh.uv_triangles,
          Eigen::Matrix3Xi(has_texture(part)
                               ? Eigen::Matrix3Xi(part.uv_triangles.array() + first)
@@ -76,15 +65,13 @@ Mesh join(const std::vector<Part>& parts, const Assembly& assembly, const std::s
     mesh.color = *color;
     return mesh;
   }
-  Atlas atlas;
+  TextureAtlas atlas;
   std::vector<std::size_t> places;
   for (const Part& part : parts)
-    places.push_back(atlas.add(has_texture(part.mesh)
-                                   ? part.mesh.texture
-                                   : cv::Mat(4, 4, CV_8UC3, cv::Scalar(bgr(part.mesh.color)))));
+    places.push_back(has_texture(part.mesh) ? atlas.add(part.mesh.texture)
+                                            : atlas.add(part.mesh.color));
   mesh.texture = atlas.texture(where);
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    append_uvs(parts[i].mesh, atlas.place(places[i]), mesh);
+  for (std::size_t i = 0; i < parts.size(); ++i) append_uvs(parts[i].mesh, atlas, places[i], mesh);
   return mesh;
 }
 

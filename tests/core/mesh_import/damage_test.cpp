@@ -89,6 +89,8 @@ TEST_F(DamagedMesh, AnObjThatIsDamagedIsRefusedWithItsLine) {
   EXPECT_THAT(of_face("f 1 2 99999999999999999999\n"), HasSubstr("names no vertex"));
   EXPECT_THAT(of_face("f 1 2 -4\n"), HasSubstr("'-4' names no vertex"));
   EXPECT_THAT(of_face("vt nan 0\nf 1 2 3\n"), HasSubstr("line 6: vt 'nan' is no number"));
+  EXPECT_THAT(of_face("v .1 0 0\nf 1 2 3\n"),
+              HasSubstr("line 6: v '.1' has no digit before the dot; write 0.1"));
   EXPECT_THAT(of_face("f 1 2 3\nv 0 1"), HasSubstr("line 7: v has 2 numbers, expected 3"));
   EXPECT_TRUE(reads("a.obj", start + "# f 1\nf -3/-1/-1 2//1 \\\n 3/1 \r\n"));
 }

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <set>
 
 #include "model/import/steps.hpp"
@@ -7,7 +5,8 @@
 
 namespace hypotrack {
 
-void fill_appearance(const MeshFile& file, Mesh& mesh) {
+void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
+                     Mesh& mesh) {
   std::set<std::string> textures;
   std::size_t most = 0;
   for (const mesh_wire::MeshPart& part : file.scene.meshes) {
@@ -25,12 +24,7 @@ void fill_appearance(const MeshFile& file, Mesh& mesh) {
     mesh.uv_triangles.resize(3, 0);
     return;
   }
-  if (own && textures.size() > 1) {
-    file.fail(
-        fmt::format("the mesh has {} different textures or textures on some faces only; "
-                    "hypotrack draws one: bake them into one image, or name one with `texture`",
-                    textures.size()));
-  }
+  if (own && textures.size() > 1) return fill_materials(file, soup, kept, mesh);
   if (mesh.uv.cols() == 0) {
     file.fail("there is a texture, but not every part of the mesh has texture coordinates");
   }

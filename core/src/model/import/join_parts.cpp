@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <optional>
 
 #include "model/import/steps.hpp"
 
@@ -12,18 +13,43 @@ using mesh_wire::MeshPart;
 
 constexpr std::size_t kMostVertices = 10'000'000;
 
-/// What all parts with triangles have.
+/// What the parts with triangles have: all of them, unless said.
 struct Features {
   bool uvs = true, colors = true;
+  bool some_uvs = false;  // a part has texture coordinates
 };
+
+/// Returns the colour of a part's material; NaN if there is none.
+Eigen::Vector3f material_color(const MeshFile& file, const MeshPart& part) {
+  if (part.material >= file.scene.materials.size()) return Eigen::Vector3f::Constant(NAN);
+  const Eigen::Vector3f color(file.scene.materials[part.material].color.data());
+  if (!color.allFinite()) return Eigen::Vector3f::Constant(NAN);
+  return color.cwiseMax(0.0f).cwiseMin(1.0f);
+}
+
+/// Returns true if parts differ in the colours of their materials, and none has a texture.
+bool has_colored_parts(const MeshFile& file) {
+  std::optional<Eigen::Vector3f> first;
+  bool differ = false;
+  for (const MeshPart& part : file.scene.meshes) {
+    if (part.triangles.empty()) continue;
+    const Eigen::Vector3f color = material_color(file, part);
+    if (!color.allFinite() || !file.scene.materials[part.material].texture.empty()) return false;
+    if (!first) first = color;
+    differ |= color != *first;
+  }
+  return differ;
+}
 
 Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles,
                 const Features& has) {
   Soup soup;
   soup.points.resize(3, static_cast<Eigen::Index>(points));
   soup.triangles.resize(3, static_cast<Eigen::Index>(triangles));
-  if (has.uvs) soup.uvs.resize(points);
-  if (has.colors) soup.colors.resize(points);
+  if (has.some_uvs) soup.uvs.resize(points, Eigen::Vector2f::Zero());
+  soup.has_all_uvs = has.uvs;
+  soup.parts.reserve(triangles);
+  if (has.colors || has_colored_parts(file)) soup.colors.resize(points);
   if (!file.scene.bones.empty()) soup.influences.resize(points);
   return soup;
 }
@@ -32,25 +58,27 @@ Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles,
 Eigen::Vector3f color_factor(const MeshFile& file, const MeshPart& part) {
   const bool gltf = file.path.extension().string().size() > 2 &&
                     std::tolower(file.path.extension().string()[1]) == 'g';
-  if (!gltf || part.material >= file.scene.materials.size()) return Eigen::Vector3f::Ones();
-  const Eigen::Map<const Eigen::Vector3f> color(file.scene.materials[part.material].color.data());
-  if (!color.allFinite()) return Eigen::Vector3f::Ones();
-  return color.cwiseMax(0.0f).cwiseMin(1.0f);
+  if (!gltf) return Eigen::Vector3f::Ones();
+  const Eigen::Vector3f color = material_color(file, part);
+  return color.allFinite() ? color : Eigen::Vector3f::Ones();
 }
 
-void join_colors(const MeshFile& file, const MeshPart& part, std::size_t first, Soup& soup) {
+/// Sets the colours of a part's points: their own, or that of the part's material.
+void join_colors(const MeshFile& file, const MeshPart& part, std::size_t first, bool own,
+                 Soup& soup) {
   if (soup.colors.empty()) return;
-  const Eigen::Vector3f factor = color_factor(file, part);
-  for (std::size_t i = 0; i < part.colors.size(); ++i) {
+  const Eigen::Vector3f factor = own ? color_factor(file, part) : material_color(file, part);
+  for (std::size_t i = 0; i < part.positions.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
+      const int color = own ? part.colors[i][c] : 255;
       soup.colors[first + i][c] = static_cast<std::uint8_t>(
-          std::lround(factor[static_cast<Eigen::Index>(c)] * part.colors[i][c]));
+          std::lround(factor[static_cast<Eigen::Index>(c)] * static_cast<float>(color)));
     }
   }
 }
 
 void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
-               Eigen::Index triangle, Soup& soup) {
+               Eigen::Index triangle, const Features& has, Soup& soup) {
   const auto first = static_cast<std::size_t>(point);
   for (std::size_t i = 0; i < part.positions.size(); ++i) {
     soup.points.col(point + static_cast<Eigen::Index>(i)) =
@@ -60,12 +88,13 @@ void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
       soup.uvs[first + i] = Eigen::Map<const Eigen::Vector2f>(part.uvs[i].data());
     }
   }
-  join_colors(file, part, first, soup);
+  if (!part.triangles.empty()) join_colors(file, part, first, has.colors, soup);
   for (const auto& corners : part.triangles) {
     for (int k = 0; k < 3; ++k) {
       soup.triangles(k, triangle) =
           static_cast<int>(point) + static_cast<int>(corners[static_cast<std::size_t>(k)]);
     }
+    soup.parts.push_back(static_cast<std::size_t>(&part - file.scene.meshes.data()));
     ++triangle;
   }
   if (file.scene.bones.empty()) return;
@@ -87,6 +116,7 @@ Soup join_parts(const MeshFile& file) {
     triangles += part.triangles.size();
     if (part.triangles.empty()) continue;
     has.uvs = has.uvs && !part.uvs.empty();
+    has.some_uvs = has.some_uvs || !part.uvs.empty();
     has.colors = has.colors && !part.colors.empty();
   }
   if (triangles == 0) file.fail("the mesh has no faces");
@@ -98,7 +128,7 @@ Soup join_parts(const MeshFile& file) {
   Eigen::Index point = 0;
   Eigen::Index triangle = 0;
   for (const MeshPart& part : file.scene.meshes) {
-    join_part(file, part, point, triangle, soup);
+    join_part(file, part, point, triangle, has, soup);
     point += static_cast<Eigen::Index>(part.positions.size());
     triangle += static_cast<Eigen::Index>(part.triangles.size());
   }

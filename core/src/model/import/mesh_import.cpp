@@ -27,6 +27,19 @@ void read_scene(MeshFile& file) {
 
 void MeshFile::fail(const std::string& what) const { throw DataError(path.string() + ": " + what); }
 
+ImportedMesh convert_mesh(const MeshFile& file) {
+  ImportedMesh imported;
+  imported.bones = convert_bones(file);
+  const Soup soup = join_parts(file);
+  const Welded welded = fill_surface(file, soup, imported.mesh);
+  fill_weights(soup, welded, imported.mesh);
+  if (soup.has_all_uvs) fill_uvs(soup, welded.triangles, imported.mesh);
+  fill_appearance(file, soup, welded.triangles, imported.mesh);
+  if (imported.mesh.texture.empty() && !soup.colors.empty())
+    fill_vertex_colors(soup, welded.triangles, imported.mesh);
+  return imported;
+}
+
 ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {
     throw DataError(fmt::format("{}: the scale of a mesh must be positive, not {}", path.string(),
@@ -34,16 +47,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOpti
   }
   MeshFile file{path, options, {}};
   read_scene(file);
-  ImportedMesh imported;
-  imported.bones = convert_bones(file);
-  const Soup soup = join_parts(file);
-  const Welded welded = fill_surface(file, soup, imported.mesh);
-  fill_weights(soup, welded, imported.mesh);
-  if (!soup.uvs.empty()) fill_uvs(soup, welded.triangles, imported.mesh);
-  fill_appearance(file, imported.mesh);
-  if (imported.mesh.texture.empty() && !soup.colors.empty())
-    fill_vertex_colors(soup, welded.triangles, imported.mesh);
-  return imported;
+  return convert_mesh(file);
 }
 
 }  // namespace hypotrack

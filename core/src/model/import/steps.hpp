@@ -11,7 +11,7 @@
 #include "model/import/weld.hpp"
 #include "model/import/wire.hpp"
 
-// The steps of import_mesh() after the reader program has read the file, in their order.
+// import_mesh() after the reader program has read the file, and its steps in their order.
 namespace hypotrack {
 
 inline constexpr double kFarthestPoint = 1e9;  ///< from the origin, along an axis, in metres
@@ -29,7 +29,9 @@ struct MeshFile {
 struct Soup {
   Eigen::Matrix3Xf points;
   Eigen::Matrix3Xi triangles;
-  std::vector<Eigen::Vector2f> uvs;                 // empty or one per point
+  std::vector<std::size_t> parts;                   // per triangle: its part of the file
+  std::vector<Eigen::Vector2f> uvs;                 // empty or one per point; 0 in parts without
+  bool has_all_uvs = false;                         // every part with triangles has some
   std::vector<std::array<std::uint8_t, 3>> colors;  // RGB; empty or one per point
   std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
 };
@@ -41,6 +43,9 @@ struct Welded {
   std::vector<int> points;     // per vertex of the mesh: index of its point
   std::vector<int> vertex;     // per representative point: index of its vertex, or -1
 };
+
+/// Makes the mesh and bones of what was read, by all steps below. Throws DataError.
+ImportedMesh convert_mesh(const MeshFile& file);
 
 std::vector<ImportedBone> convert_bones(const MeshFile& file);
 
@@ -70,7 +75,16 @@ void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 /// the mesh that colour instead. Requires colours and at least one triangle.
 void fill_vertex_colors(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 
+/// Returns a triangle's texture coordinates, moved into [0, 1]; those outside mean a repeated
+/// image. A triangle within one repetition moves to the first; one that spans several is clamped.
+Eigen::Matrix<float, 2, 3> corners_in_image(const Soup& soup, int triangle);
+
+/// Fills the texture with the pictures and colours of all materials, and its coordinates.
+void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
+                    Mesh& mesh);
+
 /// Fills texture or colour; removes the texture coordinates if there is no texture.
-void fill_appearance(const MeshFile& file, Mesh& mesh);
+void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
+                     Mesh& mesh);
 
 }  // namespace hypotrack

@@ -57,6 +57,11 @@ class ObjReader {
     for (std::size_t e = 0; e < kElements; ++e) {
       if (words[0] != kLeast[e].first) continue;
       ++counts_[e];
+      for (const std::string_view word : std::span(words).subspan(1)) {
+        if (word.starts_with('.'))  // assimp leaves out vertices of such numbers
+          return fmt::format("{} '{}' has no digit before the dot; write 0{}", words[0], word,
+                             word);
+      }
       const std::string problem = problem_of_numbers(std::span(words).subspan(1), kLeast[e].second);
       return problem.empty() ? problem : fmt::format("{} {}", words[0], problem);
     }

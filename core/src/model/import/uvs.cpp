@@ -9,10 +9,11 @@ namespace {
 
 using Corners = Eigen::Matrix<float, 2, 3>;
 
-/// Moves texture coordinates into [0, 1]; those outside mean a repeated image. A triangle within
-/// one repetition moves to the first; one that spans several is clamped.
+}  // namespace
+
 Corners corners_in_image(const Soup& soup, int triangle) {
-  Corners corners;
+  Corners corners = Corners::Zero();
+  if (soup.uvs.empty()) return corners;
   for (int k = 0; k < 3; ++k) {
     corners.col(k) = soup.uvs[static_cast<std::size_t>(soup.triangles(k, triangle))];
   }
@@ -25,8 +26,6 @@ Corners corners_in_image(const Soup& soup, int triangle) {
   }
   return corners.cwiseMax(0.0f).cwiseMin(1.0f);
 }
-
-}  // namespace
 
 void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh) {
   std::map<std::pair<float, float>, int> known;

@@ -1,4 +1,4 @@
-#include "atlas.hpp"
+#include "hypotrack/texture_atlas.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::articulated {
+namespace hypotrack {
 namespace {
 
 constexpr int kMargin = 4;         // pixels around a picture that repeat its rim, for filtering
@@ -22,7 +22,7 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
-std::size_t Atlas::add(const cv::Mat& picture) {
+std::size_t TextureAtlas::add(const cv::Mat& picture) {
   cv::Mat fitting = picture;
   if (const int longest = std::max(picture.cols, picture.rows); longest > kLargest) {
     const double factor = static_cast<double>(kLargest) / longest;
@@ -35,7 +35,14 @@ std::size_t Atlas::add(const cv::Mat& picture) {
   return pictures_.size() - 1;
 }
 
-cv::Mat Atlas::texture(const std::string& where) {
+std::size_t TextureAtlas::add(const Eigen::Vector3f& color) {
+  const Eigen::Vector3f scaled = 255 * color;
+  const cv::Vec3b bgr(cv::saturate_cast<uchar>(scaled.z()), cv::saturate_cast<uchar>(scaled.y()),
+                      cv::saturate_cast<uchar>(scaled.x()));
+  return add(cv::Mat(4, 4, CV_8UC3, cv::Scalar(bgr)));
+}
+
+cv::Mat TextureAtlas::texture(const std::string& where) {
   double area = 0;
   int widest = 0;
   for (const cv::Mat& picture : pictures_) {
@@ -60,27 +67,32 @@ cv::Mat Atlas::texture(const std::string& where) {
     left += across;
     row = std::max(row, down);
   }
-  size_ = {width, top + row};
-  if (std::max(size_.width, size_.height) > kLargestAll)
+  width_ = width;
+  height_ = top + row;
+  if (std::max(width_, height_) > kLargestAll)
     throw DataError(
         fmt::format("{}: its textures need {} x {} pixels together, at most {} are possible on "
                     "each side: make the pictures smaller",
-                    where, size_.width, size_.height, kLargestAll));
-  cv::Mat all(size_, CV_8UC3, cv::Scalar::all(0));
+                    where, width_, height_, kLargestAll));
+  cv::Mat all(height_, width_, CV_8UC3, cv::Scalar::all(0));
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
-    const cv::Rect& at = places_[i];
+    const Place& at = places_[i];
     cv::Mat framed =
-        all({at.x - kMargin, at.y - kMargin, at.width + 2 * kMargin, at.height + 2 * kMargin});
+        all({at.left - kMargin, at.top - kMargin, at.width + 2 * kMargin, at.height + 2 * kMargin});
     cv::copyMakeBorder(pictures_[i], framed, kMargin, kMargin, kMargin, kMargin,
                        cv::BORDER_REPLICATE);
   }
   return all;
 }
 
-Atlas::Place Atlas::place(std::size_t index) const {
-  const cv::Rect2d at = places_[index];
-  return {at.x / size_.width, at.y / size_.height, at.width / size_.width,
-          at.height / size_.height};
+Eigen::Matrix2Xf TextureAtlas::moved(std::size_t index,
+                                     const Eigen::Ref<const Eigen::Matrix2Xf>& uv) const {
+  const Place& at = places_[index];
+  Eigen::Matrix2Xf out(2, uv.cols());
+  out.row(0) = ((at.left + at.width * uv.row(0).cast<double>().array()) / width_).cast<float>();
+  out.row(1) =
+      (1 - (at.top + at.height * (1 - uv.row(1).cast<double>().array())) / height_).cast<float>();
+  return out;
 }
 
-}  // namespace hypotrack::articulated
+}  // namespace hypotrack
