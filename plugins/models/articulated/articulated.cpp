@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -20,6 +22,7 @@ using namespace articulated;
 
 struct ArticulatedParams {
   std::filesystem::path file, rig, texture;
+  double scale = 1;
   std::vector<Anchor> anchors;
   void visit(ParamVisitor& v) {
     v("file", file, {.help = "URDF file, or a skinned glTF or GLB file", .required = true});
@@ -27,6 +30,8 @@ struct ArticulatedParams {
       {.help = "for a glTF or GLB file: YAML file that says which bones move, and how"});
     v("texture", texture,
       {.help = "for a glTF or GLB file: image to use instead of the one that the mesh names"});
+    v("scale", scale,
+      {.help = "for a URDF file: factor on all its lengths", .min = 1e-6, .max = 1e6});
     v("anchors", anchors, {.help = "points for the error; default: three per link that moves"});
   }
 };
@@ -43,7 +48,7 @@ Object from_urdf(const ArticulatedParams& params, const std::string& where) {
       throw ConfigError(fmt::format("{}: a URDF file takes no `rig` and no `texture`; leave {} out",
                                     where, path->string()));
   const std::string file = params.file.string();
-  Description description = read_urdf(params.file);
+  Description description = read_urdf(params.file, params.scale);
   if (description.visuals.empty())
     throw DataError(file +
                     ": no link has a <visual>, so there is nothing to draw; collision geometry is "
@@ -62,6 +67,9 @@ Object from_mesh(const ArticulatedParams& params, const std::string& where) {
         fmt::format("{}: {} needs a `rig`, which says which of its bones move; or "
                     "give a URDF file, whose name ends with .urdf",
                     where, params.file.string()));
+  if (params.scale != 1)
+    throw ConfigError(fmt::format("{}: `scale` is for URDF files; write it into the rig {}", where,
+                                  params.rig.string()));
   const ObjectRig rig = read_object_rig(params.rig);
   const ImportedMesh imported =
       import_mesh(params.file, {.scale = rig.scale, .texture = params.texture});
@@ -80,14 +88,15 @@ void check_size(const ModelData& data, const std::string& file) {
   throw DataError(
       fmt::format("{}: the object is {:.3g} m long, expected 0.005 to 10; for a mesh in "
                   "millimetres write scale=\"0.001 0.001 0.001\" in its <mesh> element, "
-                  "or `scale: 0.001` in its rig",
+                  "or `scale: 0.001` in its rig; `scale` of the model is for all of a URDF file",
                   file, size));
 }
 
 ModelData make_object(const ArticulatedParams& params, const PluginContext& context) {
   const std::string where = context.config().where(), file = params.file.string();
-  Object object =
-      params.file.extension() == ".urdf" ? from_urdf(params, where) : from_mesh(params, where);
+  std::string type = params.file.extension().string();
+  std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
+  Object object = type == ".urdf" ? from_urdf(params, where) : from_mesh(params, where);
   ModelData& data = object.assembly.data;
   data.landmarks = params.anchors.empty()
                        ? bounding_box_landmarks_of_bones(data)

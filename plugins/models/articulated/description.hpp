@@ -31,9 +31,9 @@ struct Description {
   std::vector<Visual> visuals;
 };
 
-/// Reads a URDF file. Throws DataError, beginning with the file's name, if it is damaged or asks
-/// for what is not supported: floating and planar joints, and meshes of ROS packages.
-Description read_urdf(const std::filesystem::path& file);
+/// Reads a URDF file, with all lengths times `scale`. Throws DataError, beginning with the file's
+/// name, if it is damaged or has floating or planar joints.
+Description read_urdf(const std::filesystem::path& file, double scale = 1);
 
 /// Makes the surface of a visual, in its link's frame. Reads its mesh and texture. Throws
 /// DataError.

@@ -13,8 +13,8 @@ namespace {
 /// Converts a model of urdfdom; every message begins with the file.
 class Converter {
  public:
-  Converter(const urdf::ModelInterface& model, const std::filesystem::path& file)
-      : model_(model), file_(file) {}
+  Converter(const urdf::ModelInterface& model, const std::filesystem::path& file, double scale)
+      : model_(model), file_(file), scale_(scale) {}
 
   Description convert() const {
     Description out;
@@ -48,7 +48,7 @@ class Converter {
   }
 
   Eigen::Isometry3d pose(const urdf::Pose& from, const std::string& where) const {
-    Eigen::Isometry3d out(Eigen::Translation3d(vector(from.position, where, "origin")));
+    Eigen::Isometry3d out(Eigen::Translation3d(scale_ * vector(from.position, where, "origin")));
     Eigen::Quaterniond q;
     from.rotation.getQuaternion(q.x(), q.y(), q.z(), q.w());
     if (!(q.norm() > 0.5)) fail(where, "its origin has a rotation that is not finite");
@@ -81,22 +81,54 @@ class Converter {
     joint.parent_from_child = pose(from.parent_to_joint_origin_transform, where);
     if (joint.kind != JointKind::fixed) joint.axis = vector(from.axis, where, "axis");
     if (from.limits && joint.kind != JointKind::continuous) {
-      joint.lower = finite(from.limits->lower, where, "lower limit");
-      joint.upper = finite(from.limits->upper, where, "upper limit");
+      joint.lower = unit(joint.kind) * finite(from.limits->lower, where, "lower limit");
+      joint.upper = unit(joint.kind) * finite(from.limits->upper, where, "upper limit");
     }
-    if (from.mimic)
-      joint.mimic = Mimic{from.mimic->joint_name, from.mimic->multiplier, from.mimic->offset};
+    if (from.mimic) joint.mimic = mimic(*from.mimic, joint.kind);
     return joint;
+  }
+
+  /// Returns the factor on the values of joints: the scale if they slide.
+  double unit(JointKind kind) const { return kind == JointKind::prismatic ? scale_ : 1; }
+
+  Mimic mimic(const urdf::JointMimic& from, JointKind kind) const {
+    const auto leader = model_.joints_.find(from.joint_name);
+    const bool slides =
+        leader != model_.joints_.end() && leader->second->type == urdf::Joint::PRISMATIC;
+    return {from.joint_name, from.multiplier * unit(kind) / (slides ? scale_ : 1),
+            from.offset * unit(kind)};
+  }
+
+  /// Returns the folder of a ROS package: one of its name that holds the URDF file, or lies beside
+  /// such a folder. Throws `DataError` if there is none.
+  std::filesystem::path package(const std::string& name, const std::string& where) const {
+    for (std::filesystem::path above = std::filesystem::absolute(file_).parent_path();;
+         above = above.parent_path()) {
+      if (above.filename() == name) return above;
+      if (std::error_code none; std::filesystem::is_directory(above / name, none))
+        return above / name;
+      if (above == above.root_path()) break;
+    }
+    fail(where, fmt::format("found no folder '{0}' for 'package://{0}' beside the URDF file or "
+                            "above it; put the package there, or write a path relative to the file",
+                            name));
   }
 
   /// Returns the path of a file that the URDF file names.
   std::filesystem::path path_of(const std::string& name, const std::string& where) const {
-    constexpr std::string_view kFile = "file://";
+    constexpr std::string_view kFile = "file://", kPackage = "package://";
     if (name.empty()) fail(where, "it names a file without a name");
     if (name.starts_with(kFile)) return name.substr(kFile.size());
+    if (name.starts_with(kPackage)) {
+      const std::size_t slash = name.find('/', kPackage.size());
+      if (slash == std::string::npos || slash == kPackage.size())
+        fail(where, fmt::format("found '{}', expected package://NAME/FILE", name));
+      return package(name.substr(kPackage.size(), slash - kPackage.size()), where) /
+             name.substr(slash + 1);
+    }
     if (name.find("://") != std::string::npos)
-      fail(where, fmt::format("ROS looks up '{}' in its packages, hypotrack does not: write the "
-                              "path from the folder of the URDF file to that file",
+      fail(where, fmt::format("found '{}', expected a path relative to the URDF file, "
+                              "package://NAME/FILE or file://FILE",
                               name));
     return file_.parent_path() / name;
   }
@@ -104,16 +136,16 @@ class Converter {
   double length(double number, const std::string& where, std::string_view what) const {
     if (!(number > 0) || !std::isfinite(number))
       fail(where, fmt::format("its {} is {} m, expected more than 0", what, number));
-    return number;
+    return scale_ * number;
   }
 
   void set_shape(const urdf::Geometry& geometry, Visual& visual) const {
     switch (geometry.type) {
       case urdf::Geometry::BOX: {
         const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
-        for (const double edge : {size.x, size.y, size.z}) length(edge, visual.name, "size");
         visual.kind = ShapeKind::box;
-        visual.size = {size.x, size.y, size.z};
+        visual.size = {length(size.x, visual.name, "size"), length(size.y, visual.name, "size"),
+                       length(size.z, visual.name, "size")};
         return;
       }
       case urdf::Geometry::CYLINDER: {
@@ -133,7 +165,7 @@ class Converter {
     }
     const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
     visual.kind = ShapeKind::mesh;
-    visual.size = vector(mesh.scale, visual.name, "scale");
+    visual.size = scale_ * vector(mesh.scale, visual.name, "scale");
     if (visual.size.prod() == 0) fail(visual.name, "its scale has a 0, which leaves nothing");
     visual.mesh = path_of(mesh.filename, visual.name);
   }
@@ -153,12 +185,13 @@ class Converter {
 
   const urdf::ModelInterface& model_;
   const std::filesystem::path& file_;
+  double scale_;
 };
 
 }  // namespace
 
-Description read_urdf(const std::filesystem::path& file) {
-  return Converter(*parse_urdf(file), file).convert();
+Description read_urdf(const std::filesystem::path& file, double scale) {
+  return Converter(*parse_urdf(file), file, scale).convert();
 }
 
 }  // namespace hypotrack::articulated

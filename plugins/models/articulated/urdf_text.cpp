@@ -54,23 +54,65 @@ std::string printable(std::string text) {
 std::string read(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    throw DataError(fmt::format("{}: there is no such file", file.string()));
+    throw DataError(
+        fmt::format("{}: there is no such file{}", file.string(),
+                    std::filesystem::is_directory(file, error) ? ", it is a folder" : ""));
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw DataError(fmt::format("{}: this is no URDF file of an object: it is larger than {} MiB",
                                 file.string(), kLargestFile >> 20));
   std::ifstream in(file, std::ios::binary);
   std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
   if (!in) throw DataError(fmt::format("{}: cannot be read", file.string()));
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw DataError(fmt::format("{}: the file is in UTF-16; write it in UTF-8", file.string()));
   if (const auto elements = std::ranges::count(text, '<'); elements > 2 * kMostElements)
     throw DataError(fmt::format("{}: the file has more than {} elements; expected one object",
                                 file.string(), kMostElements));
   return text;
 }
 
+/// Returns the place behind the next `end` from `begin` on, or that of the text's end.
+std::size_t behind(std::string_view text, std::string_view end, std::size_t begin) {
+  const std::size_t at = text.find(end, begin);
+  return at == text.npos ? text.size() : at + end.size();
+}
+
+bool is_element(std::string_view rest, std::string_view begin) {
+  return rest.starts_with(begin) && rest.size() > begin.size() &&
+         std::string_view(" \t\r\n/>").find(rest[begin.size()]) != rest.npos;
+}
+
+/// Returns a URDF text without comments and collision geometry, which nothing here uses. Limits of
+/// joints get the effort and velocity that the specification asks for and many files leave out.
+std::string text_for_parser(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    if (text.starts_with("<!--")) {
+      text.remove_prefix(behind(text, "-->", 4));
+    } else if (is_element(text, "<collision")) {
+      std::size_t end = behind(text, ">", 0);
+      if (text[end - 2] != '/') end = behind(text, "</collision>", end);
+      text.remove_prefix(end);
+    } else if (is_element(text, "<limit")) {
+      constexpr std::string_view kLimit = "<limit";
+      const std::string_view inside = text.substr(0, behind(text, ">", 0));
+      out += kLimit;
+      if (inside.find("effort") == inside.npos) out += " effort='0'";
+      if (inside.find("velocity") == inside.npos) out += " velocity='0'";
+      text.remove_prefix(kLimit.size());
+    } else {
+      const std::size_t end = std::min(text.find('<', 1), text.size());
+      out += text.substr(0, end);
+      text.remove_prefix(end);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
-  const std::string text = read(file);
+  const std::string text = text_for_parser(read(file));
   const Log log;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
   if (model && log.text().empty()) return model;

@@ -28,6 +28,10 @@ std::string visual(const std::string& inside) {
   return "<link name='a'><visual>" + inside + "</visual></link>";
 }
 
+std::string mesh(const std::string& file) {
+  return "<geometry><mesh filename='" + file + "'/></geometry>";
+}
+
 class Urdf : public testing::Test {
  protected:
   Description read(const std::string& inside) {
@@ -39,10 +43,14 @@ class Urdf : public testing::Test {
     EXPECT_THAT(found, StartsWith(file().string() + ": "));
     return found.substr(std::min(found.size(), file().string().size() + 2));
   }
-  std::filesystem::path file() const { return folder_.path() / "it.urdf"; }
+  std::filesystem::path file() const { return folder_.path() / name_; }
+  std::filesystem::path folder() const { return folder_.path(); }
+  /// Sets where the file is, relative to the folder.
+  void place(const std::string& name) { name_ = name; }
 
  private:
   test::TemporaryDirectory folder_;
+  std::string name_ = "it.urdf";
 };
 
 TEST_F(Urdf, HasLinksJointsAndLimits) {
@@ -101,7 +109,58 @@ TEST_F(Urdf, HasShapesColoursAndFilesBesideItself) {
   EXPECT_EQ(it.visuals[3].name, "link 'b', visual 3");
 }
 
+TEST_F(Urdf, LimitsNeedNoEffortAndNoVelocity) {
+  for (const std::string limit :
+       {"<limit lower='-1' upper='2'/>", "<limit upper='2' velocity='3' lower='-1'></limit>",
+        "<limit\n lower='-1' effort='7' upper='2'/>"}) {
+    const Description it = read(kLinks + joint("revolute", limit));
+    EXPECT_EQ(it.mechanism.joints.at(0).lower, -1) << limit;
+    EXPECT_EQ(it.mechanism.joints.at(0).upper, 2) << limit;
+  }
+}
+
+TEST_F(Urdf, CollisionGeometryAndCommentsAreNotRead) {
+  const Description it = read(
+      "<link name='a'><collision><geometry><plane normal='0 0 1'/></geometry></collision>"
+      "<!-- <collision> <limit --><visual><geometry><sphere radius='2'/></geometry></visual>"
+      "<collision/><collision_checking/></link>");
+  ASSERT_EQ(it.visuals.size(), 1U);
+  EXPECT_EQ(it.visuals[0].size[0], 2);
+  EXPECT_THAT(message("<link name='a'/><link name='b'/><!-- "), HasSubstr("no valid URDF file"));
+}
+
+TEST_F(Urdf, AScaleIsAFactorOnAllLengths) {
+  const std::string origin = "<origin xyz='1 2 3' rpy='0 0 1'/>";
+  std::ofstream(file())
+      << "<robot name='it'>" + visual(origin + "<geometry><box size='1 2 3'/></geometry>") +
+             "<link name='b'/><link name='c'/><link name='d'/>" +
+             joint("prismatic", origin + kLimit) +
+             "<joint name='k' type='revolute'><parent link='b'/><child link='c'/>"
+             "<mimic joint='j' multiplier='4' offset='1'/>" +
+             kLimit +
+             "</joint>"
+             "<joint name='l' type='prismatic'><parent link='c'/><child link='d'/>"
+             "<mimic joint='j' multiplier='4' offset='1'/>" +
+             kLimit + "</joint></robot>";
+  const Description it = read_urdf(file(), 0.5);
+  EXPECT_EQ(it.visuals[0].size, Eigen::Vector3d(0.5, 1, 1.5));
+  EXPECT_EQ(it.visuals[0].link_from_visual.translation(), Eigen::Vector3d(0.5, 1, 1.5));
+  const Joint& slider = it.mechanism.joints.at(0);
+  EXPECT_EQ(slider.parent_from_child.translation(), Eigen::Vector3d(0.5, 1, 1.5));
+  EXPECT_EQ(slider.upper, 1);
+  const Joint& turned = it.mechanism.joints.at(1);
+  EXPECT_EQ(turned.upper, 2);
+  EXPECT_EQ(turned.mimic->multiplier, 8);  // radians per metre
+  EXPECT_EQ(turned.mimic->offset, 1);
+  const Joint& second = it.mechanism.joints.at(2);
+  EXPECT_EQ(second.mimic->multiplier, 4);
+  EXPECT_EQ(second.mimic->offset, 0.5);
+}
+
 TEST_F(Urdf, SaysWhatIsWrongWithTheFile) {
+  std::ofstream(file()) << "\xFF\xFE<\0r";
+  EXPECT_THAT(test::message_of<DataError>([&] { read_urdf(file()); }),
+              EndsWith("the file is in UTF-16; write it in UTF-8"));
   EXPECT_EQ(message(""), "this is no valid URDF file: No link elements found in urdf file");
   EXPECT_THAT(message("<link name='a'>"), StartsWith("this is no valid URDF file: Error reading"));
   EXPECT_THAT(message("<link name='a'/><link name='a'/>"), HasSubstr("link 'a' is not unique"));
@@ -127,16 +186,34 @@ TEST_F(Urdf, SaysWhatIsNotSupportedAndWhatToDo) {
               "joint 'j': its type is " + type +
                   ", expected revolute, continuous, prismatic or fixed; write it as several of "
                   "these with links without a visual between them");
-  EXPECT_EQ(
-      message(visual("<geometry><mesh filename='package://lamp/a.obj'/></geometry>")),
-      "link 'a', visual 1: ROS looks up 'package://lamp/a.obj' in its packages, hypotrack does "
-      "not: write the path from the folder of the URDF file to that file");
+  EXPECT_EQ(message(visual(mesh("model://lamp/a.obj"))),
+            "link 'a', visual 1: found 'model://lamp/a.obj', expected a path relative to the URDF "
+            "file, package://NAME/FILE or file://FILE");
   EXPECT_EQ(message(visual("<geometry><box size='1 0 2'/></geometry>")),
             "link 'a', visual 1: its size is 0 m, expected more than 0");
   EXPECT_EQ(message(visual("<geometry><sphere radius='-1'/></geometry>")),
             "link 'a', visual 1: its radius is -1 m, expected more than 0");
   EXPECT_EQ(message(visual("<geometry><mesh filename='a.obj' scale='1 0 1'/></geometry>")),
             "link 'a', visual 1: its scale has a 0, which leaves nothing");
+}
+
+TEST_F(Urdf, FindsThePackageOfAMeshAboveTheFileOrBesideAFolderAboveIt) {
+  const std::filesystem::path shelf = folder(), lamp = shelf / "lamp";
+  std::filesystem::create_directories(lamp / "urdf");
+  std::filesystem::create_directories(shelf / "bulbs");
+  place("lamp/urdf/it.urdf");
+  EXPECT_EQ(read(visual(mesh("package://lamp/meshes/a.obj"))).visuals[0].mesh,
+            lamp / "meshes/a.obj");
+  EXPECT_EQ(read(visual(mesh("package://bulbs/b.obj"))).visuals[0].mesh, shelf / "bulbs/b.obj");
+}
+
+TEST_F(Urdf, SaysWhereItLookedForAPackage) {
+  EXPECT_EQ(message(visual(mesh("package://lamp/a.obj"))),
+            "link 'a', visual 1: found no folder 'lamp' for 'package://lamp' beside the URDF file "
+            "or above it; put the package there, or write a path relative to the file");
+  for (const std::string name : {"package://", "package://lamp", "package:///a.obj"})
+    EXPECT_EQ(message(visual(mesh(name))),
+              "link 'a', visual 1: found '" + name + "', expected package://NAME/FILE");
 }
 
 TEST_F(Urdf, RefusesFilesThatAreMissingOrWouldExhaustTheStack) {
