@@ -81,7 +81,7 @@ source: {type: image_sequence, left: recording/left_%06d.png, right: recording/r
          calibration: {file: recording/calibration.yaml}}
 objective:
   - {type: stereo_color, beta: 5}
-  - {type: regressor, file: recording/truth_states.csv, weight: 10}
+  - {type: regressor, file: recording/truth_states.csv, weight: 100}
 optimizer: {type: levenberg_marquardt, jacobian: analytic}
 search: {rotation_as: tangent}
 init:
@@ -97,7 +97,7 @@ rows, truths = (list(csv.DictReader(open(file)))
 for row, truth in zip(rows, truths):
     for axis in "xyz":
         name = f"hand.position_{axis}"
-        assert abs(float(row[name]) - float(truth[name])) < 0.005, (row["frame"], name)
+        assert abs(float(row[name]) - float(truth[name])) < 0.005, (row["frame"], name, row[name], truth[name])
 END
 
 # An installation that lost OpenCV's readers of images says so.
