@@ -15,8 +15,8 @@ void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<i
     textures.insert(material.texture);
     if (part.triangles.size() <= most) continue;
     most = part.triangles.size();
-    const Eigen::Map<const Eigen::Vector3f> color(material.color.data());
-    if (color.allFinite()) mesh.color = color.cwiseMax(0.0f).cwiseMin(1.0f);
+    const Eigen::Vector3f color = material_color(file, part);
+    if (color.allFinite()) mesh.color = color;
   }
   const bool own = file.options.texture.empty();
   if (own && (textures.empty() || *textures.rbegin() == "")) {

@@ -19,14 +19,6 @@ struct Features {
   bool some_uvs = false;  // a part has texture coordinates
 };
 
-/// Returns the colour of a part's material; NaN if there is none.
-Eigen::Vector3f material_color(const MeshFile& file, const MeshPart& part) {
-  if (part.material >= file.scene.materials.size()) return Eigen::Vector3f::Constant(NAN);
-  const Eigen::Vector3f color(file.scene.materials[part.material].color.data());
-  if (!color.allFinite()) return Eigen::Vector3f::Constant(NAN);
-  return color.cwiseMax(0.0f).cwiseMin(1.0f);
-}
-
 /// Returns true if parts differ in the colours of their materials, and none has a texture.
 bool has_colored_parts(const MeshFile& file) {
   std::optional<Eigen::Vector3f> first;

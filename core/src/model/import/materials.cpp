@@ -1,5 +1,6 @@
 #include <cmath>
 #include <map>
+#include <string>
 
 #include "hypotrack/texture_atlas.hpp"
 #include "model/import/steps.hpp"
@@ -15,7 +16,7 @@ class Materials {
  public:
   explicit Materials(const MeshFile& file) : file_(file) {
     for (const MeshPart& part : file.scene.meshes) {
-      if (!part.triangles.empty() && !places_.contains(part.material)) add(part.material);
+      if (!part.triangles.empty() && !places_.contains(part.material)) add(part);
     }
   }
 
@@ -36,17 +37,15 @@ class Materials {
     bool has_picture;
   };
 
-  void add(std::uint32_t index) {
-    const mesh_wire::Material* material =
-        index < file_.scene.materials.size() ? &file_.scene.materials[index] : nullptr;
-    if (material && !material->texture.empty()) {
-      places_[index] = {atlas_.add(load_texture(file_.scene, material->texture, file_.path)), true};
+  void add(const MeshPart& part) {
+    const auto& all = file_.scene.materials;
+    const std::string picture = part.material < all.size() ? all[part.material].texture : "";
+    if (!picture.empty()) {
+      places_[part.material] = {atlas_.add(load_texture(file_.scene, picture, file_.path)), true};
       return;
     }
-    Eigen::Vector3f color = Mesh().color;
-    if (material && std::isfinite(material->color[0] + material->color[1] + material->color[2]))
-      color = Eigen::Map<const Eigen::Vector3f>(material->color.data());
-    places_[index] = {atlas_.add(Eigen::Vector3f(color.cwiseMax(0.0f).cwiseMin(1.0f))), false};
+    const Eigen::Vector3f color = material_color(file_, part);
+    places_[part.material] = {atlas_.add(color.allFinite() ? color : Mesh().color), false};
   }
 
   const MeshFile& file_;
@@ -55,6 +54,13 @@ class Materials {
 };
 
 }  // namespace
+
+Eigen::Vector3f material_color(const MeshFile& file, const MeshPart& part) {
+  if (part.material >= file.scene.materials.size()) return Eigen::Vector3f::Constant(NAN);
+  const Eigen::Vector3f color(file.scene.materials[part.material].color.data());
+  if (!color.allFinite()) return Eigen::Vector3f::Constant(NAN);
+  return color.cwiseMax(0.0f).cwiseMin(1.0f);
+}
 
 void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
                     Mesh& mesh) {

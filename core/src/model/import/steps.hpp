@@ -75,6 +75,9 @@ void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 /// the mesh that colour instead. Requires colours and at least one triangle.
 void fill_vertex_colors(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
 
+/// Returns the colour of a part's material, RGB in [0, 1]; NaN if there is none.
+Eigen::Vector3f material_color(const MeshFile& file, const mesh_wire::MeshPart& part);
+
 /// Returns a triangle's texture coordinates, moved into [0, 1]; those outside mean a repeated
 /// image. A triangle within one repetition moves to the first; one that spans several is clamped.
 Eigen::Matrix<float, 2, 3> corners_in_image(const Soup& soup, int triangle);
