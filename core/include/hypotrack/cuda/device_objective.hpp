@@ -84,9 +84,8 @@ class HYPOTRACK_API DeviceObjective {
   virtual void reserve(const SceneLayout& scene, const DeviceLimits& limits,
                        std::int64_t count) = 0;
 
-  /// Returns false if hypotheses have to be drawn for enqueue_drawn(), because enqueue() is
-  /// missing; the answer never changes. Then kernels see whole tiles, the neighbours of a pixel
-  /// included.
+  /// Returns true if enqueue() poses and draws; the answer never changes. Otherwise hypotheses are
+  /// drawn for enqueue_drawn(), whose kernels see whole tiles: a pixel and its neighbours.
   virtual bool draws() const { return true; }
 
   /// Enqueues the evaluation of a batch: posing, drawing and scoring. It only launches kernels, so
