@@ -9,6 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
+#include "output/metrics/frame_outcome.hpp"
 #include "output/metrics/status_metrics.hpp"
 
 namespace hypotrack {
@@ -46,26 +47,57 @@ std::string status_letters(const CsvTable& table, int column, const fs::path& fi
   return letters;
 }
 
+/// Returns the rows of a table for the given frames; null where it has none.
+std::vector<const CsvTable::Row*> rows_of(const CsvTable& table, const std::vector<int>& frames,
+                                          const fs::path& file) {
+  const int frame_column = require_column(table, "frame", file);
+  std::map<int, const CsvTable::Row*> row_of;
+  for (const CsvTable::Row& row : table.rows()) row_of[table.frame(row, frame_column)] = &row;
+  std::vector<const CsvTable::Row*> rows;
+  for (const int frame : frames) {
+    const auto it = row_of.find(frame);
+    rows.push_back(it == row_of.end() ? nullptr : it->second);
+  }
+  return rows;
+}
+
+/// Packs the numbers of a column; unknown where there is no row.
+Json packed(const CsvTable& table, int column, const std::vector<const CsvTable::Row*>& rows) {
+  std::vector<double> values;
+  for (const CsvTable::Row* row : rows)
+    values.push_back(row ? table.number(*row, column, true)
+                         : std::numeric_limits<double>::quiet_NaN());
+  return pack_numbers(values);
+}
+
 /// Adds the columns of errors.csv, on the frames of track.csv.
 void add_errors(const fs::path& file, const std::vector<int>& frames, Json& series) {
   const CsvTable table(file);
-  const int frame_column = require_column(table, "frame", file);
+  const std::vector<const CsvTable::Row*> rows = rows_of(table, frames, file);
   require_column(table, "mean_joint_error_mm", file);
-  std::map<int, std::size_t> row_of;
-  for (std::size_t i = 0; i < table.rows().size(); ++i)
-    row_of[table.frame(table.rows()[i], frame_column)] = i;
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     const std::string name(table.columns()[c]);
     if (name == "frame" || name == "time" || name == "status") continue;
-    std::vector<double> values(frames.size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < frames.size(); ++i)
-      if (const auto it = row_of.find(frames[i]); it != row_of.end())
-        values[i] = table.number(table.rows()[it->second], static_cast<int>(c), true);
+    Json values = packed(table, static_cast<int>(c), rows);
     if (name == "mean_joint_error_mm")
-      series["error"] = pack_numbers(values);
+      series["error"] = std::move(values);
     else
-      series["models"][name] = pack_numbers(values);
+      series["models"][name] = std::move(values);
   }
+}
+
+/// Adds the truth's cost and the outcomes of truth_costs.csv, on the frames of track.csv.
+void add_outcomes(const fs::path& file, const std::vector<int>& frames, Json& series) {
+  const CsvTable table(file);
+  const std::vector<const CsvTable::Row*> rows = rows_of(table, frames, file);
+  series["truth_cost"] = packed(table, require_column(table, "truth_cost", file), rows);
+  const int column = require_column(table, "outcome", file);
+  std::string letters;
+  for (const CsvTable::Row* row : rows) {
+    const FrameOutcome outcome = row ? outcome_in(table, *row, column) : FrameOutcome::unknown;
+    letters += outcome == FrameOutcome::unknown ? '-' : to_string(outcome).front();
+  }
+  series["outcome"] = letters;
 }
 
 }  // namespace
@@ -91,6 +123,8 @@ Json run_series(const fs::path& directory) {
   series["evaluations"] = evaluations;
   if (const fs::path errors = directory / "errors.csv"; fs::exists(errors))
     add_errors(errors, frames, series);
+  if (const fs::path costs = directory / "truth_costs.csv"; fs::exists(costs))
+    add_outcomes(costs, frames, series);
   return series;
 }
 

@@ -138,15 +138,8 @@ std::map<int, FrameOutcome> read_outcomes(const EvaluationInput& input) {
   if (frame < 0 || outcome < 0)
     throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
                                 file.string(), frame < 0 ? "frame" : "outcome"));
-  for (const CsvTable::Row& row : table.rows()) {
-    const std::string_view text = row.cells[static_cast<std::size_t>(outcome)];
-    const auto named = outcome_named(text);
-    if (!named)
-      throw DataError(fmt::format(
-          "{}: the outcome is '{}'; expected found, search_failed, objective_failed or nothing",
-          table.where(row), text));
-    outcomes[table.frame(row, frame)] = *named;
-  }
+  for (const CsvTable::Row& row : table.rows())
+    outcomes[table.frame(row, frame)] = outcome_in(table, row, outcome);
   return outcomes;
 }
 

@@ -194,22 +194,29 @@ hypotrack.heatmapSpec = function (plot, options) {
 };
 
 /** Values over the frames of a run: {title, x: {label, values}, y: {label},
-    series: [{name, values}], shaded: [[from, to], ...], zero}. */
+    series: [{name, values, marks: whether points are drawn and no line}],
+    shaded: [[from, to], ...], zero}. */
 hypotrack.timelineSpec = function (plot, options) {
   var theme = options.theme, width = Math.max(220, options.width - 90);
   var rows = [];
   plot.series.forEach(function (series) {
     for (var i = 0; i < series.values.length; i++)
-      rows.push({s: series.name, x: plot.x.values[i],
+      rows.push({s: series.name, marks: Boolean(series.marks), x: plot.x.values[i],
                  y: isFinite(series.values[i]) ? series.values[i] : null});
   });
   var x = {scale: 'x', field: 'x'}, color = {scale: 'color', field: 's'};
   var names = plot.series.map(function (series) { return series.name; });
+  var shapes = plot.series.map(function (series, i) {
+    return series.marks ? hypotrack.shapes[i % hypotrack.shapes.length] : 'stroke';
+  });
   var spec = {
     description: plot.title, background: theme.background, padding: 8, width: width,
     height: Math.round(Math.max(150, Math.min(230, 0.3 * width))),
     config: hypotrack.plotConfig(theme),
     data: [{name: 'rows', values: rows},
+           {name: 'lines', source: 'rows', transform: [{type: 'filter', expr: '!datum.marks'}]},
+           {name: 'marks', source: 'rows',
+            transform: [{type: 'filter', expr: 'datum.marks && isValid(datum.y)'}]},
            {name: 'shaded', values: plot.shaded.map(function (span) {
              return {from: span[0] - 0.5, to: span[1] + 0.5};
            })}],
@@ -220,6 +227,7 @@ hypotrack.timelineSpec = function (plot, options) {
       {name: 'y', type: 'linear', domain: {data: 'rows', field: 'y'},
        zero: plot.zero, range: 'height'},
       {name: 'color', type: 'ordinal', domain: names, range: theme.series},
+      {name: 'shape', type: 'ordinal', domain: names, range: shapes},
     ],
     axes: [{orient: 'bottom', scale: 'x', title: plot.x.label, tickCount: Math.floor(width / 80)},
            {orient: 'left', scale: 'y', title: plot.y.label, grid: true, tickCount: 5}],
@@ -227,14 +235,17 @@ hypotrack.timelineSpec = function (plot, options) {
       {type: 'rect', from: {data: 'shaded'}, encode: {update: {
         x: {scale: 'x', field: 'from'}, x2: {scale: 'x', field: 'to'}, y: {value: 0},
         y2: {signal: 'height'}, fill: {value: theme.shade}, fillOpacity: {value: 0.16}}}},
-      {type: 'group', from: {facet: {data: 'rows', name: 'line', groupby: 's'}}, marks: [
+      {type: 'group', from: {facet: {data: 'lines', name: 'line', groupby: 's'}}, marks: [
         {type: 'line', from: {data: 'line'}, encode: {update: {
           x: x, y: {scale: 'y', field: 'y'}, stroke: color, strokeWidth: {value: 1.6},
           defined: {signal: 'isValid(datum.y)'}}}}]},
+      {type: 'symbol', from: {data: 'marks'}, encode: {update: {
+        x: x, y: {scale: 'y', field: 'y'}, stroke: color, strokeWidth: {value: 1.6},
+        shape: {scale: 'shape', field: 's'}, size: {value: 40}}}},
     ],
   };
   if (names.length > 1)
-    spec.legends = [{stroke: 'color', symbolType: 'stroke', orient: 'top', direction: 'horizontal',
+    spec.legends = [{stroke: 'color', shape: 'shape', orient: 'top', direction: 'horizontal',
                      labelLimit: width, columns: hypotrack.legendColumns(names, width)}];
   return spec;
 };

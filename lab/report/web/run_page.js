@@ -3,7 +3,8 @@
 
 hypotrack.runFacts = function (page, run) {
   var order = ['mean_error_mm', 'median_error_mm', 'p95_error_mm', 'max_error_mm', 'auc_20_50',
-               'success_10mm', 'success_20mm', 'lost_share', 'time_to_loss_s', 'jitter_mm',
+               'success_10mm', 'success_20mm', 'found_share', 'search_failed_share',
+               'objective_failed_share', 'lost_share', 'time_to_loss_s', 'jitter_mm',
                'tracked_share', 'uncertain_share', 'absent_share', 'false_tracked_share',
                'right_tracked_share', 'absent_tracked_share', 'returns', 'recovered_2_share',
                'recovered_10_share', 'frames_to_recovery', 'lost_sigma_min_mm',
@@ -77,6 +78,7 @@ hypotrack.runPage = function (page, run) {
                : hypotrack.note('This run has no replay in this report. ' + page.left_out)]),
       hypotrack.worstMoments(run, replay),
       hypotrack.section('Frame by frame', hypotrack.runPlots(run).map(hypotrack.chart).concat([
+        hypotrack.note(hypotrack.outcomeText(run.series)),
         hypotrack.note(spans.length ? lost : '')])),
     ]),
   };

@@ -18,6 +18,53 @@ hypotrack.lostSpans = function (series) {
   return spans;
 };
 
+/** What wrong frames of a traced run are due to, by the letter of their outcome. */
+hypotrack.wrongOutcomes = [
+  {letter: 's', name: 'search failed', why: 'the truth costs less'},
+  {letter: 'o', name: 'objective failed', why: 'the truth costs no less'},
+];
+
+/** Spans of frames [first, last] with the outcome of a letter. */
+hypotrack.outcomeSpans = function (series, letter) {
+  var frames = hypotrack.framesOf(series), spans = [];
+  for (var i = 0; i < series.count; i++) {
+    if (series.outcome[i] !== letter) continue;
+    if (i > 0 && series.outcome[i - 1] === letter) spans[spans.length - 1][1] = frames[i];
+    else spans.push([frames[i], frames[i]]);
+  }
+  return spans;
+};
+
+/** Which frames failed and why, as one sentence for each kind; nothing without a trace. */
+hypotrack.outcomeText = function (series) {
+  if (!series.outcome) return '';
+  var most = 20;
+  return hypotrack.wrongOutcomes.map(function (outcome) {
+    var spans = hypotrack.outcomeSpans(series, outcome.letter);
+    if (!spans.length) return '';
+    var places = spans.slice(0, most).map(function (span) {
+      return span[0] === span[1] ? span[0] : span[0] + ' to ' + span[1];
+    }).join(', ');
+    var more = spans.length > most ? ' and ' + (spans.length - most) + ' more places' : '';
+    return 'Frames where the ' + outcome.name + ' (' + outcome.why + '): ' + places + more + '.';
+  }).filter(Boolean).join(' ');
+};
+
+/** The costs of a run and, of a traced one, those of the truth and marks on frames that failed. */
+hypotrack.costLines = function (series) {
+  var costs = hypotrack.numbers(series.cost);
+  if (!series.outcome) return [{name: 'cost', values: costs}];
+  var lines = [{name: 'solution', values: costs},
+               {name: 'truth', values: hypotrack.numbers(series.truth_cost)}];
+  hypotrack.wrongOutcomes.forEach(function (outcome) {
+    if (series.outcome.indexOf(outcome.letter) < 0) return;
+    lines.push({name: outcome.name, marks: true, values: costs.map(function (cost, i) {
+      return series.outcome[i] === outcome.letter ? cost : NaN;
+    })});
+  });
+  return lines;
+};
+
 hypotrack.runPlots = function (run) {
   var series = run.series, frames = hypotrack.framesOf(series), plots = [];
   var shaded = hypotrack.lostSpans(series);
@@ -35,7 +82,8 @@ hypotrack.runPlots = function (run) {
       names.forEach(function (name) { lines.push(line(name, series.models[name])); });
     timeline('error', 'Error over time', 'error (mm)', lines, true);
   }
-  timeline('cost', 'Cost of the solution', 'cost', [line('cost', series.cost)], false);
+  timeline('cost', series.outcome ? 'Cost of the solution and of the truth' : 'Cost of the solution',
+           'cost', hypotrack.costLines(series), false);
   timeline('time', 'Time per frame', 'time (ms)', [line('time', series.milliseconds)], true);
   if (run.success) plots.push(hypotrack.runSuccess(run.success));
   if (run.landmarks && run.landmarks.length) plots.push(hypotrack.landmarkBars(run.landmarks));

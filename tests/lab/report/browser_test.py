@@ -193,6 +193,15 @@ class ReportTest(unittest.TestCase):
         self.assertGreater(shown, 100)  # of 4096: the hand is in view
         self.assert_quiet()
 
+    def test_run_page_of_a_traced_run_says_which_frames_failed_and_why(self):
+        self.open(self.run_page)
+        notes = " ".join(note.text for note in self.find(".note"))
+        self.assertRegex(notes, r"Frames where the search failed \(the truth costs less\): .*\b36 to 38\.")
+        self.assertRegex(notes, r"Frames where the objective failed \(the truth costs no less\): .*\b35, 39\.")
+        self.assertGreaterEqual(len(self.find("#cost .mark-symbol.role-mark path")), 10)
+        self.assertEqual(len(self.find("#cost .mark-line path")), 2)
+        self.assert_quiet()
+
     def test_replay_plays_and_stops(self):
         self.open(self.study_page)
         self.script("location.hash = arguments[0]", self.replayed_run())

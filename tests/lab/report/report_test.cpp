@@ -243,6 +243,26 @@ TEST_F(ReportTest, SeriesKeepFramesThatHaveNoError) {
   EXPECT_EQ(series["error"]["lo"], 7);
 }
 
+TEST_F(ReportTest, SeriesOfATracedRunSayWhatFailedInWhichFrame) {
+  write_run(run(), {.frames = 5});
+  EXPECT_FALSE(run_series(run()).contains("outcome"));
+  std::ofstream(run() / "truth_costs.csv") << "frame,cost,truth_cost,mean_joint_error_mm,outcome\n"
+                                              "1,0.3,0.1,5,found\n"
+                                              "2,0.3,0.1,50,search_failed\n"
+                                              "3,0.3,0.9,50,objective_failed\n"
+                                              "4,0.3,,,\n";
+  const auto series = run_series(run());
+  EXPECT_EQ(series["outcome"], "-fso-");
+  EXPECT_EQ(series["truth_cost"]["b"], "//8AAAAA/v///w==");  // unknown, lo, lo, high, unknown
+}
+
+TEST_F(ReportTest, NamesTheFileOfADamagedOutcome) {
+  write_run(run(), {.frames = 2});
+  std::ofstream(run() / "truth_costs.csv") << "frame,truth_cost,outcome\n0,1,lucky\n";
+  EXPECT_THAT(message_of<DataError>([&] { run_series(run()); }),
+              HasSubstr("truth_costs.csv:2: the outcome is 'lucky'; expected found, "));
+}
+
 TEST(PackedTest, IsBase64OfLittleEndianWords) {
   EXPECT_EQ(base64(std::vector<std::uint8_t>{'M', 'a', 'n'}), "TWFu");
   EXPECT_EQ(base64(std::vector<std::uint8_t>{'M', 'a'}), "TWE=");

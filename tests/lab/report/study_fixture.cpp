@@ -77,6 +77,8 @@ Noisy tracked_states(const Scene& scene, const std::vector<StateRow>& truth,
   return noisy;
 }
 
+double cost_of(double error_mm) { return 0.2 + 0.01 * error_mm; }
+
 std::string track_csv(const Scene& scene, const Noisy& noisy, const RunFixture& run) {
   std::string text = "frame,time,status,cost,evaluations,milliseconds";
   for (const Parameter& p : scene.parameters()) text += "," + p.name;
@@ -85,7 +87,7 @@ std::string track_csv(const Scene& scene, const Noisy& noisy, const RunFixture& 
     const StateRow& row = noisy.tracked[i];
     const bool lost = run.lost_from >= 0 && row.frame >= run.lost_from;
     text += fmt::format("{},{},{},{},1024,{}", row.frame, row.time, lost ? "lost" : "tracked",
-                        0.2 + 0.01 * noisy.errors_mm[i], 20 + noisy.errors_mm[i]);
+                        cost_of(noisy.errors_mm[i]), 20 + noisy.errors_mm[i]);
     for (const double value : row.state) text += fmt::format(",{}", value);
     text += "\n";
   }
@@ -114,6 +116,21 @@ std::string trace_csv(const Noisy& noisy, int generation) {
     for (int k = 1; k <= 8; ++k)
       text += fmt::format("{},0,7,{},{},-1,{},{}\n", noisy.tracked[i].frame, generation * k,
                           -1 + 0.01 * noisy.errors_mm[i] + std::exp(-k), 0.01 * k, 0.005 * k);
+  return text;
+}
+
+/// Truth that costs less than any answer, but in every fourth frame more.
+std::string truth_costs_csv(const Noisy& noisy) {
+  std::string text = "frame,cost,truth_cost,mean_joint_error_mm,outcome\n";
+  for (std::size_t i = 0; i < noisy.tracked.size(); ++i) {
+    const int frame = noisy.tracked[i].frame;
+    const double error = noisy.errors_mm[i], cost = cost_of(error),
+                 truth = frame % 4 == 3 ? 2 : 0.1;
+    text += fmt::format("{},{},{},{},{}\n", frame, cost, truth, error,
+                        error < 20     ? "found"
+                        : truth < cost ? "search_failed"
+                                       : "objective_failed");
+  }
   return text;
 }
 
@@ -177,7 +194,10 @@ void write_run(const fs::path& directory, const RunFixture& run) {
     write_text(directory / "errors.csv", errors_csv(scene, noisy));
     write_text(directory / "metrics.json", metrics_json(scene, noisy.errors_mm).dump(1));
   }
-  if (run.trace) write_text(directory / "trace.csv", trace_csv(noisy, run.generation));
+  if (run.trace) {
+    write_text(directory / "trace.csv", trace_csv(noisy, run.generation));
+    write_text(directory / "truth_costs.csv", truth_costs_csv(noisy));
+  }
   write_pictures(directory, run.worst);
 }
 

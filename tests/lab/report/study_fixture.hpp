@@ -17,7 +17,7 @@ struct RunFixture {
   bool truth_states = true;
   bool truth_landmarks = true;
   int worst = 1;        ///< pictures
-  bool trace = false;   ///< whether there is a trace.csv
+  bool trace = false;   ///< whether there are trace.csv and truth_costs.csv
   int generation = 16;  ///< evaluations between its rows
 };
 

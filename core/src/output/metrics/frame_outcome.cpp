@@ -1,7 +1,11 @@
 #include "output/metrics/frame_outcome.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
+
+#include "hypotrack/error.hpp"
 
 namespace hypotrack {
 
@@ -24,6 +28,14 @@ std::optional<FrameOutcome> outcome_named(std::string_view text) {
                                      FrameOutcome::search_failed, FrameOutcome::objective_failed})
     if (to_string(outcome) == text) return outcome;
   return std::nullopt;
+}
+
+FrameOutcome outcome_in(const CsvTable& table, const CsvTable::Row& row, int column) {
+  const std::string_view text = row.cells[static_cast<std::size_t>(column)];
+  if (const auto outcome = outcome_named(text)) return *outcome;
+  throw DataError(fmt::format(
+      "{}: the outcome is '{}'; expected found, search_failed, objective_failed or nothing",
+      table.where(row), text));
 }
 
 FrameOutcome outcome_of(double error_mm, double cost, double truth_cost) {

@@ -3,6 +3,8 @@
 #include <optional>
 #include <string_view>
 
+#include "base/csv.hpp"
+
 namespace hypotrack {
 
 /// The part of a tracker to which a wrong frame is due.
@@ -15,6 +17,8 @@ enum class FrameOutcome {
 std::string_view to_string(FrameOutcome outcome);
 /// Returns the outcome that to_string() names so; nothing for other texts.
 std::optional<FrameOutcome> outcome_named(std::string_view text);
+/// Returns the outcome in a cell of truth_costs.csv. Throws DataError on other words.
+FrameOutcome outcome_in(const CsvTable& table, const CsvTable::Row& row, int column);
 
 /// The error below which a frame counts as found, in millimetres: that of `success_20mm`.
 inline constexpr double kFoundErrorMm = 20;
