@@ -1,7 +1,9 @@
 // An objective that keeps its contract except for a fault, named by a parameter.
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -25,9 +27,13 @@ enum class Fault {
   infinite_residual,
   leaves_residuals_out,
   writes_too_many_residuals,
+  scales_residuals,
+  residuals_that_ignore_the_cost,
+  other_residuals_with_the_cost,
+  crashes,
   has_no_residuals,
 };
-constexpr std::array<std::string_view, 14> kFaults = {"none",
+constexpr std::array<std::string_view, 18> kFaults = {"none",
                                                       "nan_where_nothing_is_covered",
                                                       "overflows_on_noise",
                                                       "remembers",
@@ -40,6 +46,10 @@ constexpr std::array<std::string_view, 14> kFaults = {"none",
                                                       "infinite_residual",
                                                       "leaves_residuals_out",
                                                       "writes_too_many_residuals",
+                                                      "scales_residuals",
+                                                      "residuals_that_ignore_the_cost",
+                                                      "other_residuals_with_the_cost",
+                                                      "crashes",
                                                       "has_no_residuals"};
 std::span<const std::string_view> enum_names(Fault) { return kFaults; }
 
@@ -62,6 +72,7 @@ class Broken final : public Objective, public ResidualTerm {
   double cost(const RenderedHypothesis& hypothesis) const override {
     double sum = 0;
     int covered = 0;
+    if (fault_ == Fault::crashes) std::raise(SIGSEGV);
     for (const DepthTile& tile : hypothesis.views) {
       for (int y = tile.y0; y < tile.y1; ++y) {
         for (int x = tile.x0; x < tile.x1; ++x) {
@@ -83,11 +94,23 @@ class Broken final : public Objective, public ResidualTerm {
                        std::span<float> residuals) const override {
     const bool covered = hypothesis.views[0].x1 > hypothesis.views[0].x0;
     residuals[0] = fault_ == Fault::infinite_residual ? 1.0f / static_cast<float>(covered) : 1.0f;
-    if (fault_ != Fault::leaves_residuals_out) residuals[1] = covered ? 0.0f : 1.0f;
+    if (fault_ != Fault::leaves_residuals_out) residuals[1] = second_residual(hypothesis);
     if (fault_ == Fault::writes_too_many_residuals) residuals.data()[2] = 1.0f;
+  }
+  double cost_and_residuals(const RenderedHypothesis& hypothesis,
+                            std::span<float> residuals) const override {
+    write_residuals(hypothesis, residuals);
+    if (fault_ == Fault::other_residuals_with_the_cost) residuals[0] = 2;
+    return cost(hypothesis);
   }
 
  private:
+  float second_residual(const RenderedHypothesis& hypothesis) const {
+    constexpr double kLowestCost = -100;
+    if (fault_ == Fault::residuals_that_ignore_the_cost) return 1;
+    const double residual = std::sqrt(std::max(0.0, cost(hypothesis) - kLowestCost));
+    return static_cast<float>(fault_ == Fault::scales_residuals ? 7 * residual : residual);
+  }
   double extra(double sum) const {
     switch (fault_) {
       case Fault::remembers: {

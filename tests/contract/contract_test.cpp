@@ -63,6 +63,7 @@ TEST_P(Contract, OneFaultFailsItsRow) {
 const std::string kFrames = "frames: 6\n";
 const std::string kItself = "poses_itself: true\n";
 const std::string kResidualRow = "residuals are finite, complete and the same from several threads";
+const std::string kSquaresRow = "the sum of squared residuals rises and falls with the cost";
 
 INSTANTIATE_TEST_SUITE_P(
     Optimizer, Contract,
@@ -117,6 +118,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"objective", "writes_too_many_residuals", kResidualRow,
                            "a rectified pair: more residuals are written than residual_count(), "
                            "which is 2"},
+                      Case{"objective", "scales_residuals", kSquaresRow,
+                           "from state to state the sum changes by 49.0"},
+                      Case{"objective", "residuals_that_ignore_the_cost", kSquaresRow,
+                           "from state to state the sum changes by 0.0"},
+                      Case{"objective", "other_residuals_with_the_cost",
+                           "cost and residuals are the same when asked for at once",
+                           "a rectified pair: residual 0 is 2.000000, and write_residuals() writes "
+                           "1.000000"},
                       Case{"objective", "throws_a_stranger",
                            "it takes observations in or refuses them with a DataError",
                            "prepare() threw another exception: no luck. Throw hypotrack::DataError "
@@ -332,6 +341,18 @@ TEST(ContractProgram, NamesAreKnownOrFreeAndParametersHaveHelp) {
                               "    scenes read 'weight' of every objective themselves"),
                     HasSubstr("every parameter has a line of help: FAILED\n"
                               "    the parameter 'sigma' has none: write {.help = ")));
+}
+
+TEST(ContractProgram, ACostThatIsNanFailsOneRow) {
+  const Outcome outcome = run("objective", "fault: nan_where_nothing_is_covered\n");
+  EXPECT_THAT(outcome.output, HasSubstr(" passed, 1 failed, "));
+}
+
+TEST(ContractProgram, ACrashOfAnObjectiveSaysWithWhichObservation) {
+  const Outcome outcome = run("objective", "fault: crashes\n");
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("hypotrack: objective " + library("objective") +
+                                        ": crashed in the row above, with a rectified pair\n"));
 }
 
 TEST(ContractProgram, ACrashSaysInWhichPluginAndRow) {

@@ -251,23 +251,26 @@ std::vector<NamedObservation> make_observations(const Scene& scene) {
 std::vector<NamedHypothesis> make_hypotheses(const Scene& scene, const Observation& observation) {
   std::vector<NamedHypothesis> hypotheses;
   const Eigen::VectorXd rest = rest_in_front(scene);
-  const auto add = [&](const char* name, const Eigen::VectorXd& state, DrawnTiles tiles) {
-    hypotheses.push_back({name, state, std::move(tiles)});
+  const auto add_state = [&](const char* name, const Eigen::VectorXd& state) {
+    hypotheses.push_back({name, state, draw(scene, observation, state), true});
+  };
+  const auto add = [&](const char* name, DrawnTiles tiles) {
+    hypotheses.push_back({name, rest, std::move(tiles), false});
   };
   std::mt19937_64 random(3);
-  add("the scene at rest", rest, draw(scene, observation, rest));
+  add_state("the scene at rest", rest);
   for (int i = 0; i < 4; ++i) {
     Eigen::VectorXd state = test::random_state(scene, random, {0, 0, kDistance}, 0.05);
     scene.normalize(state);
-    add("the scene in a random state", state, draw(scene, observation, state));
+    add_state("the scene in a random state", state);
   }
-  add("nothing covered", rest, fill(observation, [](int, int, int) { return 0.0f; }));
-  add("only the last view covered", rest, fill(observation, [&](int view, int, int) {
+  add("nothing covered", fill(observation, [](int, int, int) { return 0.0f; }));
+  add("only the last view covered", fill(observation, [&](int view, int, int) {
         return view + 1 == static_cast<int>(observation.views.size()) ? 2.0f : 0.0f;
       }));
-  add("everything covered", rest, fill(observation, [](int, int, int) { return 2.0f; }));
+  add("everything covered", fill(observation, [](int, int, int) { return 2.0f; }));
   std::uniform_real_distribution<float> exponent(-20, 20);
-  add("depth that is noise", rest, fill(observation, [&](int, int x, int) {
+  add("depth that is noise", fill(observation, [&](int, int x, int) {
         return x % 5 == 0 ? 0.0f : std::pow(10.0f, exponent(random));
       }));
   return hypotheses;

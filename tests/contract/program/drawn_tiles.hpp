@@ -42,6 +42,7 @@ struct NamedHypothesis {
   std::string name;
   Eigen::VectorXd state;  ///< normalised
   DrawnTiles depth;
+  bool of_the_scene;  ///< whether the depth is the scene's in this state
 };
 
 /// Draws the scene in several states by a plain rasteriser. Adds hypotheses with nothing covered,

@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
   subject.kind = argv[1];
   subject.library = argv[2];
   if (argc == 4) subject.config_file = argv[3];
-  const std::string who = subject.kind + " " + subject.library.string();
-  const detail::RunningPlugin running(who.c_str(), " in the row above");
+  subject.who = subject.kind + " " + subject.library.string();
+  const detail::RunningPlugin running(subject.who.c_str(), " in the row above");
   const detail::CrashReport crash_report;
   try {
     return run(subject);

@@ -14,6 +14,7 @@ namespace hypotrack::contract {
 struct Subject {
   std::string kind;
   std::filesystem::path library;
+  std::string who;                    ///< kind and library, for messages
   std::filesystem::path config_file;  ///< parameters as in a scene; empty: the defaults
   std::string name;                   ///< from the library, once its descriptor was checked
   std::string capabilities;           ///< likewise
