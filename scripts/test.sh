@@ -8,5 +8,5 @@ install_missing_packages packages-test.txt
 scripts/get_hand_detector.sh || echo "The tests of the hand detector will be skipped." >&2
 for preset in dev sanitize; do
   build "$preset"
-  ctest --preset "$preset" -j "$(nproc)"
+  ctest --preset "$preset" -j "$(($(nproc) + 1))" # many tests wait for most of their time
 done

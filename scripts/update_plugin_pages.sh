@@ -6,7 +6,7 @@ build_dir=${1:-$root/build/release}
 out=${2:-$root/docs/reference/plugins}
 hypotrack=$build_dir/bin/hypotrack
 unset HYPOTRACK_PLUGIN_PATH HYPOTRACK_DATA_PATH
-"$hypotrack" plugins list >/dev/null # before anything is removed
+list=$("$hypotrack" plugins list) # before anything is removed
 rm -rf "$out"
 mkdir -p "$out"
 {
@@ -17,7 +17,7 @@ mkdir -p "$out"
     echo
     echo "**${kind^}s**"
     echo
-    "$hypotrack" plugins list | awk -v kind=$kind '$1 == kind { print $2 }' | while read -r name; do
+    awk -v kind=$kind '$1 == kind { print $2 }' <<<"$list" | while read -r name; do
       "$hypotrack" plugins info "$kind/$name" --markdown >"$out/${kind}_$name.md"
       echo "- [$name](${kind}_$name.md): $(sed -n 3p "$out/${kind}_$name.md")"
     done
