@@ -136,7 +136,7 @@ class RunOutput::Context final : public OutputContext {
     return run_->directory_.file(name);
   }
   Renderer& renderer() override {
-    draws_ = draws_ || begins_;
+    if (begins_) draws_ = true;
     return run_->renderer(draws_);
   }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "app_test.hpp"
@@ -32,6 +33,8 @@ grid:
     std::vector<std::string> arguments{"bench", "--table", path("table.yaml").string(), "--out",
                                        path(out).string()};
     arguments.insert(arguments.end(), more.begin(), more.end());
+    if (std::ranges::find(more, "--seconds") == more.end())  // slow builds measure all frames, too
+      arguments.insert(arguments.end(), {"--seconds", "300"});
     return run_program(arguments);
   }
 

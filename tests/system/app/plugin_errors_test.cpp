@@ -103,7 +103,7 @@ TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
 }
 
 TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
-#ifdef __SANITIZE_ADDRESS__
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer reports crashes in its own way";
 #endif
   for (const auto& [kind, outcome] : {std::pair{"optimizer", run_optimizer("segfault")},
