@@ -55,8 +55,8 @@ class HYPOTRACK_API ResidualTerm {
   /// the same pixel (joint, pair of spheres) for every hypothesis, so that residuals of two
   /// hypotheses can be subtracted.
   /// The sum of squares should be the cost plus a constant of the frame. If the cost is not a sum
-  /// of squares, the residuals must be small where the cost is low. Called from several threads at
-  /// once; equal inputs give equal results.
+  /// of squares, this sum must rise and fall with the cost, by about as much. Called from several
+  /// threads at once; equal inputs give equal results.
   virtual void write_residuals(const RenderedHypothesis& hypothesis,
                                std::span<float> residuals) const = 0;
 
