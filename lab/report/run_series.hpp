@@ -13,8 +13,8 @@ namespace hypotrack {
 ///
 /// Numbers are as pack_numbers() writes them: errors in mm, time in s. Status is the first letter
 /// of tracked, uncertain, lost, absent, missing; an outcome that of found, search_failed,
-/// objective_failed, or - if unknown. Errors are absent where no truth is known; truth_cost and
-/// outcome also in runs without a trace. Throws DataError on damaged tables.
+/// objective_failed, or - if unknown. Errors are absent where no truth is known. Runs without a
+/// trace or a true state have no truth_cost and no outcome. Throws DataError on damaged tables.
 nlohmann::ordered_json run_series(const std::filesystem::path& directory);
 
 }  // namespace hypotrack

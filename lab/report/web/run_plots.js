@@ -20,7 +20,7 @@ hypotrack.lostSpans = function (series) {
 
 /** What wrong frames of a traced run are due to, by the letter of their outcome. */
 hypotrack.wrongOutcomes = [
-  {letter: 's', name: 'search failed', why: 'the truth costs less'},
+  {letter: 's', name: 'search failed', why: 'the truth costs less, or there is no answer'},
   {letter: 'o', name: 'objective failed', why: 'the truth costs no less'},
 ];
 
@@ -82,8 +82,8 @@ hypotrack.runPlots = function (run) {
       names.forEach(function (name) { lines.push(line(name, series.models[name])); });
     timeline('error', 'Error over time', 'error (mm)', lines, true);
   }
-  timeline('cost', series.outcome ? 'Cost of the solution and of the truth' : 'Cost of the solution',
-           'cost', hypotrack.costLines(series), false);
+  var costs = 'Cost of the solution' + (series.outcome ? ' and of the truth' : '');
+  timeline('cost', costs, 'cost', hypotrack.costLines(series), false);
   timeline('time', 'Time per frame', 'time (ms)', [line('time', series.milliseconds)], true);
   if (run.success) plots.push(hypotrack.runSuccess(run.success));
   if (run.landmarks && run.landmarks.length) plots.push(hypotrack.landmarkBars(run.landmarks));

@@ -196,7 +196,8 @@ class ReportTest(unittest.TestCase):
     def test_run_page_of_a_traced_run_says_which_frames_failed_and_why(self):
         self.open(self.run_page)
         notes = " ".join(note.text for note in self.find(".note"))
-        self.assertRegex(notes, r"Frames where the search failed \(the truth costs less\): .*\b36 to 38\.")
+        self.assertRegex(notes, r"Frames where the search failed \(the truth costs less, or there is no answer\): "
+                                r".*\b36 to 38\.")
         self.assertRegex(notes, r"Frames where the objective failed \(the truth costs no less\): .*\b35, 39\.")
         self.assertGreaterEqual(len(self.find("#cost .mark-symbol.role-mark path")), 10)
         self.assertEqual(len(self.find("#cost .mark-line path")), 2)

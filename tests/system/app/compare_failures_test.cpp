@@ -56,7 +56,8 @@ TEST_F(CompareFailureTest, ACrashIsARowToo) {
   EXPECT_EQ(outcome.exit_code, 3);
   const auto results = lines_of(table("results.csv"));
   ASSERT_THAT(results, SizeIs(5));
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they exit with a code
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  // Sanitizers turn the signal into an exit code.
   EXPECT_THAT(results[3], AllOf(HasSubstr("frame 0: "), HasSubstr("optimizer 'failing'"),
                                 HasSubstr("ended by signal 11 (Segmentation fault)")));
 #endif
