@@ -23,11 +23,10 @@ def arguments():
     parser.add_argument("--port-file", required=True, help="file that gets the port")
     parser.add_argument("--jitter", type=float, default=0, help="largest delay of a picture, s")
     parser.add_argument("--cut", type=int, default=0, help="send half of every N-th picture")
-    parser.add_argument("--stop-after", type=int, default=0, help="stop after N pictures, once")
+    parser.add_argument("--stop-after", type=int, default=0, help="stop after N pictures")
+    parser.add_argument("--gone-file", default="", help="stop while this file exists")
     parser.add_argument("--stop", choices=["close", "hang"], default="close",
                         help="close the connection, or keep it and send nothing")
-    parser.add_argument("--return-file", default="",
-                        help="after the stop, answer again when this file exists")
     return parser.parse_args()
 
 
@@ -46,9 +45,8 @@ class Camera:
         self.sent = 0
 
     def gone(self):
-        stop = self.given.stop_after
-        return 0 < stop <= self.sent and not (
-            self.given.return_file and os.path.exists(self.given.return_file))
+        return (0 < self.given.stop_after <= self.sent or
+                bool(self.given.gone_file) and os.path.exists(self.given.gone_file))
 
     def play(self, send):
         """Sends pictures until the camera stops."""

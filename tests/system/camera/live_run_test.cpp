@@ -1,3 +1,5 @@
+#include <thread>
+
 #include "live_test.hpp"
 
 namespace hypotrack::test {
@@ -36,8 +38,18 @@ TEST_F(LiveRunTest, CountsReachTheUserThroughAWrappedSource) {
 
 TEST_F(LiveRunTest, ACameraThatIsGoneEndsTheRunAndKeepsItsFrames) {
   // The box stays at its start, however late the run sees it.
-  const MjpegServer both(pictures("both"), {"--stop-after", "30", "--rate", "10", "--first", "2"});
-  const Outcome outcome = run(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 2\n"));
+  const MjpegServer both(pictures("both"),
+                         {"--rate", "10", "--first", "2", "--gone-file", path("gone").string()});
+  Start start;
+  start.arguments = {"run",
+                     scene(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 2\n")),
+                     "--out", path("out").string()};
+  Program program(start);
+  while (program.running() &&
+         read_text(path("out/track.csv")).find(",tracked,") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  write_text(path("gone"), "");
+  const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err,
               AllOf(HasSubstr("hypotrack: source camera: no pair of pictures for 2 s"),

@@ -41,6 +41,11 @@ class RecordTest : public LiveTest {
     return static_cast<std::size_t>(std::ranges::count_if(
         names, [&](const std::string& file) { return file.starts_with(start); }));
   }
+  /// Waits until a recording that goes on has some pairs, or ends.
+  void wait_for_pairs(Program& program, std::size_t pairs) const {
+    while (program.running() && pictures_in(".part.out", "right_") < pairs)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 };
 
 TEST_F(RecordTest, ARecordingHoldsThePicturesThatTheCameraSent) {
@@ -86,21 +91,19 @@ TEST_F(RecordTest, PicturesMayBeJpeg) {
 }
 
 TEST_F(RecordTest, AFrameThatIsMissingIsMissingInTheRecording) {
-  const std::string back = path("back").string();
-  const MjpegServer both(pictures("both"), {"--stop-after", "30", "--return-file", back});
+  const MjpegServer both(pictures("both"), {"--gone-file", path("gone").string()});
   Start start;
   start.arguments = {"record", scene(live_scene(one_device(both) + "  timeout_s: 0.5\n")), "--out",
                      path("out").string()};
   start.err = path("said");
   Program program(start);
-  const auto wait_until = [&](const auto& condition) {
-    while (program.running() && !condition())
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  };
-  wait_until([&] { return read_text(path("said")).find("frame ") != std::string::npos; });
-  const std::size_t before = pictures_in(".part.out", "left_");
-  write_text(back, "");
-  wait_until([&] { return pictures_in(".part.out", "left_") > before; });
+  wait_for_pairs(program, 1);
+  write_text(path("gone"), "");
+  while (program.running() && read_text(path("said")).find("frame ") == std::string::npos)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  const std::size_t before = pictures_in(".part.out", "right_");
+  std::filesystem::remove(path("gone"));
+  wait_for_pairs(program, before + 1);
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 0) << read_text(path("said"));
@@ -117,8 +120,7 @@ TEST_F(RecordTest, CtrlCEndsACamerasRecordingWhole) {
   Start start;
   start.arguments = {"record", scene(live_scene(one_device(both))), "--out", path("out").string()};
   Program program(start);
-  while (program.running() && pictures_in(".part.out", "right_") < 4)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  wait_for_pairs(program, 4);
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -134,8 +136,7 @@ TEST_F(RecordTest, CtrlCBeforeTheLimitIsSaid) {
                      "--out",     path("out").string(),
                      "--seconds", "3600"};
   Program program(start);
-  while (program.running() && pictures_in(".part.out", "right_") < 4)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  wait_for_pairs(program, 4);
   program.signal(SIGINT);
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 130);
@@ -144,9 +145,15 @@ TEST_F(RecordTest, CtrlCBeforeTheLimitIsSaid) {
 }
 
 TEST_F(RecordTest, ACameraThatIsGoneLeavesItsRecording) {
-  const MjpegServer both(pictures("both"), {"--stop-after", "30"});
-  const Outcome outcome =
-      record(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 1\n"), {});
+  const MjpegServer both(pictures("both"), {"--gone-file", path("gone").string()});
+  Start start;
+  start.arguments = {"record",
+                     scene(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 1\n")),
+                     "--out", path("out").string()};
+  Program program(start);
+  wait_for_pairs(program, 4);
+  write_text(path("gone"), "");
+  const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err, HasSubstr("no pair of pictures for 1 s"));
   EXPECT_THAT(outcome.out, HasSubstr("recording in"));

@@ -34,6 +34,8 @@ void ServedRun::TearDown() {
 httplib::Client ServedRun::client() const {
   httplib::Client client("127.0.0.1", port_);
   client.set_keep_alive(false);
+  // Pictures are drawn while nobody else needs the processors.
+  client.set_read_timeout(std::chrono::minutes(2));
   if (!token_.empty()) client.set_bearer_token_auth(token_);
   return client;
 }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -158,18 +159,18 @@ TEST_F(Streams, PicturesThatNobodyTakesAreDroppedAndCounted) {
 }
 
 TEST_F(Streams, AStreamThatStopsIsAMissingFrameAndComesBack) {
-  const std::string back = file("back").string();
-  const MjpegServer left(pictures("left"), {"--stop-after", "30", "--return-file", back});
+  const MjpegServer left(pictures("left"), {"--gone-file", file("gone").string()});
   const MjpegServer right(pictures("right"));
   const auto source = open(left, right, "timeout_s: 1\n");
   std::optional<Frame> frame = source->next();
+  write("gone", "");
   while (frame->problem.empty()) frame = source->next();
   EXPECT_THAT(frame->problem,
               AllOf(HasSubstr("left (" + left.url() + ")"),
                     AnyOf(HasSubstr("the pictures stopped"), HasSubstr("cannot be opened"))));
   EXPECT_TRUE(frame->views.empty());
   const double missing = frame->time;
-  write("back", "");
+  std::filesystem::remove(file("gone"));
   while (!frame->problem.empty()) frame = source->next();
   expect_pair(*frame);
   EXPECT_GT(frame->time, missing);
@@ -177,13 +178,13 @@ TEST_F(Streams, AStreamThatStopsIsAMissingFrameAndComesBack) {
 }
 
 TEST_F(Streams, AConnectionThatFallsSilentIsOpenedAgain) {
-  const std::string back = file("back").string();
   const MjpegServer both(pictures("both"),
-                         {"--stop-after", "30", "--stop", "hang", "--return-file", back});
+                         {"--stop", "hang", "--gone-file", file("gone").string()});
   const auto source = open(both, "timeout_s: 0.3\n");
   std::optional<Frame> frame = source->next();
+  write("gone", "");
   while (frame->problem.empty()) frame = source->next();
-  write("back", "");
+  std::filesystem::remove(file("gone"));
   while (!frame->problem.empty()) frame = source->next();
   expect_pair(*frame);
 }
