@@ -100,9 +100,9 @@ class PreviewTest(unittest.TestCase):
 
     def until(self, found):
         """Waits until something is true, and returns it."""
-        value = self.within(30, found)
+        value = self.within(120, found)
         if not value:
-            self.fail("waited for 30 s: " + self.said())
+            self.fail("waited for two minutes: " + self.said())
         return value
 
     def said(self):
@@ -156,7 +156,7 @@ class PreviewTest(unittest.TestCase):
 
     def expect_end(self, frames=None):
         """Waits for the end; the files must hold the frames."""
-        self.assertEqual(self.run_.wait(30), INTERRUPTED, self.said())
+        self.assertEqual(self.run_.wait(120), INTERRUPTED, self.said())
         self.assertIn("the files hold the frames so far", self.said())
         self.assertTrue((self.out / "track.csv").exists())
         if frames is not None:
