@@ -16,6 +16,9 @@ struct Coverage {
   std::vector<std::string> empty;  ///< `top left`, `right`, ...
 };
 
+/// Share of a picture's cells that a good calibration needs.
+constexpr double kEnoughCoverage = 0.6;
+
 /// Returns the coverage of pictures of one size by the corners of boards.
 Coverage coverage_of(std::span<const BoardCorners* const> boards, cv::Size picture);
 

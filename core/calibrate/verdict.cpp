@@ -17,7 +17,6 @@ constexpr double kUnsureFocal = 0.03;
 constexpr std::ptrdiff_t kFewPairs = 10;
 constexpr double kTilted = 15 * std::numbers::pi / 180;
 constexpr double kTiltedShare = 0.3;
-constexpr double kCovered = 0.6;
 
 }  // namespace
 
@@ -50,7 +49,7 @@ Verdict verdict_of(const std::vector<BoardPair>& pairs, const StereoCalibration&
         "that only");
   for (std::size_t view = 0; view < 2; ++view) {
     const Coverage coverage = coverage_of(pairs, calibration, view);
-    if (coverage.share >= kCovered && coverage.empty.empty()) continue;
+    if (coverage.share >= kEnoughCoverage && coverage.empty.empty()) continue;
     const std::string where =
         coverage.empty.empty() ? "at new places"
                                : fmt::format("into the {}", fmt::join(coverage.empty, " and the "));

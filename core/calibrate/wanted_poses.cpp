@@ -10,12 +10,11 @@ namespace hypotrack::calibrate {
 namespace {
 
 void want_places(PoseCoverage& out, std::size_t view) {
-  constexpr double kCovered = 0.6;  // as a verdict asks for
   const char* name = view == 0 ? "left" : "right";
   const Coverage& coverage = out.pictures[view];
   for (const std::string& place : coverage.empty)
     out.wanted.push_back(fmt::format("board into the {} of the {} picture", place, name));
-  if (coverage.empty.empty() && coverage.share < kCovered)
+  if (coverage.empty.empty() && coverage.share < kEnoughCoverage)
     out.wanted.push_back(fmt::format("board to new places of the {} picture", name));
 }
 
@@ -35,8 +34,8 @@ void want_tilts(PoseCoverage& out, const std::vector<RoughPose>& poses) {
 }
 
 void want_distances(PoseCoverage& out, const std::vector<RoughPose>& poses) {
-  constexpr double kNear = 0.35, kRatio = 1.3;
-  if (std::ranges::none_of(poses, [](const RoughPose& p) { return p.extent > kNear; }))
+  constexpr double kNearExtent = 0.35, kRatio = 1.3;
+  if (std::ranges::none_of(poses, [](const RoughPose& p) { return p.extent > kNearExtent; }))
     out.wanted.emplace_back("board nearer, so that it fills a third of the picture");
   const auto [nearest, farthest] = std::ranges::minmax_element(poses, {}, &RoughPose::distance);
   if (nearest == poses.end() || farthest->distance < kRatio * nearest->distance)

@@ -269,6 +269,11 @@ ModelData make_test_ball(double radius) {
   return rigid_model(std::move(mesh));
 }
 
+Scene make_hand_and_box() {
+  return Scene({{"hand", std::make_shared<Model>(make_test_hand())},
+                {"box", std::make_shared<Model>(make_test_box())}});
+}
+
 Eigen::VectorXd random_state(const Scene& scene, std::mt19937_64& random,
                              const Eigen::Vector3d& center, double radius) {
   std::uniform_real_distribution<double> unit(0, 1);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <random>
+#include <span>
 
 #include "hypotrack/model.hpp"
 #include "hypotrack/scene.hpp"
@@ -24,6 +25,14 @@ ModelData make_test_cabinet();
 
 /// Makes a rigid ball about the model's origin, of 32 x 64 faces.
 ModelData make_test_ball(double radius);
+
+/// Makes a scene of this hand and this box, in that order.
+Scene make_hand_and_box();
+
+/// Returns the numbers of a state or of a model's parameters.
+inline std::span<const double> values_of(const Eigen::VectorXd& state) {
+  return {state.data(), static_cast<std::size_t>(state.size())};
+}
 
 /// Returns a state of the scene with joints uniform within their bounds (up to a turn each way
 /// without any), rotations uniform, and

@@ -17,17 +17,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostExtended = 16;
 
-YamlNode::Entry* find_entry(YamlNode& map, const std::string& key) {
-  const auto at = std::ranges::find(map.entries, key, &YamlNode::Entry::key);
-  return at == map.entries.end() ? nullptr : &*at;
-}
-
 bool is_map(const YamlNode& node) { return node.kind == YamlNode::Kind::kMap; }
 
 /// Adds the entries of `more` to `map`, or puts them in the place of what it has.
 void add_to(YamlNode& map, YamlNode& more) {
   for (YamlNode::Entry& entry : more.entries) {
-    YamlNode::Entry* const there = find_entry(map, entry.key);
+    YamlNode::Entry* const there = map.find(entry.key);
     entry.value->parent = &map;
     if (!there)
       map.entries.push_back(std::move(entry));
@@ -47,7 +42,7 @@ FileName name_of_base(const YamlNode& value) {
 
 std::unique_ptr<YamlNode> read(const fs::path& file, std::vector<fs::path>& readers) {
   auto root = read_yaml_file(file);
-  YamlNode::Entry* const extends = is_map(*root) ? find_entry(*root, "extends") : nullptr;
+  YamlNode::Entry* const extends = root->find("extends");
   if (!extends) return root;
   const FileName name = name_of_base(*extends->value);
   const fs::path base_file = find_file(name, "study");

@@ -85,12 +85,6 @@ void emit(YAML::Emitter& out, const YamlNode& node) {
   }
 }
 
-YamlNode::Entry* find_entry(YamlNode& map, std::string_view key) {
-  const auto at = std::find_if(map.entries.begin(), map.entries.end(),
-                               [&](const YamlNode::Entry& entry) { return entry.key == key; });
-  return at == map.entries.end() ? nullptr : &*at;
-}
-
 }  // namespace
 
 std::string describe_position(const YamlOrigin& origin, int line, int column) {
@@ -140,7 +134,7 @@ YamlDocument::YamlDocument(YamlDocument&&) noexcept = default;
 YamlDocument& YamlDocument::operator=(YamlDocument&&) noexcept = default;
 
 void YamlDocument::set_node(std::string_view key, std::unique_ptr<YamlNode> value) {
-  if (YamlNode::Entry* entry = find_entry(*root_, key)) {
+  if (YamlNode::Entry* entry = root_->find(key)) {
     value->parent = root_.get();
     entry->value = std::move(value);
   } else {

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // YAML documents: as trees that know where their values are written, and as maps to be written.
@@ -45,6 +46,7 @@ struct YamlNode {
     }
     return nullptr;
   }
+  Entry* find(std::string_view key) { return const_cast<Entry*>(std::as_const(*this).find(key)); }
 
   /// Appends a child and returns it.
   YamlNode& add(std::string key, std::unique_ptr<YamlNode> value) {

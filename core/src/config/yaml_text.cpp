@@ -63,7 +63,7 @@ std::string read_pipe(const std::filesystem::path& file) {
   bool has_writer = false;
   const auto begin = std::chrono::steady_clock::now();
   while (text.size() <= kMaxYamlBytes) {
-    const ssize_t size = read(pipe.get(), buffer.data(), buffer.size());
+    const ssize_t size = ::read(pipe.get(), buffer.data(), buffer.size());
     if (size > 0) text.append(buffer.data(), static_cast<std::size_t>(size));
     has_writer = has_writer || size != 0;
     if (size > 0) continue;

@@ -70,27 +70,27 @@ void pick_nearest(const cv::Mat& source, const cv::Mat& map, int scale, cv::Mat&
 
 }  // namespace
 
-Lens::Lens(const Camera& camera) : camera_(camera) {
+LensRays::LensRays(const Camera& camera) : camera_(camera) {
   if (camera.distortion_model == DistortionModel::none) return;
   rays_.create(camera.height, camera.width, CV_32FC2);
   for (int y = 0; y < camera.height; ++y) fill_row(camera, y, rays_.ptr<cv::Point2f>(y));
 }
 
-bool Lens::fits(const Camera& c) const {
+bool LensRays::fits(const Camera& c) const {
   return c.width == camera_.width && c.height == camera_.height && c.fx == camera_.fx &&
          c.fy == camera_.fy && c.cx == camera_.cx && c.cy == camera_.cy &&
          c.distortion_model == camera_.distortion_model && c.distortion == camera_.distortion;
 }
 
-LensView Lens::view(const Eigen::AlignedBox2d& extent,
-                    const Eigen::Isometry3d& camera_from_world) const {
+LensView LensRays::view(const Eigen::AlignedBox2d& extent,
+                        const Eigen::Isometry3d& camera_from_world) const {
   if (extent.isEmpty()) return {};
   LensView view = rays_.empty() ? pinhole_view(extent) : distorted_view(extent);
   view.pinhole.camera_from_world = camera_from_world;
   return view;
 }
 
-LensView Lens::pinhole_view(const Eigen::AlignedBox2d& extent) const {
+LensView LensRays::pinhole_view(const Eigen::AlignedBox2d& extent) const {
   const Camera& c = camera_;
   const auto pixel = [](double x, int size) {
     return static_cast<int>(std::clamp<double>(x, -2, size + 2));
@@ -112,7 +112,7 @@ LensView Lens::pinhole_view(const Eigen::AlignedBox2d& extent) const {
   return view;
 }
 
-LensView Lens::distorted_view(const Eigen::AlignedBox2d& extent) const {
+LensView LensRays::distorted_view(const Eigen::AlignedBox2d& extent) const {
   const Eigen::AlignedBox2d wanted = grown(extent, 2 / std::min(camera_.fx, camera_.fy));
   Eigen::AlignedBox2i pixels;
   Eigen::AlignedBox2d seen;

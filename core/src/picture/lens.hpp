@@ -19,9 +19,9 @@ struct LensView {
 };
 
 /// The viewing rays of a camera; a renderer for pinhole cameras needs them to draw lens distortion.
-class Lens {
+class LensRays {
  public:
-  explicit Lens(const Camera& camera);
+  explicit LensRays(const Camera& camera);
 
   /// Returns true if this is the lens of a camera; poses may differ.
   bool fits(const Camera& camera) const;

@@ -65,8 +65,8 @@ void put_over(const cv::Mat& layer, cv::Mat target) {
 struct Renderer::Impl {
   explicit Impl(const Scene& s) : scene(s), drawer(s) {}
 
-  const Lens& lens_of(const Camera& camera) {
-    for (const Lens& lens : lenses) {
+  const LensRays& lens_of(const Camera& camera) {
+    for (const LensRays& lens : lenses) {
       if (lens.fits(camera)) return lens;
     }
     if (lenses.size() == kLensesKept) lenses.pop_front();
@@ -75,7 +75,7 @@ struct Renderer::Impl {
 
   const Scene& scene;
   SceneDrawer drawer;
-  std::deque<Lens> lenses;
+  std::deque<LensRays> lenses;
 };
 
 Renderer::Renderer(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}

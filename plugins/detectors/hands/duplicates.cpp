@@ -5,10 +5,6 @@
 namespace hypotrack::hands {
 namespace {
 
-double size_of(const HandPoints& p) {
-  return (p.rowwise().maxCoeff() - p.rowwise().minCoeff()).norm();
-}
-
 bool same(const HandPoints& a, const HandPoints& b) {
   constexpr double kShare = 0.15;  // of the larger hand's size
   return (a - b).colwise().norm().mean() < kShare * std::max(size_of(a), size_of(b));

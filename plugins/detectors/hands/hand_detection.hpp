@@ -9,6 +9,11 @@ namespace hypotrack {
 /// Joints and fingertips of a hand in a picture, in pixels; pixel centres are at integers.
 using HandPoints = Eigen::Matrix<double, 2, 21>;
 
+/// Returns the diagonal of the box around a hand in a picture, in pixels.
+inline double size_of(const HandPoints& points) {
+  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
 /// Landmarks of a hand in space, metres.
 using HandPoints3D = Eigen::Matrix<double, 3, 21>;
 

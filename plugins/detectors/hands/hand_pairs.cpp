@@ -22,10 +22,6 @@ struct Rays {
   HandPoints3D directions;  ///< depth 1 in the camera
 };
 
-double size_of(const HandPoints& points) {
-  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-}
-
 /// Returns the median distance of reprojected landmarks from those seen, as a share of the hand's
 /// size in the picture; infinite if more than a third is unknown.
 double reprojection_error(const Camera& camera, const HandPoints3D& landmarks,

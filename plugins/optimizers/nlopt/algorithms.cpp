@@ -10,7 +10,7 @@ namespace hypotrack {
 namespace {
 
 using Bounds = NloptAlgorithm::Bounds;
-using Population = NloptAlgorithm::Population;
+using NloptPopulation = NloptAlgorithm::Population;
 
 constexpr NloptAlgorithm with_gradient(std::string_view name, nlopt_algorithm id) {
   return {.name = name, .id = id, .uses_gradient = true};
@@ -32,14 +32,16 @@ constexpr std::array kAlgorithms = {
     with_gradient("SLSQP", NLOPT_LD_SLSQP),
     with_gradient("MMA", NLOPT_LD_MMA),
     with_gradient("CCSAQ", NLOPT_LD_CCSAQ),
-    NloptAlgorithm{"CRS2_LM", NLOPT_GN_CRS2_LM, Bounds::finite, Population::crs},
-    NloptAlgorithm{"ESCH", NLOPT_GN_ESCH, Bounds::finite, Population::esch},
-    NloptAlgorithm{"ISRES", NLOPT_GN_ISRES, Bounds::finite, Population::isres},
-    NloptAlgorithm{"DIRECT", NLOPT_GN_DIRECT, Bounds::finite, Population::none, true},
-    NloptAlgorithm{"DIRECT_L", NLOPT_GN_DIRECT_L, Bounds::finite, Population::none, true},
-    NloptAlgorithm{"DIRECT_L_RAND", NLOPT_GN_DIRECT_L_RAND, Bounds::finite, Population::none, true},
-    NloptAlgorithm{"ORIG_DIRECT_L", NLOPT_GN_ORIG_DIRECT_L, Bounds::finite, Population::none, true},
-    NloptAlgorithm{"MLSL_LDS", NLOPT_G_MLSL_LDS, Bounds::finite, Population::mlsl},
+    NloptAlgorithm{"CRS2_LM", NLOPT_GN_CRS2_LM, Bounds::finite, NloptPopulation::crs},
+    NloptAlgorithm{"ESCH", NLOPT_GN_ESCH, Bounds::finite, NloptPopulation::esch},
+    NloptAlgorithm{"ISRES", NLOPT_GN_ISRES, Bounds::finite, NloptPopulation::isres},
+    NloptAlgorithm{"DIRECT", NLOPT_GN_DIRECT, Bounds::finite, NloptPopulation::none, true},
+    NloptAlgorithm{"DIRECT_L", NLOPT_GN_DIRECT_L, Bounds::finite, NloptPopulation::none, true},
+    NloptAlgorithm{"DIRECT_L_RAND", NLOPT_GN_DIRECT_L_RAND, Bounds::finite, NloptPopulation::none,
+                   true},
+    NloptAlgorithm{"ORIG_DIRECT_L", NLOPT_GN_ORIG_DIRECT_L, Bounds::finite, NloptPopulation::none,
+                   true},
+    NloptAlgorithm{"MLSL_LDS", NLOPT_G_MLSL_LDS, Bounds::finite, NloptPopulation::mlsl},
 };
 
 struct Refused {
@@ -130,15 +132,15 @@ unsigned automatic_population(NloptAlgorithm::Population rule, std::int64_t dime
   };
   // Shares that did best on smooth valleys in 27 and 54 dimensions with 1,024 evaluations.
   switch (rule) {
-    case Population::crs:  // needs more than `dimension`; NLopt would take 10 (dimension + 1)
+    case NloptPopulation::crs:  // needs more than `dimension`; NLopt would take 10 (dimension + 1)
       return between(dimension + 2, evaluations / 16, 10 * (dimension + 1));
-    case Population::isres:  // NLopt would take 20 (dimension + 1)
+    case NloptPopulation::isres:  // NLopt would take 20 (dimension + 1)
       return between(8, evaluations / 64, 20 * (dimension + 1));
-    case Population::esch:  // NLopt would take 40
+    case NloptPopulation::esch:  // NLopt would take 40
       return between(4, evaluations / 128, 40);
-    case Population::mlsl:  // samples between local searches
+    case NloptPopulation::mlsl:  // samples between local searches
       return between(2, evaluations / 256, 4);
-    case Population::none:
+    case NloptPopulation::none:
       break;
   }
   return 0;

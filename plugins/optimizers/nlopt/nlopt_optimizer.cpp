@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 // A box of DIRECT holds about 3 doubles per evaluation and dimension.
 constexpr std::int64_t kMaxDirectNumbers = std::int64_t{1} << 25;
 
@@ -76,11 +76,11 @@ void Nlopt::run(ScaledProblem& problem) const {
   const bool boxed = algorithm_->bounds == NloptAlgorithm::Bounds::finite;
   const bool unbounded = algorithm_->bounds == NloptAlgorithm::Bounds::ignored;
   const int n = problem.dimension();
-  const double box = boxed ? params_.box : kInfinity;
+  const double box = boxed ? params_.box : kUnbounded;
   const Eigen::VectorXd lower =
-      unbounded ? Eigen::VectorXd::Constant(n, -kInfinity) : problem.lower(box);
+      unbounded ? Eigen::VectorXd::Constant(n, -kUnbounded) : problem.lower(box);
   const Eigen::VectorXd upper =
-      unbounded ? Eigen::VectorXd::Constant(n, kInfinity) : problem.upper(box);
+      unbounded ? Eigen::VectorXd::Constant(n, kUnbounded) : problem.upper(box);
 
   const NloptHandle opt = create(algorithm_->id, problem, lower, upper, params_);
   // Algorithms size their memory by it; the problem stops them.

@@ -18,10 +18,10 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-class Lens : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(AllModels, Lens, testing::Values(0, 4, 5, 8, -4));
+class CameraLens : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(AllModels, CameraLens, testing::Values(0, 4, 5, 8, -4));
 
-TEST_P(Lens, ProjectsAsOpenCvDoes) {
+TEST_P(CameraLens, ProjectsAsOpenCvDoes) {
   Camera camera = test::lens_camera(GetParam());
   const Eigen::Vector3d turn(0.1, -0.2, 0.05);
   camera.camera_from_world = test::pose(turn, {0.02, -0.01, 0.04});
@@ -49,7 +49,7 @@ TEST_P(Lens, ProjectsAsOpenCvDoes) {
   }
 }
 
-TEST_P(Lens, BackProjectsToTheRayOfAPixel) {
+TEST_P(CameraLens, BackProjectsToTheRayOfAPixel) {
   Camera camera = test::lens_camera(GetParam());
   std::mt19937 random(8);
   std::uniform_real_distribution<double> side(-0.4, 0.4);

@@ -16,7 +16,7 @@
 namespace hypotrack {
 namespace {
 
-Scene hand_and_box() {
+Scene box_and_hand() {
   return Scene({{"box", std::make_shared<Model>(test::make_test_box())},
                 {"hand", std::make_shared<Model>(test::make_test_hand())}});
 }
@@ -59,7 +59,7 @@ Bounds plain_bounds(const PosedScene& posed, const Eigen::Isometry3d& ideal_from
 }
 
 TEST(PosedScene, BoundsWhatEveryCameraSees) {
-  const Scene scene = hand_and_box();
+  const Scene scene = box_and_hand();
   test::on_every_target(compiled_simd_targets(), [&] {
     std::mt19937_64 random(5);
     for (const std::size_t count : {1u, 2u, 3u}) {
@@ -84,7 +84,7 @@ TEST(PosedScene, BoundsWhatEveryCameraSees) {
 }
 
 TEST(PosedScene, TilesAndSharesDependOnNoStateBefore) {
-  const Scene scene = hand_and_box();
+  const Scene scene = box_and_hand();
   std::mt19937_64 random(6);
   std::uniform_int_distribution<int> which(0, 4);
   int partly = 0, refused = 0;
@@ -129,7 +129,7 @@ TEST(PosedScene, TilesAndSharesDependOnNoStateBefore) {
 }
 
 TEST(PosedScene, RefusesWhatIsNotFiniteAndForgetsIt) {
-  const Scene scene = hand_and_box();
+  const Scene scene = box_and_hand();
   PosedScene posed(scene, make_ideal_rig(cameras(0, 2, 0.05)));
   Eigen::VectorXd state = scene.rest_state();
   for (const auto& item : scene.items()) state[item.offset + 2] = 0.5;

@@ -26,12 +26,6 @@ Camera lens_camera(int coefficients, double x, double turn) {
   return camera;
 }
 
-/// A hand and a box that fill no whole number of blocks.
-Scene hand_and_box() {
-  return Scene({{"box", std::make_shared<Model>(test::make_test_box())},
-                {"hand", std::make_shared<Model>(test::make_test_hand())}});
-}
-
 /// Every vertex by itself, in double precision.
 double reference(const Scene& scene, const std::vector<Camera>& cameras,
                  const Eigen::VectorXd& state) {
@@ -55,7 +49,7 @@ double reference(const Scene& scene, const std::vector<Camera>& cameras,
 }
 
 TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(4);
   int partly = 0;
   for (const int lens : {0, 8, -4}) {
@@ -73,7 +67,7 @@ TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
 }
 
 TEST(VisibleShare, IsNothingIfAnyVertexLiesBehindACamera) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const std::vector<Camera> cameras = {lens_camera(0, 0, 0)};
   const TileMaker tiles(scene, cameras, {});
   Eigen::VectorXd state = scene.rest_state();

@@ -3,22 +3,20 @@
 #include "expect_error.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "parse_error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
 namespace {
 
 using test::message_of;
+using test::parse_error;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 ConfigNode parse(std::string_view text) { return ConfigNode::parse(text, "scene.yaml"); }
-
-std::string parse_error(std::string_view text) {
-  return message_of<ConfigError>([&] { parse(text); });
-}
 
 TEST(ConfigNode, DefaultIsUndefined) {
   const ConfigNode node;

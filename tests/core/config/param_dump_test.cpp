@@ -10,7 +10,7 @@
 namespace hypotrack::test {
 namespace {
 
-SampleParams read(std::string_view text) {
+SampleParams read_elsewhere(std::string_view text) {
   return ParamReader(ConfigNode::parse(text, "dump.yaml", "/elsewhere")).read<SampleParams>();
 }
 
@@ -51,7 +51,7 @@ TEST(ParamDump, HoldsEveryValueInTheUnitsOfTheFile) {
 TEST(ParamDump, RelativePathsBecomeAbsoluteAndEmptyOnesStayEmpty) {
   SampleParams params;
   params.file = "a.png";
-  EXPECT_EQ(read(dump_params(params)).file, std::filesystem::current_path() / "a.png");
+  EXPECT_EQ(read_elsewhere(dump_params(params)).file, std::filesystem::current_path() / "a.png");
   const std::string dumped = dump_params(OptionalFile{});
   EXPECT_EQ(ParamReader(ConfigNode::parse(dumped, "d")).read<OptionalFile>().file, "");
 }
@@ -138,7 +138,7 @@ TEST(ParamDump, ReadsBackBitByBit) {
   for (int i = 0; i < 1000; ++i) {
     const SampleParams params = random.next();
     const std::string text = dump_params(params);
-    expect_same(params, read(text), text);
+    expect_same(params, read_elsewhere(text), text);
     if (HasFailure()) return;
   }
 }

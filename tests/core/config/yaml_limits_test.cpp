@@ -4,19 +4,17 @@
 #include "expect_error.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "parse_error.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack {
 namespace {
 
 using test::message_of;
+using test::parse_error;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
-
-std::string parse_error(std::string_view text) {
-  return message_of<ConfigError>([&] { ConfigNode::parse(text, "scene.yaml"); });
-}
 
 std::string repeat(std::string_view text, int count) {
   std::string all;

@@ -12,10 +12,6 @@
 namespace hypotrack {
 namespace {
 
-std::span<const double> span(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
 // Ordinary, large, tiny, special and arbitrary bits.
 double garbage(std::mt19937_64& random) {
   constexpr double kSpecial[] = {0.0,
@@ -55,7 +51,7 @@ class Garbage : public testing::TestWithParam<bool> {
 
   std::vector<float> draw(const Eigen::VectorXd& state) {
     std::vector<float> all;
-    for (const DepthTile& tile : drawer_.draw(span(state))) {
+    for (const DepthTile& tile : drawer_.draw(test::values_of(state))) {
       EXPECT_TRUE(0 <= tile.x0 && tile.x0 <= tile.x1 && tile.x1 <= tile.width);
       EXPECT_TRUE(0 <= tile.y0 && tile.y0 <= tile.y1 && tile.y1 <= tile.height);
       all.insert(all.end(), tile.inverse_depth, tile.inverse_depth + tile.stride * tile.height);

@@ -21,10 +21,6 @@ constexpr double kDepthTolerance = 1e-4;  // relative
 // Pixels of a tile whose centre an outline passes so closely that rounding decides.
 constexpr int kEdgePixels = 4;
 
-std::span<const double> span(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
 // Pixels where the depth or the coverage of two renderings differ.
 int count_differences(const DepthTile& tile, const Eigen::MatrixXd& reference) {
   int differences = 0;
@@ -104,7 +100,7 @@ class Rasterizer : public testing::TestWithParam<std::int64_t> {
     std::vector<int> covered(observation.views.size(), 0);
     for (int i = 0; i < states; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random, center, radius);
-      const auto tiles = drawer.draw(span(state));
+      const auto tiles = drawer.draw(test::values_of(state));
       ASSERT_EQ(tiles.size(), observation.views.size());
       for (std::size_t v = 0; v < tiles.size(); ++v) {
         const auto reference =
@@ -161,7 +157,7 @@ TEST_P(Rasterizer, AgreesForOtherTileSizes) {
     drawer.prepare(frame);
     std::mt19937_64 random(3);
     const Eigen::VectorXd state = test::random_state(scene, random);
-    const auto tiles = drawer.draw(span(state));
+    const auto tiles = drawer.draw(test::values_of(state));
     for (std::size_t v = 0; v < 2; ++v) {
       const auto reference =
           test::reference_inverse_depth(scene, state, observation.views[v].camera);
@@ -182,7 +178,7 @@ TEST_P(Rasterizer, DrawsBothSidesOfAnOpenMesh) {
   for (const double turn : {0.0, 1.0}) {  // the front, then the back
     Eigen::VectorXd state = scene.rest_state();
     state.segment<7>(0) << 0, 0, 0.5, 1 - turn, turn, 0, 0;
-    const DepthTile tile = drawer.draw(span(state))[0];
+    const DepthTile tile = drawer.draw(test::values_of(state))[0];
     const double z = turn == 0 ? 0.44 : 0.56;
     EXPECT_NEAR(1 / tile.inverse_depth[80 * tile.stride + 64], z, 1e-5);
   }
@@ -211,8 +207,8 @@ TEST_P(Rasterizer, LeavesNoGapsBetweenTriangles) {
   drawer.prepare(frame);
   Eigen::VectorXd state = scene.rest_state();
   state[2] = 0.5;
-  for (const DepthTile& tile : drawer.draw(span(state))) {
-    const double center_x = &tile == &drawer.draw(span(state))[0] ? 64 : 64 - 240 * 0.02;
+  for (const DepthTile& tile : drawer.draw(test::values_of(state))) {
+    const double center_x = &tile == &drawer.draw(test::values_of(state))[0] ? 64 : 64 - 240 * 0.02;
     for (int y = 0; y < tile.height; ++y) {
       for (int x = 0; x < tile.width; ++x) {
         if (std::hypot(x - center_x, y - 64.0) > 47) continue;  // the radius is 48 pixels
@@ -236,9 +232,9 @@ TEST_P(Rasterizer, DrawsTheSameToTheLastBitWhereverThereIsAFusedMultiplyAdd) {
     drawer.prepare(frame);
     for (int i = 0; i < 10; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random);
-      const std::vector<float> here = pixels(drawer.draw(span(state)));
+      const std::vector<float> here = pixels(drawer.draw(test::values_of(state)));
       use_target(other);
-      const std::vector<float> there = pixels(drawer.draw(span(state)));
+      const std::vector<float> there = pixels(drawer.draw(test::values_of(state)));
       use_target(GetParam());
       ASSERT_EQ(here, there) << i;
     }

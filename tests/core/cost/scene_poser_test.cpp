@@ -31,10 +31,6 @@ Scene mixed_scene() {
                 {"box", std::make_shared<Model>(test::make_test_box())}});
 }
 
-std::span<const double> span(const Eigen::VectorXd& state) {
-  return {state.data(), static_cast<std::size_t>(state.size())};
-}
-
 Eigen::Matrix3Xf part_vertices(const ScenePoser& poser, const ScenePlan::Part& part) {
   Eigen::Matrix3Xf vertices(3, part.vertex_count);
   for (std::uint32_t i = 0; i < part.vertex_count; ++i) {
@@ -53,7 +49,7 @@ TEST(ScenePoser, PosesEveryModelAsItsModelSays) {
   std::mt19937_64 random(2);
   for (int round = 0; round < 5; ++round) {
     const Eigen::VectorXd state = test::random_state(scene, random);
-    poser.pose(span(state), camera_from_world);
+    poser.pose(test::values_of(state), camera_from_world);
     ASSERT_EQ(plan.parts.size(), 3u);
     for (const ScenePlan::Part& part : plan.parts) {
       const Eigen::Matrix3Xf world =
@@ -80,7 +76,7 @@ TEST(ScenePoser, FillsUpBlocksWithVerticesOfTheirPart) {
   ScenePoser poser(plan);
   std::mt19937_64 random(3);
   const Eigen::VectorXd state = test::random_state(scene, random);
-  poser.pose(span(state), Eigen::Isometry3d::Identity());
+  poser.pose(test::values_of(state), Eigen::Isometry3d::Identity());
   int padding = 0;
   for (const ScenePlan::Part& part : plan.parts) {
     const std::uint32_t end = part.first_vertex + part.vertex_count;
@@ -100,7 +96,7 @@ TEST(ScenePoser, ShrinksWhatCannotBePosedToTheCamerasCentre) {
   Eigen::VectorXd state = scene.rest_state();
   state[0] = std::numeric_limits<double>::quiet_NaN();  // the mover
   state[scene.items()[1].offset + 10] = 1e7;            // an angle of the hand
-  poser.pose(span(state), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1)));
+  poser.pose(test::values_of(state), Eigen::Isometry3d(Eigen::Translation3d(0, 0, 1)));
   for (const ScenePlan::Part& part : plan.parts) {
     const bool shrunk = part.item->name != "box";
     EXPECT_EQ(part_vertices(poser, part).isZero(0), shrunk) << part.item->name;

@@ -62,7 +62,7 @@ class Readings final : public Objective, public ResidualTerm {
   Reading now_;
 };
 
-struct Fixture {
+struct SmoothedBox {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   FixedLagSettings settings{.prior = 1};  // readings are of the pose only
   EvaluateSettings evaluate{.backend = Backend::cpu, .threads = 1};
@@ -100,7 +100,7 @@ struct Fixture {
 /// A box that moves and turns evenly, read in all frames but 10 to 19, through which the tracker
 /// left it where it was.
 struct Hidden {
-  explicit Hidden(const Fixture& f) {
+  explicit Hidden(const SmoothedBox& f) {
     for (int i = 0; i < 30; ++i) {
       const bool hidden = i >= 10 && i < 20;
       const double x = 0.01 * i, turn = 0.15 * i;
@@ -114,7 +114,7 @@ struct Hidden {
 };
 
 TEST(FixedLagSmoother, ANumberThatNoFrameBetweenSeesIsInterpolated) {
-  const Fixture f;
+  const SmoothedBox f;
   const Hidden hidden(f);
   const auto revised = f.revised(hidden.read, hidden.found);
   ASSERT_EQ(revised.size(), 30u);
@@ -128,7 +128,7 @@ TEST(FixedLagSmoother, ANumberThatNoFrameBetweenSeesIsInterpolated) {
 }
 
 TEST(FixedLagSmoother, ANumberThatEveryFrameSeesStays) {
-  Fixture f;
+  SmoothedBox f;
   f.settings.position_change = 50;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> jitter(-0.01, 0.01);
@@ -144,7 +144,7 @@ TEST(FixedLagSmoother, ANumberThatEveryFrameSeesStays) {
 }
 
 TEST(FixedLagSmoother, AFrameInWhichTheSceneWasLostTellsNothing) {
-  const Fixture f;
+  const SmoothedBox f;
   Hidden hidden(f);
   std::vector<bool> lost(30, false);
   for (std::size_t i = 12; i < 16; ++i) {
@@ -160,7 +160,7 @@ TEST(FixedLagSmoother, AFrameInWhichTheSceneWasLostTellsNothing) {
 }
 
 TEST(FixedLagSmoother, TellsTermsOfItself) {
-  const Fixture f;
+  const SmoothedBox f;
   const auto readings = std::make_shared<Readings>(std::vector<Readings::Reading>(3, {0, 0}));
   FixedLagSmoother smoother(f.scene, {{1.0, readings}}, f.evaluate, f.settings);
   for (int i = 0; i < 3; ++i) {
@@ -173,7 +173,7 @@ TEST(FixedLagSmoother, TellsTermsOfItself) {
 }
 
 TEST(FixedLagSmoother, WorksByDifferencesWhereTermsHaveNoSlopes) {
-  Fixture f;
+  SmoothedBox f;
   f.settings.evaluations = 200;
   const Hidden hidden(f);
   const auto revised = f.revised(hidden.read, hidden.found, {}, true);
@@ -182,7 +182,7 @@ TEST(FixedLagSmoother, WorksByDifferencesWhereTermsHaveNoSlopes) {
 }
 
 TEST(FixedLagSmoother, EqualRunsAreEqual) {
-  const Fixture f;
+  const SmoothedBox f;
   const Hidden hidden(f);
   const auto first = f.revised(hidden.read, hidden.found);
   const auto second = f.revised(hidden.read, hidden.found);
@@ -190,7 +190,7 @@ TEST(FixedLagSmoother, EqualRunsAreEqual) {
 }
 
 TEST(FixedLagSmoother, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
-  Fixture f;
+  SmoothedBox f;
   const Hidden hidden(f);
   for (const double window : {20.0, 0.4}) {
     f.settings.window = window;
@@ -204,7 +204,7 @@ TEST(FixedLagSmoother, NeverTakesMoreEvaluationsThanItMayAndSaysHowMany) {
 }
 
 TEST(FixedLagSmoother, WindowsSettleEveryFrameOnceAndHoldNoMoreThanTheirTime) {
-  Fixture f;
+  SmoothedBox f;
   f.settings.window = 1;
   f.settings.lag = 0.5;
   std::vector<Readings::Reading> read;
@@ -223,7 +223,7 @@ TEST(FixedLagSmoother, WindowsSettleEveryFrameOnceAndHoldNoMoreThanTheirTime) {
 }
 
 TEST(FixedLagSmoother, OfNoFrameOrOneIsWhatWasFound) {
-  const Fixture f;
+  const SmoothedBox f;
   EXPECT_TRUE(f.revised({}, {}).empty());
   const auto one = f.revised({{0.1, 0}}, {f.state(0.1)});
   ASSERT_EQ(one.size(), 1u);
@@ -231,7 +231,7 @@ TEST(FixedLagSmoother, OfNoFrameOrOneIsWhatWasFound) {
 }
 
 TEST(FixedLagSmoother, RefusesSettingsThatDoNotFit) {
-  Fixture f;
+  SmoothedBox f;
   f.settings.lag = 15;
   EXPECT_THAT(test::message_of<ConfigError>([&] { f.revised({}, {}); }),
               AllOf(HasSubstr("smoothing.fixed_lag.lag_s is 15"),
@@ -251,7 +251,7 @@ class NoSquares final : public Objective {
 };
 
 TEST(FixedLagSmoother, RefusesATermWithoutResidualsByItsName) {
-  const Fixture f;
+  const SmoothedBox f;
   const auto open = [&] {
     FixedLagSmoother(f.scene, {{1.0, std::make_shared<NoSquares>(), "smell"}}, f.evaluate,
                      f.settings);

@@ -11,7 +11,7 @@
 namespace hypotrack {
 namespace {
 
-struct Fixture {
+struct MovingBox {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   MotionPrior motion{scene, {.position_change = 0.5, .rotation_change = 2}};
 
@@ -25,18 +25,18 @@ struct Fixture {
 };
 
 TEST(MotionPrior, ChargesNothingForAConstantSpeedWhateverTheTimesBetween) {
-  const Fixture f;
+  const MovingBox f;
   EXPECT_NEAR(f.motion.cost(f.at(0, 0, 0), f.at(0.1, 0.1, 0.3), f.at(0.4, 0.4, 1.2)), 0, 1e-18);
 }
 
 TEST(MotionPrior, ChargesOneForTheSettingsChangeOfSpeedInASecond) {
-  const Fixture f;
+  const MovingBox f;
   EXPECT_NEAR(f.motion.cost(f.at(0, 0), f.at(1, 0), f.at(2, 0.5)), 1, 1e-9);
   EXPECT_NEAR(f.motion.cost(f.at(0, 0), f.at(1, 0), f.at(2, 0, 2)), 1, 1e-9);
 }
 
 TEST(MotionPrior, FactorsAreHowItsResidualsGrow) {
-  const Fixture f;
+  const MovingBox f;
   const std::vector<TimedState> states{f.at(0, 0.1), f.at(0.1, 0.3), f.at(0.3, 0.2)};
   const MotionPrior::Change before = f.motion.change(states[0], states[1], states[2]);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -49,7 +49,7 @@ TEST(MotionPrior, FactorsAreHowItsResidualsGrow) {
 }
 
 TEST(MotionPrior, TakesTimesThatDoNotGrow) {
-  const Fixture f;
+  const MovingBox f;
   EXPECT_TRUE(std::isfinite(f.motion.cost(f.at(1, 0), f.at(1, 0.1), f.at(0.5, 0))));
 }
 

@@ -3,16 +3,15 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
+
+#include "not_a_number.hpp"
 
 namespace hypotrack {
 namespace {
 
 using testing::ElementsAre;
 using testing::Pair;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// One landmark at the origin, found off by so many millimetres along x; ten frames a second.
 class Sequence {
@@ -140,8 +139,8 @@ TEST(Metrics, MeansOfModelsAndLandmarksAreOverTheFramesThatKnowThem) {
   Eigen::Matrix3Xd estimate = truth;
   estimate.row(2) << 0.002, 0.004, 0.010;
   collector.add(0, 0, {}, estimate, truth);
-  truth.col(1).setConstant(kNan);
-  truth.col(2).setConstant(kNan);
+  truth.col(1).setConstant(test::kNan);
+  truth.col(2).setConstant(test::kNan);
   estimate.row(2) << 0.006, 0.004, 0.010;
   collector.add(1, 0, {}, estimate, truth);
   collector.add(2, 0, {}, estimate, {});

@@ -12,13 +12,6 @@
 namespace hypotrack {
 namespace {
 
-Scene hand_and_box() {
-  std::vector<std::pair<std::string, std::shared_ptr<const Model>>> models;
-  models.emplace_back("hand", std::make_shared<Model>(test::make_test_hand()));
-  models.emplace_back("box", std::make_shared<Model>(test::make_test_box()));
-  return Scene(std::move(models));
-}
-
 constexpr int kBox = 27;
 
 /// The hand rests and moves on by 3 mm along x per frame; in frame 2 it moves by 5 mm, turns by 4
@@ -42,7 +35,7 @@ std::vector<StateRow> some_states(const Scene& scene) {
 }
 
 TEST(MotionSpeeds, FindsThePeaksAndMeansOfEveryModel) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const auto speeds = motion_speeds(scene, some_states(scene));
   ASSERT_EQ(speeds.size(), 2U);
   const ModelSpeeds& hand = speeds[0];
@@ -80,7 +73,7 @@ TEST(MotionSpeeds, TellsJointsThatSlideFromThoseThatTurn) {
 }
 
 TEST(MotionSpeeds, DoesNotCountOverMissingFrames) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   auto states = some_states(scene);
   states.erase(states.begin() + 2);
   const auto speeds = motion_speeds(scene, states);
@@ -91,7 +84,7 @@ TEST(MotionSpeeds, DoesNotCountOverMissingFrames) {
 }
 
 TEST(MotionSpeeds, DoesNotCountOverGapsInTime) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   auto states = some_states(scene);
   for (std::size_t i = 0; i < states.size(); ++i)
     states[i].time = static_cast<double>(i + (i >= 2 ? 12 : 0)) / 30;
@@ -101,7 +94,7 @@ TEST(MotionSpeeds, DoesNotCountOverGapsInTime) {
 }
 
 TEST(MotionSpeeds, SaysThemInMillimetresAndDegrees) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const auto speeds = motion_speeds(scene, some_states(scene));
   const auto json = nlohmann::json::parse(motion_json(speeds))["models"];
   EXPECT_NEAR(json["hand"]["translation_mm_per_frame"]["peak"], 5, 1e-9);

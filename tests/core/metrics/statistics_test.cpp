@@ -3,22 +3,21 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "hypotrack/median.hpp"
+#include "not_a_number.hpp"
 
 namespace hypotrack {
 namespace {
 
 using testing::ElementsAre;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> kErrors = {30, 1, 12, 50, 7};  // 1 7 12 30 50
 const std::vector<double> kNone;
 
 TEST(Statistics, NanIsLeftOutAndTheOrderStays) {
-  EXPECT_THAT(without_nan(std::vector<double>{kNan, 3, 1, kNan}), ElementsAre(3, 1));
+  EXPECT_THAT(without_nan(std::vector<double>{test::kNan, 3, 1, test::kNan}), ElementsAre(3, 1));
 }
 
 TEST(Statistics, MeanAndStandardDeviation) {

@@ -109,9 +109,10 @@ TEST(StatusMetrics, WithoutAWordThereIsNothingToJudge) {
 }
 
 /// Two models with a landmark each, found 1 and 3 mm off.
-class Pair {
+class TwoModels {
  public:
-  Pair& add(FrameStatuses status, std::vector<bool> gone = {}, Eigen::Vector2d sigma = {0, 0}) {
+  TwoModels& add(FrameStatuses status, std::vector<bool> gone = {},
+                 Eigen::Vector2d sigma = {0, 0}) {
     Eigen::Matrix3Xd truth = Eigen::Matrix3Xd::Zero(3, 2), estimate = truth;
     estimate.row(0) << 0.001, 0.003;
     for (std::size_t m = 0; m < gone.size(); ++m)
@@ -128,8 +129,12 @@ class Pair {
 };
 
 TEST(StatusMetrics, OfTwoModelsOneMayBeAbsent) {
-  const Metrics m =
-      Pair().add({tracked}).add({tracked}, {true, false}).add({uncertain}).add({tracked}).metrics();
+  const Metrics m = TwoModels()
+                        .add({tracked})
+                        .add({tracked}, {true, false})
+                        .add({uncertain})
+                        .add({tracked})
+                        .metrics();
   EXPECT_EQ(m.evaluated_frames, 4);
   EXPECT_NEAR(m.mean_error_mm, (2 + 3 + 2 + 2) / 4.0, 1e-9) << "over what is there";
   EXPECT_DOUBLE_EQ(m.status.false_tracked_share, 1.0 / 6);
@@ -139,7 +144,7 @@ TEST(StatusMetrics, OfTwoModelsOneMayBeAbsent) {
 }
 
 TEST(StatusMetrics, ModelsAreJudgedOneByOne) {
-  const Metrics m = Pair()
+  const Metrics m = TwoModels()
                         .add({tracked, {tracked, tracked}})
                         .add({lost, {absent, tracked}}, {true, false})
                         .add({lost, {lost, tracked}})
@@ -151,16 +156,16 @@ TEST(StatusMetrics, ModelsAreJudgedOneByOne) {
 }
 
 TEST(StatusMetrics, AbsentIsALossOnlyOfWhatIsInView) {
-  const Metrics m = Pair().add({absent}, {true, true}).add({absent}).add({tracked}).metrics();
+  const Metrics m = TwoModels().add({absent}, {true, true}).add({absent}).add({tracked}).metrics();
   EXPECT_EQ(m.lost_frames, 1);
   EXPECT_EQ(m.frames_to_loss, 1);
   EXPECT_EQ(m.evaluated_frames, 2);
 }
 
 TEST(StatusMetrics, TheLeastMeanSigmaOfLostFrames) {
-  EXPECT_THAT(Pair().add({tracked}, {}, {0.001, 0.001}).metrics().status.lost_sigma_min_mm,
+  EXPECT_THAT(TwoModels().add({tracked}, {}, {0.001, 0.001}).metrics().status.lost_sigma_min_mm,
               IsNan());
-  const Metrics m = Pair()
+  const Metrics m = TwoModels()
                         .add({tracked}, {}, {0.001, 0.001})
                         .add({lost}, {}, {0.06, 0.02})
                         .add({lost}, {}, {std::nan(""), 0.03})

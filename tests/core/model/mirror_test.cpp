@@ -29,10 +29,6 @@ Eigen::VectorXd mirrored_root(Eigen::VectorXd state) {
   return state;
 }
 
-std::span<const double> span(const Eigen::VectorXd& v) {
-  return {v.data(), static_cast<std::size_t>(v.size())};
-}
-
 TEST(Mirrored, PosesToTheMirrorImageForAnyParameters) {
   for (const ModelData& data : {test::make_test_hand(), test::make_test_cabinet()}) {
     const auto right = std::make_shared<const Model>(data);
@@ -42,12 +38,14 @@ TEST(Mirrored, PosesToTheMirrorImageForAnyParameters) {
     for (int i = 0; i < 20; ++i) {
       const Eigen::VectorXd state = test::random_state(scene, random);
       const Eigen::VectorXd reflected = mirrored_root(state);
-      const Eigen::Matrix3Xf vertices = posed_vertices(left, span(reflected));
-      Eigen::Matrix3Xf expected = posed_vertices(*right, span(state));
+      const Eigen::Matrix3Xf vertices = posed_vertices(left, test::values_of(reflected));
+      Eigen::Matrix3Xf expected = posed_vertices(*right, test::values_of(state));
       expected.row(0) *= -1;
       EXPECT_LT((vertices - expected).cwiseAbs().maxCoeff(), 1e-6f);
-      const Eigen::Matrix3Xd landmarks = posed_landmarks(left, span(reflected));
-      EXPECT_LT((landmarks - kMirror * posed_landmarks(*right, span(state))).cwiseAbs().maxCoeff(),
+      const Eigen::Matrix3Xd landmarks = posed_landmarks(left, test::values_of(reflected));
+      EXPECT_LT((landmarks - kMirror * posed_landmarks(*right, test::values_of(state)))
+                    .cwiseAbs()
+                    .maxCoeff(),
                 1e-12);
     }
   }

@@ -13,11 +13,6 @@
 namespace hypotrack {
 namespace {
 
-Scene hand_and_box() {
-  return Scene({{"hand", std::make_shared<const Model>(test::make_test_hand())},
-                {"box", std::make_shared<const Model>(test::make_test_box())}});
-}
-
 template <class F>
 std::string config_error(F&& f) {
   try {
@@ -29,7 +24,7 @@ std::string config_error(F&& f) {
 }
 
 TEST(Scene, PutsTheParametersOfItsModelsOneAfterTheOther) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   EXPECT_EQ(scene.dimension(), 34);
   EXPECT_EQ(scene.items()[0].offset, 0);
   EXPECT_EQ(scene.items()[1].offset, 27);
@@ -41,7 +36,7 @@ TEST(Scene, PutsTheParametersOfItsModelsOneAfterTheOther) {
 }
 
 TEST(Scene, CutsTheStateIntoModels) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const Eigen::VectorXd state = Eigen::VectorXd::LinSpaced(34, 0, 33);
   const auto part = scene.part(scene.items()[1], state);
   EXPECT_EQ(part.size(), 7u);
@@ -50,7 +45,7 @@ TEST(Scene, CutsTheStateIntoModels) {
 }
 
 TEST(Scene, RestsWhereEveryParameterRests) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const Eigen::VectorXd rest = scene.rest_state();
   EXPECT_EQ(rest[3], 1);
   EXPECT_EQ(rest[30], 1);
@@ -59,7 +54,7 @@ TEST(Scene, RestsWhereEveryParameterRests) {
 }
 
 TEST(Scene, PlacesTheLandmarksOfEveryModel) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   Eigen::VectorXd state = scene.rest_state();
   state[27] = 1;  // the box to the right
   const Eigen::Matrix3Xd landmarks = scene.landmarks(state);
@@ -72,7 +67,7 @@ TEST(Scene, PlacesTheLandmarksOfEveryModel) {
 }
 
 TEST(Scene, NormalizesEveryQuaternionAndNothingElse) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   Eigen::VectorXd state = Eigen::VectorXd::Constant(34, 2);
   state.segment<4>(30) << 0, 0, 0, -3e-200;
   scene.normalize(state);
@@ -83,7 +78,7 @@ TEST(Scene, NormalizesEveryQuaternionAndNothingElse) {
 }
 
 TEST(Scene, NormalizesTheZeroQuaternionToTheIdentity) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   Eigen::VectorXd state = Eigen::VectorXd::Zero(34);
   scene.normalize(state);
   EXPECT_EQ(state.segment<4>(3), Eigen::Vector4d(1, 0, 0, 0));
@@ -91,7 +86,7 @@ TEST(Scene, NormalizesTheZeroQuaternionToTheIdentity) {
 }
 
 TEST(Scene, NormalizingTwiceIsNormalizingOnce) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 200; ++trial) {
     const Eigen::VectorXd once = test::random_state(scene, random);
@@ -113,7 +108,7 @@ TEST(Scene, RefusesWhatIsNoScene) {
 }
 
 TEST(Scene, ChecksStates) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const Eigen::VectorXd rest = scene.rest_state();
   EXPECT_EQ(config_error([&] { scene.check(Eigen::VectorXd::Zero(27), "init"); }),
             "init: the state has 27 numbers, expected 34");

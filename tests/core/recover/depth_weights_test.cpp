@@ -10,7 +10,7 @@ namespace {
 constexpr int kWidth = 160, kHeight = 120;
 constexpr double kFocal = 150, kBaseline = 0.1;
 
-std::vector<Camera> pair() {
+std::vector<Camera> small_pair() {
   Camera camera;
   camera.width = kWidth;
   camera.height = kHeight;
@@ -41,7 +41,7 @@ std::array<cv::Mat3b, 2> pictures(double wall, double board) {
 double mean(const cv::Mat1f& weights, const cv::Rect& part) { return cv::mean(weights(part))[0]; }
 
 TEST(DepthWeights, AreHighOnSurfacesInTheRangeAndLowBehindIt) {
-  DepthWeights depths(pair(), {1, 1}, 0.25, 1.2);
+  DepthWeights depths(small_pair(), {1, 1}, 0.25, 1.2);
   const auto weights = depths.weights(pictures(3.0, 0.5));
   EXPECT_GT(mean(weights[0], {66, 46, 28, 28}), 0.9);
   EXPECT_GT(mean(weights[1], {36, 46, 28, 28}), 0.9);
@@ -50,7 +50,7 @@ TEST(DepthWeights, AreHighOnSurfacesInTheRangeAndLowBehindIt) {
 }
 
 TEST(DepthWeights, SayLittleOfUniformPictures) {
-  DepthWeights depths(pair(), {1, 1}, 0.25, 1.2);
+  DepthWeights depths(small_pair(), {1, 1}, 0.25, 1.2);
   const cv::Mat3b gray(kHeight, kWidth, cv::Vec3b(90, 90, 90));
   const auto weights = depths.weights({gray, gray});
   const double middle = mean(weights[0], {60, 40, 40, 40});

@@ -6,24 +6,19 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "camera_pair.hpp"
+
 namespace hypotrack {
 namespace {
 
+constexpr double kFarApart = 0.12;
 constexpr double kRadius = 0.045;
 const cv::Scalar kSkin(110, 140, 200), kGreen(80, 160, 60);
-
-std::vector<Camera> pair() {
-  Camera camera{640, 480, 500, 500, 319.5, 239.5, DistortionModel::none, {}, {}};
-  camera.camera_from_world = Eigen::Isometry3d::Identity();
-  std::vector<Camera> cameras(2, camera);
-  cameras[1].camera_from_world.translation().x() = -0.12;
-  return cameras;
-}
 
 /// Discs of skin before green, striped so that views can be compared.
 Frame discs(const std::vector<Eigen::Vector3d>& centers) {
   Frame frame;
-  for (const Camera& camera : pair()) {
+  for (const Camera& camera : test::camera_pair(kFarApart)) {
     cv::Mat picture(camera.height, camera.width, CV_8UC3, kGreen);
     for (const Eigen::Vector3d& center : centers) {
       const Eigen::Vector2d p = project(camera, center);
@@ -56,7 +51,7 @@ ForegroundColors skin() {
 }
 
 TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
-  const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
+  const PlaceFinder finder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2);
   for (const Eigen::Vector3d& center :
        {Eigen::Vector3d(0.05, -0.04, 0.5), Eigen::Vector3d(-0.02, 0.06, 0.7)}) {
     const Places places = finder.find(discs({center}), skin(), {}, 3);
@@ -68,7 +63,8 @@ TEST(PlaceFinder, FindsWhatHasTheColorsAtItsDepth) {
 
 TEST(PlaceFinder, FindsSeveralPlacesApart) {
   const std::vector<Eigen::Vector3d> centers{{0.14, -0.04, 0.6}, {-0.08, 0.06, 0.6}};
-  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(centers), skin(), {}, 4);
+  const Places places = PlaceFinder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2)
+                            .find(discs(centers), skin(), {}, 4);
   for (const Eigen::Vector3d& center : centers)
     EXPECT_TRUE(std::ranges::any_of(
         places.best, [&](const Place& place) { return (place.center - center).norm() < 0.04; }));
@@ -80,16 +76,17 @@ TEST(PlaceFinder, FindsSeveralPlacesApart) {
 TEST(PlaceFinder, CoversLongThingsPlaceByPlace) {
   std::vector<Eigen::Vector3d> arm;
   for (int i = 0; i < 6; ++i) arm.emplace_back(-0.15 + 0.06 * i, 0.01 * i, 0.6);
-  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs(arm), skin(), {}, 6);
+  const Places places =
+      PlaceFinder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2).find(discs(arm), skin(), {}, 6);
   for (const Eigen::Vector3d& end : {arm.front(), arm.back()})
     EXPECT_TRUE(std::ranges::any_of(
         places.best, [&](const Place& place) { return (place.center - end).norm() < 0.06; }));
 }
 
 TEST(PlaceFinder, LeavesOutPixelsOfWeightZero) {
-  const PlaceFinder finder(pair(), kRadius, 0.25, 1.2);
+  const PlaceFinder finder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2);
   const Eigen::Vector3d here(-0.1, 0.02, 0.55), there(0.12, 0, 0.5);
-  const auto cameras = pair();
+  const auto cameras = test::camera_pair(kFarApart);
   std::array<cv::Mat1f, 2> weights;
   for (std::size_t i = 0; i < 2; ++i) {
     const int by = finder.reduction(i);
@@ -104,14 +101,15 @@ TEST(PlaceFinder, LeavesOutPixelsOfWeightZero) {
 }
 
 TEST(PlaceFinder, SeesNothingInPicturesWithoutTheColors) {
-  const Places places = PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4);
+  const Places places =
+      PlaceFinder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2).find(discs({}), skin(), {}, 4);
   EXPECT_TRUE(places.best.empty());
   EXPECT_LT(places.seen, 0.1);
 }
 
 TEST(PlaceFinder, FindsNothingBeforeColorsAreKnown) {
-  const Places places =
-      PlaceFinder(pair(), kRadius, 0.25, 1.2).find(discs({{0, 0, 0.5}}), {}, {}, 4);
+  const Places places = PlaceFinder(test::camera_pair(kFarApart), kRadius, 0.25, 1.2)
+                            .find(discs({{0, 0, 0.5}}), {}, {}, 4);
   EXPECT_TRUE(places.best.empty());
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFrame = 1 / 30.0;
 
-struct Fixture {
+struct SmoothedHand {
   Scene scene{{{"hand", std::make_shared<Model>(test::make_test_hand())}}};
   OneEuroSettings settings;
 
@@ -28,14 +28,14 @@ struct Fixture {
 };
 
 TEST(OneEuro, PassesTheFirstStateOn) {
-  const Fixture f;
+  const SmoothedHand f;
   OneEuroFilter filter(f.scene, f.settings);
   const Eigen::VectorXd state = f.state({0.1, 0.2, 0.5}, {0.3, 0, 0}, 0.2);
   EXPECT_EQ(filter.filter(state, 3.0), state);
 }
 
 TEST(OneEuro, SteadiesAHandAtRest) {
-  const Fixture f;
+  const SmoothedHand f;
   OneEuroFilter filter(f.scene, f.settings);
   std::mt19937_64 random(6);
   std::normal_distribution<double> normal;
@@ -55,7 +55,7 @@ TEST(OneEuro, SteadiesAHandAtRest) {
 }
 
 TEST(OneEuro, LagsLittleBehindAHandThatMoves) {
-  const Fixture f;
+  const SmoothedHand f;
   OneEuroFilter filter(f.scene, f.settings);
   double lag = 0, turn_lag = 0;
   for (int i = 0; i < 60; ++i) {
@@ -71,7 +71,7 @@ TEST(OneEuro, LagsLittleBehindAHandThatMoves) {
 }
 
 TEST(OneEuro, ARotationComesOutAsOneWhereverItsSignIs) {
-  const Fixture f;
+  const SmoothedHand f;
   OneEuroFilter filter(f.scene, f.settings);
   for (int i = 0; i < 30; ++i) {
     Eigen::VectorXd state = f.state({0, 0, 0.5}, {0, 0.02 * i, 0}, 0);
@@ -82,7 +82,7 @@ TEST(OneEuro, ARotationComesOutAsOneWhereverItsSignIs) {
 }
 
 TEST(OneEuro, BeginsAnewWhereItIsTold) {
-  const Fixture f;
+  const SmoothedHand f;
   OneEuroFilter filter(f.scene, f.settings);
   filter.filter(f.state({0, 0, 0.5}, {0, 0, 0}, 0), 0);
   filter.begin_anew();

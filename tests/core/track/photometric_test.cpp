@@ -18,7 +18,7 @@ double mapped(const PhotometricMatch& match, TilePlan plan, double level, int ch
   return map.gain[channel] * level + map.offset[channel];
 }
 
-struct Fixture : test::PaintedBox {
+struct MatchedBox : test::PaintedBox {
   Frame plain = frame();
   TilePlan plan = tiles->plan(plain, state());
   PhotometricSettings settings;
@@ -29,7 +29,7 @@ struct Fixture : test::PaintedBox {
 };
 
 TEST(ColorSampler, TakesWhatBothViewsShowOfTheSurface) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   ColorSampler sampler(fixture.scene);
   sampler.draw(fixture.plan.header, fixture.state());
   const ColorSamples samples = sampler.take(fixture.plain, fixture.tiles->resamplers(), 1);
@@ -43,7 +43,7 @@ TEST(ColorSampler, TakesWhatBothViewsShowOfTheSurface) {
 }
 
 TEST(ColorSampler, TakesNothingFromViewsWithoutColour) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   ColorSampler sampler(fixture.scene);
   sampler.draw(fixture.plan.header, fixture.state());
   for (std::size_t i = 0; i < 2; ++i) {
@@ -54,7 +54,7 @@ TEST(ColorSampler, TakesNothingFromViewsWithoutColour) {
 }
 
 TEST(PhotometricMatch, BringsTheSecondViewsColoursToTheFirsts) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const Frame frame = fixture.frame(1.05, 3);
   PhotometricMatch match(fixture.scene, fixture.settings);
   EXPECT_FALSE(match.knows());
@@ -68,7 +68,7 @@ TEST(PhotometricMatch, BringsTheSecondViewsColoursToTheFirsts) {
 }
 
 TEST(PhotometricMatch, IsInTheTilesThatObjectivesSee) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const Frame frame = fixture.frame(1.15, 0);
   PhotometricMatch match(fixture.scene, fixture.settings);
   fixture.learn(match, frame);
@@ -84,7 +84,7 @@ TEST(PhotometricMatch, IsInTheTilesThatObjectivesSee) {
 }
 
 TEST(PhotometricMatch, SaysHowFarColoursStayApart) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const auto difference = [&](double gain, double offset, double noise) {
     Frame frame = fixture.frame(gain, offset);
     cv::RNG random(5);
@@ -111,7 +111,7 @@ TEST(PhotometricMatch, SaysHowFarColoursStayApart) {
 }
 
 TEST(PhotometricMatch, ToleratesAPoseThatIsAFewMillimetresOff) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const Frame frame = fixture.frame(0.87, 0);
   for (const double x : {-0.008, 0.008}) {
     PhotometricMatch match(fixture.scene, fixture.settings);
@@ -124,7 +124,7 @@ TEST(PhotometricMatch, ToleratesAPoseThatIsAFewMillimetresOff) {
 }
 
 TEST(PhotometricMatch, BeginsWithWhatAStartThatIsNearlyRightShows) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const Frame frame = fixture.frame(0.87, 0);
   PhotometricMatch begun(fixture.scene, fixture.settings), learned(fixture.scene, fixture.settings);
   begun.begin(*fixture.tiles, frame, fixture.plan, fixture.state());
@@ -136,7 +136,7 @@ TEST(PhotometricMatch, BeginsWithWhatAStartThatIsNearlyRightShows) {
 }
 
 TEST(PhotometricMatch, BeginsAnewAfterItWasToldToForget) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   PhotometricMatch match(fixture.scene, fixture.settings), fresh(fixture.scene, fixture.settings);
   fixture.learn(match, fixture.frame(1.05, 3));
   match.forget();
@@ -147,7 +147,7 @@ TEST(PhotometricMatch, BeginsAnewAfterItWasToldToForget) {
 }
 
 TEST(PhotometricMatch, BeginsWithThePicturesWhereTheStartIsFarOff) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const Frame frame = fixture.frame(0.87, 0);
   Eigen::VectorXd far = fixture.state();
   far.z() -= 0.12;
@@ -166,7 +166,7 @@ TEST(PhotometricMatch, BeginsWithThePicturesWhereTheStartIsFarOff) {
 }
 
 TEST(PhotometricMatch, LearnsNothingWhereTheViewsShowSomethingElse) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   Frame frame = fixture.frame();
   cv::RNG(3).fill(frame.views[1].color, cv::RNG::UNIFORM, 20, 235);
   PhotometricMatch match(fixture.scene, fixture.settings);
@@ -181,7 +181,7 @@ TEST(PhotometricMatch, LearnsNothingWhereTheViewsShowSomethingElse) {
 }
 
 TEST(PhotometricMatch, ChangesLittleFromFrameToFrameOnceItIsSettled) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   PhotometricMatch match(fixture.scene, fixture.settings);
   for (int i = 0; i < 4; ++i) fixture.learn(match, fixture.plain);
   const Frame brighter = fixture.frame(1.5, 0);
@@ -296,7 +296,7 @@ TEST(PhotometricMatch, LeavesTheFirstViewsTileAsItIs) {
 }
 
 TEST(PhotometricMatch, OffLeavesColoursAlone) {
-  Fixture fixture;
+  MatchedBox fixture;
   fixture.settings.match = false;
   PhotometricMatch match(fixture.scene, fixture.settings);
   fixture.learn(match, fixture.frame(1.05, 3));
@@ -308,7 +308,7 @@ TEST(PhotometricMatch, OffLeavesColoursAlone) {
 }
 
 TEST(PhotometricMatch, HasNothingToDoWithOneView) {
-  const Fixture fixture;
+  const MatchedBox fixture;
   const TileMaker tiles(fixture.scene, {fixture.cameras[0]}, {});
   Frame frame = fixture.frame();
   frame.views.resize(1);

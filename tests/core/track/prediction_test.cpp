@@ -10,9 +10,9 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kFrame = 1 / 30.0;
+constexpr double kPeriod = 1 / 30.0;
 
-struct Fixture {
+struct PredictedHand {
   Scene scene{{{"hand", std::make_shared<Model>(test::make_test_hand())}}};
 
   /// A hand `metres` along x, turned by `radians` about y, every finger joint at `angle`.
@@ -29,21 +29,21 @@ struct Fixture {
 };
 
 TEST(Predictor, ExpectsTheGivenShareOfTheLastMotion) {
-  const Fixture f;
+  const PredictedHand f;
   Predictor predictor = f.make(Prediction::constant, 0.7);
   predictor.add(f.state(0, 0.2, 0.10), 0);
-  predictor.add(f.state(0.010, 0.3, 0.12), kFrame);
-  const Eigen::MatrixXd expected = predictor.at(2 * kFrame);
+  predictor.add(f.state(0.010, 0.3, 0.12), kPeriod);
+  const Eigen::MatrixXd expected = predictor.at(2 * kPeriod);
   ASSERT_EQ(expected.cols(), 1);
   EXPECT_LT((expected - f.state(0.017, 0.37, 0.134)).norm(), 1e-12);
 }
 
 TEST(Predictor, OffersNoneHalfAndAllOfTheMotionOfPosesAndAngles) {
-  const Fixture f;
+  const PredictedHand f;
   Predictor predictor = f.make(Prediction::adaptive);
   predictor.add(f.state(0, 0, 0.10), 0);
-  predictor.add(f.state(0.010, 0.1, 0.12), kFrame);
-  const Eigen::MatrixXd offered = predictor.at(2 * kFrame);
+  predictor.add(f.state(0.010, 0.1, 0.12), kPeriod);
+  const Eigen::MatrixXd offered = predictor.at(2 * kPeriod);
   ASSERT_EQ(offered.cols(), 9);
   EXPECT_LT((offered.col(0) - f.state(0.015, 0.15, 0.13)).norm(), 1e-12) << "the middle one first";
   for (const double pose : {0.0, 0.5, 1.0}) {
@@ -57,7 +57,7 @@ TEST(Predictor, OffersNoneHalfAndAllOfTheMotionOfPosesAndAngles) {
 }
 
 TEST(Predictor, KnowsThatMotionTakesTime) {
-  const Fixture f;
+  const PredictedHand f;
   Predictor predictor = f.make(Prediction::constant, 1);
   predictor.add(f.state(0, 0), 0);
   predictor.add(f.state(0.010, 0), 0.02);
@@ -65,28 +65,28 @@ TEST(Predictor, KnowsThatMotionTakesTime) {
 }
 
 TEST(Predictor, ExpectsNothingAcrossGaps) {
-  const Fixture f;
+  const PredictedHand f;
   Predictor predictor = f.make(Prediction::constant, 1);
   predictor.add(f.state(0, 0), 0);
-  predictor.add(f.state(0.010, 0.1), kFrame);
-  EXPECT_EQ(predictor.at(kFrame + 0.0599).cols(), 1);
-  EXPECT_EQ(predictor.at(kFrame + 0.0601).cols(), 0);
-  EXPECT_EQ(predictor.at(kFrame).cols(), 0) << "no time has passed";
+  predictor.add(f.state(0.010, 0.1), kPeriod);
+  EXPECT_EQ(predictor.at(kPeriod + 0.0599).cols(), 1);
+  EXPECT_EQ(predictor.at(kPeriod + 0.0601).cols(), 0);
+  EXPECT_EQ(predictor.at(kPeriod).cols(), 0) << "no time has passed";
   predictor.add(f.state(0.050, 0), 0.5);  // no motion follows from a step across a gap
-  EXPECT_EQ(predictor.at(0.5 + kFrame).cols(), 0);
+  EXPECT_EQ(predictor.at(0.5 + kPeriod).cols(), 0);
 }
 
 TEST(Predictor, ExpectsNothingWhereNoMotionIsKnown) {
-  const Fixture f;
+  const PredictedHand f;
   for (const Prediction velocity : {Prediction::none, Prediction::constant, Prediction::adaptive}) {
     Predictor predictor = f.make(velocity);
     EXPECT_EQ(predictor.at(0).cols(), 0);
     predictor.add(f.state(0.01, 0.1), 0);
-    EXPECT_EQ(predictor.at(kFrame).cols(), 0);
-    predictor.add(f.state(0.02, 0.2), kFrame);
-    EXPECT_EQ(predictor.at(2 * kFrame).cols() > 0, velocity != Prediction::none);
+    EXPECT_EQ(predictor.at(kPeriod).cols(), 0);
+    predictor.add(f.state(0.02, 0.2), kPeriod);
+    EXPECT_EQ(predictor.at(2 * kPeriod).cols() > 0, velocity != Prediction::none);
     predictor.forget_motion();
-    EXPECT_EQ(predictor.at(2 * kFrame).cols(), 0);
+    EXPECT_EQ(predictor.at(2 * kPeriod).cols(), 0);
   }
 }
 

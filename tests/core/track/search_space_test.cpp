@@ -15,29 +15,24 @@
 namespace hypotrack {
 namespace {
 
-Scene hand_and_box() {
-  return Scene({{"hand", std::make_shared<Model>(test::make_test_hand())},
-                {"box", std::make_shared<Model>(test::make_test_box())}});
-}
-
 Eigen::Quaterniond rotation_of(const Eigen::VectorXd& state, int offset) {
   return {state[offset + 3], state[offset + 4], state[offset + 5], state[offset + 6]};
 }
 
 TEST(SearchSpace, QuaternionsAreSearchedComponentByComponent) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   EXPECT_EQ(SearchSpace(scene, {}).dimension(), 34);
 }
 
 TEST(SearchSpace, TangentSpaceNeedsOneDimensionLessPerRotation) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
   settings.rotation_as = RotationSearch::tangent;
   EXPECT_EQ(SearchSpace(scene, settings).dimension(), 32);
 }
 
 TEST(SearchSpace, SpreadsAreThoseOfTheParameterKinds) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const SearchRegion region = SearchSpace(scene, {}).region(scene.rest_state());
   EXPECT_DOUBLE_EQ(region.spread[0], 0.040);
   EXPECT_DOUBLE_EQ(region.spread[3], std::sin(5 * kDegree));
@@ -57,7 +52,7 @@ TEST(SearchSpace, JointsThatSlideSpreadAndReachAsPositionsDo) {
 }
 
 TEST(SearchSpace, BoundsAreTheModelsOwn) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const SearchRegion region = SearchSpace(scene, {}).region(scene.rest_state());
   for (int i = 0; i < scene.dimension(); ++i) {
     EXPECT_EQ(region.lower[i], scene.parameters()[static_cast<std::size_t>(i)].lower) << i;
@@ -66,7 +61,7 @@ TEST(SearchSpace, BoundsAreTheModelsOwn) {
 }
 
 TEST(SearchSpace, APriorOutsideTheBoundsStartsOnThem) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   Eigen::VectorXd prior = scene.rest_state();
   prior[8] = 100;
   const SearchRegion region = SearchSpace(scene, {}).region(prior);
@@ -74,7 +69,7 @@ TEST(SearchSpace, APriorOutsideTheBoundsStartsOnThem) {
 }
 
 TEST(SearchSpace, GroupsAreThePosesAndLimbsOfTheModels) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
   const auto quaternion = SearchSpace(scene, settings).region(scene.rest_state()).groups;
   ASSERT_EQ(quaternion.size(), 7u);
@@ -96,7 +91,7 @@ TEST(SearchSpace, GroupsAreThePosesAndLimbsOfTheModels) {
 class BothParametrisations : public testing::TestWithParam<RotationSearch> {};
 
 TEST_P(BothParametrisations, EveryDimensionIsInOneGroup) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
   settings.rotation_as = GetParam();
   const SearchSpace space(scene, settings);
@@ -105,7 +100,7 @@ TEST_P(BothParametrisations, EveryDimensionIsInOneGroup) {
 }
 
 TEST_P(BothParametrisations, TheStartIsThePrior) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(1);
   const Eigen::VectorXd prior = test::random_state(scene, random);
   SearchSettings settings;
@@ -116,7 +111,7 @@ TEST_P(BothParametrisations, TheStartIsThePrior) {
 }
 
 TEST_P(BothParametrisations, ThePointOfAStateLeadsBackToIt) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(3);
   SearchSettings settings;
   settings.rotation_as = GetParam();
@@ -136,7 +131,7 @@ TEST_P(BothParametrisations, ThePointOfAStateLeadsBackToIt) {
 }
 
 TEST_P(BothParametrisations, StatesHaveUnitQuaternions) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(2);
   std::normal_distribution<double> normal;
   SearchSettings settings;
@@ -154,7 +149,7 @@ INSTANTIATE_TEST_SUITE_P(SearchSpace, BothParametrisations,
                          testing::Values(RotationSearch::quaternion, RotationSearch::tangent));
 
 TEST(SearchSpace, APointOfAnotherSizeIsTheOptimizersMistake) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const Eigen::VectorXd short_one = Eigen::VectorXd::Zero(2);
   EXPECT_EQ(test::message_of<PluginError>(
                 [&] { SearchSpace(scene, {}).states(short_one, scene.rest_state()); }),
@@ -178,7 +173,7 @@ TEST(SearchSpace, ATangentVectorIsARotationByItsLengthAboutItself) {
 }
 
 TEST(SearchSpace, ModelsThatDoNotMoveKeepWhatThePriorHas) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   SearchSettings settings;
   for (const auto as : {RotationSearch::quaternion, RotationSearch::tangent}) {
     settings.rotation_as = as;

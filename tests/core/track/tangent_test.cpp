@@ -12,11 +12,6 @@
 namespace hypotrack {
 namespace {
 
-Scene hand_and_box() {
-  return Scene({{"hand", std::make_shared<Model>(test::make_test_hand())},
-                {"box", std::make_shared<Model>(test::make_test_box())}});
-}
-
 /// Angle between the rotations of two states' model.
 double angle_between(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::Index model) {
   const double cosine = std::abs(a.segment<4>(model + 3).dot(b.segment<4>(model + 3)));
@@ -24,7 +19,7 @@ double angle_between(const Eigen::VectorXd& a, const Eigen::VectorXd& b, Eigen::
 }
 
 TEST(Tangent, ADifferenceLeadsFromOneStateToTheOther) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(1);
   for (int i = 0; i < 20; ++i) {
     const Eigen::VectorXd a = test::random_state(scene, random);
@@ -54,7 +49,7 @@ TEST(Tangent, RotationsTurnTheShorterWay) {
 }
 
 TEST(Tangent, AnglesStayWithinTheirBounds) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   const Eigen::VectorXd rest = scene.rest_state();
   Eigen::VectorXd d = Eigen::VectorXd::Zero(scene.dimension() - 2);
   d.segment(6, 20).setConstant(10);
@@ -65,7 +60,7 @@ TEST(Tangent, AnglesStayWithinTheirBounds) {
 }
 
 TEST(Tangent, PartsCoverEveryNumberOnce) {
-  const Scene scene = hand_and_box();
+  const Scene scene = test::make_hand_and_box();
   Eigen::Index at = 0;
   std::vector<ParameterKind> kinds;
   for (const TangentPart& part : tangent_parts(scene)) {

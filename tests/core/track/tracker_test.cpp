@@ -82,7 +82,7 @@ class Sampling final : public Optimizer {
   bool nan_in_answer = false, nan_as_cost = false;
 };
 
-struct Fixture {
+struct TrackedBox {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   std::shared_ptr<MovingTarget> target = std::make_shared<MovingTarget>();
   Sampling* optimizer = nullptr;
@@ -126,7 +126,7 @@ Frame grey_frame(int index) {
 }
 
 TEST(Tracker, FollowsATargetFromFrameToFrame) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   for (int i = 0; i < 12; ++i) {
     const Solution solution = tracker.track(grey_frame(i));
@@ -137,7 +137,7 @@ TEST(Tracker, FollowsATargetFromFrameToFrame) {
 }
 
 TEST(Tracker, RefusesAnOptimizerThatNeedsADeviceOnTheCpu) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.needs_device = true;
   EXPECT_EQ(test::message_of<DeviceError>([&] { fixture.make(1); }),
             "scene.yaml:9:3: sampling searches on the GPU, and this scene is not evaluated there. "
@@ -145,7 +145,7 @@ TEST(Tracker, RefusesAnOptimizerThatNeedsADeviceOnTheCpu) {
 }
 
 TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   const auto masked = [](int index, cv::Rect first, cv::Rect second) {
     Frame frame = grey_frame(index);
@@ -169,7 +169,7 @@ TEST(Tracker, IsLostBesideTheForegroundAndSaysSoOfAStart) {
 }
 
 TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.prediction.velocity = Prediction::none;
   SceneTracker tracker = fixture.make(1);
   Eigen::VectorXd last = fixture.start();
@@ -181,7 +181,7 @@ TEST(Tracker, SearchesFromTheLastSolutionWithoutPrediction) {
 }
 
 TEST(Tracker, SearchesAnewFromTheStartWhenAskedTo) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   for (int i = 0; i < 5; ++i) tracker.track(grey_frame(i));
   EXPECT_NE(fixture.optimizer->starts.back(), fixture.start());
@@ -193,7 +193,7 @@ TEST(Tracker, SearchesAnewFromTheStartWhenAskedTo) {
 }
 
 TEST(Tracker, SearchesFromWhereTheMotionLeads) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.prediction.velocity = Prediction::constant;
   fixture.search.prediction.gain = 1;
   SceneTracker tracker = fixture.make(1);
@@ -208,7 +208,7 @@ TEST(Tracker, SearchesFromWhereTheMotionLeads) {
 }
 
 TEST(Tracker, SearchesFromTheShareOfTheMotionThatFitsTheFrameBest) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.prediction.velocity = Prediction::adaptive;
   SceneTracker tracker = fixture.make(1);
   std::vector<Eigen::Vector3d> found;
@@ -229,7 +229,7 @@ TEST(Tracker, SearchesFromTheShareOfTheMotionThatFitsTheFrameBest) {
 }
 
 TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.prediction.velocity = Prediction::adaptive;
   SceneTracker tracker = fixture.make(1, 9);
   for (int i = 0; i < 4; ++i) EXPECT_EQ(tracker.track(grey_frame(i)).evaluations, 9);
@@ -237,7 +237,7 @@ TEST(Tracker, SpendsNoSmallBudgetOnPrediction) {
 }
 
 TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.second_look = 0.3;
   SceneTracker tracker = fixture.make(1);
   const Solution first = tracker.track(grey_frame(3));
@@ -258,7 +258,7 @@ TEST(Tracker, LooksAgainFromWhatItFoundFirstWhereNothingWasKnown) {
 }
 
 TEST(Tracker, LooksAgainUntilSomethingIsFound) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.second_look = 0.3;
   fixture.target->infeasible = true;
   SceneTracker tracker = fixture.make(1);
@@ -269,7 +269,7 @@ TEST(Tracker, LooksAgainUntilSomethingIsFound) {
 }
 
 TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   tracker.track(grey_frame(0));
   EXPECT_EQ(fixture.optimizer->budgets, (std::vector<std::int64_t>{300}));
@@ -277,7 +277,7 @@ TEST(Tracker, LooksOnceUnlessItIsToldOtherwise) {
 }
 
 TEST(Tracker, SpendsABudgetOfOneOnTheFirstLook) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.second_look = 0.9;
   SceneTracker tracker = fixture.make(1, 1);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 1);
@@ -285,7 +285,7 @@ TEST(Tracker, SpendsABudgetOfOneOnTheFirstLook) {
 }
 
 TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.search.prediction.velocity = Prediction::constant;
   fixture.search.prediction.gain = 1;
   SceneTracker tracker = fixture.make(1);
@@ -299,7 +299,7 @@ TEST(Tracker, StaysWhereItIsIfMotionLeadsOutOfView) {
 }
 
 TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
-  Fixture plain, smooth;
+  TrackedBox plain, smooth;
   smooth.one_euro.enabled = true;
   SceneTracker a = plain.make(1), b = smooth.make(1);
   double largest = 0;
@@ -313,7 +313,7 @@ TEST(Tracker, SmoothsWhatItGivesOutAndNotWhereItSearches) {
 }
 
 TEST(Tracker, EqualSeedsAgreeAndOthersDiffer) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker a = fixture.make(7), b = fixture.make(7), c = fixture.make(8);
   const Frame frame = grey_frame(1);
   const Eigen::VectorXd state = a.track(frame).state;
@@ -322,13 +322,13 @@ TEST(Tracker, EqualSeedsAgreeAndOthersDiffer) {
 }
 
 TEST(Tracker, TheScenesBudgetReplacesTheOptimizersOwn) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1, 40);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 40);
 }
 
 TEST(Tracker, AMissingFrameKeepsTheState) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   const Solution before = tracker.track(grey_frame(0));
   Frame missing;
@@ -341,7 +341,7 @@ TEST(Tracker, AMissingFrameKeepsTheState) {
 }
 
 TEST(Tracker, SaysHowFarOffEveryLandmarkMayBeIfItIsToldTo) {
-  Fixture fixture;
+  TrackedBox fixture;
   EXPECT_EQ(fixture.make(1).track(grey_frame(0)).sigma.size(), 0);
   fixture.status.uncertainty.enabled = true;
   SceneTracker tracker = fixture.make(1);
@@ -356,7 +356,7 @@ TEST(Tracker, SaysHowFarOffEveryLandmarkMayBeIfItIsToldTo) {
 }
 
 TEST(Tracker, TakesWhatSigmasNeedOffTheBudgetOfTheSearch) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.status.uncertainty.enabled = true;
   SceneTracker tracker = fixture.make(1, 100);
   EXPECT_EQ(tracker.track(grey_frame(0)).evaluations, 100);
@@ -367,7 +367,7 @@ TEST(Tracker, TakesWhatSigmasNeedOffTheBudgetOfTheSearch) {
 }
 
 TEST(Tracker, NeedsResidualsToSayHowFarOffLandmarksMayBe) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.status.uncertainty.enabled = true;
   fixture.target->offers_residuals = false;
   EXPECT_THAT(test::message_of<ConfigError>([&] { fixture.make(1); }),
@@ -375,7 +375,7 @@ TEST(Tracker, NeedsResidualsToSayHowFarOffLandmarksMayBe) {
 }
 
 TEST(Tracker, IsUncertainWhereSigmasAreLarge) {
-  Fixture fixture;
+  TrackedBox fixture;
   fixture.status.uncertainty.enabled = true;
   fixture.status.uncertain_sigma = 1e-6;
   EXPECT_EQ(fixture.make(1).track(grey_frame(0)).status, Status::uncertain);
@@ -384,7 +384,7 @@ TEST(Tracker, IsUncertainWhereSigmasAreLarge) {
 }
 
 TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
-  Fixture fixture;
+  TrackedBox fixture;
   SceneTracker tracker = fixture.make(1);
   const Solution before = tracker.track(grey_frame(0));
   fixture.target->infeasible = true;
@@ -395,7 +395,7 @@ TEST(Tracker, AnInfeasibleFrameIsLostAndKeepsTheState) {
 
 TEST(Tracker, RefusesAnAnswerThatIsNoNumber) {
   for (const bool as_cost : {false, true}) {
-    Fixture fixture;
+    TrackedBox fixture;
     SceneTracker tracker = fixture.make(1);
     tracker.track(grey_frame(0));
     (as_cost ? fixture.optimizer->nan_as_cost : fixture.optimizer->nan_in_answer) = true;

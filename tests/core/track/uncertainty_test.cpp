@@ -54,7 +54,7 @@ class Readings final : public Objective, public ResidualTerm {
   std::vector<double> noise_;
 };
 
-struct Fixture {
+struct UncertainBox {
   Scene scene{{{"box", std::make_shared<Model>(test::make_test_box())}}};
   UncertaintySettings settings{.noise = 1, .floor = 0, .position = 0.05, .rotation = 1e-6};
 
@@ -73,7 +73,7 @@ struct Fixture {
 };
 
 TEST(PoseUncertainty, IsWhatTheScatterOfTheResidualsLeavesOpen) {
-  const Fixture f;
+  const UncertainBox f;
   // 400 readings per axis with noise of 20 mm: 1 mm per axis.
   EXPECT_NEAR(f.sigma({0, 1, 2}, 400, 0.020), std::sqrt(3.0) * 0.001, 0.0002);
   EXPECT_NEAR(f.sigma({0, 1, 2}, 1600, 0.020), std::sqrt(3.0) * 0.0005, 0.0001);
@@ -81,28 +81,28 @@ TEST(PoseUncertainty, IsWhatTheScatterOfTheResidualsLeavesOpen) {
 }
 
 TEST(PoseUncertainty, GrowsByTheSettingsFactor) {
-  Fixture f;
+  UncertainBox f;
   const double before = f.sigma({0, 1, 2}, 400, 0.020);
   f.settings.noise = 5;
   EXPECT_NEAR(f.sigma({0, 1, 2}, 400, 0.020), 5 * before, 0.1 * before);
 }
 
 TEST(PoseUncertainty, OfWhatNothingIsSeenIsWhatTheSettingsSay) {
-  const Fixture f;
+  const UncertainBox f;
   const double seen = f.sigma({0, 1, 2}, 400, 0.020);
   EXPECT_NEAR(f.sigma({0, 1}, 400, 0.020), std::hypot(seen * std::sqrt(2.0 / 3), 0.05), 0.001);
   EXPECT_NEAR(f.sigma({}, 400, 0.020), std::sqrt(3.0) * 0.05, 0.001);
 }
 
 TEST(PoseUncertainty, GrowsWhereASearchEndedBesideTheMinimum) {
-  const Fixture f;
+  const UncertainBox f;
   const double away = f.sigma({0, 1, 2}, 400, 0.020, 0.015);
   EXPECT_GT(away, 0.014);
   EXPECT_LT(away, 0.018);
 }
 
 TEST(PoseUncertainty, IsNotLessForATermThatLooksAtThePoseOnly) {
-  const Fixture f;
+  const UncertainBox f;
   const auto seen = [] { return std::make_shared<Readings>(std::vector{0, 1}, 400, 0.020, true); };
   const auto held = std::make_shared<Readings>(std::vector{2}, 400, 0.020);
   EXPECT_NEAR(f.sigma({{1.0, seen()}, {1.0, held}}), f.sigma({{1.0, seen()}}), 1e-9);
@@ -128,7 +128,7 @@ class ExactSum final : public Objective, public ResidualTerm {
 };
 
 TEST(PoseUncertainty, OfWhatAnExactReadingLeavesOpenIsWhatTheSettingsSay) {
-  const Fixture f;
+  const UncertainBox f;
   EXPECT_NEAR(f.sigma({{1.0, std::make_shared<ExactSum>()}}), std::sqrt(2.0) * 0.05, 0.001)
       << "z, and x against y";
 }

@@ -8,14 +8,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const Degrees kBent = {{"index_flexion_1", 40},
-                       {"index_flexion_2", 60},
-                       {"index_abduction", 8},
-                       {"thumb_flexion_2", 20},
-                       {"middle_flexion_1", 15}};
+const Degrees kCurled = {{"index_flexion_1", 40},
+                         {"index_flexion_2", 60},
+                         {"index_abduction", 8},
+                         {"thumb_flexion_2", 20},
+                         {"middle_flexion_1", 15}};
 
 double distance(const Model& model, const std::string& a, const std::string& b) {
-  return (model_landmark(model, a, kBent) - model_landmark(model, b, kBent)).norm();
+  return (model_landmark(model, a, kCurled) - model_landmark(model, b, kCurled)).norm();
 }
 
 TEST(FingerScale, StretchesEveryBoneOfAFingerAndLeavesThePalm) {

@@ -18,7 +18,7 @@ namespace {
 using test::Problem;
 using test::RecordingCost;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfeasible = std::numeric_limits<double>::infinity();
 
 TEST(ReducedResiduals, HaveTheNormalEquationsOfTheFullOnesAlsoIfSingular) {
   Eigen::MatrixXd j = Eigen::MatrixXd::Random(50, 7);
@@ -114,7 +114,7 @@ TEST_P(Ceres, WritesNothingOnStderrWhereTheBudgetEndsOrAnExceptionDoes) {
       minimize(fails, region, {budget});  // may end before
     } catch (const DataError&) {
     }
-    RecordingCost infeasible(9, [](const Eigen::VectorXd&) { return kInfinity; });
+    RecordingCost infeasible(9, [](const Eigen::VectorXd&) { return kInfeasible; });
     minimize(infeasible, region, {budget});
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
@@ -178,7 +178,7 @@ TEST_P(Ceres, LeavesAnInfeasibleStart) {
   const SearchRegion region = test::tracking_region(4);
   for (const bool linearizes : {true, false}) {
     RecordingCost cost(4, [&](const Eigen::VectorXd& x) {
-      return x[0] <= region.start[0] ? kInfinity : (x - region.start).squaredNorm();
+      return x[0] <= region.start[0] ? kInfeasible : (x - region.start).squaredNorm();
     });
     cost.linearizes = linearizes;
     const OptimizerResult result = minimize(cost, region, {500});

@@ -12,38 +12,19 @@
 
 #include "hypotrack/search.hpp"
 #include "search_problems.hpp"
+#include "staying_optimizer.hpp"
 
 namespace hypotrack {
 namespace {
 
 constexpr int kDimension = 27;  // a pose of 7 and five limbs of 4
 
-/// Evaluates its start as often as it may.
-class Staying final : public Optimizer {
- public:
-  explicit Staying(std::vector<SearchRegion>& regions) : regions_(regions) {}
-  std::int64_t default_evaluations() const override { return 1; }
-  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
-                           std::uint64_t) override {
-    regions_.push_back(region);
-    BestSoFar best;
-    const Eigen::MatrixXd points = region.start.replicate(1, budget.evaluations);
-    Eigen::VectorXd costs(budget.evaluations);
-    cost.evaluate(points, costs);
-    best.update(points, costs);
-    return best.result();
-  }
-
- private:
-  std::vector<SearchRegion>& regions_;
-};
-
 struct Search {
   explicit Search(test::Problem problem, const LimbSearchParams& params = {},
                   std::int64_t budget = 200,
                   SearchRegion around = test::tracking_region(kDimension))
       : region(std::move(around)), cost(kDimension, std::move(problem)) {
-    LimbSearch search(params, std::make_unique<Staying>(regions));
+    LimbSearch search(params, std::make_unique<test::StayingOptimizer>(regions));
     result = search.minimize(cost, region, {budget}, 1);
   }
 

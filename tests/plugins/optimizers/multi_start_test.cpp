@@ -10,32 +10,13 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/search.hpp"
 #include "search_problems.hpp"
+#include "staying_optimizer.hpp"
 
 namespace hypotrack {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::ThrowsMessage;
-
-/// Evaluates its start as often as it may.
-class Staying final : public Optimizer {
- public:
-  explicit Staying(std::vector<Eigen::VectorXd>& starts) : starts_(starts) {}
-  std::int64_t default_evaluations() const override { return 1; }
-  OptimizerResult minimize(CostFunction& cost, const SearchRegion& region, const Budget& budget,
-                           std::uint64_t) override {
-    starts_.push_back(region.start);
-    BestSoFar best;
-    const Eigen::MatrixXd points = region.start.replicate(1, budget.evaluations);
-    Eigen::VectorXd costs(budget.evaluations);
-    cost.evaluate(points, costs);
-    best.update(points, costs);
-    return best.result();
-  }
-
- private:
-  std::vector<Eigen::VectorXd>& starts_;
-};
 
 MultiStartParams three_of_twenty() {
   MultiStartParams params;
@@ -47,8 +28,8 @@ MultiStartParams three_of_twenty() {
 TEST(MultiStart, SearchesBeginAtTheBestCandidates) {
   const SearchRegion region = test::tracking_region(27);
   test::RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 5)));
-  std::vector<Eigen::VectorXd> starts;
-  MultiStart multi(three_of_twenty(), std::make_unique<Staying>(starts));
+  std::vector<SearchRegion> searches;
+  MultiStart multi(three_of_twenty(), std::make_unique<test::StayingOptimizer>(searches));
   const OptimizerResult result = multi.minimize(cost, region, {50}, 1);
 
   EXPECT_EQ(result.evaluations, 50);
@@ -56,21 +37,22 @@ TEST(MultiStart, SearchesBeginAtTheBestCandidates) {
   std::vector<std::size_t> order(20);
   for (std::size_t i = 0; i < 20; ++i) order[i] = i;
   std::ranges::sort(order, {}, [&](std::size_t i) { return cost.costs[i]; });
-  ASSERT_EQ(starts.size(), 3u);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(starts[k], cost.points[order[k]]) << k;
-  EXPECT_EQ(result.point, starts[0]);
+  ASSERT_EQ(searches.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(searches[k].start, cost.points[order[k]]) << k;
+  EXPECT_EQ(result.point, searches[0].start);
 }
 
 TEST(MultiStart, ASmallBudgetSearchesFromAsManyStartsAsItCan) {
   const SearchRegion region = test::tracking_region(27);
   for (const std::int64_t budget : {1, 19, 20, 21, 22, 24}) {
     test::RecordingCost cost(27, test::sphere(region, test::hidden_target(region, 5)));
-    std::vector<Eigen::VectorXd> starts;
-    MultiStart multi(three_of_twenty(), std::make_unique<Staying>(starts));
+    std::vector<SearchRegion> searches;
+    MultiStart multi(three_of_twenty(), std::make_unique<test::StayingOptimizer>(searches));
     const std::int64_t spent = multi.minimize(cost, region, {budget}, 1).evaluations;
     EXPECT_LE(spent, budget);
     EXPECT_GT(spent, budget - 3) << "every search has the same number";
-    EXPECT_EQ(starts.size(), static_cast<std::size_t>(std::clamp<std::int64_t>(budget - 20, 0, 3)));
+    EXPECT_EQ(searches.size(),
+              static_cast<std::size_t>(std::clamp<std::int64_t>(budget - 20, 0, 3)));
   }
 }
 

@@ -20,7 +20,7 @@ constexpr std::uint64_t kCorners = 3;  // least number per face
 
 using Words = std::vector<std::string>;
 
-Words words_of(const std::string& line) {
+Words header_words(const std::string& line) {
   std::istringstream in(line);
   return {std::istream_iterator<std::string>(in), {}};
 }
@@ -51,7 +51,7 @@ class Header {
  public:
   /// Returns true if there is more to read.
   bool take(const std::string& line) {
-    const Words words = words_of(line);
+    const Words words = header_words(line);
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") return true;
     if (words[0] == "end_header") return finish();
     const bool understood = words[0] == "format"     ? take_format(words)
@@ -114,7 +114,7 @@ PlyHeader read_ply_header(std::istream& in) {
   PlyHeader out;
   std::string line;
   const auto next = [&] { return static_cast<bool>(std::getline(in, line)); };
-  if (!next() || words_of(line) != Words{"ply"}) {
+  if (!next() || header_words(line) != Words{"ply"}) {
     out.problem = "it does not begin with 'ply'";
     return out;
   }

@@ -16,8 +16,8 @@
 namespace hypotrack {
 namespace {
 
-constexpr double kWindow = 0.75;  // of a model's radius: what a place is looked for by
-constexpr double kSeen = 0.35;    // of the colours that a tracked model shows: it is in view
+constexpr double kFinderWindow = 0.75;  // of a model's radius: what a place is looked for by
+constexpr double kSeen = 0.35;          // of the colours that a tracked model shows: it is in view
 constexpr double kPlaceRemembered = 1.0;  // seconds for which the last place is worth a look
 // Shares of hypotheses near the guess's rotation, by kind of guess.
 constexpr double kNearHint = 0.7, kNearLast = 0.8, kNearPlace = 0.25;
@@ -47,7 +47,7 @@ Recovery::Recovery(const Scene& scene, const std::vector<Camera>& cameras,
     : scene_(scene), cameras_(cameras), settings_(settings) {
   for (std::size_t m = 0; m < scene.items().size(); ++m) {
     searches_.push_back(std::make_unique<PoseSearch>(scene, m, cameras, settings));
-    finders_.emplace_back(cameras, kWindow * searches_[m]->radius(), settings.nearest,
+    finders_.emplace_back(cameras, kFinderWindow * searches_[m]->radius(), settings.nearest,
                           settings.farthest);
     const Mesh& mesh = scene.items()[m].model->data().mesh;
     surfaces_.push_back(texture_colors(mesh, spread_points(mesh, kSurfacePoints), kTexel));

@@ -5,22 +5,13 @@
 #include <string>
 
 #include "pictures.hpp"
+#include "upright_hand.hpp"
 
 namespace hypotrack::hands {
 namespace {
 
-/// A flat hand whose fingers are vertical: wrist at the bottom.
-HandPoints upright() {
-  HandPoints out;
-  out.col(0) << 0, 100;
-  for (int finger = 0; finger < 5; ++finger)
-    for (int joint = 0; joint < 4; ++joint)
-      out.col(1 + 4 * finger + joint) << 20.0 * (finger - 2), 20 - 25.0 * joint;
-  return out;
-}
-
 TEST(HandJoints, OfTipsAndWristLieFurtherOutThanTheLandmarks) {
-  const HandPoints landmarks = upright(), joints = joints_of(landmarks);
+  const HandPoints landmarks = test::upright_hand(), joints = joints_of(landmarks);
   EXPECT_GT(joints(1, 0), landmarks(1, 0)) << "wrist";
   for (const Eigen::Index tip : {4, 8, 12, 16, 20})
     EXPECT_LT(joints(1, tip), landmarks(1, tip)) << tip;
@@ -29,12 +20,12 @@ TEST(HandJoints, OfTipsAndWristLieFurtherOutThanTheLandmarks) {
 }
 
 TEST(HandJoints, AreUndoneByLandmarksAt) {
-  const HandPoints landmarks = upright();
+  const HandPoints landmarks = test::upright_hand();
   EXPECT_TRUE(landmarks_at(joints_of(landmarks)).isApprox(landmarks, 1e-12));
 }
 
 TEST(HandJoints, MoveAndGrowWithTheHand) {
-  const HandPoints landmarks = upright();
+  const HandPoints landmarks = test::upright_hand();
   const Eigen::Vector2d shift(7, -3);
   const HandPoints moved = (2.5 * landmarks).colwise() + shift;
   const HandPoints expected = (2.5 * joints_of(landmarks)).colwise() + shift;

@@ -5,28 +5,17 @@
 #include <opencv2/imgproc.hpp>
 
 #include "hypotrack/params.hpp"
+#include "upright_hand.hpp"
 
 namespace hypotrack::hands {
 namespace {
 
-/// An upright hand: wrist at the bottom, fingers up.
-HandPoints upright() {
-  HandPoints out;
-  out.col(0) << 0, 100;
-  for (int finger = 0; finger < 5; ++finger) {
-    for (int joint = 0; joint < 4; ++joint) {
-      out.col(1 + 4 * finger + joint) << 20.0 * (finger - 2), 20 - 25.0 * joint;
-    }
-  }
-  return out;
-}
-
 TEST(HandRegion, TurnsWithTheHand) {
-  const Region straight = region_of(upright());
+  const Region straight = region_of(test::upright_hand());
   EXPECT_NEAR(straight.angle, 0, 1e-9);
   for (const double degrees : {30.0, 90.0, 179.0, -120.0}) {
     const Eigen::Matrix2d turn = Eigen::Rotation2Dd(degrees * kDegree).toRotationMatrix();
-    const Region turned = region_of(HandPoints(turn * upright()));
+    const Region turned = region_of(HandPoints(turn * test::upright_hand()));
     EXPECT_TRUE(rotation_of(turned).isApprox(turn, 1e-9)) << degrees;
     EXPECT_NEAR(turned.side, straight.side, 1e-9);
     EXPECT_TRUE(turned.center.isApprox(turn * straight.center, 1e-9)) << degrees;

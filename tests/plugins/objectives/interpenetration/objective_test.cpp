@@ -6,17 +6,13 @@
 #include "expect_error.hpp"
 #include "hypotrack/plugin.hpp"
 #include "interpenetration.hpp"
+#include "make_model.hpp"
 #include "session/opened_scene.hpp"
 #include "test_models.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::interpenetration {
 namespace {
-
-std::shared_ptr<const Model> make_model(const std::string& yaml) {
-  PluginLoader plugins;
-  return plugins.make<Model>(ConfigNode::parse(yaml, "scene.yaml"));
-}
 
 Scene two_hands() {
   return Scene{

@@ -8,14 +8,10 @@
 #include "bone_shapes.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/plugin.hpp"
+#include "make_model.hpp"
 
 namespace hypotrack::interpenetration {
 namespace {
-
-std::unique_ptr<Model> make_model(const std::string& yaml) {
-  PluginLoader plugins;
-  return plugins.make<Model>(ConfigNode::parse(yaml, "scene.yaml"));
-}
 
 double distance_from(const Eigen::Vector3d& point, const Shape& shape,
                      const Eigen::Isometry3d& bone) {

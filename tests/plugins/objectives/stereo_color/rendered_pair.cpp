@@ -12,8 +12,8 @@
 namespace hypotrack::stereo_color {
 namespace {
 
-constexpr int kSize = 128;
-constexpr double kFocal = 320, kBaseline = 0.12, kDistance = 0.5;
+constexpr int kRenderedSize = 128;
+constexpr double kRenderedFocal = 320, kRenderedBaseline = 0.12, kRenderedDistance = 0.5;
 
 // Noise at two scales, as skin has it: blotches and grain. The grain is about two pixels wide as
 // drawn; finer one would be averaged away where a finger is foreshortened.
@@ -46,12 +46,12 @@ ModelData textured_hand(cv::RNG& rng) {
 std::vector<Camera> rectified_cameras() {
   std::vector<Camera> cameras(2);
   for (Camera& camera : cameras) {
-    camera.width = camera.height = kSize;
-    camera.fx = camera.fy = kFocal;
-    camera.cx = camera.cy = kSize / 2.0;
+    camera.width = camera.height = kRenderedSize;
+    camera.fx = camera.fy = kRenderedFocal;
+    camera.cx = camera.cy = kRenderedSize / 2.0;
   }
-  cameras[1].camera_from_world.translation().x() = -kBaseline;
-  cameras[1].cx += kFocal * kBaseline / kDistance;
+  cameras[1].camera_from_world.translation().x() = -kRenderedBaseline;
+  cameras[1].cx += kRenderedFocal * kRenderedBaseline / kRenderedDistance;
   return cameras;
 }
 
@@ -59,7 +59,7 @@ std::vector<Camera> rectified_cameras() {
 
 Eigen::VectorXd slightly_bent(const Scene& scene) {
   Eigen::VectorXd state = scene.rest_state();
-  state.head<7>() << -0.005, 0.085, kDistance, 0, 1, 0, 0;  // half a turn about x
+  state.head<7>() << -0.005, 0.085, kRenderedDistance, 0, 1, 0, 0;  // half a turn about x
   for (Eigen::Index i = 7; i < state.size(); ++i) {
     const Parameter& p = scene.parameters()[static_cast<std::size_t>(i)];
     state[i] = p.rest + 0.3 * (p.upper - p.rest);
@@ -78,11 +78,11 @@ RenderedPair::RenderedPair(const Pose& pose) {
   observation_.rectified = true;
   for (const Camera& c : rectified_cameras()) {
     const RenderedView drawn =
-        renderer.render(truth_, c, {}, noise(kSize, rng, {110, 110, 110}, 30));
+        renderer.render(truth_, c, {}, noise(kRenderedSize, rng, {110, 110, 110}, 30));
     TileView view;
     view.camera = {c.width, c.height, c.fx, c.fy, c.cx, c.cy, c.camera_from_world};
     view.color = drawn.color;
-    view.valid = cv::Mat1b(kSize, kSize, uchar{255});
+    view.valid = cv::Mat1b(kRenderedSize, kRenderedSize, uchar{255});
     view.mask = drawn.label > 0;
     observation_.views.push_back(view);
   }

@@ -120,8 +120,8 @@ void expect_slopes_like_differences(Params params) {
     const auto step = [&](std::size_t i) {
       const auto x = static_cast<float>(i % 96), y = static_cast<float>(i / 96);
       const float w = pair.depth[0][i];
-      const auto there = scalar::map_pixel<false>(map, x, y, w);
-      const auto beyond = scalar::map_pixel<false>(map, x, y, w + 0.01f);
+      const auto there = hypotrack::scalar::map_pixel<false>(map, x, y, w);
+      const auto beyond = hypotrack::scalar::map_pixel<false>(map, x, y, w + 0.01f);
       return 0.5f * 0.01f / std::hypot(beyond.u - there.u, beyond.v - there.v);
     };
     const auto shifted = [&](float steps) {

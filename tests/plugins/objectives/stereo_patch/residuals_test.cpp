@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "../../../support/every_target.hpp"
+#include "every_kernel_target.hpp"
 #include "patch_pair.hpp"
 #include "planes.hpp"
 #include "score.hpp"
@@ -19,12 +19,6 @@
 
 namespace hypotrack::stereo_patch {
 namespace {
-
-/// On every instruction set that all three kernels are compiled for.
-template <class Body>
-void on_every_target(Body body) {
-  test::on_every_target(score_targets() & volume_targets(), body);
-}
 
 void expect_cost_as_squares(const PatchPair& pair, const Params& params) {
   on_every_target([&] {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "../../../support/every_target.hpp"
+#include "every_kernel_target.hpp"
 #include "patch_pair.hpp"
 #include "reference.hpp"
 #include "stereo_patch.hpp"
@@ -17,12 +17,6 @@ double fast(const PatchPair& pair, const Params& params) {
   StereoPatch objective(params);
   objective.prepare(pair.observation);
   return objective.cost(pair.hypothesis());
-}
-
-/// On every instruction set that both kernels are compiled for.
-template <class Body>
-void on_every_target(Body body) {
-  test::on_every_target(score_targets() & volume_targets(), body);
 }
 
 void expect_like_reference(const PatchPair& pair, const Params& params, double tolerance = 1e-3) {

@@ -15,10 +15,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string kScene = std::string(kCameras) + kQuiet + kPlain + kMotion + "frames: 5\n";
+const std::string kMoving = std::string(kCameras) + kQuiet + kPlain + kMotion + "frames: 5\n";
 
 std::vector<Frame> frames_with(const std::string& faults, const std::string& more = "") {
-  return load(kScene + more + "faults: [" + faults + "]\n").frames();
+  return load(kMoving + more + "faults: [" + faults + "]\n").frames();
 }
 
 TEST(Faults, AbsentModelsAndTheirForearmsAreNotDrawn) {
@@ -39,7 +39,7 @@ TEST(Faults, AbsentModelsAndTheirForearmsAreNotDrawn) {
 }
 
 TEST(Faults, TheTruthSaysWhatIsAbsent) {
-  Loaded loaded(kScene + "faults: [{frames: [2, 3], kind: absent, model: hand}]\n");
+  Loaded loaded(kMoving + "faults: [{frames: [2, 3], kind: absent, model: hand}]\n");
   const std::vector<Frame> frames = loaded.frames();
   const std::vector<Frame> all = frames_with("");
   EXPECT_THAT(frames[1].truth->absent, IsEmpty());
@@ -76,7 +76,7 @@ TEST(Faults, ViewsAreExchangedBlackenedAndFrozenAndTheTruthStays) {
 }
 
 TEST(Faults, MissingFramesLeaveAGapInTimeAndNotInTheNumbers) {
-  Loaded loaded(kScene +
+  Loaded loaded(kMoving +
                 "faults: [{frames: [1, 2], kind: missing}, {frames: [4, 9], kind: missing}]\n");
   EXPECT_EQ(loaded.source->frame_count(), 2);
   const std::vector<Frame> frames = loaded.frames();

@@ -24,10 +24,10 @@ using ::testing::Not;
 const std::string kGestures =
     "gestures:\n  open: {\"*_flexion_?\": 5}\n  fist: {\"*_flexion_*\": 50}\n"
     "  point: {\"*_flexion_*\": 50, \"index_flexion_*\": 0}\n";
-const std::string kScene = std::string(kCameras) + kQuiet + kPlain + kGestures;
+const std::string kGestured = std::string(kCameras) + kQuiet + kPlain + kGestures;
 
 std::string random_motion(int seed, const std::string& more) {
-  return kScene + "random: {seed: " + std::to_string(seed) + ", " + more + "}\n";
+  return kGestured + "random: {seed: " + std::to_string(seed) + ", " + more + "}\n";
 }
 
 /// Whether a frame's landmarks are all in both pictures.
