@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 
 #include "plugin/running_plugin.hpp"
@@ -12,11 +13,14 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t g_interrupted = 0;
-volatile unsigned g_patience_s = 0;
+// Atomic: searching threads read it too, and any thread may be the one that gets the signal.
+std::atomic<bool> g_interrupted = false;
+std::atomic<unsigned> g_patience_s = 0;
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free,
+              "a signal handler may not wait for a lock");
 
 void on_signal(int signal) {
-  g_interrupted = 1;
+  g_interrupted = true;
   // A closed terminal may send SIGHUP twice, from its shell and the kernel: keep ignoring it.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
   alarm(g_patience_s);
@@ -30,7 +34,7 @@ void on_alarm(int /*signal*/) {
 }  // namespace
 
 InterruptGuard::InterruptGuard(unsigned patience_s) {
-  g_interrupted = 0;
+  g_interrupted = false;
   g_patience_s = patience_s;
   of_alarm_ = std::signal(SIGALRM, on_alarm);
   // A shell's background jobs and nohup ignore Ctrl-C: keep it ignored then.
@@ -48,7 +52,7 @@ InterruptGuard::~InterruptGuard() {
     if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
-bool InterruptGuard::signalled() { return g_interrupted != 0; }
+bool InterruptGuard::signalled() { return g_interrupted; }
 
 bool InterruptGuard::interrupted() const {
   if (!signalled()) return false;
