@@ -68,7 +68,7 @@ class PreviewTest(unittest.TestCase):
         (self.folder / "scene.yaml").write_text(SCENE)
 
     def start(self, *more):
-        """Starts a run and waits for its window and some frames."""
+        """Starts a run and waits for its window and some frames; a while is then the time of 15 frames."""
         with open(self.folder / "err", "w") as err:
             self.run_ = subprocess.Popen((PROGRAM, "run", self.folder / "scene.yaml", "--out", self.out,
                                           "--preview", *more), stdout=subprocess.DEVNULL, stderr=err)
@@ -76,6 +76,9 @@ class PreviewTest(unittest.TestCase):
         self.addCleanup(self.run_.kill)
         self.until(lambda: self.frames() > 2)
         self.window = self.until(self.focused)
+        begun, frames = time.monotonic(), self.frames()
+        self.until(lambda: self.frames() > frames + 15)
+        self.a_while = max(1.5, time.monotonic() - begun)
 
     @staticmethod
     def focused():
@@ -112,7 +115,7 @@ class PreviewTest(unittest.TestCase):
         """Presses a key until something has happened, and returns that: a busy window may miss a key."""
         for _ in range(5):
             xdotool("key", key)
-            value = self.within(6, happened)
+            value = self.within(4 * self.a_while, happened)
             if value:
                 return value
         self.fail(f"the key {key} does nothing: " + self.said())
@@ -125,12 +128,12 @@ class PreviewTest(unittest.TestCase):
     def set(self, key):
         """Presses a key whose effect shows at the next frame only."""
         xdotool("key", key)
-        time.sleep(1)  # a window that is given two keys at once may miss the first
+        time.sleep(self.a_while)  # a window that is given two keys at once may miss the first
 
     def stopped(self):
-        """Returns the number of frames if none is added for a while; a frame takes some milliseconds."""
+        """Returns the number of frames if none is added for a while."""
         before = self.frames()
-        time.sleep(1.5)
+        time.sleep(self.a_while)
         return before if self.frames() == before else None
 
     def pause(self):
