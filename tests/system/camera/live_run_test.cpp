@@ -42,7 +42,7 @@ TEST_F(LiveRunTest, ACameraThatIsGoneEndsTheRunAndKeepsItsFrames) {
                          {"--rate", "10", "--first", "1", "--gone-file", path("gone").string()});
   Start start;
   start.arguments = {"run",
-                     scene(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 4\n")),
+                     scene(live_scene(one_device(both) + "  timeout_s: 0.5\n  give_up_s: 10\n")),
                      "--out", path("out").string()};
   Program program(start);
   while (program.running() &&
@@ -52,7 +52,7 @@ TEST_F(LiveRunTest, ACameraThatIsGoneEndsTheRunAndKeepsItsFrames) {
   const Outcome outcome = program.wait();
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err,
-              AllOf(HasSubstr("hypotrack: source camera: no pair of pictures for 4 s"),
+              AllOf(HasSubstr("hypotrack: source camera: no pair of pictures for 10 s"),
                     HasSubstr("holds the frames so far"), ContainsRegex("camera: [0-9]+ pairs")));
   const std::string track = read_text(path("out/track.csv"));
   EXPECT_THAT(track, AllOf(HasSubstr(",tracked,"), HasSubstr(",missing,")));
