@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <csignal>
 #include <thread>
 
@@ -112,10 +113,14 @@ TEST_F(RecordTest, AFrameThatIsMissingIsMissingInTheRecording) {
       run_program({"run", path("out/scene.yaml").string(), "--out", path("tracked").string()});
   ASSERT_EQ(tracked.exit_code, 0) << tracked.err;
   const std::vector<std::string> rows = lines_of(read_text(path("tracked/track.csv")));
-  const auto missing = std::ranges::count_if(
-      rows, [](const std::string& row) { return row.find(",missing,") != std::string::npos; });
+  const auto rows_with = [&](const std::string& text) {
+    return std::ranges::count_if(
+        rows, [&](const std::string& row) { return row.find(text) != std::string::npos; });
+  };
+  const auto missing = rows_with(",missing,");
   EXPECT_GE(missing, 1);
   EXPECT_EQ(rows.size(), 1 + missing + pictures_in("out", "right_"));
+  EXPECT_EQ(rows_with(",nan,0,0.000,"), missing) << "only missing frames are not searched";
 }
 
 TEST_F(RecordTest, CtrlCEndsACamerasRecordingWhole) {
