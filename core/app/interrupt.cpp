@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-// Atomic: searching threads read it too, and any thread may be the one that gets the signal.
+// Searching threads read the flag while the handler writes it, in whichever thread has the signal.
 std::atomic<bool> g_interrupted = false;
 std::atomic<unsigned> g_patience_s = 0;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free,

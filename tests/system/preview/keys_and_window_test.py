@@ -68,7 +68,7 @@ class PreviewTest(unittest.TestCase):
         (self.folder / "scene.yaml").write_text(SCENE)
 
     def start(self, *more):
-        """Starts a run and waits for its window and some frames; a while is then the time of 15 frames."""
+        """Starts a run, waits for its window and measures how long 15 frames take (pause_s)."""
         with open(self.folder / "err", "w") as err:
             self.run_ = subprocess.Popen((PROGRAM, "run", self.folder / "scene.yaml", "--out", self.out,
                                           "--preview", *more), stdout=subprocess.DEVNULL, stderr=err)
@@ -78,7 +78,7 @@ class PreviewTest(unittest.TestCase):
         self.window = self.until(self.focused)
         begun, frames = time.monotonic(), self.frames()
         self.until(lambda: self.frames() > frames + 15)
-        self.a_while = max(1.5, time.monotonic() - begun)
+        self.pause_s = max(1.5, time.monotonic() - begun)
 
     @staticmethod
     def focused():
@@ -115,7 +115,7 @@ class PreviewTest(unittest.TestCase):
         """Presses a key until something has happened, and returns that: a busy window may miss a key."""
         for _ in range(5):
             xdotool("key", key)
-            value = self.within(4 * self.a_while, happened)
+            value = self.within(4 * self.pause_s, happened)
             if value:
                 return value
         self.fail(f"the key {key} does nothing: " + self.said())
@@ -128,12 +128,12 @@ class PreviewTest(unittest.TestCase):
     def set(self, key):
         """Presses a key whose effect shows at the next frame only."""
         xdotool("key", key)
-        time.sleep(self.a_while)  # a window that is given two keys at once may miss the first
+        time.sleep(self.pause_s)  # a window that is given two keys at once may miss the first
 
     def stopped(self):
-        """Returns the number of frames if none is added for a while."""
+        """Returns the number of frames if none is added for the time of 15 frames."""
         before = self.frames()
-        time.sleep(self.a_while)
+        time.sleep(self.pause_s)
         return before if self.frames() == before else None
 
     def pause(self):
