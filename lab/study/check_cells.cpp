@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "hypotrack/error.hpp"
+#include "lab/study/failure_message.hpp"
 #include "lab/study/process_pool.hpp"
-#include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
 namespace {

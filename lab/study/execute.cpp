@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "lab/study/failure_message.hpp"
 #include "lab/study/process_pool.hpp"
 #include "lab/study/recordings.hpp"
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "lab/study/failure_message.hpp"
 #include "lab/study/hash.hpp"
 #include "lab/study/noise.hpp"
 #include "lab/study/process_pool.hpp"

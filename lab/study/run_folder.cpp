@@ -1,7 +1,6 @@
 #include "lab/study/run_folder.hpp"
 
 #include <fmt/format.h>
-#include <string.h>
 
 #include <fstream>
 #include <system_error>
@@ -15,7 +14,6 @@
 namespace hypotrack::study {
 namespace {
 
-constexpr std::string_view kMessagePrefix = "hypotrack: ";
 constexpr const char* kFailureFile = "failure.json";
 
 Json settings_of(const Plan& plan, const Cell& cell) {
@@ -132,31 +130,6 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   if (json.contains("exit_code"))
     failure.exit_code = static_cast<int>(integer_in(json, "exit_code", file));
   return failure;
-}
-
-std::string failure_message(const std::filesystem::path& log, const Ended& ended) {
-  if (ended.limit_s > 0)
-    return fmt::format("did not end within {:g} s (--time-limit); ended there", ended.limit_s);
-  const Subprocess::End& end = ended.end;
-  std::ifstream in(log);
-  std::string message;
-  bool goes_on = false;  // further lines of a message are indented
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t text = line.find_first_not_of(' ');
-    if (line.starts_with(kMessagePrefix)) {
-      message = line.substr(kMessagePrefix.size());
-      goes_on = true;
-    } else if (goes_on && text > 0 && text != std::string::npos) {
-      message += " " + line.substr(text);
-    } else {
-      goes_on = false;
-    }
-  }
-  if (end.signal != 0)
-    return fmt::format("{}{}ended by signal {} ({})", message, message.empty() ? "" : "; ",
-                       end.signal, strsignal(end.signal));
-  if (end.code == 0) return "ended with exit code 0 before its results were complete";
-  return message.empty() ? fmt::format("ended with exit code {}", end.code) : message;
 }
 
 }  // namespace hypotrack::study

@@ -7,7 +7,6 @@
 
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
-#include "lab/study/process_pool.hpp"
 
 namespace hypotrack::study {
 
@@ -62,8 +61,5 @@ std::string repair_advice(const std::filesystem::path& file);
 /// Reads the failure of a run's folder; nothing if it did not fail. Throws DataError if the note is
 /// damaged.
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
-
-/// Returns the line of a log that says why a run failed, without the names of its folders.
-std::string failure_message(const std::filesystem::path& log, const Ended& ended);
 
 }  // namespace hypotrack::study
