@@ -7,8 +7,8 @@
 #include <numbers>
 #include <system_error>
 
+#include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/text_file.hpp"
 #include "output/recording_writer.hpp"
 
 namespace hypotrack::app {
@@ -37,13 +37,7 @@ void check_new_file(const std::filesystem::path& file, bool replace) {
 }
 
 void write_calibration(const std::filesystem::path& file, const std::vector<Camera>& cameras) {
-  const std::filesystem::path part = file.string() + ".part";
-  TextFile(part).write(calibration_yaml(cameras));
-  std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (!error) return;
-  std::filesystem::remove(part, error);
-  throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), error.message()));
+  write_whole(file, calibration_yaml(cameras));
 }
 
 void print_cameras(const std::vector<NamedCamera>& cameras) {

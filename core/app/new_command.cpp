@@ -243,6 +243,9 @@ void expect_free(const std::filesystem::path& file, bool force) {
   if (std::filesystem::is_directory(file))
     throw OutputError(
         fmt::format("{}: is a folder; expected the name of a new scene file", file.string()));
+  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
+    throw OutputError(fmt::format("{}: is a device or pipe; expected the name of a new scene file",
+                                  file.string()));
   if (std::filesystem::exists(file) && !force)
     throw OutputError(fmt::format(
         "{}: is there already; give --force to replace it, or another name", file.string()));

@@ -13,6 +13,33 @@
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file, int problem) {
+  throw OutputError(fmt::format(
+      "{}: cannot be written{}; check that the folder exists, is writable and has space",
+      file.string(), problem == 0 ? "" : fmt::format(" ({})", std::strerror(problem))));
+}
+
+/// Writes into a device or pipe, such as /dev/stdout.
+void write_into(const std::filesystem::path& file, std::string_view text) {
+  // A pipe that nobody reads would wait for ever.
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) refuse(file, errno);
+  ::fcntl(descriptor, F_SETFL, 0);  // from here on, a slow reader is waited for
+  int problem = 0;
+  while (!text.empty() && problem == 0) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written >= 0)
+      text.remove_prefix(static_cast<std::size_t>(written));
+    else if (errno != EINTR)
+      problem = errno;
+  }
+  ::close(descriptor);
+  if (problem != 0) refuse(file, problem);
+}
+
+}  // namespace
 
 TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)) {
   constexpr mode_t kMode = 0666;  // less what umask takes
@@ -64,21 +91,25 @@ void expect_writable(const std::filesystem::path& file, std::string_view option)
 }
 
 void write_whole(const std::filesystem::path& file, std::string_view text) {
-  const std::filesystem::path partial = file.string() + fmt::format(".{}.partial", ::getpid());
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (is_character_file(status) || is_fifo(status)) return write_into(file, text);
+  // Keeps a link: the file that it names is replaced.
+  std::filesystem::path target = std::filesystem::canonical(file, error);
+  if (error) target = file;
+  const std::filesystem::path partial = target.string() + fmt::format(".{}.partial", ::getpid());
   errno = 0;
   std::ofstream out(partial, std::ios::binary);
   out << text;
   out.close();
-  std::error_code error(out ? 0 : errno, std::generic_category());
+  error.assign(out ? 0 : errno, std::generic_category());
   if (out) {
-    std::filesystem::rename(partial, file, error);
+    std::filesystem::rename(partial, target, error);
     if (!error) return;
   }
   std::error_code ignored;
   std::filesystem::remove(partial, ignored);
-  throw OutputError(fmt::format(
-      "{}: cannot be written{}; check that the folder exists, is writable and has space",
-      file.string(), error ? " (" + error.message() + ")" : std::string()));
+  refuse(file, error.value());
 }
 
 }  // namespace hypotrack

@@ -11,8 +11,8 @@ namespace hypotrack {
 /// OutputError if it cannot, which says that `option` names another file.
 void expect_writable(const std::filesystem::path& file, std::string_view option = "--out");
 
-/// Writes a file beside its place and moves it there, so that it is never seen incomplete. Throws
-/// OutputError.
+/// Writes a file beside its place and moves it there, so that it is never seen incomplete. Writes
+/// into a device or pipe directly, and into the file that a link names. Throws OutputError.
 void write_whole(const std::filesystem::path& file, std::string_view text);
 
 }  // namespace hypotrack
