@@ -64,10 +64,28 @@ class TomlConverter {
   std::shared_ptr<const YamlOrigin> origin_;
 };
 
+/// Refuses keys such as a.b.c of more than kMaxYamlDepth parts. The parser makes a table of each
+/// part and would use up the stack.
+void check_keys(std::string_view text, const YamlOrigin& origin) {
+  int line = 1;
+  std::size_t dots = 0;
+  char before = 0;
+  for (const char c : text) {
+    const bool ends_a_key = std::string_view("=,[]{}\n").find(c) != std::string_view::npos;
+    if (ends_a_key || (c == '.' && before == '.')) dots = 0;
+    if (c == '.' && ++dots > kMaxYamlDepth)
+      throw ConfigError(fmt::format("{}: has a key of more than {} parts, which no setting has",
+                                    describe_position(origin, line, 1), kMaxYamlDepth));
+    line += c == '\n';
+    before = c;
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<YamlNode> read_toml(std::string_view text,
                                     const std::shared_ptr<const YamlOrigin>& origin) {
+  check_keys(text, *origin);
   try {
     return TomlConverter(origin).convert(toml::parse(text));
   } catch (const toml::parse_error& e) {

@@ -211,6 +211,20 @@ TEST_F(CalibrationFormats, TablesOfCamerasAreChosenByName) {
               ThrowsMessage<DataError>(HasSubstr("has no translation")));
 }
 
+TEST_F(CalibrationFormats, KeysOfVeryManyPartsAreRefused) {
+  std::string key;
+  for (int i = 0; i < 50'000; ++i) key += "x.";
+  for (const std::string& text : {key + "y = 1\n", "[" + key + "y]\n", "a = {" + key + "y = 1}\n"})
+    EXPECT_THAT(
+        loading(file("deep.toml", "[cameras]\n" + text)),
+        ThrowsMessage<DataError>(HasSubstr("deep.toml:2:1: has a key of more than 64 parts")));
+  const std::string dots(100, '.');
+  EXPECT_EQ(
+      load_calibration(file("c.toml", kTables + ("# " + dots + "\ntitle = \"" + dots + "\"\n")))
+          .size(),
+      2u);
+}
+
 TEST_F(CalibrationFormats, RosPairsHaveTheirBaselineInTheProjectionMatrix) {
   CalibrationSettings settings = file("left.yaml", ros(0.1, 0));
   settings.second = write("right.yaml", ros(0.02, -48));
