@@ -13,7 +13,7 @@ enum class FrameFault {
   frozen,        ///< a view repeats its picture while another one moves
   same_picture,  ///< the first two views show one picture
   exchanged,     ///< the first two views match the cameras the other way round
-  black,         ///< a view is black
+  black,         ///< a view is black, or its depth is nowhere measured
   saturated,     ///< a view is white
   brightness,    ///< a view is suddenly brighter or darker; the frame is searched
   time_back,     ///< the time does not follow the one before; the frame is searched

@@ -117,7 +117,8 @@ SceneTracker::SceneTracker(const Scene& scene, TrackerParts parts, Eigen::Vector
       smoother_(scene, parts.one_euro),
       smoothing_(parts.one_euro.enabled),
       seed_(seed) {
-  if (settings_.check_pictures && look_at_pictures(terms_)) picture_checks_.emplace(parts.cameras);
+  if (settings_.check_pictures && look_at_pictures(terms_))
+    picture_checks_.emplace(parts.cameras, joined_use(terms_).depth);
   if (begins_by_looking_ && !recovers())
     throw ConfigError(
         "init.from looks for the models in the pictures, which takes tracker.recovery.enabled, "

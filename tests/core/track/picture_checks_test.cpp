@@ -25,7 +25,7 @@ class PictureChecksTest : public ::testing::Test {
   }
 
   TexturedPair pair_;
-  PictureChecks checks_{pair_.cameras};
+  PictureChecks checks_{pair_.cameras, false};
   ViewFault last_;
 };
 
@@ -176,7 +176,7 @@ TEST_F(PictureChecksTest, AStillViewWhoseOtherBecomesBrighterIsNotFrozen) {
 }
 
 TEST_F(PictureChecksTest, OneViewAndDepthViewsAreLeftAlone) {
-  PictureChecks one({pair_.cameras[0]});
+  PictureChecks one({pair_.cameras[0]}, true);
   Frame frame = pair_.frame(280);
   frame.views.resize(1);
   EXPECT_EQ(one.check(frame).fault, FrameFault::none);
@@ -189,11 +189,24 @@ TEST_F(PictureChecksTest, OneViewAndDepthViewsAreLeftAlone) {
   EXPECT_EQ(one.check(frame).fault, FrameFault::none);
 }
 
+TEST_F(PictureChecksTest, DepthThatIsNowhereMeasuredShowsNothingToWhoReadsIt) {
+  Frame frame = pair_.frame(280);
+  for (View& view : frame.views) view.depth = cv::Mat1f(view.color.size(), 0.5F);
+  frame.views[1].depth.setTo(0);
+  EXPECT_EQ(check(frame), FrameFault::none) << "only colours are compared";
+  PictureChecks with_depth(pair_.cameras, true);
+  const ViewFault found = with_depth.check(frame);
+  EXPECT_EQ(found.fault, FrameFault::black);
+  EXPECT_EQ(found.view, 1);
+  frame.views[1].depth.at<float>(200, 300) = 0.7F;
+  EXPECT_EQ(with_depth.check(frame).fault, FrameFault::none);
+}
+
 TEST_F(PictureChecksTest, AFrozenThirdViewIsNamed) {
   std::vector<Camera> cameras = pair_.cameras;
   cameras.push_back(cameras[0]);
   cameras[2].camera_from_world.translation().x() = -0.06;
-  PictureChecks three(cameras);
+  PictureChecks three(cameras, false);
   const auto frame = [&](int x, int third) {
     Frame out = pair_.frame(x);
     out.views.push_back(

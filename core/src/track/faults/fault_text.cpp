@@ -53,8 +53,9 @@ std::string describe(FrameFault fault, int view) {
           "the wrong way round",
           kSkipped);
     case FrameFault::black:
-      return fmt::format("{} is black; {}. Check this camera, its lens and its exposure",
-                         name_of_view(view), kSkipped);
+      return fmt::format(
+          "{} is black or without depth; {}. Check this camera, its lens and its exposure",
+          name_of_view(view), kSkipped);
     case FrameFault::saturated:
       return fmt::format("{} is white; {}. Shorten the exposure, or lower the gain",
                          name_of_view(view), kSkipped);

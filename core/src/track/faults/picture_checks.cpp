@@ -41,9 +41,28 @@ float jump_between(const SmallPicture& before, const SmallPicture& now) {
   return gain > kMost || gain < 1 / kMost ? gain : 1;
 }
 
+bool is_measured(const cv::Mat& depth) {
+  for (int y = 0; y < depth.rows; ++y) {
+    const float* row = depth.ptr<float>(y);
+    if (std::any_of(row, row + depth.cols, [](float metres) { return metres > 0; })) return true;
+  }
+  return false;
+}
+
+/// Returns the first view whose depth is nowhere measured.
+std::optional<int> unmeasured_view(const Frame& frame) {
+  for (std::size_t v = 0; v < frame.views.size(); ++v) {
+    const cv::Mat& depth = frame.views[v].depth;
+    if (depth.type() == CV_32FC1 && !depth.empty() && !is_measured(depth))
+      return static_cast<int>(v);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
-PictureChecks::PictureChecks(std::vector<Camera> cameras) : frozen_(cameras) {
+PictureChecks::PictureChecks(std::vector<Camera> cameras, bool with_depth)
+    : with_depth_(with_depth), frozen_(cameras) {
   if (cameras.size() > 1) order_.emplace(cameras[0], cameras[1]);
 }
 
@@ -54,7 +73,9 @@ ViewFault PictureChecks::check(const Frame& frame) {
                       ? nullptr
                       : std::make_shared<const SmallPicture>(shrink(view.color)));
   jumps_.assign(now.size(), 1);
-  const ViewFault found = find(now);
+  ViewFault found = find(now);
+  if (const auto view = with_depth_ ? unmeasured_view(frame) : std::nullopt)
+    found = {FrameFault::black, *view};
   if (!spoils_pictures(found.fault)) good_ = std::move(now);
   return found;
 }

@@ -17,13 +17,14 @@ struct ViewFault {
   int view = 0;
 };
 
-/// Looks for faults in the colour pictures of frames, by small grey copies of them.
+/// Looks for faults in the pictures of frames: in colour by small grey copies.
 class PictureChecks {
  public:
-  explicit PictureChecks(std::vector<Camera> cameras);
+  /// `with_depth`: depth is read, so that a view without any is one that shows nothing.
+  PictureChecks(std::vector<Camera> cameras, bool with_depth);
 
-  /// Returns the worst fault of the next frame. Views without colour have none, nor those with
-  /// depth, which does not depend on the light. Call it with all frames that have views, in order.
+  /// Returns the worst fault of the next frame. Colour is not checked in views with depth, which
+  /// does not depend on the light. Call it with all frames that have views, in order.
   ViewFault check(const Frame& frame);
 
   /// Returns by how much each view of the last frame became brighter; 1: it did not jump.
@@ -36,6 +37,7 @@ class PictureChecks {
   /// Sets jumps_. Returns the first view that has one.
   std::optional<int> jumping_view(const SmallPictures& now);
 
+  bool with_depth_;
   FrozenViews frozen_;
   std::optional<ViewOrder> order_;  ///< of the first two views
   SmallPictures good_;              ///< of the last frame without such a fault; empty: none yet
