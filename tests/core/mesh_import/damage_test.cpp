@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <limits>
 
@@ -29,6 +30,18 @@ TEST_F(DamagedMesh, WithoutFacesSaysSo) {
   content.indices = {0, 0, 1, 2, 2, 2};
   EXPECT_THAT(error("a.glb", glb(content)),
               HasSubstr("the mesh has no faces: all its triangles are degenerate"));
+}
+
+TEST_F(DamagedMesh, PipesThatAMeshNamesAreNotWaitedFor) {
+  ASSERT_EQ(::mkfifo((folder_.path() / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(reads("a.obj", "mtllib pipe\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_THAT(error("a.gltf", R"({"asset": {"version": "2.0"},
+    "buffers": [{"byteLength": 36, "uri": "pipe"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "nodes": [{"mesh": 0}], "scenes": [{"nodes": [0]}], "scene": 0})"),
+              HasSubstr("pipe"));
 }
 
 TEST_F(DamagedMesh, VertexFarOffIsNamed) {

@@ -1,6 +1,7 @@
 #include "model/import/reader/read_scene.hpp"
 
 #include <assimp/BaseImporter.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <filesystem>
 #include <string_view>
 
 #include "model/import/reader/convert.hpp"
@@ -15,6 +17,19 @@
 
 namespace hypotrack::mesh_wire {
 namespace {
+
+/// Knows regular files only. A pipe that a mesh names as its materials or its data would be waited
+/// for.
+class RegularFiles : public Assimp::DefaultIOSystem {
+ public:
+  bool Exists(const char* file) const override {
+    std::error_code error;
+    return std::filesystem::is_regular_file(file, error);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+};
 
 /// Keeps only the importers of one file name extension. Otherwise assimp inspects a file that the
 /// right importer refuses and may pass it to one that crashes on it.
@@ -56,6 +71,7 @@ std::string extension_of(const std::string& file) {
 Scene read_scene(const std::string& file) {
   const std::string extension = extension_of(file);
   Assimp::Importer importer;
+  importer.SetIOHandler(new RegularFiles);  // which it deletes
   keep_importers(importer, extension);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, false);
   const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
