@@ -160,6 +160,16 @@ bool is_absent(const CsvTable::Row& row, const Triple& triple) {
   });
 }
 
+/// Throws if a row has a rotation of length 0, which is none. Other lengths are normalised.
+void check_rotations(const StateRow& row, const Scene& scene, const std::string& where) {
+  constexpr double kShortest = 1e-3;
+  for (const Scene::Item& item : scene.items())
+    if (row.state.segment<4>(item.offset + 3).norm() < kShortest)
+      throw DataError(fmt::format(
+          "{}: the rotation of '{}' has the length 0; expected a quaternion, 1, 0, 0, 0 for none",
+          where, item.name));
+}
+
 }  // namespace
 
 std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene& scene) {
@@ -190,6 +200,7 @@ std::vector<StateRow> read_states(const std::filesystem::path& file, const Scene
       }
       row.state[static_cast<Eigen::Index>(k)] = value;
     }
+    check_rotations(row, scene, table.where(table.rows()[i]));
     scene.normalize(row.state);
     rows.push_back(std::move(row));
   }

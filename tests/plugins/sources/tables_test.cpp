@@ -146,6 +146,8 @@ TEST_F(Tables, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(reading(kHeader + "\n0,nan,1,1,0,0,0\n"), error("expected a finite number"));
   EXPECT_THAT(reading(kHeader + "\n0,1e308,1,1,0,0,0\n"),
               error("'box.position_y' is 1e+308; expected a finite number, 1e+06 at most"));
+  EXPECT_THAT(reading(kHeader + "\n0,0,1,0,0,0,0\n"),
+              error("table.csv:2: the rotation of 'box' has the length 0"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,1.5\n"), error("the frame number is 1.5"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,-1\n"), error("the frame number is -1"));
   EXPECT_THAT(reading(kHeader + ",frame\n0,0,1,1,0,0,0,1\n0,0,1,1,0,0,0,1\n"),
