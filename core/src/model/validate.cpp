@@ -178,6 +178,10 @@ void Validator::check_parameters() const {
         parameters.size());
   }
   check_column_names(parameters, "parameter");
+  for (const auto& parameter : parameters)
+    if (parameter.name == "status" || parameter.name == "probability")
+      fail("a parameter is called '{}', as a column of track.csv is: give it another name",
+           parameter.name);
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const ParameterKind kind = parameters[i].kind;
     const bool expected = i < 3   ? kind == ParameterKind::position

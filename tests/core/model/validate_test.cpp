@@ -192,6 +192,13 @@ TEST(Validate, NamesFitIntoTheHeaderOfATable) {
   }
 }
 
+TEST(Validate, ParametersDoNotTakeTheNamesOfOtherColumns) {
+  for (const std::string name : {"status", "probability"})
+    EXPECT_EQ(message([&](ModelData& d) { d.parameters[9].name = name; }),
+              "hand.glb: a parameter is called '" + name +
+                  "', as a column of track.csv is: give it another name");
+}
+
 TEST(Validate, NamesAreUtf8) {
   EXPECT_EQ(message([](ModelData& d) { d.parameters[9].name = "j\xE9"; }),
             "hand.glb: the name of parameter 9 is no UTF-8: write the file in UTF-8");
