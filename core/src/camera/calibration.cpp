@@ -94,11 +94,12 @@ Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings
   if (file.get("cam0").get("intrinsics").defined()) return {"Kalibr", read_kalibr(file, settings)};
   Calibration tables{"caliscope or anipose", read_camera_tables(file, settings)};
   if (!tables.cameras.empty()) return tables;
+  const std::vector<std::string> keys = file.keys();
   throw DataError(fmt::format(
       "{}: is no calibration; expected `cameras`, M1 and M2 as stereo_calib writes them, "
       "camera_matrix, a camchain of Kalibr, a camera_info of ROS, a ZED's .conf or the TOML of "
       "caliscope. Found: {}",
-      settings.file.string(), fmt::join(file.keys(), ", ")));
+      settings.file.string(), keys.empty() ? "no key" : fmt::format("{}", fmt::join(keys, ", "))));
 }
 
 /// Keeps the cameras that the settings name, in that order.

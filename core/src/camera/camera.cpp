@@ -111,6 +111,26 @@ void check_lens_reach(const Camera& camera, std::string_view where) {
   }
 }
 
+/// Throws DataError if the lens folds on the first half of the way from the principal point to an
+/// edge: pixels farther out show what nearer ones show. Real lenses fold outside the picture, or
+/// near its corners.
+void check_lens_folds(const Camera& camera, std::string_view where) {
+  const double radius = monotonic_radius(camera);
+  if (std::isinf(radius)) return;
+  Camera lens = camera;
+  lens.camera_from_world = Eigen::Isometry3d::Identity();
+  const Eigen::Vector2d centre(camera.cx, camera.cy);
+  const double shown = std::max((project(lens, {radius, 0, 1}) - centre).norm(),
+                                (project(lens, {0, radius, 1}) - centre).norm());
+  const double expected = std::min(camera.width, camera.height) / 4.0;
+  if (shown >= expected) return;
+  throw DataError(fmt::format(
+      "{}: with the distortion ({:g}), nothing is seen farther than {:.3g} pixels from the "
+      "principal point; expected {:g} at least. Are the coefficients in OpenCV's order, and the "
+      "camera matrix in pixels?",
+      where, fmt::join(camera.distortion, ", "), shown, expected));
+}
+
 /// Throws DataError unless focal length and principal point suit the size of the image.
 void check_scale(const Camera& camera, std::string_view where) {
   constexpr double kShortest = 0.1, kLongest = 100, kFarthest = 5;  // image sizes
@@ -202,6 +222,7 @@ void validate(const Camera& camera, std::string_view where) {
   check_scale(camera, where);
   check_distortion(camera, where);
   check_lens_reach(camera, where);
+  check_lens_folds(camera, where);
   check_pose(camera, where);
 }
 

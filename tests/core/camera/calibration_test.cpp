@@ -272,6 +272,17 @@ TEST_F(Calibration, RefusesNumbersThatSuitNoImage) {
                                 "rig.yml: camera 1: T puts the camera 1e+38 m from the origin")));
 }
 
+TEST_F(Calibration, RefusesALensThatFoldsInsideThePicture) {
+  const auto with = [&](const std::string& coefficients) {
+    return loading(rig(replaced(kRig, "D: [0.01, 0.02, 0.03, 0.04]", "D: " + coefficients)));
+  };
+  EXPECT_THAT(with("[-3, 0, 0, 0]"),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("camera 1: with the distortion (-3, 0, 0, "
+                                                       "0), nothing is seen farther than "),
+                                             HasSubstr("expected 120 at least"))));
+  EXPECT_NO_THROW(with("[-0.1, 0, 0, 0]")());
+}
+
 TEST_F(Calibration, RefusesNumbersThatDoNotSuitTheFirstImage) {
   std::vector<Camera> cameras = load_calibration(stereo());
   EXPECT_THAT(
