@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <csignal>
@@ -11,11 +12,13 @@
 namespace hypotrack::app {
 namespace {
 
+constexpr unsigned kSilence_s = 3;
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 // Searching threads read the flag while the handler writes it, in whichever thread has the signal.
 std::atomic<bool> g_interrupted = false;
 std::atomic<unsigned> g_patience_s = 0;
+std::atomic<bool> g_said_that_it_waits = false;
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free,
               "a signal handler may not wait for a lock");
 
@@ -23,10 +26,15 @@ void on_signal(int signal) {
   g_interrupted = true;
   // A closed terminal may send SIGHUP twice, from its shell and the kernel: keep ignoring it.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
-  alarm(g_patience_s);
+  alarm(std::min(kSilence_s, g_patience_s.load()));
 }
 
 void on_alarm(int /*signal*/) {
+  if (!g_said_that_it_waits.exchange(true) && g_patience_s > kSilence_s) {
+    detail::report_end("was told to stop and has not answered yet. Ctrl-C again ends it at once");
+    alarm(g_patience_s - kSilence_s);
+    return;
+  }
   detail::report_end("was told to stop and did not answer; ended now. Files are left unfinished");
   _exit(kInterruptedExitCode);
 }
@@ -34,7 +42,7 @@ void on_alarm(int /*signal*/) {
 }  // namespace
 
 InterruptGuard::InterruptGuard(unsigned patience_s) {
-  g_interrupted = false;
+  g_interrupted = g_said_that_it_waits = false;
   g_patience_s = patience_s;
   of_alarm_ = std::signal(SIGALRM, on_alarm);
   // A shell's background jobs and nohup ignore Ctrl-C: keep it ignored then.

@@ -72,14 +72,22 @@ TEST_F(InterruptTest, CtrlCFinishesTheFrameAndTheFiles) {
             lines_of(read_text(path("out/track.csv"))).size());
 }
 
+/// Is told to stop and goes on.
+[[noreturn]] void hang(unsigned patience_s) {
+  const app::InterruptGuard guard(patience_s);
+  raise(SIGTERM);
+  while (true) pause();
+}
+
 TEST(InterruptGuardDeathTest, EndsAProgramThatDoesNotAnswerASignal) {
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
-  const auto hang = [] {
-    const app::InterruptGuard guard(1);
-    raise(SIGTERM);
-    while (true) pause();
-  };
-  EXPECT_EXIT(hang(), testing::ExitedWithCode(130), "was told to stop and did not answer");
+  EXPECT_EXIT(hang(1), testing::ExitedWithCode(130), "was told to stop and did not answer");
+}
+
+TEST(InterruptGuardDeathTest, SaysFirstThatItWaits) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(hang(4), testing::ExitedWithCode(130),
+              "has not answered yet. Ctrl-C again ends it at once\n.*did not answer; ended now");
 }
 
 TEST(InterruptGuard, LeavesAProgramAloneThatAnswers) {
