@@ -15,8 +15,6 @@ constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20;
 
 constexpr int kMostLevels = 64;  // deep values would exhaust the stack where they are copied
 
-constexpr std::string_view kAdvice = "repeat the run that wrote it, or remove it";
-
 }  // namespace
 
 Json read_json_object(const std::filesystem::path& file, std::string_view advice) {
@@ -24,7 +22,7 @@ Json read_json_object(const std::filesystem::path& file, std::string_view advice
     throw DataError(fmt::format("{}: {}; expected a JSON object{}{}", file.string(), why,
                                 advice.empty() ? "" : "; ", advice));
   std::error_code error;
-  if (advice.empty()) advice = kAdvice;
+  if (advice.empty()) advice = kRepeatRun;
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw DataError(fmt::format("{}: is larger than {} MiB", file.string(), kLargestFile >> 20));
   std::ifstream in(file, std::ios::binary);
@@ -50,7 +48,7 @@ double number_in(const Json& object, const char* key, const std::filesystem::pat
   if (it == object.end() || it->is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (!it->is_number())
     throw DataError(fmt::format("{}: '{}' is a {}, expected a number; {}", file.string(), key,
-                                it->type_name(), kAdvice));
+                                it->type_name(), kRepeatRun));
   return it->get<double>();
 }
 
@@ -65,14 +63,14 @@ std::int64_t integer_in(const Json& object, const char* key, const std::filesyst
                               !found            ? "missing"
                               : it->is_number() ? it->dump()
                                                 : it->type_name(),
-                              kAdvice));
+                              kRepeatRun));
 }
 
 std::string text_in(const Json& object, const char* key, const std::filesystem::path& file) {
   const auto it = object.find(key);
   if (it == object.end() || !it->is_string())
     throw DataError(fmt::format("{}: '{}' is {}, expected a text; {}", file.string(), key,
-                                it == object.end() ? "missing" : it->type_name(), kAdvice));
+                                it == object.end() ? "missing" : it->type_name(), kRepeatRun));
   return it->get<std::string>();
 }
 

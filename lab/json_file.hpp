@@ -10,6 +10,9 @@ namespace hypotrack {
 
 using Json = nlohmann::ordered_json;
 
+/// What to do about a damaged file of a run, for a message.
+inline constexpr std::string_view kRepeatRun = "repeat the run that wrote it, or remove it";
+
 /// Reads a JSON object, its keys in the file's order. Throws DataError, naming the file and the
 /// position, if the file does not exist, is larger than 64 MiB, is no JSON, is nested more than 64
 /// levels deep or is anything but an object. Messages end with `advice`.

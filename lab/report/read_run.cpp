@@ -5,6 +5,7 @@
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
+#include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"
 
 namespace hypotrack {
@@ -16,10 +17,8 @@ std::vector<double> numbers_in(const Json& list, const fs::path& file) {
   std::vector<double> numbers;
   for (const Json& item : list) {
     if (!item.is_number())
-      throw DataError(
-          fmt::format("{}: the success curve holds a {}, expected numbers; repeat the run that "
-                      "wrote it, or remove it",
-                      file.string(), item.type_name()));
+      throw DataError(fmt::format("{}: the success curve holds a {}, expected numbers; {}",
+                                  file.string(), item.type_name(), kRepeatRun));
     numbers.push_back(item.get<double>());
   }
   return numbers;
@@ -30,14 +29,14 @@ void read_success(const Json& json, const fs::path& file, SuccessCurve& curve) {
   curve.threshold_mm = numbers_in(json.value("threshold_mm", Json::array()), file);
   curve.share = numbers_in(json.value("share", Json::array()), file);
   if (curve.threshold_mm.size() != curve.share.size())
-    throw DataError(fmt::format(
-        "{}: the success curve has {} thresholds and {} shares; repeat the run that wrote it, or "
-        "remove it",
-        file.string(), curve.threshold_mm.size(), curve.share.size()));
+    throw DataError(fmt::format("{}: the success curve has {} thresholds and {} shares; {}",
+                                file.string(), curve.threshold_mm.size(), curve.share.size(),
+                                kRepeatRun));
 }
 
 void read_metrics(const fs::path& file, StudyRun& run) {
   const Json json = read_json_object(file);
+  check_numbers(json, file, kRepeatRun);
   for (const auto& [key, value] : json.items())
     if (value.is_number() || value.is_null()) run.metrics[key] = number_in(json, key.c_str(), file);
   const Json models = json.value("models", Json::object());
@@ -79,7 +78,7 @@ void read_results(const fs::path& directory, StudyRun& run) {
     run.message = text_in(read_json_object(file), "message", file);
     return;
   }
-  if (const fs::path file = directory / "metrics.json"; fs::exists(file)) read_metrics(file, run);
+  if (expects_metrics(directory)) read_metrics(directory / "metrics.json", run);
   if (const fs::path file = directory / "track.csv"; fs::exists(file)) read_track(file, run);
   const fs::path summary = directory / "summary.json";
   const Json json = read_json_object(summary);

@@ -4,9 +4,11 @@
 #include <array>
 #include <filesystem>
 #include <numeric>
+#include <string>
 #include <string_view>
 
 #include "lab/json_file.hpp"
+#include "lab/run_numbers.hpp"
 #include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
@@ -21,7 +23,9 @@ bool is_timed(const std::string& name) {
 /// Reads the numbers at the top level of a file. `null` is an undefined number.
 Metrics read_metrics(const std::filesystem::path& file) {
   Metrics metrics;
-  const Json json = read_json_object(file, repair_advice(file));
+  const std::string advice = repair_advice(file);
+  const Json json = read_json_object(file, advice);
+  check_numbers(json, file, advice);
   for (const auto& [name, value] : json.items()) {
     if (value.is_number()) metrics.emplace_back(name, value.get<double>());
     if (value.is_null()) metrics.emplace_back(name, std::nullopt);
@@ -43,8 +47,8 @@ RunResult read_result(const PlannedRun& run, const std::filesystem::path& folder
   for (const auto& entry : summary)
     if (is_timed(entry.first)) result.timing.push_back(entry);
   std::erase_if(summary, [](const auto& entry) { return is_timed(entry.first); });
-  const bool has_metrics = std::filesystem::exists(folder / "metrics.json");
-  result.metrics = has_metrics ? read_metrics(folder / "metrics.json") : std::move(summary);
+  result.metrics =
+      expects_metrics(folder) ? read_metrics(folder / "metrics.json") : std::move(summary);
   return result;
 }
 

@@ -97,6 +97,10 @@ TEST_F(StudyTest, NamesTheDamagedFile) {
   EXPECT_THAT(refusal(), HasSubstr("holds a JSON array, expected an object"));
   overwrite(run / "metrics.json", "{\"success_curve\": {\"threshold_mm\": [1], \"share\": []}}");
   EXPECT_THAT(refusal(), HasSubstr("has 1 thresholds and 0 shares"));
+  overwrite(run / "metrics.json", "{\"mean_error_mm\": \"x\"}");
+  EXPECT_THAT(refusal(), HasSubstr("'mean_error_mm' is a text, expected a number of at least 0"));
+  fs::remove(folder() / run / "metrics.json");  // but not errors.csv
+  EXPECT_THAT(refusal(), HasSubstr("s1/metrics.json: no such file"));
   overwrite(run / "metrics.json", "{}");
   overwrite(run / "cell.json", "{\"scene\": 3}");
   EXPECT_THAT(refusal(), HasSubstr("cell.json: 'scene' is number, expected a text"));

@@ -93,6 +93,56 @@ TEST_F(TablesTest, ADamagedFileIsNamedWithTheFolderToRemove) {
           testing::EndsWith("remove the folder " + folder + " and the run will be made again"))));
 }
 
+TEST_F(TablesTest, ARunThatKnewTheTruthNeedsItsMetrics) {
+  add_run(0, "{}");
+  std::filesystem::remove(run_folder(0) / "metrics.json");
+  std::ofstream(run_folder(0) / "errors.csv") << "frame,time,status,mean_joint_error_mm,box\n";
+  const std::string folder = run_folder(0).string();
+  EXPECT_THAT(
+      [&] { write_tables(); },
+      testing::ThrowsMessage<DataError>(testing::AllOf(
+          testing::StartsWith(folder + "/metrics.json: no such file"),
+          testing::EndsWith("remove the folder " + folder + " and the run will be made again"))));
+}
+
+TEST_F(TablesTest, ANumberThatNoRunCanHaveIsNamedWithTheFolderToRemove) {
+  const std::string folder = run_folder(0).string();
+  for (const auto& [number, found] :
+       {std::pair{R"("mean_error_mm": "x")", "'mean_error_mm' is a text"},
+        std::pair{R"("mean_error_mm": [1])", "'mean_error_mm' is a list"},
+        std::pair{R"("mean_error_mm": {})", "'mean_error_mm' is a map"},
+        std::pair{R"("mean_error_mm": true)", "'mean_error_mm' is true"},
+        std::pair{R"("mean_error_mm": null)", "'mean_error_mm' is null"},
+        std::pair{R"("jitter_mm": -5)", "'jitter_mm' is -5"},
+        std::pair{R"("frames": null)", "'frames' is null"}}) {
+    add_run(0, std::string(R"({"evaluated_frames": 2, )") + number + "}");
+    EXPECT_THAT([&] { write_tables(); },
+                testing::ThrowsMessage<DataError>(
+                    testing::StrEq(folder + "/metrics.json: " + found +
+                                   ", expected a number of at least 0; remove the folder " +
+                                   folder + " and the run will be made again")));
+  }
+}
+
+TEST_F(TablesTest, NumbersThatARunMayLackAreEmpty) {
+  add_run(0, R"({"evaluated_frames": 0, "mean_error_mm": null, "time_to_loss_s": -0.5})");
+  add_run(1, R"({"evaluated_frames": 2, "mean_error_mm": 3, "jitter_mm": null})");
+  write_tables();
+  EXPECT_EQ(table("results.csv"),
+            "scene,optimizer.particles,seed,status,message,evaluated_frames,mean_error_mm,"
+            "time_to_loss_s,jitter_mm\n"
+            "box,16,1,ok,,0,,-0.5,\n"
+            "box,8,1,ok,,2,3,,\n");
+}
+
+TEST_F(TablesTest, ADamagedNumberOfTheSummaryIsNamed) {
+  add_run(0, "{}");
+  std::ofstream(run_folder(0) / "summary.json") << R"({"complete": true, "fps": "fast"})";
+  EXPECT_THAT([&] { write_tables(); },
+              testing::ThrowsMessage<DataError>(testing::StartsWith(
+                  run_folder(0).string() + "/summary.json: 'fps' is a text, expected a number")));
+}
+
 TEST_F(TablesTest, WithoutGroundTruthTheSummaryIsCompared) {
   add_run(0, "{}");
   const std::filesystem::directory_iterator only(path("out/runs"));

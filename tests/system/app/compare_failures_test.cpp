@@ -118,6 +118,20 @@ TEST_F(CompareFailureTest, FailedRunsStayUnlessAskedForAgain) {
   EXPECT_THAT(lines_of(table("results.csv")), SizeIs(5));
 }
 
+TEST_F(CompareFailureTest, ARunWithTruthThatLacksItsMetricsIsNoResult) {
+  ASSERT_EQ(compare(study()).exit_code, 0);
+  const auto run = path("out/runs") / run_names().front();
+  std::filesystem::remove(run / "metrics.json");
+  const Outcome damaged = compare(study());
+  EXPECT_EQ(damaged.exit_code, 1) << damaged.out;
+  EXPECT_THAT(damaged.err, AllOf(HasSubstr("metrics.json: no such file"),
+                                 HasSubstr("remove the folder " + run.string())));
+  std::filesystem::remove_all(run);
+  const Outcome again = compare(study());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.err, HasSubstr("1 to make here"));
+}
+
 TEST_F(CompareFailureTest, ABadKeyIsFoundBeforeAnythingRuns) {
   expect_study_refused(replaced(study(), "optimizer.particles:", "optimizer.particle:"),
                        {"study.yaml:5:24: box, optimizer.particle 4: ", "did you mean 'particles'",
