@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <string>
 
 #include "commands.hpp"
 #include "lab/report/report.hpp"
@@ -15,6 +16,13 @@ struct ReportCommand {
   bool no_images = false;
 };
 
+/// Returns the number of runs: `2 runs`, or `1 of 2 runs` of an unfinished study.
+std::string runs_of(const ReportSummary& summary) {
+  if (summary.runs < summary.planned)
+    return fmt::format("{} of {} runs", summary.runs, summary.planned);
+  return fmt::format("{} run{}", summary.runs, summary.runs == 1 ? "" : "s");
+}
+
 int report(const ReportCommand& command, const CommonOptions& common) {
   ReportOptions options = command.report;
   if (command.images) options.plot_files = PlotFiles::required;
@@ -22,9 +30,9 @@ int report(const ReportCommand& command, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
   const ReportSummary summary = write_report(options, plugins);
   if (!summary.skipped.empty()) tell("hypotrack: {}\n", summary.skipped);
-  fmt::print("{} run{} ({} failed), {} with a 3D replay, {:.1f} MB: {}\n", summary.runs,
-             summary.runs == 1 ? "" : "s", summary.failed, summary.replays,
-             1e-6 * static_cast<double>(summary.bytes), summary.page.string());
+  fmt::print("{} ({} failed), {} with a 3D replay, {:.1f} MB: {}\n", runs_of(summary),
+             summary.failed, summary.replays, 1e-6 * static_cast<double>(summary.bytes),
+             summary.page.string());
   fmt::print("plots and tables in {}\n", summary.files.string());
   return 0;
 }

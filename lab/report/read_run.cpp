@@ -7,6 +7,8 @@
 #include "lab/json_file.hpp"
 #include "lab/run_numbers.hpp"
 #include "lab/study/hash.hpp"
+#include "lab/study/run_folder.hpp"
+#include "output/row_count.hpp"
 
 namespace hypotrack {
 namespace {
@@ -51,6 +53,7 @@ void read_metrics(const fs::path& file, StudyRun& run) {
 /// Reads from track.csv what the run evaluated, and what tells its result from others.
 void read_track(const fs::path& file, StudyRun& run) {
   const CsvTable table(file);
+  expect_row_per_frame(file, table.rows().size());
   study::Hash hash;
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
     if (table.columns()[c] == "milliseconds") continue;
@@ -79,7 +82,6 @@ void read_results(const fs::path& directory, StudyRun& run) {
     return;
   }
   if (expects_metrics(directory)) read_metrics(directory / "metrics.json", run);
-  if (const fs::path file = directory / "track.csv"; fs::exists(file)) read_track(file, run);
   const fs::path summary = directory / "summary.json";
   const Json json = read_json_object(summary);
   for (const char* key : {"fps", "evaluations_per_second"})
@@ -90,11 +92,12 @@ void read_results(const fs::path& directory, StudyRun& run) {
   for (const char* key : {"frames", "lost_frames", "uncertain_frames", "missing_frames"})
     if (!run.metrics.contains(key) && json.contains(key))
       run.metrics[key] = number_in(json, key, summary);
+  if (const fs::path file = directory / "track.csv"; fs::exists(file)) read_track(file, run);
 }
 
 StudyRun read_study_run(const fs::path& directory) {
   const fs::path file = directory / "cell.json";
-  const Json cell = read_json_object(file);
+  const Json cell = read_json_object(file, study::repair_advice(file));
   StudyRun run;
   run.id = directory.filename().string();
   run.scene = text_in(cell, "scene", file);

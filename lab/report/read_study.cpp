@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
+#include <set>
 #include <tuple>
 
 #include "hypotrack/config.hpp"
@@ -92,6 +94,28 @@ void read_study_file(const fs::path& file, StudyData& study) {
   read_plots(root.get("plots"), study.plots);
 }
 
+/// Reads the names of a study's runs; empty if it has no plan.
+std::set<std::string> read_plan(const fs::path& file) {
+  std::set<std::string> names;
+  if (!fs::is_regular_file(file)) return names;
+  std::ifstream in(file);
+  for (std::string name; std::getline(in, name);) names.insert(name);
+  return names;
+}
+
+/// Reads the runs of the study's plan; without a plan, all that are there.
+void read_runs(const fs::path& directory, StudyData& study) {
+  const std::set<std::string> plan = read_plan(directory / "plan.txt");
+  if (!fs::is_directory(directory / "runs")) return;
+  for (const auto& entry : fs::directory_iterator(directory / "runs")) {
+    const std::string name = entry.path().filename().string();
+    const bool is_run = plan.empty()
+                            ? !name.starts_with(".") && fs::exists(entry.path() / "cell.json")
+                            : plan.contains(name);
+    if (is_run) study.runs.push_back(read_study_run(entry.path()));
+  }
+}
+
 /// Adds scenes, axes and values that runs have and study.yaml does not name, at the end.
 void add_what_runs_say(StudyData& study) {
   const auto add_once = [](std::vector<std::string>& values, const std::string& value) {
@@ -168,11 +192,7 @@ StudyData read_study(const fs::path& directory) {
   study.is_study = true;
   read_study_file(directory / "study.yaml", study);
   if (study.title.empty()) study.title = fs::canonical(directory).filename().string();
-  if (fs::is_directory(directory / "runs"))
-    for (const auto& entry : fs::directory_iterator(directory / "runs"))
-      if (!entry.path().filename().string().starts_with(".") &&
-          fs::exists(entry.path() / "cell.json"))
-        study.runs.push_back(read_study_run(entry.path()));
+  read_runs(directory, study);
   if (study.runs.empty())
     throw DataError(
         fmt::format("{}: has no finished run in {}; run `hypotrack compare` on the study first",

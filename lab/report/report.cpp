@@ -109,6 +109,7 @@ ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) 
   summary.bytes = fs::file_size(workshop / "report.html");
   for (const StudyData& study : studies) {
     summary.runs += study.runs.size();
+    summary.planned += study.planned;
     summary.failed += static_cast<std::size_t>(
         std::ranges::count_if(study.runs, [](const StudyRun& run) { return run.failed; }));
   }

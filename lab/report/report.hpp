@@ -29,6 +29,7 @@ struct ReportSummary {
   std::filesystem::path files;  ///< folder with plots/ and tables/
   std::uintmax_t bytes = 0;     ///< of the page
   std::size_t runs = 0;
+  std::size_t planned = 0;  ///< runs of the complete study
   std::size_t failed = 0;
   std::size_t replays = 0;
   std::string skipped;  ///< why plots have no separate files; empty if they have

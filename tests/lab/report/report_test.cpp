@@ -118,7 +118,10 @@ TEST_F(ReportTest, LeavesAnEarlierReportWhereItFails) {
   write_run(run(), {});
   report({.directory = run(), .out = path("r.html")});
   const std::string before = read_text(path("r.html"));
-  std::ofstream(run() / "track.csv") << "frame,time\n0,zero\n";
+  std::string track = "frame,time\n";
+  for (int frame = 0; frame < test::RunFixture().frames; ++frame)
+    track += std::to_string(frame) + ",zero\n";
+  std::ofstream(run() / "track.csv") << track;
   EXPECT_THAT(refusal({.directory = run(), .out = path("r.html")}),
               HasSubstr("track.csv: has no column 'status'"));
   EXPECT_TRUE(read_text(path("r.html")) == before);

@@ -37,6 +37,13 @@ class StudyTest : public testing::Test {
   void overwrite(const fs::path& file, const std::string& text) const {
     std::ofstream(folder() / file, std::ios::binary) << text;
   }
+  /// Writes a plan of the runs that are there.
+  void write_plan() const {
+    std::string names;
+    for (const auto& entry : fs::directory_iterator(folder() / "runs"))
+      names += entry.path().filename().string() + "\n";
+    overwrite("plan.txt", names);
+  }
   std::string refusal() const {
     return message_of<Error>([&] { read_study(folder()); });
   }
@@ -77,6 +84,35 @@ TEST_F(StudyTest, CountsWhatAnUnfinishedStudyLacks) {
   const StudyData data = read_study(folder());
   EXPECT_THAT(data.runs, SizeIs(23));
   EXPECT_EQ(data.planned, 24U);
+}
+
+TEST_F(StudyTest, CountsTheRunsOfItsPlanOnly) {
+  study();
+  write_plan();
+  const fs::path run = folder() / "runs" / "stereo_p16_g16_s1";
+  fs::copy(run, run.string() + ".bak");
+  fs::create_directory(folder() / "runs" / "notes");
+  EXPECT_THAT(read_study(folder()).runs, SizeIs(24));
+  fs::remove_all(run);
+  EXPECT_THAT(read_study(folder()).runs, SizeIs(23));
+}
+
+TEST_F(StudyTest, NamesARunOfItsPlanThatLostItsCell) {
+  study();
+  write_plan();
+  const fs::path run = folder() / "runs" / "stereo_p16_g16_s1";
+  fs::remove(run / "cell.json");
+  EXPECT_EQ(refusal(), (run / "cell.json").string() +
+                           ": no such file; expected a JSON object; remove the folder " +
+                           run.string() + " and the run will be made again");
+}
+
+TEST_F(StudyTest, NamesATrackWithFewerRowsThanTheRunHadFrames) {
+  study();
+  const fs::path run = fs::path("runs") / "stereo_p16_g16_s1";
+  overwrite(run / "track.csv",
+            "frame,time,status,cost,evaluations,milliseconds\n0,0,lost,1,8,20\n");
+  EXPECT_THAT(refusal(), HasSubstr("s1/track.csv: has 1 rows, expected "));
 }
 
 TEST_F(StudyTest, RefusesWhatIsNoStudy) {
