@@ -12,6 +12,7 @@
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
+#include "output/row_count.hpp"
 #include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"
@@ -103,6 +104,7 @@ std::map<int, FrameStatuses> read_statuses(const fs::path& run,
   std::map<int, FrameStatuses> statuses;
   if (!fs::is_directory(run) || !fs::exists(run / "track.csv")) return statuses;
   const CsvTable table(run / "track.csv");
+  expect_row_per_frame(run / "track.csv", table.rows().size());
   const int frame = table.find("frame"), status = table.find("status");
   if (frame < 0 || status < 0)
     throw DataError(fmt::format("{}: has no column '{}'; expected the table of 'hypotrack run'",
@@ -185,6 +187,18 @@ class Side {
   bool has_times_ = false;
 };
 
+/// Throws DataError if a table of a run's folder has fewer or more rows than the run wrote.
+void check_rows(const EvaluationInput& input, const Side& run, const Side& truth) {
+  if (fs::is_directory(input.run)) expect_row_per_frame(run.file(), run.rows().size());
+  const fs::path errors = fs::path(truth.file()).parent_path() / "errors.csv";
+  if (!fs::is_directory(input.truth.value_or(input.run)) || !fs::exists(errors)) return;
+  const std::size_t expected = CsvTable(errors).rows().size();
+  if (truth.rows().size() == expected) return;
+  throw DataError(fmt::format(
+      "{}: has {} rows, expected {}, as many as {}; make the run again, or copy the whole table",
+      truth.file(), truth.rows().size(), expected, errors.string()));
+}
+
 void check_units(const Side& run, const Side& truth) {
   const double run_distance = run.distance(), truth_distance = truth.distance();
   const double ratio = run_distance / truth_distance;
@@ -260,6 +274,7 @@ Evaluation evaluate(const EvaluationInput& input) {
                  {.metres_per_unit = input.run_metres_per_unit,
                   .rename = input.rename,
                   .owner = evaluation.truth_table.string()});
+  check_rows(input, run, truth);
   check_units(run, truth);
   evaluation.metrics =
       compare(names, run, truth, read_statuses(input.run, landmark_layout(names).models),

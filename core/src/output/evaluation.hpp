@@ -29,8 +29,8 @@ struct Evaluation {
 
 /// Compares the tables frame by frame, from the first to the last frame of the run. Frames that
 /// only the truth has are missing; landmarks that only the truth has are unknown. Throws DataError
-/// on missing and damaged files, landmarks that only the run has, no frame or landmark in common,
-/// and tables in different units.
+/// on missing, damaged and cut files, landmarks that only the run has, no frame or landmark in
+/// common, and tables in different units.
 Evaluation evaluate(const EvaluationInput& input);
 
 }  // namespace hypotrack

@@ -83,6 +83,40 @@ TEST_F(EvaluationTest, ARunFolderIsJudgedByItsOwnTruthAndItsStatuses) {
   EXPECT_NEAR(m.time_to_loss_s, 0.2, 1e-12);
 }
 
+TEST_F(EvaluationTest, ATableOfARunHasARowForEachFrameOfItsSummary) {
+  const std::string track = "frame,time,status\n0,0,tracked\n1,0.1,tracked\n2,0.2,tracked\n";
+  const std::string errors = replaced(track, "time,status", "time,mean_joint_error_mm");
+  const auto without_last = [](const std::string& table) {
+    return table.substr(0, table.rfind('\n', table.size() - 2) + 1);
+  };
+  const auto write_all = [&](const std::string& name = "", int frames = 3) {
+    write("run/summary.json", "{\"complete\": false, \"frames\": " + std::to_string(frames) + "}");
+    for (const auto& [table, text] :
+         {std::pair{"joints.csv", kRun}, std::pair{"truth_landmarks.csv", kTruth},
+          std::pair{"track.csv", track}, std::pair{"errors.csv", errors}})
+      write("run/" + std::string(table), table == name || frames < 3 ? without_last(text) : text);
+  };
+  EvaluationInput input;
+  input.run = path("run");
+  write_all();
+  EXPECT_EQ(evaluate(input).metrics.frames, 3);
+  write_all("", 2);  // of a run that was stopped
+  EXPECT_EQ(evaluate(input).metrics.frames, 2);
+  for (const char* table : {"joints.csv", "track.csv"}) {
+    write_all(table);
+    EXPECT_EQ(refusal(input), path("run/" + std::string(table)).string() +
+                                  ": has 2 rows, expected 3, one for each frame of " +
+                                  path("run/summary.json").string() +
+                                  "; make the run again, or copy the whole table");
+  }
+  write_all("truth_landmarks.csv");
+  EXPECT_THAT(refusal(input), AllOf(HasSubstr("truth_landmarks.csv: has 2 rows, expected 3, as "),
+                                    HasSubstr("errors.csv; make the run again")));
+  write_all();
+  write("run/summary.json", "{\"frames\": 3");
+  EXPECT_THAT(refusal(input), HasSubstr("summary.json: is no JSON object, expected the summary"));
+}
+
 TEST_F(EvaluationTest, StatusesAreJudgedByAbsenceAndByError) {
   write("run/joints.csv", kRun);
   write("run/truth_landmarks.csv", replaced(kTruth, "1,0.1,0,0,0.5,0.1,0,0.5",

@@ -53,6 +53,7 @@ TEST_F(BadRecordingTest, ADamagedImageIsAMissingFrameAndTheRunGoesOn) {
   EXPECT_EQ(metrics.at("frames"), 5);
   EXPECT_EQ(metrics.at("missing_frames"), 1);
   EXPECT_EQ(metrics.at("evaluated_frames"), 4);
+  EXPECT_EQ(run_program({"evaluate", path("out").string()}).exit_code, 0);
 }
 
 TEST_F(BadRecordingTest, ACalibrationOfOtherCamerasIsNotTrackedBesideTheMasks) {

@@ -120,6 +120,20 @@ TEST_F(EvaluateTest, NamesAndUnitsOfAnotherTracker) {
   EXPECT_THAT(units.err, HasSubstr("--truth-units"));
 }
 
+TEST_F(EvaluateTest, ATableCutAtTheEndOfALineIsRefused) {
+  for (const char* name : {"joints.csv", "track.csv", "truth_landmarks.csv"}) {
+    const std::filesystem::path table = path("out") / name;
+    const std::string text = read_text(table);
+    write_text(table, text.substr(0, text.rfind('\n', text.size() - 2) + 1));
+    const std::string file = path("judged.json").string();
+    const Outcome outcome = run_program({"evaluate", out(), "--out", file});
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.out;
+    EXPECT_THAT(outcome.err, HasSubstr(std::string(name) + ": has 4 rows, expected 5, "));
+    EXPECT_FALSE(std::filesystem::exists(file));
+    write_text(table, text);
+  }
+}
+
 TEST_F(EvaluateTest, MetricsThatCannotBeWritten) {
   const Outcome outcome =
       run_program({"evaluate", out(), "--out", path("none/metrics.json").string()});
