@@ -12,17 +12,6 @@
 namespace hypotrack {
 namespace {
 
-/// Returns the names of all numbers that a run has at the top level of its files.
-const std::vector<std::string>& run_numbers() {
-  static const std::vector<std::string> all = [] {
-    std::vector<std::string> names = metric_names();
-    names.insert(names.end(),
-                 {"fps", "search_fps", "evaluations_per_second", "seconds", "threads"});
-    return names;
-  }();
-  return all;
-}
-
 /// Returns whether a number is known whatever the run was like, if some frame has an error.
 bool is_always_known(std::string_view name, bool has_errors) {
   if (name == "frames" || name == "evaluated_frames" || name == "missing_frames" ||
@@ -39,6 +28,16 @@ std::string found_in(const Json& value) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& run_numbers() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names = metric_names();
+    names.insert(names.end(), {"fps", "search_fps", "evaluations_per_second", "seconds", "threads",
+                               "mean_sigma_mm"});
+    return names;
+  }();
+  return all;
+}
 
 bool expects_metrics(const std::filesystem::path& folder) {
   return std::filesystem::exists(folder / "metrics.json") ||

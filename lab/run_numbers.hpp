@@ -1,11 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "lab/json_file.hpp"
 
 namespace hypotrack {
+
+/// Returns the names of all numbers that a run has at the top level of its files.
+const std::vector<std::string>& run_numbers();
 
 /// Returns whether a run's folder should have a metrics.json: it has one, or the run knew the
 /// truth.

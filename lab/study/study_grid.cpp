@@ -14,6 +14,7 @@
 #include "config/read_value.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/suggest.hpp"
+#include "lab/run_numbers.hpp"
 #include "lab/study/study_text.hpp"
 
 namespace hypotrack::study {
@@ -22,9 +23,20 @@ namespace {
 using detail::fail_at;
 using detail::fail_type;
 
-/// Columns of the tables, whose names no axis may have.
+/// Columns of the tables beside the numbers of runs.
 constexpr std::array<std::string_view, 6> kColumns = {"scene",   "seed", "status",
                                                       "message", "runs", "failed"};
+
+/// Returns whether the tables have a column of this name, which no axis may have then.
+bool is_column(std::string_view name) {
+  if (std::ranges::find(kColumns, name) != kColumns.end()) return true;
+  for (const std::string_view ending : {"_mean", "_sd", ""})
+    if (name.ends_with(ending) &&
+        std::ranges::find(run_numbers(), name.substr(0, name.size() - ending.size())) !=
+            run_numbers().end())
+      return true;
+  return false;
+}
 
 Change read_change(const ConfigNode& map, const std::string& key) {
   const auto steps = detail::split_path(key);
@@ -74,7 +86,7 @@ void read_cases(const ConfigNode& map, Axis& axis) {
 }
 
 Axis read_axis(const ConfigNode& grid, const std::string& name) {
-  if (std::find(kColumns.begin(), kColumns.end(), name) != kColumns.end())
+  if (is_column(name))
     fail_at(grid.get(name), fmt::format("the tables have a column '{}' of their own; give the axis "
                                         "another name",
                                         name));

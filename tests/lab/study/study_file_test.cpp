@@ -231,6 +231,13 @@ TEST_F(StudyFileTest, AxesThatCannotBeAreRefused) {
               HasSubstr("is no key of a scene"));
 }
 
+TEST_F(StudyFileTest, NoAxisHasTheNameOfANumberInTheTables) {
+  for (const std::string name : {"mean_error_mm", "fps", "seconds", "mean_sigma_mm",
+                                 "mean_error_mm_mean", "lost_frames_sd", "message"})
+    EXPECT_THAT(complaint("  method:\n", "  " + name + ":\n"),
+                HasSubstr("the tables have a column '" + name + "' of their own; give the axis"));
+}
+
 TEST_F(StudyFileTest, EveryVariantIsReadWhicheverIsAskedFor) {
   EXPECT_THAT(complaint("frames: 3", "farmes: 3"), HasSubstr("did you mean 'frames'"));
   EXPECT_THAT(complaint("grid: {optimizer.particles: [4]}", "grid: {optimizer.particle: [4]}"),
