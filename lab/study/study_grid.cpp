@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <memory>
 #include <string_view>
 
@@ -48,9 +49,10 @@ Change read_change(const ConfigNode& map, const std::string& key) {
 
 /// Reads a choice of an axis that is a key: the value is its own label.
 Choice read_value_choice(const std::string& key, const ConfigNode& value) {
-  if (!value.is_scalar() || value.is_null())
+  if (!value.is_scalar() || value.is_null() ||
+      std::ranges::any_of(value.scalar(), [](unsigned char c) { return std::iscntrl(c); }))
     fail_at(value,
-            "expected a number or a word; give values with a structure names: "
+            "expected a number or words on one line; give values with a structure names: "
             "`AXIS: {NAME: {key: value, ...}, ...}`");
   Choice choice{value.scalar(), false, {{key, to_flow(value), value.where()}}};
   choice.is_number = value.is_plain() && detail::parse_number(value.scalar()).has_value();
@@ -58,9 +60,12 @@ Choice read_value_choice(const std::string& key, const ConfigNode& value) {
 }
 
 void expect_distinct(const ConfigNode& node, const Axis& axis, const std::string& label) {
-  const auto same = [&](const Choice& choice) { return choice.label == label; };
-  if (std::any_of(axis.choices.begin(), axis.choices.end(), same))
-    fail_at(node, fmt::format("'{}' is there twice", label));
+  const auto number = detail::parse_number(label);
+  for (const Choice& choice : axis.choices) {
+    if (choice.label == label) fail_at(node, fmt::format("'{}' is there twice", label));
+    if (number && detail::parse_number(choice.label) == number)
+      fail_at(node, fmt::format("'{}' is there already, as '{}'", label, choice.label));
+  }
 }
 
 void read_values(const ConfigNode& list, Axis& axis) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,7 +14,9 @@
 namespace hypotrack::detail {
 
 void fail_at(const ConfigNode& node, std::string_view problem) {
-  const std::string path = node.path();
+  std::string path = node.path();
+  std::ranges::replace_if(
+      path, [](unsigned char c) { return c < 32 || c == 127; }, '?');
   throw ConfigError(path.empty() ? fmt::format("{}: {}", node.where(), problem)
                                  : fmt::format("{}: {}: {}", node.where(), path, problem));
 }

@@ -214,6 +214,8 @@ TEST_F(StudyFileTest, MistakesAreNamedWithTheirPlaceAndTheNearestName) {
   EXPECT_THAT(complaint("file: box.yaml", "file: \"@scenes/dmo\""),
               AllOf(HasSubstr("study.yaml:4:15"), HasSubstr("did you mean '@scenes/demo'?")));
   EXPECT_THAT(complaint("  box:", "  \"a box\":"), HasSubstr("the name of a scene is a word"));
+  EXPECT_THAT(complaint("  box:", "  \"a\\nbox\":"),
+              HasSubstr("scenes.a?box: the name of a scene is a word"));
   EXPECT_THAT(
       complaint("frames: 5", "directory: nowhere"),
       AllOf(HasSubstr("study.yaml:13:12: directory: there is no folder"), HasSubstr("nowhere")));
@@ -221,6 +223,9 @@ TEST_F(StudyFileTest, MistakesAreNamedWithTheirPlaceAndTheNearestName) {
 
 TEST_F(StudyFileTest, AxesThatCannotBeAreRefused) {
   EXPECT_THAT(complaint("[8, 16]", "[8, 8]"), HasSubstr("'8' is there twice"));
+  EXPECT_THAT(complaint("[8, 16]", "[8, 8.0]"), HasSubstr("'8.0' is there already, as '8'"));
+  EXPECT_THAT(complaint("[8, 16]", "[1000, \"1e3\"]"), HasSubstr("'1e3' is there already"));
+  EXPECT_THAT(complaint("[8, 16]", "[8, \"a\\nb\"]"), HasSubstr("words on one line"));
   EXPECT_THAT(complaint("[8, 16]", "[]"), HasSubstr("at least one value"));
   EXPECT_THAT(complaint("[8, 16]", "8"), HasSubstr("a list of values, or a map of named cases"));
   EXPECT_THAT(complaint("[8, 16]", "[{a: 1}]"), HasSubstr("give values with a structure names"));
