@@ -178,7 +178,7 @@ void add_bench_command(const Command& root, CommonOptions& common, int& exit_cod
               {.commas = true});
   add_set_option(command, options->request.set);
   add_limits(command, *options);
-  command.add("--out", &options->out, "CSV or JSON file for the rows");
+  command.add("--out", &options->out, "CSV or JSON file for the rows", {.check = file_name()});
   command.on_call([=, &common, &exit_code] { exit_code = run_bench(*options, common); });
 }
 

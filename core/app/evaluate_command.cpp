@@ -120,7 +120,8 @@ void add_evaluate_command(const Command& root, int& exit_code) {
               "Recording, run or CSV of landmarks with the truth (default: the run's own)");
   command.add("--out", &options->out,
               "Where to write the metrics (default: metrics.json in the run's folder, "
-              "NAME.metrics.json beside NAME.csv)");
+              "NAME.metrics.json beside NAME.csv)",
+              {.check = file_name()});
   command.add("--rename", &options->input.rename,
               "For the run: NAME=LANDMARK gives a name of its table to a landmark of the truth, "
               "NAME= drops it (may be repeated)",

@@ -49,7 +49,8 @@ void add_report_command(const Command& root, CommonOptions& common, int& exit_co
   command.add("--out", &options->report.out,
               "HTML file [DIRECTORY/report.html, AFTER/changes.html]; a folder of the same name "
               "without .html gets "
-              "plots and tables");
+              "plots and tables",
+              {.check = file_name()});
   command.add("--replays", &options->report.replays, "Runs with a 3D replay, at most",
               {.show_default = true, .check = whole_number(0)});
   command.add("--images", &options->images,

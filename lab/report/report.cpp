@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/file_kind.hpp"
 #include "base/text_file.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
@@ -67,6 +68,9 @@ fs::path page_path(const ReportOptions& options) {
         "{}: does not end in .html; expected the name of an HTML file after --out (a folder of the "
         "same name without .html holds its plots and tables)",
         page.string()));
+  if (fs::exists(page) && !fs::is_regular_file(page))
+    throw OutputError(fmt::format("{}: {}; expected the name of an HTML file after --out",
+                                  page.string(), why_no_file(page)));
   return page;
 }
 

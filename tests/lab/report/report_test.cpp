@@ -152,6 +152,10 @@ TEST_F(ReportTest, RefusesPlacesThatNoPageCanHave) {
   write_run(run(), {});
   EXPECT_THAT(refusal({.directory = run(), .out = run()}), HasSubstr("is a folder"));
   EXPECT_THAT(refusal({.directory = run(), .out = path("page")}), HasSubstr("not end in .html"));
+  fs::create_symlink("/dev/null", path("null.html"));
+  EXPECT_EQ(
+      refusal({.directory = run(), .out = path("null.html")}),
+      path("null.html").string() + ": is a device; expected the name of an HTML file after --out");
   EXPECT_THAT(refusal({.directory = run(), .out = run() / "track.csv" / "r.html"}),
               HasSubstr("cannot be written"));
 }

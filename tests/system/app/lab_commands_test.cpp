@@ -22,6 +22,7 @@ class LabCommandsTest : public AppTest {
 TEST_F(LabCommandsTest, MistakesOfUsageEndWithTwo) {
   const std::vector<std::vector<std::string>> mistakes = {
       {"compare", "a.yaml", "--out", ""}, {"reliability", "a", "--out", ""},
+      {"report", "a", "--out", ""},       {"bench", "a.yaml", "--out", ""},
       {"bench", "--frames", "0"},         {"bench", "--rounds", "many"},
       {"bench", "--seconds", "0"},
   };
@@ -32,6 +33,8 @@ TEST_F(LabCommandsTest, MistakesOfUsageEndWithTwo) {
   }
   EXPECT_THAT(run_program({"bench", "--seconds", "0"}).err,
               HasSubstr("--seconds: expected a number above 0, found '0'"));
+  EXPECT_THAT(run_program({"report", "a", "--out", ""}).err,
+              HasSubstr("--out: is empty, expected a name"));
 }
 
 TEST_F(LabCommandsTest, OptionsOfBenchMayStandBeforeTheScene) {

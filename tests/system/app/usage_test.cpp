@@ -59,6 +59,7 @@ TEST_F(UsageTest, MistakesOfUsageEndWithTwo) {
       {"fit-shape", "a.yaml", "--out", ""},
       {"evaluate"},
       {"evaluate", "a", "--units", "inch"},
+      {"evaluate", "a", "--out", ""},
       {"plugins"},
       {"plugins", "info"},
       {"plugins", "check"},
