@@ -13,6 +13,7 @@
 #include "plugin/plugin_call.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "plugin/scene_keys.hpp"
+#include "session/checked_model.hpp"
 #include "session/checked_objective.hpp"
 #include "session/checked_output.hpp"
 #include "session/checked_source.hpp"
@@ -122,6 +123,7 @@ void Opening::models() {
     const ConfigNode node = file_.models.at(i);
     YamlDocument record;
     std::shared_ptr<const Model> model = make<Model>(node, record);
+    model = checked_model(model, detail::plugin_label(kPluginKind<Model>, node, model.get()));
     const std::string name = text_of(node, "name", text_of(node, "type", ""));
     const auto allowed = [](unsigned char c) {
       return std::isalnum(c) || c == '_' || c == '-' || c >= 0x80;  // the rest of UTF-8

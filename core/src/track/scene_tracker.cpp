@@ -172,8 +172,10 @@ Solution SceneTracker::track(const Frame& frame, SearchRecord* record, FrameTrac
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
     solution.seconds = elapsed.count();
   }
-  solution.state = smoothed(solution);
-  solution.landmarks = scene_.landmarks(solution.state);
+  naming(frame, [&] {
+    solution.state = smoothed(solution);
+    solution.landmarks = scene_.landmarks(solution.state);
+  });
   return solution;
 }
 

@@ -28,13 +28,18 @@ class PluginErrorsTest : public AppTest {
                              "{type: stereo_color}",
                              "{type: failing, frames: 1, how: " + how + "}"));
   }
+  /// Runs a scene whose model poses itself, and fails where a search poses it beside its path.
+  Outcome run_model(const std::string& how) const {
+    return run_with(replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]",
+                             "type: failing, how: " + how));
+  }
   /// Expects one message with the place in the scene, the plugin and its library, and the frame.
   void expect_named(const Outcome& outcome, const std::string& who, const std::string& library,
                     const std::string& what) const {
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_THAT(outcome.err,
-                testing::ContainsRegex("hypotrack: frame [0-4]: .*scene.yaml:[89]:12: " + who +
-                                       " \\(/.*" + library + "\\): .*"));
+                testing::ContainsRegex("hypotrack: frame [0-4]: [^ ]*scene.yaml:[0-9]+:[0-9]+: " +
+                                       who + " \\(/.*" + library + "\\): .*"));
     EXPECT_THAT(outcome.err, AllOf(HasSubstr(what), Not(HasSubstr("unexpected error"))));
   }
   void expect_optimizer_named(const std::string& how, const std::string& what) const {
@@ -87,11 +92,23 @@ TEST_F(PluginErrorsTest, AnAnswerThatBreaksTheContractIsRefused) {
 }
 
 TEST_F(PluginErrorsTest, AMeshThatIsNoneNamesItsPlugin) {
-  const Outcome outcome =
-      run_with(replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]", "type: failing"));
+  const Outcome outcome = run_model("nan_mesh");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_THAT(outcome.err,
               testing::ContainsRegex("hypotrack: .*scene.yaml:1:10: model 'failing': vertex 0 "));
+}
+
+TEST_F(PluginErrorsTest, AModelThatFailsToPoseItselfIsNamedAndNotTheOptimizer) {
+  for (const auto& [how, what] :
+       {std::pair{"exception", "threw std::runtime_error: the pose is broken"},
+        std::pair{"int", "threw int, which is no std::exception"},
+        std::pair{"few_vertices", "its pose has 2 vertices, expected 3"},
+        std::pair{"many_vertices", "its pose has 1000 vertices, expected 3"},
+        std::pair{"few_landmarks", "its pose has 0 landmarks, expected 3"}}) {
+    const Outcome outcome = run_model(how);
+    expect_named(outcome, "model 'failing'", "libhypotrack_model_failing.so", what);
+    EXPECT_THAT(outcome.err, Not(HasSubstr("optimizer")));
+  }
 }
 
 TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
@@ -107,11 +124,13 @@ TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
   GTEST_SKIP() << "the sanitizer reports crashes in its own way";
 #endif
   for (const auto& [kind, outcome] : {std::pair{"optimizer", run_optimizer("segfault")},
-                                      std::pair{"objective", run_objective("segfault")}}) {
+                                      std::pair{"objective", run_objective("segfault")},
+                                      std::pair{"model", run_model("segfault")}}) {
     EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV) << kind;
-    EXPECT_THAT(outcome.err, testing::ContainsRegex(
-                                 std::string("hypotrack: frame [0-4]: .*scene.yaml:[89]:12: ") +
-                                 kind + " 'failing' .*_failing.so\\): crashed"));
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex(
+                    std::string("hypotrack: frame [0-4]: [^ ]*scene.yaml:[0-9]+:[0-9]+: ") + kind +
+                    " 'failing' .*_failing.so\\): crashed"));
   }
 }
 

@@ -1,0 +1,49 @@
+#include "session/checked_model.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "hypotrack/error.hpp"
+#include "plugin/plugin_call.hpp"
+
+namespace hypotrack {
+
+CheckedModel::CheckedModel(std::shared_ptr<const Model> model, std::string who)
+    : Model(model->data()),
+      model_(std::move(model)),
+      who_(std::move(who)),
+      poses_itself_(detail::call_plugin(who_, [&] { return model_->poses_itself(); })) {}
+
+void CheckedModel::pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
+                        Eigen::Matrix3Xd& landmarks) const {
+  detail::call_plugin(who_, [&] { model_->pose(parameters, vertices, landmarks); });
+  check_points(vertices, data().mesh.vertices.cols(), "vertices");
+  check_points(landmarks, static_cast<Eigen::Index>(data().landmarks.size()), "landmarks");
+}
+
+template <class Points>
+void CheckedModel::check_points(const Points& points, Eigen::Index expected,
+                                const char* what) const {
+  if (points.cols() != expected)
+    throw PluginError(fmt::format(
+        "{}: its pose has {} {}, expected {} as in its data; this is a bug in the model", who_,
+        points.cols(), what, expected));
+}
+
+std::vector<ShapeParameter> CheckedModel::shape_parameters() const {
+  return detail::call_explaining_plugin(who_, [&] { return model_->shape_parameters(); });
+}
+
+ModelData CheckedModel::shaped(std::span<const double> values) const {
+  return detail::call_explaining_plugin(who_, [&] { return model_->shaped(values); });
+}
+
+std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who) {
+  const bool runs = detail::call_plugin(
+      who, [&] { return model->poses_itself() || !model->shape_parameters().empty(); });
+  if (!runs) return model;
+  return std::make_shared<CheckedModel>(std::move(model), std::move(who));
+}
+
+}  // namespace hypotrack
