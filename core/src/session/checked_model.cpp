@@ -40,6 +40,11 @@ ModelData CheckedModel::shaped(std::span<const double> values) const {
 }
 
 std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who) {
+  if (model->data().landmarks.empty())
+    throw PluginError(fmt::format(
+        "{}: has no landmarks, expected one at least, such as its centre; this is a bug in the "
+        "model",
+        who));
   const bool runs = detail::call_plugin(
       who, [&] { return model->poses_itself() || !model->shape_parameters().empty(); });
   if (!runs) return model;

@@ -32,7 +32,8 @@ class CheckedModel final : public Model {
   bool poses_itself_;
 };
 
-/// Returns a plugin's model, wrapped if its code runs once it is made. `who`: its plugin_label().
+/// Returns a plugin's model, wrapped if its code runs once it is made. Throws PluginError, naming
+/// `who`, its plugin_label(), if it has no landmarks.
 std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who);
 
 }  // namespace hypotrack

@@ -98,6 +98,11 @@ TEST_F(PluginErrorsTest, AMeshThatIsNoneNamesItsPlugin) {
               testing::ContainsRegex("hypotrack: .*scene.yaml:1:10: model 'failing': vertex 0 "));
 }
 
+TEST_F(PluginErrorsTest, AModelWithoutLandmarksNamesItsPlugin) {
+  expect_refusal(run_model("no_landmarks"),
+                 {"scene.yaml:1:10: model 'failing' (/", "_failing.so): has no landmarks"});
+}
+
 TEST_F(PluginErrorsTest, AModelThatFailsToPoseItselfIsNamedAndNotTheOptimizer) {
   for (const auto& [how, what] :
        {std::pair{"exception", "threw std::runtime_error: the pose is broken"},
