@@ -8,6 +8,11 @@
 #include "plugin/plugin_call.hpp"
 
 namespace hypotrack {
+namespace {
+
+constexpr float kFarthest = 1e9F;  // metres; beyond, single precision may overflow
+
+}  // namespace
 
 CheckedModel::CheckedModel(std::shared_ptr<const Model> model, std::string who)
     : Model(model->data()),
@@ -29,6 +34,15 @@ void CheckedModel::check_points(const Points& points, Eigen::Index expected,
     throw PluginError(fmt::format(
         "{}: its pose has {} {}, expected {} as in its data; this is a bug in the model", who_,
         points.cols(), what, expected));
+  if (points.squaredNorm() <= kFarthest * kFarthest) return;  // NaN goes on
+  for (Eigen::Index i = 0; i < expected; ++i) {
+    const auto point = points.col(i);
+    if ((point.array().abs() <= kFarthest).all()) continue;
+    throw PluginError(fmt::format(
+        "{}: its pose has {} {} {} m in place {} of its {}, expected finite numbers up to {:g}; "
+        "this is a bug in the model",
+        who_, point.x(), point.y(), point.z(), i, what, kFarthest));
+  }
 }
 
 std::vector<ShapeParameter> CheckedModel::shape_parameters() const {

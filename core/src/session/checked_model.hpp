@@ -17,7 +17,7 @@ class CheckedModel final : public Model {
   CheckedModel(std::shared_ptr<const Model> model, std::string who);
 
   bool poses_itself() const override { return poses_itself_; }
-  /// Throws PluginError if the number of points is another than in data().
+  /// Throws PluginError if the number of points is another than in data(), or one is not finite.
   void pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
             Eigen::Matrix3Xd& landmarks) const override;
   std::vector<ShapeParameter> shape_parameters() const override;

@@ -109,7 +109,11 @@ TEST_F(PluginErrorsTest, AModelThatFailsToPoseItselfIsNamedAndNotTheOptimizer) {
         std::pair{"int", "threw int, which is no std::exception"},
         std::pair{"few_vertices", "its pose has 2 vertices, expected 3"},
         std::pair{"many_vertices", "its pose has 1000 vertices, expected 3"},
-        std::pair{"few_landmarks", "its pose has 0 landmarks, expected 3"}}) {
+        std::pair{"few_landmarks", "its pose has 0 landmarks, expected 3"},
+        std::pair{"nan_vertex", "nan m in place 1 of its vertices, expected finite numbers"},
+        std::pair{"infinite_vertex", "inf m in place 1 of its vertices, expected finite numbers"},
+        std::pair{"far_vertex", "e+30 m in place 1 of its vertices, expected finite numbers"},
+        std::pair{"nan_landmark", "m in place 0 of its landmarks, expected finite numbers"}}) {
     const Outcome outcome = run_model(how);
     expect_named(outcome, "model 'failing'", "libhypotrack_model_failing.so", what);
     EXPECT_THAT(outcome.err, Not(HasSubstr("optimizer")));
