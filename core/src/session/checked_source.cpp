@@ -7,6 +7,7 @@
 
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
+#include "tile/frame_checks.hpp"
 
 namespace hypotrack {
 
@@ -42,6 +43,7 @@ std::optional<Frame> CheckedSource::next() {
       detail::call_explaining_plugin(who_, [&] { return source_->next(); });
   if (!frame) return frame;
   check_order(*frame);
+  if (!frame->views.empty()) check_pictures(*frame);
   if (frame->views.empty() && frame->problem.empty())
     frame->problem =
         fmt::format("{} gives no views and no reason; this is a bug in the source", plugin_);
@@ -60,6 +62,15 @@ void CheckedSource::check_order(const Frame& frame) {
                     "and a time; this is a bug in the source",
                     plugin_, frame.index, frame.time, last_index_));
   last_index_ = frame.index;
+}
+
+void CheckedSource::check_pictures(const Frame& frame) const {
+  try {
+    check_views(frame, source_->cameras());
+  } catch (const DataError& e) {
+    throw DataError(fmt::format("{}, frame {}: {}; this is a bug in the source", plugin_,
+                                frame.index, e.what()));
+  }
 }
 
 void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Index found,

@@ -12,8 +12,8 @@
 
 namespace hypotrack {
 
-/// Wraps a plugin's source and checks its promises that no other part checks: cameras, frame rate,
-/// order of frames and sizes of the ground truth. Corrects times that do not grow.
+/// Wraps a plugin's source and checks its promises: cameras, frame rate, and the order, pictures
+/// and ground truth of frames. Corrects times that do not grow.
 class CheckedSource final : public Source {
  public:
   /// `plugin`: its place in the scene and name: `a.yaml:2:9: source 'video'`. `who`: its
@@ -33,6 +33,7 @@ class CheckedSource final : public Source {
 
  private:
   void check_order(const Frame& frame);
+  void check_pictures(const Frame& frame) const;
   void check_truth(const Frame& frame, const char* what, Eigen::Index found,
                    Eigen::Index expected) const;
 

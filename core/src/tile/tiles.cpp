@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/core.hpp>
 #include <utility>
 
 #include "camera/rectification.hpp"
@@ -14,42 +13,12 @@
 #include "scene/visible_share.hpp"
 #include "tile/crop.hpp"
 #include "tile/foreground_overlap.hpp"
+#include "tile/frame_checks.hpp"
 
 namespace hypotrack {
 namespace {
 
 constexpr double kLargestZoom = 16.0;  // tile pixels per image pixel
-
-void check_image(const cv::Mat& image, int type, const char* what, const char* expected,
-                 const Camera& camera, const Frame& frame, std::size_t view) {
-  if (image.empty()) return;
-  if (image.cols != camera.width || image.rows != camera.height) {
-    throw DataError(
-        fmt::format("frame {}, view {}: the {} is {}x{} pixels, its camera {}x{}; expected the "
-                    "same size",
-                    frame.index, view, what, image.cols, image.rows, camera.width, camera.height));
-  }
-  if (image.type() != type) {
-    throw DataError(fmt::format("frame {}, view {}: the {} is of OpenCV type {}; expected {}",
-                                frame.index, view, what, cv::typeToString(image.type()), expected));
-  }
-}
-
-void check_view(const Frame& frame, std::size_t index, const Camera& camera) {
-  const View& view = frame.views[index];
-  if (view.color.empty() && view.depth.empty()) {
-    throw DataError(
-        fmt::format("frame {}, view {}: there is neither colour nor depth; expected at least one "
-                    "of them",
-                    frame.index, index));
-  }
-  const auto check = [&](const cv::Mat& image, int type, const char* what, const char* expected) {
-    check_image(image, type, what, expected, camera, frame, index);
-  };
-  check(view.color, CV_8UC3, "image", "8-bit BGR");
-  check(view.mask, CV_8UC1, "mask", "8 bits and one channel");
-  check(view.depth, CV_32FC1, "depth image", "metres as 32-bit floats, one channel");
-}
 
 std::vector<Camera> checked(std::vector<Camera> cameras) {
   if (cameras.empty()) throw DataError("the source has no cameras; expected at least one");
@@ -79,7 +48,6 @@ struct TileMaker::Impl {
     }
   }
 
-  void check(const Frame& frame) const;
   std::vector<ResamplePlan> plan_views(const std::vector<TileCamera>& tiles) const;
 
   const Scene& scene;
@@ -90,14 +58,6 @@ struct TileMaker::Impl {
   VisibleShare visible;
   std::vector<Resampler> resamplers;
 };
-
-void TileMaker::Impl::check(const Frame& frame) const {
-  if (frame.views.size() != cameras.size()) {
-    throw DataError(fmt::format("frame {} has {} views; expected {}, one per camera", frame.index,
-                                frame.views.size(), cameras.size()));
-  }
-  for (std::size_t i = 0; i < cameras.size(); ++i) check_view(frame, i, cameras[i]);
-}
 
 std::vector<ResamplePlan> TileMaker::Impl::plan_views(const std::vector<TileCamera>& tiles) const {
   std::vector<double> scales;
@@ -136,14 +96,14 @@ double TileMaker::visible_share(const Eigen::VectorXd& state) const {
 
 ForegroundOverlap TileMaker::foreground_overlap(const Frame& frame,
                                                 const Eigen::VectorXd& state) const {
-  impl_->check(frame);
+  check_views(frame, impl_->cameras);
   return hypotrack::foreground_overlap(posed(state), impl_->rig.ideal_from_world[0].inverse(),
                                        impl_->cameras, frame.views);
 }
 
 TilePlan TileMaker::plan(const Frame& frame, const Eigen::VectorXd& state) const {
   Impl& self = *impl_;
-  self.check(frame);
+  check_views(frame, self.cameras);
   const double largest_focal = kLargestZoom * sharpest(self.cameras);
   self.posed.pose(state);
   self.posed.check_in_front();

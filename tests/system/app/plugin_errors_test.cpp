@@ -33,6 +33,16 @@ class PluginErrorsTest : public AppTest {
     return run_with(replaced(box_scene(), "type: rigid_box, size_mm: [90, 60, 40]",
                              "type: failing, how: " + how));
   }
+  /// Runs a scene whose source wraps that of the scene and fails at frame 3.
+  Outcome run_source(const std::string& how) const {
+    std::string text = box_scene();
+    for (const std::string line :
+         {"  cameras:", "  keyframes:", "    - {frame: 0", "    - {frame: 4"})
+      text = replaced(text, line, "  " + line);
+    return run_with(
+        replaced(text, "  type: synthetic",
+                 "  type: failing\n  how: " + how + "\n  source:\n    type: synthetic"));
+  }
   /// Expects one message with the place in the scene, the plugin and its library, and the frame.
   void expect_named(const Outcome& outcome, const std::string& who, const std::string& library,
                     const std::string& what) const {
@@ -117,6 +127,20 @@ TEST_F(PluginErrorsTest, AModelThatFailsToPoseItselfIsNamedAndNotTheOptimizer) {
     const Outcome outcome = run_model(how);
     expect_named(outcome, "model 'failing'", "libhypotrack_model_failing.so", what);
     EXPECT_THAT(outcome.err, Not(HasSubstr("optimizer")));
+  }
+}
+
+TEST_F(PluginErrorsTest, PicturesThatBreakTheContractNameTheSourceAndTheFrame) {
+  for (const auto& [how, what] :
+       {std::pair{"grey", "view 1: the image is of OpenCV type CV_8UC1; expected 8-bit BGR"},
+        std::pair{"small", "view 1: the image is 10x10 pixels, its camera 160x120"},
+        std::pair{"one_view", "there is 1 view; expected 2, one per camera"},
+        std::pair{"three_views", "there are 3 views; expected 2, one per camera"}}) {
+    const Outcome outcome = run_source(how);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::ContainsRegex("hypotrack: /[^ ]*scene.yaml:3:3: source "
+                                                    "'failing', frame 3: " +
+                                                    std::string(what)));
   }
 }
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "hypotrack/camera.hpp"
+#include "hypotrack/frame.hpp"
+
+namespace hypotrack {
+
+/// Throws DataError, without the frame's number, unless a frame has a view per camera with pictures
+/// of its size and of the right types.
+void check_views(const Frame& frame, const std::vector<Camera>& cameras);
+
+}  // namespace hypotrack
