@@ -49,6 +49,8 @@ std::filesystem::path libexec_program(const std::string& name) {
 
 std::filesystem::path probe_program() { return libexec_program("hypotrack_plugin_probe"); }
 
+std::filesystem::path own_plugin_folder() { return prefix_folder() / HYPOTRACK_PLUGIN_DIR; }
+
 std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra) {
   std::vector<std::filesystem::path> folders;
@@ -56,7 +58,7 @@ std::vector<std::filesystem::path> plugin_search_path(
     if (!folder.empty()) add_once(folders, std::filesystem::absolute(folder));
   }
   add_from_environment(folders);
-  add_once(folders, prefix_folder() / HYPOTRACK_PLUGIN_DIR);
+  add_once(folders, own_plugin_folder());
   return folders;
 }
 

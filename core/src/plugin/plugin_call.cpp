@@ -5,21 +5,39 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <new>
+#include <system_error>
 #include <typeinfo>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/stop.hpp"
+#include "plugin/folders.hpp"
 
 namespace hypotrack::detail {
+
+namespace {
+
+/// Returns the file of the library that defines an object's class; empty: unknown.
+std::string library_of(const void* object) {
+  Dl_info library{};
+  const void* const vtable = *static_cast<const void* const*>(object);
+  return dladdr(vtable, &library) != 0 && library.dli_fname ? library.dli_fname : "";
+}
+
+}  // namespace
 
 std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object) {
   const std::string who =
       fmt::format("{}: {} '{}'", config.where(), kind, config.get("type").scalar());
-  Dl_info library{};
-  const void* const vtable = *static_cast<const void* const*>(object);
-  if (dladdr(vtable, &library) == 0 || !library.dli_fname) return who;
-  return fmt::format("{} ({})", who, library.dli_fname);
+  const std::string library = library_of(object);
+  return library.empty() ? who : fmt::format("{} ({})", who, library);
+}
+
+bool comes_with_hypotrack(const void* object) {
+  std::error_code error;
+  const auto folder = std::filesystem::path(library_of(object)).parent_path();
+  return std::filesystem::equivalent(folder, own_plugin_folder(), error);
 }
 
 void rethrow_from(const std::string& who) {

@@ -43,6 +43,26 @@ decltype(auto) call_explaining_plugin(const std::string& who, Function&& functio
   }
 }
 
+/// Returns whether the library of a plugin's object came with hypotrack. Then its Errors are
+/// complete messages.
+bool comes_with_hypotrack(const void* object);
+
+/// Calls a function of a plugin as above. `explains`: its Errors are complete messages, which pass
+/// through unchanged. `place`, such as `frame 3`, stands before `who` in other messages.
+template <class Function>
+decltype(auto) call_plugin(const std::string& who, bool explains, const std::string& place,
+                           Function&& function) {
+  const RunningPlugin running(who.c_str());
+  try {
+    return std::forward<Function>(function)();
+  } catch (const Error&) {
+    if (explains) throw;
+    rethrow_from(place.empty() ? who : place + ": " + who);
+  } catch (...) {
+    rethrow_from(place.empty() ? who : place + ": " + who);
+  }
+}
+
 /// Returns the type name of the exception being handled: `int`.
 std::string current_exception_name();
 

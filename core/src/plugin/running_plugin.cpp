@@ -21,7 +21,7 @@ constexpr int kNoFrame = -1;
 std::atomic<int> g_frame{kNoFrame};
 
 constexpr int kTrackedFrame = -2;
-thread_local int t_frame = kTrackedFrame;
+[[gnu::tls_model("initial-exec")]] thread_local int t_frame = kTrackedFrame;
 
 /// A text of limited length.
 class FixedText {
@@ -69,8 +69,7 @@ std::optional<int> running_frame() {
 void report_end(const char* ends) {
   FixedText line;
   line << "hypotrack: ";
-  const int frame = g_frame;
-  if (frame != kNoFrame) line << "frame " << frame << ": ";
+  if (const auto frame = running_frame()) line << "frame " << *frame << ": ";
   if (t_who) line << t_who << ": ";
   line << ends << t_how << "\n";
   [[maybe_unused]] const ssize_t written =

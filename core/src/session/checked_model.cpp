@@ -18,6 +18,7 @@ CheckedModel::CheckedModel(std::shared_ptr<const Model> model, std::string who)
     : Model(model->data()),
       model_(std::move(model)),
       who_(std::move(who)),
+      explains_(detail::comes_with_hypotrack(model_.get())),
       poses_itself_(detail::call_plugin(who_, [&] { return model_->poses_itself(); })) {}
 
 void CheckedModel::pose(std::span<const double> parameters, Eigen::Matrix3Xf& vertices,
@@ -46,11 +47,11 @@ void CheckedModel::check_points(const Points& points, Eigen::Index expected,
 }
 
 std::vector<ShapeParameter> CheckedModel::shape_parameters() const {
-  return detail::call_explaining_plugin(who_, [&] { return model_->shape_parameters(); });
+  return detail::call_plugin(who_, explains_, "", [&] { return model_->shape_parameters(); });
 }
 
 ModelData CheckedModel::shaped(std::span<const double> values) const {
-  return detail::call_explaining_plugin(who_, [&] { return model_->shaped(values); });
+  return detail::call_plugin(who_, explains_, "", [&] { return model_->shaped(values); });
 }
 
 std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who) {

@@ -29,7 +29,7 @@ class CheckedModel final : public Model {
 
   std::shared_ptr<const Model> model_;
   std::string who_;
-  bool poses_itself_;
+  bool explains_, poses_itself_;
 };
 
 /// Returns a plugin's model, wrapped if its code runs once it is made. Throws PluginError, naming

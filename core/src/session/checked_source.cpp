@@ -18,6 +18,7 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
       who_(std::move(who)),
       parameters_(scene.dimension()),
       landmarks_(static_cast<Eigen::Index>(scene.landmark_names().size())),
+      explains_(detail::comes_with_hypotrack(source_.get())),
       clock_(source_->frame_rate(), source_->live()) {
   if (source_->cameras().empty())
     throw DataError(fmt::format(
@@ -37,10 +38,15 @@ CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene,
         plugin_, rate));
 }
 
-std::optional<Frame> CheckedSource::next() {
+std::optional<Frame> CheckedSource::ask() {
   const detail::ThreadFrame unknown(std::nullopt);  // it may read ahead of the tracker
-  std::optional<Frame> frame =
-      detail::call_explaining_plugin(who_, [&] { return source_->next(); });
+  const std::string place =
+      last_index_ < 0 ? "before the first frame" : fmt::format("after frame {}", last_index_);
+  return detail::call_plugin(place + ": " + who_, explains_, "", [&] { return source_->next(); });
+}
+
+std::optional<Frame> CheckedSource::next() {
+  std::optional<Frame> frame = ask();
   if (!frame) return frame;
   check_order(*frame);
   if (!frame->views.empty()) check_pictures(*frame);

@@ -12,12 +12,13 @@
 
 namespace hypotrack {
 
-/// Wraps a plugin's source and checks its promises: cameras, frame rate, and the order, pictures
-/// and ground truth of frames. Corrects times that do not grow.
+/// Wraps a plugin's source: names it in what it throws and where it crashes, and checks cameras,
+/// frame rate, and every frame's number, pictures and ground truth. Corrects times that do not
+/// grow. Errors of sources that come with hypotrack stay as they are.
 class CheckedSource final : public Source {
  public:
   /// `plugin`: its place in the scene and name: `a.yaml:2:9: source 'video'`. `who`: its
-  /// plugin_label(), for crashes and exceptions other than Error.
+  /// plugin_label().
   /// Throws DataError, naming the plugin.
   CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
                 std::string who = {});
@@ -32,6 +33,7 @@ class CheckedSource final : public Source {
   std::vector<std::string> statistics() const override { return source_->statistics(); }
 
  private:
+  std::optional<Frame> ask();
   void check_order(const Frame& frame);
   void check_pictures(const Frame& frame) const;
   void check_truth(const Frame& frame, const char* what, Eigen::Index found,
@@ -40,6 +42,7 @@ class CheckedSource final : public Source {
   std::unique_ptr<Source> source_;
   std::string plugin_, who_;
   Eigen::Index parameters_, landmarks_;
+  bool explains_;
   int last_index_ = -1;
   FrameClock clock_;
 };

@@ -7,7 +7,8 @@
 
 namespace hypotrack {
 
-/// Wraps a plugin's start: names it where it crashes and in exceptions other than Error.
+/// Wraps a plugin's start: names it in what it throws and where it crashes. Errors of starts that
+/// come with hypotrack stay as they are.
 class CheckedStart final : public Start {
  public:
   /// `who`: plugin_label() of the start.
@@ -22,6 +23,7 @@ class CheckedStart final : public Start {
  private:
   std::unique_ptr<Start> start_;
   std::string who_;
+  bool explains_;
 };
 
 }  // namespace hypotrack

@@ -130,6 +130,18 @@ TEST_F(PluginErrorsTest, AModelThatFailsToPoseItselfIsNamedAndNotTheOptimizer) {
   }
 }
 
+TEST_F(PluginErrorsTest, AnExceptionOfASourceNamesItAndTheFrameBefore) {
+  for (const auto& [how, what] : {std::pair{"exception", "threw std::runtime_error: no picture"},
+                                  std::pair{"data_error", "the file is broken"}}) {
+    const Outcome outcome = run_source(how);
+    EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+    EXPECT_THAT(outcome.err,
+                testing::ContainsRegex("hypotrack: after frame 2: /[^ ]*scene.yaml:3:3: source "
+                                       "'failing' \\(/.*_failing.so\\): " +
+                                       std::string(what)));
+  }
+}
+
 TEST_F(PluginErrorsTest, PicturesThatBreakTheContractNameTheSourceAndTheFrame) {
   for (const auto& [how, what] :
        {std::pair{"grey", "view 1: the image is of OpenCV type CV_8UC1; expected 8-bit BGR"},
@@ -165,6 +177,10 @@ TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
                     std::string("hypotrack: frame [0-4]: [^ ]*scene.yaml:[0-9]+:[0-9]+: ") + kind +
                     " 'failing' .*_failing.so\\): crashed"));
   }
+  const Outcome outcome = run_source("segfault");
+  EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV);
+  EXPECT_THAT(outcome.err, testing::ContainsRegex("hypotrack: after frame 2: .*scene.yaml:3:3: "
+                                                  "source 'failing' .*_failing.so\\): crashed"));
 }
 
 TEST_F(PluginErrorsTest, AProgramThatAPluginEndsSaysSoAndFails) {
