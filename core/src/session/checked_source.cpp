@@ -47,7 +47,9 @@ std::optional<Frame> CheckedSource::ask() {
 
 std::optional<Frame> CheckedSource::next() {
   std::optional<Frame> frame = ask();
+  ended_ = !frame;
   if (!frame) return frame;
+  ++frames_;
   check_order(*frame);
   if (!frame->views.empty()) check_pictures(*frame);
   if (frame->views.empty() && frame->problem.empty())
@@ -86,6 +88,17 @@ void CheckedSource::check_truth(const Frame& frame, const char* what, Eigen::Ind
       fmt::format("{}, frame {}: there are {} {}, the scene has {}; this is a bug in the "
                   "source",
                   plugin_, frame.index, found, what, expected));
+}
+
+std::vector<std::string> CheckedSource::statistics() const {
+  constexpr int kUsual = 1;  // frames too many in the headers of videos
+  std::vector<std::string> lines = source_->statistics();
+  const int announced = source_->frame_count().value_or(0);
+  if (ended_ && lines.empty() && frames_ + kUsual < announced)
+    lines.push_back(
+        fmt::format("{}: ends after {} frames, it announced {}; are some of its data missing?",
+                    plugin_, frames_, announced));
+  return lines;
 }
 
 }  // namespace hypotrack

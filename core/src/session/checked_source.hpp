@@ -30,7 +30,8 @@ class CheckedSource final : public Source {
   std::optional<Frame> next() override;
   bool live() const override { return source_->live(); }
   std::vector<std::string> notes() const override { return source_->notes(); }
-  std::vector<std::string> statistics() const override { return source_->statistics(); }
+  /// Returns the source's lines; without any, one that it ended before its announced end.
+  std::vector<std::string> statistics() const override;
 
  private:
   std::optional<Frame> ask();
@@ -44,6 +45,8 @@ class CheckedSource final : public Source {
   Eigen::Index parameters_, landmarks_;
   bool explains_;
   int last_index_ = -1;
+  int frames_ = 0;      ///< so far
+  bool ended_ = false;  ///< by itself
   FrameClock clock_;
 };
 

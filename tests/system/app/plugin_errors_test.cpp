@@ -156,6 +156,13 @@ TEST_F(PluginErrorsTest, PicturesThatBreakTheContractNameTheSourceAndTheFrame) {
   }
 }
 
+TEST_F(PluginErrorsTest, ASourceThatEndsBeforeItsAnnouncedEndIsSaidOnce) {
+  const Outcome outcome = run_source("early_end");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, testing::ContainsRegex("/[^ ]*scene.yaml:3:3: source 'failing': ends "
+                                                  "after 3 frames, it announced 40"));
+}
+
 TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
   const Outcome outcome = run_with(replaced(box_scene(), "stereo_color", "weighty"));
   EXPECT_EQ(outcome.exit_code, 1);
