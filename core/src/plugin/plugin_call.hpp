@@ -30,19 +30,6 @@ decltype(auto) call_plugin(const std::string& who, Function&& function) {
   }
 }
 
-/// Calls a function of a plugin whose Errors are complete messages, which pass through unchanged.
-template <class Function>
-decltype(auto) call_explaining_plugin(const std::string& who, Function&& function) {
-  const RunningPlugin running(who.empty() ? nullptr : who.c_str());
-  try {
-    return std::forward<Function>(function)();
-  } catch (const Error&) {
-    throw;
-  } catch (...) {
-    rethrow_from(who);
-  }
-}
-
 /// Returns whether the library of a plugin's object came with hypotrack. Then its Errors are
 /// complete messages.
 bool comes_with_hypotrack(const void* object);

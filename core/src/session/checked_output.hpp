@@ -8,7 +8,8 @@
 
 namespace hypotrack {
 
-/// Wraps a plugin's output: names it where it crashes and in exceptions other than Error.
+/// Wraps a plugin's output: names it and the frame in what it throws and where it crashes. Errors
+/// of outputs that come with hypotrack stay as they are.
 class CheckedOutput final : public Output {
  public:
   /// `who`: plugin_label() of the output.
@@ -25,8 +26,14 @@ class CheckedOutput final : public Output {
   void finish(bool complete) override;
 
  private:
+  template <class Function>
+  decltype(auto) call(Function&& function) const;
+  template <class Function>
+  decltype(auto) call(const Frame& frame, Function&& function) const;
+
   std::unique_ptr<Output> output_;
   std::string who_;
+  bool explains_;
 };
 
 }  // namespace hypotrack

@@ -43,6 +43,11 @@ class PluginErrorsTest : public AppTest {
         replaced(text, "  type: synthetic",
                  "  type: failing\n  how: " + how + "\n  source:\n    type: synthetic"));
   }
+  /// Runs a scene with an output that fails at frame 3.
+  Outcome run_output(const std::string& how) const {
+    return run_with(replaced(box_scene(), "output: {overlay: false}",
+                             "output: {overlay: false, also: {type: failing, how: " + how + "}}"));
+  }
   /// Expects one message with the place in the scene, the plugin and its library, and the frame.
   void expect_named(const Outcome& outcome, const std::string& who, const std::string& library,
                     const std::string& what) const {
@@ -163,6 +168,16 @@ TEST_F(PluginErrorsTest, ASourceThatEndsBeforeItsAnnouncedEndIsSaidOnce) {
                                                   "after 3 frames, it announced 40"));
 }
 
+TEST_F(PluginErrorsTest, AnExceptionOfAnOutputNamesItAndTheFrame) {
+  for (const auto& [how, what] :
+       {std::pair{"exception", "threw std::runtime_error: the output is broken"},
+        std::pair{"output_error", "): no room"}}) {
+    const Outcome outcome = run_output(how);
+    expect_named(outcome, "output 'failing'", "libhypotrack_output_failing.so", what);
+    EXPECT_THAT(outcome.err, HasSubstr("hypotrack: frame 3: "));
+  }
+}
+
 TEST_F(PluginErrorsTest, AParameterThatTheSceneReadsItselfIsRefused) {
   const Outcome outcome = run_with(replaced(box_scene(), "stereo_color", "weighty"));
   EXPECT_EQ(outcome.exit_code, 1);
@@ -175,9 +190,10 @@ TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "the sanitizer reports crashes in its own way";
 #endif
-  for (const auto& [kind, outcome] : {std::pair{"optimizer", run_optimizer("segfault")},
-                                      std::pair{"objective", run_objective("segfault")},
-                                      std::pair{"model", run_model("segfault")}}) {
+  for (const auto& [kind, outcome] :
+       {std::pair{"optimizer", run_optimizer("segfault")},
+        std::pair{"objective", run_objective("segfault")},
+        std::pair{"model", run_model("segfault")}, std::pair{"output", run_output("segfault")}}) {
     EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV) << kind;
     EXPECT_THAT(outcome.err,
                 testing::ContainsRegex(
