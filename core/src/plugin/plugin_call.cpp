@@ -62,7 +62,7 @@ void rethrow_from(const std::string& who) {
   } catch (const Error& e) {
     throw Error(message(e));
   } catch (const std::bad_alloc&) {
-    throw;
+    throw Error(who + ": ran out of memory");
   } catch (const std::exception& e) {
     throw PluginError(fmt::format("{}: threw {}: {}", who, current_exception_name(), e.what()));
   } catch (...) {

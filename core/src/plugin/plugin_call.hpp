@@ -16,7 +16,8 @@ namespace hypotrack::detail {
 std::string plugin_label(std::string_view kind, const ConfigNode& config, const void* object);
 
 /// Throws the exception being handled again, with `who` before its message. Other exceptions than
-/// Error become PluginError; std::bad_alloc and Stopped stay. An empty `who` changes nothing.
+/// Error become PluginError, std::bad_alloc an Error; Stopped stays. An empty `who` changes
+/// nothing.
 [[noreturn]] void rethrow_from(const std::string& who);
 
 /// Calls a function of a plugin. Names the plugin in what it throws, and if it crashes.

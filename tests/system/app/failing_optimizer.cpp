@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 #include <limits>
+#include <new>
 #include <stdexcept>
 
 #include "hypotrack/plugin.hpp"
@@ -15,6 +16,7 @@ namespace {
 enum class How {
   kException,
   kInt,
+  kNoMemory,
   kSegfault,
   kExit,
   kUnderscoreExit,
@@ -31,10 +33,10 @@ enum class How {
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 15> kNames = {
-      "exception",   "int",         "segfault",  "exit",      "underscore_exit", "interrupted_code",
-      "hang",        "short_point", "outside",   "too_cheap", "minus_infinity",  "negative_count",
-      "over_budget", "endless",     "long_batch"};
+  static constexpr std::array<std::string_view, 16> kNames = {
+      "exception",        "int",         "no_memory",   "segfault",  "exit",      "underscore_exit",
+      "interrupted_code", "hang",        "short_point", "outside",   "too_cheap", "minus_infinity",
+      "negative_count",   "over_budget", "endless",     "long_batch"};
   return kNames;
 }
 
@@ -70,6 +72,7 @@ class Failing : public hypotrack::Optimizer {
  private:
   void fail() const {
     if (params_.how == How::kInt) throw 42;
+    if (params_.how == How::kNoMemory) throw std::bad_alloc();
     if (params_.how == How::kSegfault) raise(SIGSEGV);
     if (params_.how == How::kExit) exit(0);
     if (params_.how == How::kUnderscoreExit) _exit(0);

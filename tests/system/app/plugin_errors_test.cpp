@@ -66,6 +66,7 @@ class PluginErrorsTest : public AppTest {
 TEST_F(PluginErrorsTest, AnExceptionOfAnOptimizerNamesItAndTheFrame) {
   expect_optimizer_named("exception", "threw std::runtime_error: the search is broken");
   expect_optimizer_named("int", "threw int, which is no std::exception");
+  expect_optimizer_named("no_memory", "ran out of memory");
 }
 
 TEST_F(PluginErrorsTest, AnExceptionOfAnObjectiveNamesItAndNotTheOptimizer) {
