@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "hypotrack/cuda/device_objective.hpp"
@@ -34,14 +35,22 @@ void CheckedObjective::prepare(const Observation& observation) {
 
 double CheckedObjective::cost(const RenderedHypothesis& hypothesis) const {
   const TimeSum::Scope time(times_->cost);
-  return detail::call_plugin(who_, [&] { return objective_->cost(hypothesis); });
+  return checked(detail::call_plugin(who_, [&] { return objective_->cost(hypothesis); }));
+}
+
+double CheckedObjective::checked(double cost) const {
+  if (cost >= std::numeric_limits<double>::lowest()) return cost;  // NaN goes on
+  throw PluginError(
+      fmt::format("{}: the cost of a hypothesis is {}, expected a number or +infinity; this is a "
+                  "bug in the objective",
+                  who_, cost));
 }
 
 double CheckedObjective::cost_and_residuals(const RenderedHypothesis& hypothesis,
                                             std::span<float> residuals) const {
   const TimeSum::Scope time(times_->cost);
-  const double cost = detail::call_plugin(
-      who_, [&] { return objective_->cost_and_residuals(hypothesis, residuals); });
+  const double cost = checked(detail::call_plugin(
+      who_, [&] { return objective_->cost_and_residuals(hypothesis, residuals); }));
   if (std::isfinite(cost)) check_finite(residuals, "residuals");
   return cost;
 }

@@ -12,7 +12,7 @@
 namespace hypotrack {
 
 /// Wraps a plugin's objective: names it in what it throws and where it crashes, checks its
-/// residuals, and measures how long it works.
+/// costs and residuals, and measures how long it works.
 class CheckedObjective final : public Objective, public ResidualTerm {
  public:
   /// `who`: plugin_label() of the objective, which must not be null.
@@ -25,6 +25,7 @@ class CheckedObjective final : public Objective, public ResidualTerm {
   bool needs_rendering() const override { return objective_->needs_rendering(); }
   ImageUse image_use() const override { return objective_->image_use(); }
   void prepare(const Observation& observation) override;
+  /// Throws PluginError if the cost is NaN or -infinity. So does cost_and_residuals().
   double cost(const RenderedHypothesis& hypothesis) const override;
   const ResidualTerm* residual_term() const override { return residuals_ ? this : nullptr; }
   /// Throws PluginError if a residual is not finite although the cost is.
@@ -50,6 +51,7 @@ class CheckedObjective final : public Objective, public ResidualTerm {
                       Jacobian& jacobian) const override;
 
  private:
+  double checked(double cost) const;
   void check_finite(std::span<const float> numbers, const char* what) const;
 
   std::unique_ptr<Objective> objective_;

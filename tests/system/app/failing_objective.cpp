@@ -13,6 +13,8 @@ enum class How {
   kException,
   kInt,
   kSegfault,
+  kNanCost,
+  kMinusInfinity,
   kNanResidual,
   kNegativeCount,
   kNanJacobian,
@@ -20,9 +22,10 @@ enum class How {
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 8> kNames = {
+  static constexpr std::array<std::string_view, 10> kNames = {
       "device",       "exception",      "int",          "segfault",
-      "nan_residual", "negative_count", "nan_jacobian", "narrow_jacobian"};
+      "nan_cost",     "minus_infinity", "nan_residual", "negative_count",
+      "nan_jacobian", "narrow_jacobian"};
   return kNames;
 }
 
@@ -44,6 +47,9 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
   void prepare(const hypotrack::Observation&) override { ++frames_; }
   double cost(const hypotrack::RenderedHypothesis& hypothesis) const override {
     if (fails()) fail();
+    if (fails() && params_.how == How::kNanCost) return std::numeric_limits<double>::quiet_NaN();
+    if (fails() && params_.how == How::kMinusInfinity)
+      return -std::numeric_limits<double>::infinity();
     return hypothesis.state[0] * hypothesis.state[0];
   }
 

@@ -80,6 +80,14 @@ TEST_F(PluginErrorsTest, AnExceptionOfAnObjectiveNamesItAndNotTheOptimizer) {
   }
 }
 
+TEST_F(PluginErrorsTest, CostsThatAreNeitherNumbersNorInfeasibleAreRefused) {
+  for (const auto& [how, what] :
+       {std::pair{"nan_cost", "the cost of a hypothesis is nan, expected a number or +infinity"},
+        std::pair{"minus_infinity", "the cost of a hypothesis is -inf, expected"}})
+    expect_named(run_objective(how), "objective 'failing'", "libhypotrack_objective_failing.so",
+                 what);
+}
+
 TEST_F(PluginErrorsTest, ResidualsThatBreakTheContractAreRefused) {
   expect_named(run_objective("nan_residual", "levenberg_marquardt"), "objective 'failing'",
                "libhypotrack_objective_failing.so",

@@ -1,7 +1,7 @@
 #include "cost/cuda/host_batch.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "cost/backends.hpp"
 #include "cost/cuda/transfer.hpp"
@@ -33,7 +33,8 @@ void HostBatch::read(Eigen::Ref<Eigen::VectorXd> costs,
                      const std::vector<ObjectiveTerm>& terms) const {
   for (Eigen::Index i = 0; i < count_; ++i) {
     costs[i] = costs_staging_.data()[i];
-    if (std::isnan(costs[i])) refuse_cost(terms.front(), i, "(or one after it) returned NaN");
+    if (!(costs[i] >= std::numeric_limits<double>::lowest()))
+      refuse_cost(terms.front(), i, "(or one after it) returned NaN or -infinity");
   }
 }
 
