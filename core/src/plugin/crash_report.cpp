@@ -36,6 +36,7 @@ CrashReport::CrashReport() {
     if (now.sa_handler != SIG_DFL) continue;
     struct sigaction own {};
     own.sa_handler = on_crash;
+    own.sa_flags = SA_ONSTACK;  // the plugin's may be full
     taken_[i] = sigaction(kSignals[i], &own, nullptr) == 0;
   }
 }

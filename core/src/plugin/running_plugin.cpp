@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "plugin/signal_stack.hpp"
+
 namespace hypotrack::detail {
 namespace {
 
@@ -47,7 +49,9 @@ class FixedText {
 }  // namespace
 
 RunningPlugin::RunningPlugin(const char* who, const char* how)
-    : who_(std::exchange(t_who, who)), how_(std::exchange(t_how, how)) {}
+    : who_(std::exchange(t_who, who)), how_(std::exchange(t_how, how)) {
+  ensure_signal_stack();
+}
 
 RunningPlugin::~RunningPlugin() {
   t_who = who_;

@@ -13,6 +13,7 @@ enum class How {
   kException,
   kInt,
   kSegfault,
+  kStackOverflow,
   kNanCost,
   kMinusInfinity,
   kNanResidual,
@@ -22,11 +23,18 @@ enum class How {
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 10> kNames = {
-      "device",       "exception",      "int",          "segfault",
-      "nan_cost",     "minus_infinity", "nan_residual", "negative_count",
-      "nan_jacobian", "narrow_jacobian"};
+  static constexpr std::array<std::string_view, 11> kNames = {
+      "device",         "exception",      "int",          "segfault",       "stack_overflow",
+      "nan_cost",       "minus_infinity", "nan_residual", "negative_count", "nan_jacobian",
+      "narrow_jacobian"};
   return kNames;
+}
+
+/// Calls itself without end.
+int fill_stack(int depth) {  // NOLINT(misc-no-recursion)
+  volatile char piece[4096];
+  piece[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : fill_stack((depth + 1) % 1000) + piece[0];
 }
 
 class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
@@ -90,6 +98,7 @@ class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {
     if (params_.how == How::kException) throw std::runtime_error("the cost is broken");
     if (params_.how == How::kInt) throw 42;
     if (params_.how == How::kSegfault) raise(SIGSEGV);
+    if (params_.how == How::kStackOverflow) fill_stack(0);
   }
   Params params_;
   int frames_ = 0;

@@ -30,13 +30,17 @@ enum class How {
   kOverBudget,
   kEndless,
   kLongBatch,
+  kStackOverflow,
 };
 
 std::span<const std::string_view> enum_names(How) {
-  static constexpr std::array<std::string_view, 16> kNames = {
-      "exception",        "int",         "no_memory",   "segfault",  "exit",      "underscore_exit",
-      "interrupted_code", "hang",        "short_point", "outside",   "too_cheap", "minus_infinity",
-      "negative_count",   "over_budget", "endless",     "long_batch"};
+  static constexpr std::array<std::string_view, 17> kNames = {
+      "exception",        "int",           "no_memory",
+      "segfault",         "exit",          "underscore_exit",
+      "interrupted_code", "hang",          "short_point",
+      "outside",          "too_cheap",     "minus_infinity",
+      "negative_count",   "over_budget",   "endless",
+      "long_batch",       "stack_overflow"};
   return kNames;
 }
 
@@ -48,6 +52,13 @@ struct Params {
     v("how", how, {.help = "it fails then"});
   }
 };
+
+/// Calls itself without end.
+int fill_stack(int depth) {  // NOLINT(misc-no-recursion)
+  volatile char piece[4096];
+  piece[0] = static_cast<char>(depth);
+  return depth < 0 ? 0 : fill_stack((depth + 1) % 1000) + piece[0];
+}
 
 class Failing : public hypotrack::Optimizer {
  public:
@@ -74,6 +85,7 @@ class Failing : public hypotrack::Optimizer {
     if (params_.how == How::kInt) throw 42;
     if (params_.how == How::kNoMemory) throw std::bad_alloc();
     if (params_.how == How::kSegfault) raise(SIGSEGV);
+    if (params_.how == How::kStackOverflow) fill_stack(0);
     if (params_.how == How::kExit) exit(0);
     if (params_.how == How::kUnderscoreExit) _exit(0);
     if (params_.how == How::kInterruptedCode) _exit(130);

@@ -202,7 +202,9 @@ TEST_F(PluginErrorsTest, ACrashNamesThePluginAndTheFrame) {
   for (const auto& [kind, outcome] :
        {std::pair{"optimizer", run_optimizer("segfault")},
         std::pair{"objective", run_objective("segfault")},
-        std::pair{"model", run_model("segfault")}, std::pair{"output", run_output("segfault")}}) {
+        std::pair{"model", run_model("segfault")}, std::pair{"output", run_output("segfault")},
+        std::pair{"optimizer", run_optimizer("stack_overflow")},
+        std::pair{"objective", run_objective("stack_overflow")}}) {
     EXPECT_EQ(outcome.exit_code, 128 + SIGSEGV) << kind;
     EXPECT_THAT(outcome.err,
                 testing::ContainsRegex(
