@@ -76,8 +76,7 @@ void CheckedSource::check_pictures(const Frame& frame) const {
   try {
     check_views(frame, source_->cameras());
   } catch (const DataError& e) {
-    throw DataError(fmt::format("{}, frame {}: {}; this is a bug in the source", plugin_,
-                                frame.index, e.what()));
+    throw DataError(fmt::format("{}: {}; this is a bug in the source", plugin_, e.what()));
   }
 }
 

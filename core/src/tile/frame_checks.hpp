@@ -7,8 +7,8 @@
 
 namespace hypotrack {
 
-/// Throws DataError, without the frame's number, unless a frame has a view per camera with pictures
-/// of its size and of the right types.
+/// Throws DataError unless a frame has a view per camera, with pictures of its size and of the
+/// right types.
 void check_views(const Frame& frame, const std::vector<Camera>& cameras);
 
 }  // namespace hypotrack

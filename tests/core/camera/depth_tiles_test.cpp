@@ -187,8 +187,8 @@ TEST(DepthTiles, SayWhatDoesNotFit) {
     tiles.make(frame, state);
   };
   EXPECT_THAT([&] { make({}); },
-              ThrowsMessage<DataError>(
-                  HasSubstr("view 0: there is neither colour nor depth; expected at least one")));
+              ThrowsMessage<DataError>(HasSubstr(
+                  "frame 3, view 0: there is neither colour nor depth; expected at least one")));
   EXPECT_THAT(
       [&] { make({.depth = cv::Mat(240, 320, CV_32F)}); },
       ThrowsMessage<DataError>(HasSubstr("the depth image is 320x240 pixels, its camera 640x480")));

@@ -91,7 +91,7 @@ TEST(Tiles, SayWhatDoesNotFit) {
   Frame frame;
   frame.index = 3;
   EXPECT_THAT([&] { tiles.make(frame, at(0, 0, 1)); },
-              ThrowsMessage<DataError>(HasSubstr("there are 0 views; expected 1")));
+              ThrowsMessage<DataError>(HasSubstr("frame 3 has 0 views; expected 1")));
   frame.views = {{cv::Mat::zeros(480, 640, CV_8UC3), {}}};
   EXPECT_THAT(
       [&] { tiles.make(frame, at(0, 0, 1)); },

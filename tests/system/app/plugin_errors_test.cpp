@@ -158,14 +158,15 @@ TEST_F(PluginErrorsTest, AnExceptionOfASourceNamesItAndTheFrameBefore) {
 
 TEST_F(PluginErrorsTest, PicturesThatBreakTheContractNameTheSourceAndTheFrame) {
   for (const auto& [how, what] :
-       {std::pair{"grey", "view 1: the image is of OpenCV type CV_8UC1; expected 8-bit BGR"},
-        std::pair{"small", "view 1: the image is 10x10 pixels, its camera 160x120"},
-        std::pair{"one_view", "there is 1 view; expected 2, one per camera"},
-        std::pair{"three_views", "there are 3 views; expected 2, one per camera"}}) {
+       {std::pair{"grey",
+                  "frame 3, view 1: the image is of OpenCV type CV_8UC1; expected 8-bit BGR"},
+        std::pair{"small", "frame 3, view 1: the image is 10x10 pixels, its camera 160x120"},
+        std::pair{"one_view", "frame 3 has 1 views; expected 2, one per camera"},
+        std::pair{"three_views", "frame 3 has 3 views; expected 2, one per camera"}}) {
     const Outcome outcome = run_source(how);
     EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
     EXPECT_THAT(outcome.err, testing::ContainsRegex("hypotrack: /[^ ]*scene.yaml:3:3: source "
-                                                    "'failing', frame 3: " +
+                                                    "'failing': " +
                                                     std::string(what)));
   }
 }
