@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fill_stack.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace {
@@ -28,13 +29,6 @@ std::span<const std::string_view> enum_names(How) {
       "nan_cost",       "minus_infinity", "nan_residual", "negative_count", "nan_jacobian",
       "narrow_jacobian"};
   return kNames;
-}
-
-/// Calls itself without end.
-int fill_stack(int depth) {  // NOLINT(misc-no-recursion)
-  volatile char piece[4096];
-  piece[0] = static_cast<char>(depth);
-  return depth < 0 ? 0 : fill_stack((depth + 1) % 1000) + piece[0];
 }
 
 class Failing : public hypotrack::Objective, public hypotrack::ResidualTerm {

@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "fill_stack.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace {
@@ -52,13 +53,6 @@ struct Params {
     v("how", how, {.help = "it fails then"});
   }
 };
-
-/// Calls itself without end.
-int fill_stack(int depth) {  // NOLINT(misc-no-recursion)
-  volatile char piece[4096];
-  piece[0] = static_cast<char>(depth);
-  return depth < 0 ? 0 : fill_stack((depth + 1) % 1000) + piece[0];
-}
 
 class Failing : public hypotrack::Optimizer {
  public:
