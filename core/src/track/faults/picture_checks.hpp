@@ -20,11 +20,12 @@ struct ViewFault {
 /// Looks for faults in the pictures of frames: in colour by small grey copies.
 class PictureChecks {
  public:
-  /// `with_depth`: depth is read, so that a view without any is one that shows nothing.
+  /// `with_depth`: an objective reads depth. Then a view whose depth is nowhere measured is a
+  /// fault.
   PictureChecks(std::vector<Camera> cameras, bool with_depth);
 
-  /// Returns the worst fault of the next frame. Colour is not checked in views with depth, which
-  /// does not depend on the light. Call it with all frames that have views, in order.
+  /// Returns the worst fault of the next frame. Colour is not checked in views with depth, as
+  /// depth does not depend on the light. Call it with all frames that have views, in order.
   ViewFault check(const Frame& frame);
 
   /// Returns by how much each view of the last frame became brighter; 1: it did not jump.
