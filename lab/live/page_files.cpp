@@ -3,19 +3,17 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
 
 std::string content_of(const std::string& name) {
   const std::filesystem::path file = data_file(name);
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string text = read_whole(file).value_or("");
   if (text.empty())
     throw DataError(fmt::format("{}: cannot be read; install hypotrack again", file.string()));
   return text;

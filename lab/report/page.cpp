@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/text_file.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack {
@@ -15,8 +14,7 @@ namespace {
 
 std::string asset(const std::string& name) {
   const std::filesystem::path file = data_file("report/" + name);
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  std::string text = read_whole(file).value_or("");
   if (text.empty())
     throw DataError(fmt::format("{}: cannot be read; install hypotrack again", file.string()));
   return text;

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 #include "lab/study/hash.hpp"
 
 namespace hypotrack::study {
@@ -18,15 +18,14 @@ constexpr std::size_t kMaxRuns = 100'000;
 
 /// The content of a scene's file and, where it includes other files, its resolved content.
 std::string read_scene_text(const StudyScene& scene) {
-  std::ifstream in(scene.file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in)
+  const std::optional<std::string> text = read_whole(scene.file);
+  if (!text)
     throw ConfigError(fmt::format("{}: scene '{}': cannot read {}", scene.where, scene.name,
                                   scene.file.string()));
   try {
     const std::string written = ConfigNode::load(scene.file).to_yaml();
     const std::string whole = ConfigNode::load_scene(scene.file).to_yaml();
-    return whole == written ? text : text + whole;
+    return whole == written ? *text : *text + whole;
   } catch (const ConfigError& error) {
     throw ConfigError(fmt::format("{}: {}: {}", scene.where, scene.name, error.what()));
   }

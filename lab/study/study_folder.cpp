@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -22,10 +23,7 @@ constexpr const char* kStudyFile = "study.yaml";
 constexpr const char* kPlanFile = "plan.txt";
 constexpr const char* kLockSuffix = ".lock";
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
+std::string read_text(const std::filesystem::path& file) { return read_whole(file).value_or(""); }
 
 std::string plan_text(const Plan& plan) {
   std::string text;

@@ -1,11 +1,10 @@
 #include "new_plugin/guide.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "base/installation.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack::app {
 
@@ -31,8 +30,7 @@ std::map<std::string, std::string> files_of_guide(std::string_view markdown) {
 
 std::map<std::string, std::string> files_of_guide() {
   const std::filesystem::path file = detail::prefix_folder() / "share/hypotrack/plugin_guide.md";
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = read_whole(file).value_or("");
   if (text.empty())
     throw DataError(file.string() + ": cannot be read; it is part of hypotrack, install it again");
   return files_of_guide(text);

@@ -2,11 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "hypotrack/export.hpp"
 
 namespace hypotrack {
+
+/// Reads a whole file, in large pieces. Returns nothing if it cannot be opened or read to its end.
+HYPOTRACK_API std::optional<std::string> read_whole(const std::filesystem::path& file);
 
 /// A text file that grows by whole lines. Every line is in the file when `write` returns, so that a
 /// killed run loses no frame and other programs can follow it.

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -27,12 +29,10 @@ std::string read_all(const std::filesystem::path& file) {
     throw DataError(
         fmt::format("{}: the table is larger than {} MiB", file.string(), kLargestFile >> 20));
   }
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.good() && !in.eof()) {
+  std::optional<std::string> text = read_whole(file);
+  if (!text)
     throw DataError(fmt::format("{}: cannot be read; check its permissions", file.string()));
-  }
-  return text;
+  return std::move(*text);
 }
 
 std::string_view trimmed(std::string_view cell) {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -26,11 +28,10 @@ std::string read_text(const std::filesystem::path& file) {
     throw DataError(
         fmt::format("{}: is larger than 8 MiB, which no calibration is", file.string()));
   }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
+  std::optional<std::string> text = read_whole(file);
+  if (!text)
     throw DataError(fmt::format("{}: cannot be read; check its permissions", file.string()));
-  }
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return std::move(*text);
 }
 
 enum class Language { yaml, json, toml, unknown };

@@ -5,15 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 #include "camera/picture_header.hpp"
 #include "hypotrack/media.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -35,19 +36,16 @@ ReadImage decode(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, error)) return {{}, name + ": is no file"};
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > kLargestImageFile) return {{}, name + ": is larger than 512 MiB"};
-  std::ifstream in(file, std::ios::binary);
-  // Unsigned: OpenCV's WebP decoder rejects a vector of char.
-  const std::vector<unsigned char> bytes((std::istreambuf_iterator<char>(in)),
-                                         std::istreambuf_iterator<char>());
-  if (!in.good() && !in.eof()) return {{}, name + ": cannot be read; check its permissions"};
-  if (bytes.empty()) return {{}, name + ": is empty"};
-  const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (is_truncated(all)) return {{}, name + ": is cut off before its end"};
-  if (const std::string problem = problem_of_size(all); !problem.empty())
+  std::optional<std::string> all = read_whole(file);
+  if (!all) return {{}, name + ": cannot be read; check its permissions"};
+  if (all->empty()) return {{}, name + ": is empty"};
+  if (is_truncated(*all)) return {{}, name + ": is cut off before its end"};
+  if (const std::string problem = problem_of_size(*all); !problem.empty())
     return {{}, name + ": " + problem};
   ReadImage read;
   try {
-    read.image = decode_image(cv::Mat(bytes, false).reshape(1, 1), cv::IMREAD_UNCHANGED);
+    const cv::Mat bytes(1, static_cast<int>(all->size()), CV_8UC1, all->data());
+    read.image = decode_image(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
     if (e.code == cv::Error::StsNoMem) throw;
     read.image.release();  // OpenCV's message for absurd sizes names its own source lines

@@ -5,13 +5,14 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack::articulated {
 namespace {
@@ -60,15 +61,14 @@ std::string read(const std::filesystem::path& file) {
   if (std::filesystem::file_size(file, error) > kLargestFile)
     throw DataError(fmt::format("{}: this is no URDF file of an object: it is larger than {} MiB",
                                 file.string(), kLargestFile >> 20));
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in) throw DataError(fmt::format("{}: cannot be read", file.string()));
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+  std::optional<std::string> text = read_whole(file);
+  if (!text) throw DataError(fmt::format("{}: cannot be read", file.string()));
+  if (text->starts_with("\xFF\xFE") || text->starts_with("\xFE\xFF"))
     throw DataError(fmt::format("{}: the file is in UTF-16; write it in UTF-8", file.string()));
-  if (const auto elements = std::ranges::count(text, '<'); elements > 2 * kMostElements)
+  if (const auto elements = std::ranges::count(*text, '<'); elements > 2 * kMostElements)
     throw DataError(fmt::format("{}: the file has more than {} elements; expected one object",
                                 file.string(), kMostElements));
-  return text;
+  return std::move(*text);
 }
 
 /// Returns the place behind the next `end` from `begin` on, or that of the text's end.

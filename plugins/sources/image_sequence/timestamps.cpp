@@ -7,11 +7,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <optional>
+#include <utility>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
 #include "hypotrack/suggest.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -50,14 +52,13 @@ std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::file_size(file, error) > kLargestFile || error) {
     throw DataError(name + ": is larger than 64 MiB; expected a time per line");
   }
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.good() && !in.eof()) throw DataError(name + ": cannot be read; check its permissions");
-  if (text.find('\0') != std::string::npos) {
+  std::optional<std::string> text = read_whole(file);
+  if (!text) throw DataError(name + ": cannot be read; check its permissions");
+  if (text->find('\0') != std::string::npos) {
     throw DataError(name + ": is no text; expected a time per line");
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark of UTF-8
-  return text;
+  if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);  // byte order mark of UTF-8
+  return std::move(*text);
 }
 
 struct Line {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack::rgbd {
 namespace {
@@ -30,14 +32,13 @@ std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::file_size(file, error) > kLargestList || error) {
     throw DataError(name + ": is larger than 64 MiB; expected a list of file names");
   }
-  std::ifstream in(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (!in.good() && !in.eof()) throw DataError(name + ": cannot be read; check its permissions");
-  if (text.find('\0') != std::string::npos) {
+  std::optional<std::string> text = read_whole(file);
+  if (!text) throw DataError(name + ": cannot be read; check its permissions");
+  if (text->find('\0') != std::string::npos) {
     throw DataError(name + ": is no text; expected a time and a file name per line");
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // byte order mark of UTF-8
-  return text;
+  if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);  // byte order mark of UTF-8
+  return std::move(*text);
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -69,5 +69,25 @@ TEST_F(WriteWholeTest, LeavesADeviceADevice) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
+class ReadWholeTest : public WriteWholeTest {};
+
+TEST_F(ReadWholeTest, ReadsBytesOfEveryKindToTheEnd) {
+  std::string bytes(100'003, '\0');  // larger than any buffer on the way
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<char>(i * 31 % 256);
+  write_whole(path("bytes"), bytes);
+  EXPECT_EQ(read_whole(path("bytes")), bytes);
+}
+
+TEST_F(ReadWholeTest, ReadsAnEmptyFileAndOneWithoutSize) {
+  write_whole(path("empty"), "");
+  EXPECT_EQ(read_whole(path("empty")), "");
+  EXPECT_THAT(read_whole("/proc/self/status").value_or(""), HasSubstr("VmRSS"));
+}
+
+TEST_F(ReadWholeTest, ReturnsNothingForWhatCannotBeRead) {
+  EXPECT_EQ(read_whole(path("absent")), std::nullopt);
+  EXPECT_EQ(read_whole(folder_.path()), std::nullopt);
+}
+
 }  // namespace
 }  // namespace hypotrack::test

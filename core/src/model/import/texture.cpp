@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string_view>
@@ -13,6 +11,7 @@
 #include "camera/picture_header.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
 namespace {
@@ -61,9 +60,8 @@ cv::Mat read_texture(const std::filesystem::path& image, const std::string& wher
                     "with `texture`",
                     where, image.string()));
   }
-  std::ifstream in(image, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  cv::Mat pixels = decode(bytes, fmt::format("{}: {}", where, image.string()));
+  cv::Mat pixels =
+      decode(read_whole(image).value_or(""), fmt::format("{}: {}", where, image.string()));
   if (pixels.empty()) {
     throw DataError(fmt::format("{}: its texture {} is no image that OpenCV reads (PNG, JPEG, ...)",
                                 where, image.string()));

@@ -1,10 +1,10 @@
 #include "model/import/reader/gltf.hpp"
 
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "hypotrack/text_file.hpp"
 
 namespace hypotrack::mesh_wire {
 namespace {
@@ -12,8 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 Json read_json(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string bytes = read_whole(file).value_or("");
   if (!bytes.starts_with("glTF")) return Json::parse(bytes);
   // GLB: a header of 12 bytes, then chunks of length, type and data; the first chunk is the JSON.
   std::uint32_t length = 0;
