@@ -4,15 +4,19 @@ set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/install_missing_packages.sh"
 
-# build PRESET [OPTION...]: configures, with options for cmake, and builds with one of CMakePresets.json.
-# ccache is used where it is.
-build() {
-  local preset=$1 launcher=()
-  shift
+# configure PRESET [OPTION...]: configures with one of CMakePresets.json, and options for cmake. ccache is used
+# where it is.
+configure() {
+  local launcher=()
   command -v ccache >/dev/null &&
     launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_CUDA_COMPILER_LAUNCHER=ccache)
-  cmake --preset "$preset" "${launcher[@]}" "$@"
-  cmake --build --preset "$preset"
+  cmake --preset "$1" "${launcher[@]}" "${@:2}"
+}
+
+# build PRESET [OPTION...]: the same, and builds.
+build() {
+  configure "$@"
+  cmake --build --preset "$1"
 }
 
 if ! command -v apt-get >/dev/null; then
