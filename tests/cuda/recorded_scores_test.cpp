@@ -44,16 +44,12 @@ class RecordedScores : public testing::TestWithParam<RecordedCase> {
   }
 };
 
-TEST_P(RecordedScores, AreThoseOfASearchThatBeginsAtTheTruth) {
+TEST_P(RecordedScores, OfASearchFromTheTruthAreTheSameOnEveryInstructionSetOfTheCpu) {
   const RecordedSearch search(GetParam());
   EXPECT_EQ(search.rectified(), GetParam().rig == Rig::rectified);
   ASSERT_EQ(search.states().cols(), 32 * 32);
   EXPECT_LT(search.costs()[0], search.costs().mean());
   EXPECT_EQ(search.costs_on(Backend::cpu), search.costs());
-}
-
-TEST_P(RecordedScores, AreTheSameOnEveryInstructionSetOfTheCpu) {
-  const RecordedSearch search(GetParam());
   on_every_target(compiled_simd_targets() & ~HWY_SCALAR,  // that one is slow
                   [&](std::int64_t target) {
                     expect_near(search.costs_on(Backend::cpu), search.costs(),
