@@ -63,7 +63,8 @@ suites_beside() {
     sed -nE 's/^(TYPED_)?TEST(_[FP])?\((\w+),.*/\3/p' | sort -u | paste -sd '|' | sed -E 's/.+/(^|\/)(&)[.\/]/'
 }
 
-build dev -DCMAKE_LINK_DEPENDS_NO_SHARED=ON
+configure dev
+cmake --build --preset first
 if [ -z "$trust" ]; then
   run_tests
   [ ${#failed[@]} -eq 0 ] || fail "without a fault, ${#failed[@]} tests of the first tier fail: ${failed[*]}"
@@ -74,7 +75,7 @@ for name in "${names[@]}"; do
   beside=$(suites_beside "$fault")
   if ! git apply "$fault"; then
     result="DOES NOT APPLY" bad=1
-  elif ! cmake --build --preset dev >"$log" 2>&1; then
+  elif ! cmake --build --preset first >"$log" 2>&1; then
     result="DOES NOT BUILD: $(tail -n 20 "$log")" bad=1
   else
     [ -z "$beside" ] || [ ${#until[@]} -eq 0 ] || run_tests "${until[@]}" -R "$beside"
