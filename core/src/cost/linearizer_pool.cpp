@@ -17,7 +17,7 @@ LinearizerPool::Entry LinearizerPool::take() {
   return entry;
 }
 
-void LinearizerPool::use(const std::function<void(Linearizer&)>& work) {
+void LinearizerPool::use(const std::function<void(HostLinearizer&)>& work) {
   Entry entry = take();
   if (!entry.is_prepared) entry.linearizer->prepare(*observation_);
   entry.is_prepared = true;

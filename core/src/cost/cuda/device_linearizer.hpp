@@ -13,8 +13,8 @@
 
 namespace hypotrack::cuda {
 
-/// Computes normal equations of the terms' residuals on the GPU: the Linearizer of the CPU, there.
-/// Terms with slopes take one drawn hypothesis. The results are the same in every run.
+/// Computes normal equations of the terms' residuals on the GPU: the HostLinearizer of the CPU,
+/// there. Terms with slopes take one drawn hypothesis. The results are the same in every run.
 class DeviceLinearizer {
  public:
   /// Both must outlive it; `cost` normalises states.

@@ -15,7 +15,7 @@ namespace hypotrack {
 /// slopes of its pixels (PixelRows), or by differences. All analytic terms share one drawn
 /// hypothesis; for differences of terms that need rendering, neighbours are drawn. The result does
 /// not depend on the number of threads.
-class Linearizer {
+class HostLinearizer {
  public:
   /// Returns true if the terms are a sum of squares and one that needs rendering has a Jacobian or
   /// slopes, or none needs rendering.
@@ -29,9 +29,9 @@ class Linearizer {
 
   /// The scene must outlive it. It is called in an arena of at most `threads` slots. Fewer `bands`
   /// take less time in all, and leave less to do at the same time.
-  Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
-             int bands = kBands);
-  ~Linearizer();
+  HostLinearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
+                 int bands = kBands);
+  ~HostLinearizer();
 
   /// Sets the cameras of a frame's tiles. The terms must be prepared for that frame.
   void prepare(const Observation& observation);
