@@ -9,7 +9,7 @@
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string content_of(const std::string& name) {
@@ -43,4 +43,4 @@ std::map<std::string, PageFile> live_page_files() {
   return files;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -10,7 +10,7 @@
 #include "hypotrack/plugin.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string asset(const std::string& name) {
@@ -98,4 +98,4 @@ std::string report_page(const Json& data) {
   return out + page.substr(at);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -12,7 +12,7 @@
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
@@ -146,4 +146,4 @@ int CsvTable::frame(const Row& row, int column) const {
   return static_cast<int>(value);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

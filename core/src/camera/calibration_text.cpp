@@ -11,7 +11,7 @@
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kLargestYamlFile = std::size_t{8} << 20;
@@ -194,4 +194,4 @@ int read_count(const ConfigNode& node, std::string_view name) {
   return static_cast<int>(value);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <array>
 #include <limits>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An interval of numbers from `low` to `high`. A formula on intervals gives an interval that
 /// contains its value for all numbers in them, up to rounding (interval arithmetic, Moore 1966).
@@ -42,4 +45,5 @@ constexpr IntervalNumber operator/(IntervalNumber a, IntervalNumber b) {
   return a * IntervalNumber(1 / b.high, 1 / b.low);
 }
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -20,7 +20,7 @@
 #include "cost/normal_equations.hpp"
 #include "cost/term_residuals.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 bool any_draws(const std::vector<ObjectiveTerm>& terms) {
@@ -264,4 +264,4 @@ std::unique_ptr<Cost> make_host_cost(const Scene& scene, std::vector<ObjectiveTe
   return std::make_unique<HostCost>(scene, std::move(terms), settings, std::move(why_here));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -13,7 +13,7 @@
 #include "cost/posed_neighbours.hpp"
 #include "cost/term_equations.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Products = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -279,4 +279,4 @@ NormalEquations HostLinearizer::linearize(const Eigen::MatrixXd& states,
   return {pixels.a + others.a + drawn.a, pixels.g + others.g + drawn.g};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Computes normal equations of the terms' residuals. A term gives them by its Jacobian, or by the
 /// slopes of its pixels (PixelRows), or by differences. All analytic terms share one drawn
@@ -45,4 +47,5 @@ class HostLinearizer {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

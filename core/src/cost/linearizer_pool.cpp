@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void LinearizerPool::prepare(const Observation& observation) {
   observation_ = &observation;
@@ -26,4 +26,4 @@ void LinearizerPool::use(const std::function<void(HostLinearizer&)>& work) {
   free_.push_back(std::move(entry));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,9 +5,11 @@
 #include <mutex>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/host_linearizer.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Linearizers of one scene, as many as are used at the same time.
 class LinearizerPool {
@@ -35,4 +37,5 @@ class LinearizerPool {
   std::vector<Entry> free_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

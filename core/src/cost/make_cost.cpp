@@ -11,7 +11,7 @@
 #include "cost/term_residuals.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
@@ -145,4 +145,4 @@ void check_room(const Eigen::Ref<const Eigen::MatrixXf>& residuals, Eigen::Index
                           residuals.rows(), residuals.cols(), rows, columns));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

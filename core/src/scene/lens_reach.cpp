@@ -9,7 +9,7 @@
 #include "camera/distortion.hpp"
 #include "camera/interval_number.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 struct Rectangle {
@@ -92,4 +92,4 @@ bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal
          inside(image.y * camera.fy + camera.cy, camera.height);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

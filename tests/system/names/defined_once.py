@@ -30,7 +30,7 @@ def is_source(file):
 def tags(ctags, files):
     command = [ctags, "--output-format=json", "--language-force=C++", "--kinds-C++=cgnsu",
                "--fields=+neKZ", "--fields-C++=+{specialization}", "-D", "HYPOTRACK_API=",
-               "-L", "-", "-o", "-"]
+               "-D", "HYPOTRACK_EXPORTED=", "-L", "-", "-o", "-"]
     run = subprocess.run(command, input="\n".join(map(str, files)), text=True, check=True,
                          stdout=subprocess.PIPE)
     return map(json.loads, run.stdout.splitlines())

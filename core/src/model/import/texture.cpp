@@ -14,7 +14,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Decodes a compressed image; returns an empty one if it is damaged. Throws DataError, naming
@@ -87,4 +87,4 @@ cv::Mat load_texture(const mesh_wire::Scene& scene, const std::string& name,
   return decode_embedded(scene.textures[index], mesh.string());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
