@@ -27,8 +27,10 @@ function(hypotrack_add_layer name)
     target_compile_features(${layer} PUBLIC cxx_std_20)
   endif()
   target_link_libraries(${layer} PUBLIC ${ARG_PACKAGES} PRIVATE hypotrack_options)
-  if(NOT name STREQUAL base)  # which has neither Eigen nor OpenCV
-    target_precompile_headers(${layer} REUSE_FROM hypotrack_precompiled)
+  set(precompiled)
+  if(name STREQUAL base)  # which has neither Eigen nor OpenCV
+    set(precompiled NO_PRECOMPILED)
   endif()
+  hypotrack_hide_names(${layer} ${precompiled})
   set_property(GLOBAL APPEND PROPERTY HYPOTRACK_LAYERS ${layer})
 endfunction()

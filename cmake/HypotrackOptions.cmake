@@ -2,6 +2,8 @@
 add_library(hypotrack_options INTERFACE)
 target_compile_options(hypotrack_options INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual>
+  # Of Clang: sources open the namespaces `internal` without saying that they are inline.
+  $<$<COMPILE_LANGUAGE:CXX>:-Wno-inline-namespace-reopened-noninline>
   $<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Wall,-Wextra>
   $<$<BOOL:${HYPOTRACK_WERROR}>:$<$<COMPILE_LANGUAGE:CXX>:-Werror>$<$<COMPILE_LANGUAGE:CUDA>:-Xcompiler=-Werror --Werror=all-warnings>>)
 # GCC collects its garbage from 128 MiB on, which takes a tenth of the time of such large sources.
@@ -24,8 +26,9 @@ if(HYPOTRACK_SANITIZE)
   endif()
 endif()
 
-# hypotrack_export_own_names(TARGET): the library exports what is in the namespace hypotrack, the
-# internals for programs and tests included, and nothing of the libraries that are compiled into it.
+# hypotrack_export_own_names(TARGET): of what is not hidden (hypotrack_hide_names) the library exports
+# what is in the namespace hypotrack, and nothing of the libraries that are compiled into it: their
+# templates are visible where their headers say so.
 function(hypotrack_export_own_names target)
   set(names ${PROJECT_SOURCE_DIR}/cmake/exported_names.map)
   target_link_options(${target} PRIVATE -Wl,--version-script=${names})

@@ -25,13 +25,16 @@ function(hypotrack_add_precompiled name)
   target_precompile_headers(${name} PRIVATE ${HYPOTRACK_COMMON_HEADERS} ${ARG_HEADERS})
 endfunction()
 
-hypotrack_add_precompiled(hypotrack_precompiled)  # for the layers and the lab
-hypotrack_add_precompiled(hypotrack_plugin_precompiled)
-set_target_properties(hypotrack_plugin_precompiled PROPERTIES CXX_VISIBILITY_PRESET hidden)
+hypotrack_add_precompiled(hypotrack_precompiled)  # for the layers, the lab and plugins
+set_target_properties(hypotrack_precompiled PROPERTIES CXX_VISIBILITY_PRESET hidden)
 
-# hypotrack_hide_names(TARGET): builds a plugin, or a static library of plugins, as those outside the
-# project are built: its names are hidden. Precompiled headers hold the same flag.
+# hypotrack_hide_names(TARGET [NO_PRECOMPILED]): a library exports only what its sources mark as
+# visible: HYPOTRACK_API, the namespaces `internal`, the entry of a plugin. Precompiled headers hold
+# the same flag.
 function(hypotrack_hide_names target)
+  cmake_parse_arguments(ARG "NO_PRECOMPILED" "" "" ${ARGN})
   set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden CUDA_VISIBILITY_PRESET hidden)
-  target_precompile_headers(${target} REUSE_FROM hypotrack_plugin_precompiled)
+  if(NOT ARG_NO_PRECOMPILED)
+    target_precompile_headers(${target} REUSE_FROM hypotrack_precompiled)
+  endif()
 endfunction()

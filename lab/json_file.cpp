@@ -8,7 +8,7 @@
 #include "base/file_kind.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{64} << 20;
@@ -74,4 +74,4 @@ std::string text_in(const Json& object, const char* key, const std::filesystem::
   return it->get<std::string>();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,7 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 using Json = nlohmann::ordered_json;
 
@@ -26,4 +29,5 @@ std::int64_t integer_in(const Json& object, const char* key, const std::filesyst
 /// Returns a member as text. Throws DataError if it is absent or no string.
 std::string text_in(const Json& object, const char* key, const std::filesystem::path& file);
 
+}  // namespace internal
 }  // namespace hypotrack

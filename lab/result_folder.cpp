@@ -6,7 +6,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -17,4 +17,4 @@ void make_folder(const std::filesystem::path& folder) {
                                   error ? error.message() : "there is a file of that name"));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -9,7 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "output/metrics/metrics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns whether a number is known whatever the run was like, if some frame has an error.
@@ -58,4 +58,4 @@ void check_numbers(const Json& json, const std::filesystem::path& file, std::str
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

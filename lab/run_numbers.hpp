@@ -5,9 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/json_file.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the names of all numbers that a run has at the top level of its files.
 const std::vector<std::string>& run_numbers();
@@ -20,4 +22,5 @@ bool expects_metrics(const std::filesystem::path& folder);
 /// end with `advice`.
 void check_numbers(const Json& json, const std::filesystem::path& file, std::string_view advice);
 
+}  // namespace internal
 }  // namespace hypotrack

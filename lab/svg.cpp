@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string svg_line(double x1, double y1, double x2, double y2, const std::string& style) {
   return fmt::format(R"(<line x1="{:.1f}" y1="{:.1f}" x2="{:.1f}" y2="{:.1f}" {}/>)"
@@ -29,4 +29,4 @@ std::string svg_escaped(const std::string& text) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

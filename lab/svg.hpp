@@ -2,7 +2,10 @@
 
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 // Elements of SVG pictures, each a line of text.
 
@@ -16,4 +19,5 @@ std::string svg_text(double x, double y, const std::string& text,
 /// Replaces the characters that SVG would read as its own.
 std::string svg_escaped(const std::string& text);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "lab/bench/bench_table.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 /// Rounds to six digits, more than repeat between runs. NaN becomes null.
@@ -83,4 +83,4 @@ void write_rows(const std::filesystem::path& file, const Plan& plan, const std::
   write_whole(file, whole.dump(2) + "\n");
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

@@ -2,7 +2,7 @@
 
 #include "base/statistics.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 
 std::optional<Numbers> numbers_of(const Measurement& measurement) {
   const auto& seconds = measurement.seconds;
@@ -33,4 +33,4 @@ std::optional<double> speed_over(const Row& row, std::size_t configuration,
   return std::nullopt;
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

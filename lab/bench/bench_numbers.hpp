@@ -3,9 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/bench/bench_table.hpp"
 
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Timing statistics of a row. Times are in seconds.
 struct Numbers {
@@ -23,4 +25,5 @@ std::optional<Numbers> numbers_of(const Measurement& measurement);
 std::optional<double> speed_over(const Row& row, std::size_t configuration,
                                  const std::vector<Row>& rows);
 
+}  // namespace internal
 }  // namespace hypotrack::bench

@@ -12,7 +12,7 @@
 #include "lab/study/study_file.hpp"
 #include "session/scene_file.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 constexpr const char* kWays = "backend";
@@ -113,4 +113,4 @@ Plan make_plan(const Request& request) {
 
 void enter_directory(const Case& c) { std::filesystem::current_path(c.directory); }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

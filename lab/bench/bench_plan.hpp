@@ -5,7 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A scene to measure.
 struct Case {
@@ -48,4 +51,5 @@ Plan make_plan(const Request& request);
 /// Makes the directory of a case the working directory, so that relative paths in overrides work.
 void enter_directory(const Case& c);
 
+}  // namespace internal
 }  // namespace hypotrack::bench

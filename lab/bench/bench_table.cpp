@@ -7,7 +7,7 @@
 
 #include "lab/bench/bench_numbers.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 /// Footnotes without repetition, in order of first use.
@@ -147,4 +147,4 @@ std::string table_text(const Plan& plan, const std::vector<Row>& rows, int round
   return Table(plan, rows, round).text();
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

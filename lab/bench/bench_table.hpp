@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/bench/bench_plan.hpp"
 #include "lab/bench/measure.hpp"
 
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A measurement with its round, case and configuration.
 struct Row {
@@ -30,4 +32,5 @@ void check_format(const std::filesystem::path& file);
 /// Writes all rows as CSV or JSON, by the suffix of the name. Throws OutputError.
 void write_rows(const std::filesystem::path& file, const Plan& plan, const std::vector<Row>& rows);
 
+}  // namespace internal
 }  // namespace hypotrack::bench

@@ -5,7 +5,7 @@
 #include "hypotrack/error.hpp"
 #include "session/opened_scene.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 /// Returns a key of everything that decides the frames.
@@ -56,4 +56,4 @@ void renew_images(std::vector<Frame>& frames) {
   }
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
 
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Frames in memory, kept while consecutive cases have the same source.
 class Frames {
@@ -30,4 +32,5 @@ class Frames {
 /// is evaluated on a GPU changes that allocator.
 void renew_images(std::vector<Frame>& frames);
 
+}  // namespace internal
 }  // namespace hypotrack::bench

@@ -12,7 +12,7 @@
 #include "session/opened_scene.hpp"
 #include "track/scene_tracker.hpp"
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -127,4 +127,4 @@ Measurement measure(const Case& c, const Configuration& configuration, std::vect
   return result;
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/bench/bench_plan.hpp"
@@ -13,6 +14,7 @@
 #include "output/metrics/metrics.hpp"
 
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 enum class Outcome {
   measured,
@@ -41,4 +43,5 @@ Measurement measure(const Case& c, const Configuration& configuration, std::vect
                     PluginLoader& plugins, const Limits& limits,
                     const std::function<bool()>& again);
 
+}  // namespace internal
 }  // namespace hypotrack::bench

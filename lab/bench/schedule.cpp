@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack::bench {
+namespace hypotrack::bench::internal {
 namespace {
 
 /// The warm-up ends at this share of the total time.
@@ -33,4 +33,4 @@ bool Schedule::counts(double seconds) {
   return true;
 }
 
-}  // namespace hypotrack::bench
+}  // namespace hypotrack::bench::internal

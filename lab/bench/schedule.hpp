@@ -1,6 +1,9 @@
 #pragma once
 
+#include "base/exported.hpp"
+
 namespace hypotrack::bench {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Least number of frames. A measurement exceeds its time to reach it, but only up to kLongest
 /// times.
@@ -35,4 +38,5 @@ class Schedule {
   int measured_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::bench

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 SearchSettings rotation_vectors() {
@@ -114,4 +114,4 @@ Landscape measure_landscape(const Scene& scene, const Eigen::VectorXd& state,
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A dimension along which a cost is sliced.
 struct LandscapeAxis {
@@ -52,4 +54,5 @@ Landscape measure_landscape(const Scene& scene, const Eigen::VectorXd& state,
                             const std::vector<std::string>& terms, const TermCosts& costs,
                             const LandscapeSettings& settings);
 
+}  // namespace internal
 }  // namespace hypotrack

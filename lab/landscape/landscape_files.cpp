@@ -9,7 +9,7 @@
 #include "lab/landscape/landscape_svg.hpp"
 #include "lab/result_folder.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string curve_names(const Landscape& landscape) {
@@ -66,4 +66,4 @@ void write_landscape(const Landscape& landscape, const std::string& title,
   write_whole(folder / "pairs.csv", pairs_csv(landscape));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

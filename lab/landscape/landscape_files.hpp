@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "base/exported.hpp"
 #include "lab/landscape/landscape.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Writes sum.svg, <term>.svg for each of several terms, slices.csv and pairs.csv into a folder,
 /// which it makes. `title` heads the figures. Throws OutputError.
@@ -17,4 +19,5 @@ std::string slices_csv(const Landscape& landscape);
 /// Returns the lines of pairs.csv: two parameters with unit and offset, and a column per curve.
 std::string pairs_csv(const Landscape& landscape);
 
+}  // namespace internal
 }  // namespace hypotrack

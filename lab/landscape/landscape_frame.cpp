@@ -13,7 +13,7 @@
 #include "track/frame_search.hpp"
 #include "track/scene_tracker.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// The state around which a frame is sliced.
@@ -158,4 +158,4 @@ FrameLandscape landscape_of_frame(const LandscapeRequest& request, PluginLoader&
   return {measure_landscape(scene, centre.state, terms.names(), costs, settings), centre.is_truth};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/stop.hpp"
 #include "lab/landscape/landscape.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A frame to slice the cost of, and changes to its scene.
 struct LandscapeRequest {
@@ -30,4 +32,5 @@ struct FrameLandscape {
 FrameLandscape landscape_of_frame(const LandscapeRequest& request, PluginLoader& plugins,
                                   const StopTest& stop);
 
+}  // namespace internal
 }  // namespace hypotrack

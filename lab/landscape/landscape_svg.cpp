@@ -9,7 +9,7 @@
 
 #include "lab/svg.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kWidth = 150, kHeight = 90;  // of a panel with a line
@@ -208,4 +208,4 @@ std::string landscape_svg(const Landscape& all, std::size_t curve, const std::st
          body + "</svg>\n";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -10,7 +10,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string lower(std::string_view text) {
@@ -88,4 +88,4 @@ std::string refusal(const AccessRules& rules, const Caller& caller) {
   return {};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,7 +3,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Who may use the live view.
 struct AccessRules {
@@ -32,4 +35,5 @@ void check(const AccessRules& rules);
 /// Pages of other origins may only link here.
 std::string refusal(const AccessRules& rules, const Caller& caller);
 
+}  // namespace internal
 }  // namespace hypotrack

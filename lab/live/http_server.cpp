@@ -11,7 +11,7 @@
 #include <chrono>
 #include <cstring>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// The connection of one client.
@@ -114,4 +114,4 @@ bool HttpServer::process_and_close_socket(socket_t socket) {
   return process_request(connection, true, closed, nullptr);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

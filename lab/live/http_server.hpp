@@ -4,7 +4,10 @@
 
 #include <atomic>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An HTTP server that takes one request of each connection, within some seconds, and that no
 /// client can keep from ending.
@@ -20,4 +23,5 @@ class HttpServer final : public httplib::Server {
   std::atomic<bool> ended_ = false;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

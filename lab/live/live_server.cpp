@@ -15,7 +15,7 @@
 #include "lab/live/http_server.hpp"
 #include "lab/live/page_files.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using httplib::DataSink;
@@ -268,4 +268,4 @@ LiveServer::~LiveServer() {
 
 int LiveServer::port() const { return impl_->port; }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,12 +3,14 @@
 #include <memory>
 #include <string>
 
+#include "base/exported.hpp"
 #include "lab/live/access.hpp"
 #include "lab/live/live_state.hpp"
 #include "lab/live/view_pictures.hpp"
 #include "viewing/run_controls.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Serves the live view by HTTP/1.1, in threads of its own:
 ///
@@ -44,4 +46,5 @@ class LiveServer {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 #include "hypotrack/solution_json.hpp"
 #include "lab/report/replay_shape.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string one_line(const Json& json) {
@@ -150,4 +150,4 @@ std::string LiveState::history_json() const {
   return one_line({{"samples", history_}});
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "lab/json_file.hpp"
 #include "viewing/latest.hpp"
 #include "viewing/live_frame.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What the page shows as numbers: the newest solution and the last minutes, as JSON. All functions
 /// may be called from several threads.
@@ -59,4 +61,5 @@ class LiveState {
   Latest<std::string> states_, solutions_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

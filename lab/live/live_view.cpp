@@ -7,7 +7,7 @@
 #include "lab/live/live_state.hpp"
 #include "lab/live/view_pictures.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 AccessRules checked(const LiveViewOptions& options) {
@@ -65,4 +65,4 @@ std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& options, RunCont
   return std::make_unique<HttpLiveView>(options, controls);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,10 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "base/exported.hpp"
 #include "viewing/run_controls.hpp"
 #include "viewing/viewer.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 struct LiveViewOptions {
   std::string host = "127.0.0.1";
@@ -25,4 +27,5 @@ class LiveView : public Viewer {
 /// be used, or if others could see the run without a token.
 std::unique_ptr<LiveView> open_live_view(const LiveViewOptions& options, RunControls& controls);
 
+}  // namespace internal
 }  // namespace hypotrack

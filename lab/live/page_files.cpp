@@ -8,7 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string content_of(const std::string& name) {
@@ -41,4 +41,4 @@ std::map<std::string, PageFile> live_page_files() {
   return files;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,7 +3,10 @@
 #include <map>
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 struct PageFile {
   std::string type;  ///< MIME type
@@ -14,4 +17,5 @@ struct PageFile {
 /// Throws DataError if one cannot be read.
 std::map<std::string, PageFile> live_page_files();
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include "hypotrack/media.hpp"
 #include "viewing/yield_to_others.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string jpeg(const cv::Mat& picture) {
@@ -67,4 +67,4 @@ void ViewPictures::draw_all() {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

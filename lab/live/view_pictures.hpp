@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
@@ -17,6 +18,7 @@
 #include "viewing/view_drawing.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// JPEG pictures of one layout for those who watch.
 struct PictureChannel {
@@ -58,4 +60,5 @@ class ViewPictures {
   std::thread thread_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

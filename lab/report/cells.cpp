@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::vector<StudyCell> cells_of(const StudyData& study, const std::string& scene,
                                 const std::string& part) {
@@ -42,4 +42,4 @@ Sample sample_of(const std::vector<const StudyRun*>& runs, const MetricInfo& met
   return sample;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/comparison.hpp"
 #include "lab/report/metric_info.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The runs of a scene that differ in their seed only.
 struct StudyCell {
@@ -27,4 +29,5 @@ std::vector<const StudyRun*> distinct_runs(const std::vector<const StudyRun*>& r
 /// Returns a metric of the distinct runs that have it, in the unit of tables.
 Sample sample_of(const std::vector<const StudyRun*>& runs, const MetricInfo& metric);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -17,7 +17,7 @@
 #include "lab/report/number_json.hpp"
 #include "lab/report/significance.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr const char* kMainError = "mean_error_mm";
@@ -252,4 +252,4 @@ void write_change_files(const Json& tables, const std::filesystem::path& directo
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

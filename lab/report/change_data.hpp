@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Compares a study before and after a change, cell by cell. Returns the page in this form:
 ///
@@ -24,4 +26,5 @@ nlohmann::ordered_json change_data(const StudyData& before, const StudyData& aft
 void write_change_files(const nlohmann::ordered_json& tables,
                         const std::filesystem::path& directory);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 #include "lab/report/power.hpp"
 #include "lab/report/significance.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the index of the best mean, -1 if there is nothing to choose from.
@@ -70,4 +70,4 @@ std::vector<Comparison> compare_samples(const std::vector<Sample>& samples,
   return all;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

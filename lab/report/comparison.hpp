@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/metric_info.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Values of one cell, one per seed, in the order of the seeds.
 struct Sample {
@@ -42,4 +44,5 @@ double test_difference(const Sample& a, const Sample& b);
 /// Returns the seeds with which that test would give p < alpha for the difference seen.
 std::optional<int> seeds_needed(const Sample& a, const Sample& b, double alpha);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Better = MetricInfo::Better;
@@ -99,4 +99,4 @@ const std::vector<std::string>& table_metrics() {
   return columns;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

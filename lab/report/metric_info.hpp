@@ -3,7 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Presentation of a metric of a run.
 struct MetricInfo {
@@ -24,4 +27,5 @@ MetricInfo metric_info(const std::string& key);
 /// Returns the metrics of the tables' columns, in their order.
 const std::vector<std::string>& table_metrics();
 
+}  // namespace internal
 }  // namespace hypotrack

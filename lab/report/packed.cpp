@@ -6,7 +6,7 @@
 
 #include "lab/json_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uint16_t kUnknown = 65535;
@@ -61,4 +61,4 @@ Json pack_numbers(std::span<const double> values) {
   return {{"b", pack_words(words)}, {"lo", lowest}, {"step", step}};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 // Packs numbers as short text for the page: little-endian bytes in base64. decode.js reads them.
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 std::string base64(std::span<const std::uint8_t> bytes);
 
@@ -21,4 +24,5 @@ std::string pack_longs(std::span<const std::uint32_t> values);
 /// unknown (NaN or infinite). The error is at most half a step, (max - min) / 65534 / 2.
 nlohmann::ordered_json pack_numbers(std::span<const double> values);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 #include "hypotrack/text_file.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string asset(const std::string& name) {
@@ -96,4 +96,4 @@ std::string report_page(const Json& data) {
   return out + page.substr(at);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the text of a self-contained HTML file: template, styles, scripts, libraries and data.
 /// Throws DataError if a part of the installation is missing.
@@ -16,4 +19,5 @@ std::string escape_html(std::string_view text);
 /// become U+FFFD.
 std::string script_json(const nlohmann::ordered_json& data);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -14,7 +14,7 @@
 #include "lab/report/plot_parts.hpp"
 #include "lab/report/trace/trace_plots.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr const char* kMeanError = "mean_error_mm";
@@ -231,4 +231,4 @@ Json plot_data(const StudyData& study) {
   return plots;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

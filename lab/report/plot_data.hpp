@@ -3,9 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the plots of a study as plain data, which plots.js turns into Vega specifications: a
 /// list of objects
@@ -21,4 +23,5 @@ nlohmann::ordered_json plot_data(const StudyData& study);
 /// Returns the plots of a study that asks for none.
 std::vector<PlotRequest> default_plots(const StudyData& study);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -14,7 +14,7 @@
 #include "hypotrack/plugin.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -80,4 +80,4 @@ std::string write_plot_files(const Json& page, const fs::path& directory) {
   return "";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,7 +3,7 @@
 #include "hypotrack/params.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the runs with a value on an axis; all runs if `key` is empty.
@@ -47,4 +47,4 @@ std::string facet_label(const StudyData& study, const std::string& key, const st
   return key == "scene" ? study.value_label(key, value) : study.axis_label(key) + " " + value;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 // What the data of plots is made of.
 
@@ -31,4 +33,5 @@ void for_each_value(const StudyData& study, const Runs& runs, const std::string&
 /// Returns the heading of the panel of a value on the axis of panels; empty without such an axis.
 std::string facet_label(const StudyData& study, const std::string& key, const std::string& value);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "base/statistics.hpp"
 #include "lab/report/significance.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 double upper_quantile(double probability) {
@@ -56,4 +56,4 @@ std::optional<int> values_needed(std::span<const double> a, std::span<const doub
   return seeds_for(difference / deviation, alpha, 2, fewest);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

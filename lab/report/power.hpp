@@ -3,7 +3,10 @@
 #include <optional>
 #include <span>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 // How many seeds a test needs to find, with a probability (power) of 80 %, a difference as large
 // as that seen. A t test's number (Guenther, The American Statistician 35, 1981) is divided by the
@@ -27,4 +30,5 @@ std::optional<int> values_needed(std::span<const double> a, std::span<const doub
 /// Returns the fewest pairs for which signed_rank_test() can give p < alpha.
 int fewest_pairs(double alpha);
 
+}  // namespace internal
 }  // namespace hypotrack

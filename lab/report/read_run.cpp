@@ -10,7 +10,7 @@
 #include "lab/study/run_folder.hpp"
 #include "output/row_count.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -108,4 +108,4 @@ StudyRun read_study_run(const fs::path& directory) {
   return run;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

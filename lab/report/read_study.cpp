@@ -12,7 +12,7 @@
 #include "lab/report/study_data.hpp"
 #include "output/run_directory.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -202,4 +202,4 @@ StudyData read_study(const fs::path& directory) {
   return study;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

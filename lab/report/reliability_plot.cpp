@@ -7,7 +7,7 @@
 
 #include "lab/svg.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kLow = 0.125, kHigh = 128;  // mm, both axes
@@ -73,4 +73,4 @@ std::string reliability_svg(const Reliability& reliability, const std::string& t
          svg_text(kLeft + kSide / 2, 34, shares) + axes() + dots(reliability) + "</svg>\n";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

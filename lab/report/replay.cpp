@@ -12,7 +12,7 @@
 #include "lab/report/packed.hpp"
 #include "lab/report/replay_shape.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ Json ReplayCollector::add(const fs::path& run) {
   return replay;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

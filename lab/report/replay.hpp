@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Collects the 3D replays of runs for the page. Meshes and motions that several runs share (the
 /// truth of a data set, the same model) are stored once.
@@ -58,4 +60,5 @@ class ReplayCollector {
 /// frame.
 inline constexpr std::size_t kMostReplayFrames = 1000;
 
+}  // namespace internal
 }  // namespace hypotrack

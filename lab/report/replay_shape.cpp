@@ -7,7 +7,7 @@
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kMicrometre = 1e-6;
@@ -92,4 +92,4 @@ Json replay_shape(const Model& model) {
   return shape;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

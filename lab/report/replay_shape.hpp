@@ -2,9 +2,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns a model's mesh and skeleton in the format of ReplayCollector::shapes().
 nlohmann::ordered_json replay_shape(const Model& model);
@@ -13,4 +15,5 @@ nlohmann::ordered_json replay_shape(const Model& model);
 /// Landmarks of one bone form a chain from its origin outwards.
 std::vector<std::pair<int, int>> skeleton_edges(const ModelData& data);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -16,7 +16,7 @@
 #include "lab/report/study_data.hpp"
 #include "lab/report/table_data.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins) 
   return summary;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

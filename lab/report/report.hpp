@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Choice of whether a report comes with files of its plots.
 enum class PlotFiles {
@@ -42,4 +44,5 @@ struct ReportSummary {
 /// keeps the earlier one.
 ReportSummary write_report(const ReportOptions& options, PluginLoader& plugins);
 
+}  // namespace internal
 }  // namespace hypotrack

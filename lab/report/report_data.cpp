@@ -16,7 +16,7 @@
 #include "lab/report/table_data.hpp"
 #include "lab/report/worst_frames.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr const char* kError = "mean_error_mm";
@@ -151,4 +151,4 @@ ReportData report_data(const StudyData& study, int most_replays, PluginLoader& p
   return data;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,10 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Everything that the page shows, as plain data for report.js.
 struct ReportData {
@@ -23,4 +25,5 @@ ReportData report_data(const StudyData& study, int most_replays, PluginLoader& p
 /// StudyData::runs.
 std::vector<std::size_t> runs_to_replay(const StudyData& study, int most);
 
+}  // namespace internal
 }  // namespace hypotrack

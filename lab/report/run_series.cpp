@@ -12,7 +12,7 @@
 #include "output/metrics/frame_outcome.hpp"
 #include "output/metrics/status_metrics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -128,4 +128,4 @@ Json run_series(const fs::path& directory) {
   return series;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

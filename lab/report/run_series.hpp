@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the frame-by-frame numbers of a run folder for the page:
 ///
@@ -17,4 +20,5 @@ namespace hypotrack {
 /// trace or a true state have no truth_cost and no outcome. Throws DataError on damaged tables.
 nlohmann::ordered_json run_series(const std::filesystem::path& directory);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kLargestExact = 40;
@@ -137,4 +137,4 @@ double smallest_rank_sum_p(int first, int second) {
                                                          static_cast<unsigned>(first)));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,7 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Computes the two-sided p value of Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945) for
 /// pairs a[i], b[i]. Pairs without a difference are left out; equal differences share their mean
@@ -26,4 +29,5 @@ std::vector<double> holm(std::span<const double> p_values);
 double smallest_signed_rank_p(int pairs);
 double smallest_rank_sum_p(int first, int second);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 bool parse_number(std::string_view text, double& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -71,4 +71,4 @@ std::vector<std::string> StudyData::values_of(std::string_view key) const {
   return values;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

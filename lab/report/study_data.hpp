@@ -8,7 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One setting that a study varies.
 struct StudyAxis {
@@ -94,4 +97,5 @@ std::string canonical_value(const std::string& text);
 /// Parses a text as a finite number. Returns false if it is not one.
 bool parse_number(std::string_view text, double& number);
 
+}  // namespace internal
 }  // namespace hypotrack

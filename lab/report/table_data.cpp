@@ -13,7 +13,7 @@
 #include "lab/report/number_json.hpp"
 #include "lab/report/table_notes.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 Json to_json(const Comparison& c) {
@@ -195,4 +195,4 @@ Json table_data(const StudyData& study) {
   return tables;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the tables of a study as plain data for the page: a list of objects
 ///
@@ -25,4 +27,5 @@ nlohmann::ordered_json table_data(const StudyData& study);
 void write_table_files(const StudyData& study, const nlohmann::ordered_json& tables,
                        const nlohmann::ordered_json& plots, const std::filesystem::path& directory);
 
+}  // namespace internal
 }  // namespace hypotrack

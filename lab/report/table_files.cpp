@@ -9,7 +9,7 @@
 #include "lab/report/table_data.hpp"
 #include "lab/report/trace/trace_plots.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string cell(const Json& value) {
@@ -102,4 +102,4 @@ void write_table_files(const StudyData& study, const Json& tables, const Json& p
   TextFile(directory / "runs.csv").write(runs_csv(study));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

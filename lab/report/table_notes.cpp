@@ -8,7 +8,7 @@
 #include "lab/report/power.hpp"
 #include "lab/report/significance.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kMostNamed = 4;
@@ -56,4 +56,4 @@ std::string note_on_identical_runs(const std::vector<StudyCell>& cells) {
       fmt::join(named, "; "), more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -12,7 +12,7 @@
 #include "lab/json_file.hpp"
 #include "lab/report/packed.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -57,4 +57,4 @@ Json worst_frames(const fs::path& run, const PictureLimits& limits) {
   return pictures;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

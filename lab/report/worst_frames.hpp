@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Limits on a run's pictures in the page.
 struct PictureLimits {
@@ -16,4 +19,5 @@ struct PictureLimits {
 /// "data:image/jpeg..."}]. Throws DataError on a file that is no picture.
 nlohmann::ordered_json worst_frames(const std::filesystem::path& run, const PictureLimits& limits);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 #include "lab/study/failure_message.hpp"
 #include "lab/study/process_pool.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr std::chrono::milliseconds kCheckPoll{5};
@@ -88,4 +88,4 @@ void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const 
   if (!problems.empty()) throw ConfigError(report(plan, problems));
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -4,10 +4,12 @@
 #include <functional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Checks the scenes of the given cells: opens each as a run would, up to its first frame, in a
 /// separate process. Calls `again` now and then; it stops the work by returning false. Throws
@@ -15,4 +17,5 @@ namespace hypotrack::study {
 void check_cells(const Plan& plan, const std::vector<std::size_t>& cells, const Launch& launch,
                  const std::function<bool()>& again);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -12,7 +12,7 @@
 #include "lab/study/process_pool.hpp"
 #include "lab/study/recordings.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -122,4 +122,4 @@ bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std:
   return Execution(folder, plan, runs, launch, watcher).work();
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

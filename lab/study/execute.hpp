@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Observer of the runs of a study, which can stop them.
 class Watcher {
@@ -27,4 +29,5 @@ class Watcher {
 bool execute(const StudyFolder& folder, const Plan& plan, const std::vector<std::size_t>& runs,
              const Launch& launch, Watcher& watcher);
 
+}  // namespace internal
 }  // namespace hypotrack::study

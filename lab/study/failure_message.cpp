@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr std::string_view kMessagePrefix = "hypotrack: ";
@@ -59,4 +59,4 @@ std::string failure_message(const std::filesystem::path& log_file, const Ended& 
   return fmt::format("{}; its last line: {}", end_of(ended.end), log.last_line);
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -3,12 +3,15 @@
 #include <filesystem>
 #include <string>
 
+#include "base/exported.hpp"
 #include "lab/study/process_pool.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why a program failed: hypotrack's own message in its log, or else how it ended and the
 /// log's last line.
 std::string failure_message(const std::filesystem::path& log, const Ended& ended);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -14,7 +14,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 std::string error_text() { return std::generic_category().message(errno); }
@@ -82,4 +82,4 @@ std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
   return take(file, false);
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

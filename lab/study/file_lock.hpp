@@ -3,7 +3,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An exclusive lock between processes, on one machine or over a network file system. The kernel
 /// frees it when its last owner ends, however it ends. It is a file (flock) whose content tells
@@ -31,4 +34,5 @@ class FileLock {
   int descriptor_ = -1;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 
 void Hash::add_byte(unsigned char byte) { value_ = (value_ ^ byte) * 0x100000001b3; }
 
@@ -11,4 +11,4 @@ void Hash::add(std::string_view text) {
   for (const char c : text) add_byte(static_cast<unsigned char>(c));
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -3,7 +3,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// 64-bit FNV-1a hash (Fowler, Noll, Vo) of a sequence of texts, which do not run together. It is
 /// the same on every machine.
@@ -17,4 +20,5 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 
 std::vector<std::string> scene_arguments(const std::string& subcommand,
                                          const std::filesystem::path& scene,
@@ -46,4 +46,4 @@ Subprocess::Command work_command(const Launch& launch, const Plan& plan,
   return command;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

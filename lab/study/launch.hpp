@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "base/subprocess.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Settings for starting the processes of a study.
 struct Launch {
@@ -35,4 +37,5 @@ Subprocess::Command study_command(const Launch& launch, const Plan& plan,
 Subprocess::Command work_command(const Launch& launch, const Plan& plan,
                                  std::vector<std::string> arguments, const RunFolder& folder);
 
+}  // namespace internal
 }  // namespace hypotrack::study

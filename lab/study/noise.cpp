@@ -6,7 +6,7 @@
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr const char* kRendered = "synthetic";
@@ -48,4 +48,4 @@ std::optional<Change> redrawn(const NoiseSeed& noise, std::int64_t seed) {
   return Change{noise.key, fmt::format("{}", value), "redraw"};
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The seed from which a rendered source draws the noise of its pictures.
 struct NoiseSeed {
@@ -27,4 +29,5 @@ std::optional<NoiseSeed> find_noise_seed(const StudyScene& scene,
 /// the scene has it, which is no change.
 std::optional<Change> redrawn(const NoiseSeed& noise, std::int64_t seed);
 
+}  // namespace internal
 }  // namespace hypotrack::study

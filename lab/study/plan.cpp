@@ -11,7 +11,7 @@
 #include "hypotrack/text_file.hpp"
 #include "lab/study/hash.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr std::size_t kMaxRuns = 100'000;
@@ -134,4 +134,4 @@ std::vector<std::size_t> runs_of(const Plan& plan, Shard shard) {
   return runs;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/noise.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One scene at one point of the grid.
 struct Cell {
@@ -63,4 +65,5 @@ Plan make_plan(Study study);
 /// so that no shard gets all the slow cells.
 std::vector<std::size_t> runs_of(const Plan& plan, Shard shard);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -7,7 +7,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 
 void ProcessPool::start(std::size_t key, const Subprocess::Command& command) {
   try {
@@ -33,4 +33,4 @@ std::optional<Ended> ProcessPool::take_ended() {
   return std::nullopt;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -5,9 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "base/subprocess.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The end of a program.
 struct Ended {
@@ -39,4 +41,5 @@ class ProcessPool {
   std::vector<Running> running_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr int kFrames = 10;
@@ -18,4 +18,4 @@ void make_quick(Study& study) {
       axis.choices.erase(axis.choices.begin() + 1, axis.choices.end() - 1);
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -17,7 +17,7 @@
 #include "lab/study/noise.hpp"
 #include "lab/study/process_pool.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -156,4 +156,4 @@ std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& pl
   return scene_arguments("run", scene, select(changes, false), plan, launch);
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

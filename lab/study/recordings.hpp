@@ -7,11 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/launch.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 // With `recordings: true` a study writes every source once as a recording (`hypotrack synth`),
 // which all runs read. So a synthetic source is rendered once for each draw of its noise, not in
@@ -50,4 +52,5 @@ class RedrawnRecordings {
 std::vector<std::string> run_arguments(const StudyFolder& folder, const Plan& plan,
                                        const PlannedRun& run, const Launch& launch);
 
+}  // namespace internal
 }  // namespace hypotrack::study

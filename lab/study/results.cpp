@@ -11,7 +11,7 @@
 #include "lab/run_numbers.hpp"
 #include "lab/study/run_folder.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr std::array<std::string_view, 3> kTimed = {"fps", "search_fps", "evaluations_per_second"};
@@ -69,4 +69,4 @@ std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::pat
   return results;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -5,9 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/plan.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Numbers by name, in the order of the file. Nothing: undefined, as the time to loss of a run that
 /// never lost.
@@ -26,4 +28,5 @@ struct RunResult {
 /// the study's. Throws DataError.
 std::vector<RunResult> read_results(const Plan& plan, const std::filesystem::path& runs);
 
+}  // namespace internal
 }  // namespace hypotrack::study

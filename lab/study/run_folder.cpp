@@ -11,7 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr const char* kFailureFile = "failure.json";
@@ -132,4 +132,4 @@ std::optional<RunFailure> read_failure(const std::filesystem::path& folder) {
   return failure;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

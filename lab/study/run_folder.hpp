@@ -5,10 +5,12 @@
 #include <optional>
 #include <string>
 
+#include "base/exported.hpp"
 #include "lab/study/file_lock.hpp"
 #include "lab/study/plan.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The failure of a run that left no results.
 struct RunFailure {
@@ -62,4 +64,5 @@ std::string repair_advice(const std::filesystem::path& file);
 /// damaged.
 std::optional<RunFailure> read_failure(const std::filesystem::path& folder);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -20,7 +20,7 @@
 #include "lab/study/study_text.hpp"
 #include "output/metrics/metrics.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 using detail::fail_at;
@@ -350,4 +350,4 @@ Study load_study(const std::filesystem::path& file, const std::optional<std::str
   return study;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

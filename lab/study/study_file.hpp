@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One change to a scene, as for `--set`.
 struct Change {
@@ -102,4 +104,5 @@ Study load_study(const std::filesystem::path& file,
 /// Returns the study as a study file without variants. load_study() reads the same study back.
 std::string to_yaml(const Study& study);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -16,7 +16,7 @@
 #include "hypotrack/error.hpp"
 #include "lab/result_folder.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 constexpr const char* kStudyFile = "study.yaml";
@@ -139,4 +139,4 @@ FileLock StudyFolder::lock() const {
   return FileLock::wait_for(working() / fmt::format("tables{}", kLockSuffix));
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

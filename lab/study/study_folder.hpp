@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/run_folder.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 enum class RunState { missing, ok, failed };
 
@@ -56,4 +58,5 @@ class StudyFolder {
   const Plan* plan_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::study

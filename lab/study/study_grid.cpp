@@ -18,7 +18,7 @@
 #include "lab/run_numbers.hpp"
 #include "lab/study/study_text.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 using detail::fail_at;
@@ -168,4 +168,4 @@ void replace_choices(std::vector<Axis>& axes, const ConfigNode& grid) {
   }
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 #include "lab/study/study_file.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads changes from a map of dotted keys to values; an undefined node gives none. Throws
 /// ConfigError.
@@ -26,4 +28,5 @@ std::vector<Axis> read_grid(const ConfigNode& grid);
 /// Replaces the choices of axes, as a variant does. Throws ConfigError if an axis does not exist.
 void replace_choices(std::vector<Axis>& axes, const ConfigNode& grid);
 
+}  // namespace internal
 }  // namespace hypotrack::study

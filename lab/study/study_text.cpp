@@ -5,7 +5,7 @@
 
 #include "config/yaml.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 std::string on_one_line(std::string text) {
@@ -46,4 +46,4 @@ bool is_word(std::string_view text) {
                      [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

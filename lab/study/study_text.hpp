@@ -3,9 +3,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Formats a node as YAML on one line: `{type: pso, particles: 32}`. It parses to the same node.
 std::string to_flow(const ConfigNode& node);
@@ -17,4 +19,5 @@ std::string yaml_scalar(std::string_view text);
 /// file names require.
 bool is_word(std::string_view text);
 
+}  // namespace internal
 }  // namespace hypotrack::study

@@ -8,7 +8,7 @@
 #include "lab/study/study_file.hpp"
 #include "lab/study/study_text.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 std::string key_of(const std::string& key) { return is_word(key) ? key : yaml_scalar(key); }
@@ -79,4 +79,4 @@ std::string to_yaml(const Study& study) {
   return text;
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

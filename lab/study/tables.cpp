@@ -15,7 +15,7 @@
 #include "base/text_file.hpp"
 #include "lab/study/results.hpp"
 
-namespace hypotrack::study {
+namespace hypotrack::study::internal {
 namespace {
 
 using Column = Metrics RunResult::*;
@@ -137,4 +137,4 @@ Tally write_tables(const StudyFolder& folder, const Plan& plan) {
   return tally_of(plan, results);
 }
 
-}  // namespace hypotrack::study
+}  // namespace hypotrack::study::internal

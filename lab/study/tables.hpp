@@ -2,10 +2,12 @@
 
 #include <cstddef>
 
+#include "base/exported.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/study_folder.hpp"
 
 namespace hypotrack::study {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Numbers of runs in a study's folder.
 struct Tally {
@@ -17,4 +19,5 @@ struct Tally {
 /// have the same bytes for the same runs. Throws OutputError or DataError.
 Tally write_tables(const StudyFolder& folder, const Plan& plan);
 
+}  // namespace internal
 }  // namespace hypotrack::study

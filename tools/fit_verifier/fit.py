@@ -93,10 +93,10 @@ def main():
             print(label, threshold, "; ".join(cells), file=sys.stderr)
         shown[label] = fit(x[usable], right[usable], copies[usable])
     print("// Made by tools/fit_verifier/fit.py; not to be changed by hand.\n#pragma once\n\n#include <array>\n")
-    print('#include "track/verify/evidence.hpp"\n')
+    print('#include "base/exported.hpp"\n#include "track/verify/evidence.hpp"\n')
     print("/// Weights of networks over ModelVerifier::features(): how likely a model's landmarks are within\n"
           f"/// {RIGHT_MM} mm of where they are in truth, and not more than {WRONG_MM} mm off.\n"
-          "namespace hypotrack::verifier_weights {\n")
+          "namespace hypotrack::verifier_weights {\ninline namespace HYPOTRACK_EXPORTED internal {\n")
     print(f"inline constexpr int kHidden = {HIDDEN};\n")
     print("/// One hidden layer of rectified linear units; the output is the logarithm of the odds.\n"
           "struct Network {\n"
@@ -113,7 +113,7 @@ def main():
         print(f"}}}}, {{{{{numbers(hidden_bias)}}}}}, {{{{{numbers(out)}}}}}, {out_bias:.5g}}};\n")
     print("/// Of the usual likeness times its difference to the likeness.\n"
           f"inline constexpr double kLikeness = {LIKENESS:.2g};\n")
-    print("}  // namespace hypotrack::verifier_weights")
+    print("}  // namespace internal\n}  // namespace hypotrack::verifier_weights")
 
 
 if __name__ == "__main__":

@@ -15,8 +15,10 @@
 namespace hypotrack {
 
 namespace detail {
+inline namespace [[gnu::visibility("default")]] internal {  // for hypotrack's own programs
 struct YamlNode;
 }
+}  // namespace detail
 
 /// A read-only YAML node that remembers where it was written. Cheap to copy. Plugins describe their
 /// parameters with `visit` (params.hpp) and rarely need it, except to pass on a nested plugin.

@@ -8,7 +8,9 @@
 
 namespace hypotrack {
 
+inline namespace [[gnu::visibility("default")]] internal {  // for hypotrack's own programs
 class PluginNotes;
+}
 
 /// Takes what a plugin has to tell the user. Copies tell the same run. All functions may be called
 /// from several threads at once.

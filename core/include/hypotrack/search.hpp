@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/export.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/random.hpp"
 
@@ -111,10 +112,10 @@ enum class SearchClock { wall, cpu };
 
 /// Returns the clock that limits the search on this thread: `budget.seconds` or
 /// `budget.cpu_seconds`.
-SearchClock search_clock();
+HYPOTRACK_API SearchClock search_clock();
 
 /// Returns the time of a clock in seconds.
-double seconds_of(SearchClock clock);
+HYPOTRACK_API double seconds_of(SearchClock clock);
 
 /// A time limit that starts at construction, on the clock of the search.
 class Deadline {

@@ -8,7 +8,10 @@
 #include <stop_token>
 #include <utility>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A queue between threads. Whoever puts into a full one or takes from an empty one waits.
 template <typename T>
@@ -42,4 +45,5 @@ class BoundedQueue {
   std::deque<T> items_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

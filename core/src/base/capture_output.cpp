@@ -6,7 +6,7 @@
 #include "base/descriptor.hpp"
 #include "base/subprocess.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -59,4 +59,4 @@ Captured capture_output(Subprocess::Command command, const std::vector<int>& num
   return captured;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -14,7 +14,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
@@ -146,4 +146,4 @@ int CsvTable::frame(const Row& row, int column) const {
   return static_cast<int>(value);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the text of a CSV cell, quoted if it has a comma or a quote (RFC 4180). Replaces line
 /// breaks by spaces.
@@ -47,4 +50,5 @@ class CsvTable {
   std::vector<Row> rows_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,10 @@
 #include <system_error>
 #include <utility>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 [[noreturn]] inline void throw_system_error(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
@@ -50,4 +53,5 @@ inline Pipe make_pipe() {
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string why_no_file(const std::filesystem::path& path) {
   std::error_code error;
@@ -23,4 +23,4 @@ std::string why_no_file(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

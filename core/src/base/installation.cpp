@@ -8,8 +8,7 @@
 #include "hypotrack/data_file.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
-namespace detail {
+namespace hypotrack::detail::internal {
 
 std::filesystem::path prefix_folder() {
   static const std::filesystem::path prefix = [] {
@@ -26,7 +25,9 @@ std::filesystem::path prefix_folder() {
   return prefix;
 }
 
-}  // namespace detail
+}  // namespace hypotrack::detail::internal
+
+namespace hypotrack {
 
 std::filesystem::path data_file(const std::filesystem::path& relative) {
   constexpr const char* kDataPathVariable = "HYPOTRACK_DATA_PATH";

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <thread>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 int core_count() {
   cpu_set_t cores;
@@ -23,4 +23,4 @@ std::string processor_name() {
   return "unknown processor";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -127,4 +127,4 @@ std::string describe_range(double min, double max, std::string_view unit) {
   return fmt::format("from {} to {}{}", min, max, suffix);
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -5,7 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Parses a number of YAML 1.2's core schema: decimal, `.inf`, `.nan`. Returns nothing for other
 /// texts and numbers beyond a double.
@@ -24,4 +27,5 @@ std::string format_number(double value, double to_si);
 /// Describes a range as "from 2 to 64 mm" or "at least 0"; empty without bounds.
 std::string describe_range(double min, double max, std::string_view unit);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

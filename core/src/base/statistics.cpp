@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -72,4 +72,4 @@ std::array<double, kSuccessCurvePoints> success_curve(std::span<const double> va
   return curve;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,10 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
+
 // Statistics of a set of errors, which are non-negative and finite, in any order and any one unit.
 // Remove NaN first with without_nan(). Results for an empty set are NaN.
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 std::vector<double> without_nan(std::span<const double> values);
 
@@ -37,4 +40,5 @@ inline constexpr int kSuccessCurvePoints = 101;
 /// Returns share_below() at thresholds 0, 1, 2, ..., 100.
 std::array<double, kSuccessCurvePoints> success_curve(std::span<const double> values);
 
+}  // namespace internal
 }  // namespace hypotrack

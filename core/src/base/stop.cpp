@@ -13,6 +13,10 @@ Stopped::~Stopped() = default;
 
 void check_stop() { StopCheck()(); }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 StopScope::StopScope(const StopTest& test) : before_(t_stop_test) {
   if (test) t_stop_test = &test;
 }
@@ -23,4 +27,4 @@ void StopCheck::operator()() const {
   if (test_ && (*test_)()) throw Stopped();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -1,13 +1,14 @@
 #pragma once
 
-#include "hypotrack/export.hpp"
+#include "base/exported.hpp"
 #include "hypotrack/stop.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Makes a test that of check_stop() in the calling thread, during this object's lifetime. An empty
 /// test leaves the thread's as it is.
-class HYPOTRACK_API StopScope {
+class StopScope {
  public:
   /// The test must outlive the object.
   explicit StopScope(const StopTest& test);
@@ -30,4 +31,5 @@ class StopCheck {
   const StopTest* test_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -15,7 +15,7 @@
 
 #include "base/descriptor.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kNotStarted = 126;  // exit code of a child that did not become the program
@@ -194,4 +194,4 @@ std::string signal_name(int signal) {
   return name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -11,7 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A program that runs beside this one. The kernel kills it when the thread that started it ends.
 /// It leads a process group of its own, so that the terminal's Ctrl-C does not reach it. What it
@@ -83,4 +86,5 @@ Captured capture_output(Subprocess::Command command, const std::vector<int>& num
 /// Returns the name of a signal: "SIGSEGV", or "signal 40" if it has none.
 std::string signal_name(int signal);
 
+}  // namespace internal
 }  // namespace hypotrack

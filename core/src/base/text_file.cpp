@@ -78,6 +78,10 @@ void TextFile::write(std::string_view text) {
   size_ += static_cast<std::int64_t>(done);
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 void expect_writable(const std::filesystem::path& file, std::string_view option) {
   if (std::filesystem::is_directory(file))
     throw OutputError(fmt::format("{}: is a folder; name a file with {}", file.string(), option));
@@ -112,4 +116,4 @@ void write_whole(const std::filesystem::path& file, std::string_view text) {
   refuse(file, error.value());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Checks early that write_whole() can work for a file, for results of long work. Throws
 /// OutputError if it cannot, which says that `option` names another file.
@@ -15,4 +17,5 @@ void expect_writable(const std::filesystem::path& file, std::string_view option 
 /// into a device or pipe directly, and into the file that a link names. Throws OutputError.
 void write_whole(const std::filesystem::path& file, std::string_view text);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kLargestYamlFile = std::size_t{8} << 20;
@@ -195,4 +195,4 @@ int read_count(const ConfigNode& node, std::string_view name) {
   return static_cast<int>(value);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

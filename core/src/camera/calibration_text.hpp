@@ -5,9 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads YAML or JSON of cv::FileStorage, or TOML, with hypotrack's own parser of YAML:
 /// cv::FileStorage crashes on damaged files and does not locate errors. Throws DataError on XML and
@@ -37,4 +39,5 @@ double read_number(const ConfigNode& node, std::string_view name);
 /// Reads a positive integer. Throws DataError.
 int read_count(const ConfigNode& node, std::string_view name);
 
+}  // namespace internal
 }  // namespace hypotrack

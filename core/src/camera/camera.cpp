@@ -16,7 +16,7 @@
 #include "camera/distortion.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kRotationTolerance = 1e-4;
@@ -182,6 +182,10 @@ double monotonic_radius(const Camera& camera) {
   }
   return std::numeric_limits<double>::infinity();
 }
+
+}  // namespace hypotrack::internal
+
+namespace hypotrack {
 
 Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world) {
   const Eigen::Vector3d p = camera.camera_from_world * p_world;

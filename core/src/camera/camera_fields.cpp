@@ -5,7 +5,7 @@
 
 #include "camera/calibration_text.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 constexpr std::array<std::string_view, 3> kUnits = {"m", "cm", "mm"};
@@ -131,4 +131,4 @@ double metres_per_unit(const ConfigNode& file, const CalibrationSettings& settin
   return settings.scale * metres_per(units.value_or(usual));
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
@@ -16,6 +17,7 @@
 // Parts of cameras that several formats of calibration files share.
 
 namespace hypotrack::calibration {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the value of the first key that exists; undefined if none does.
 ConfigNode first_of(const ConfigNode& node, std::initializer_list<std::string_view> names);
@@ -58,4 +60,5 @@ void set_pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translatio
 double metres_per_unit(const ConfigNode& file, const CalibrationSettings& settings,
                        LengthUnit usual = LengthUnit::m);
 
+}  // namespace internal
 }  // namespace hypotrack::calibration

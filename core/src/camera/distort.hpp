@@ -2,10 +2,12 @@
 
 #include <cmath>
 
+#include "base/exported.hpp"
 #include "hypotrack/pixel.hpp"
 
 /// Lens distortion formulas for CPU and CUDA, without Eigen and OpenCV.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Applies OpenCV's radial (rational) and tangential distortion to normalised image coordinates.
 /// `k` holds k1 k2 p1 p2 k3 k4 k5 k6. T is a scalar, an Eigen array or an interval. Source: "Camera
@@ -38,4 +40,5 @@ HYPOTRACK_PIXEL Scalar fisheye_factor(const Scalar* k, Scalar r) {
   return t * fisheye_polynomial(k, t * t) / r;
 }
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,9 +2,11 @@
 
 #include <array>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A lens's 4, 5 or 8 coefficients, zero-filled to 8: k1 k2 p1 p2 k3 k4 k5 k6, or k1 .. k4.
 using DistortionCoefficients = std::array<double, 8>;
@@ -16,4 +18,5 @@ DistortionCoefficients distortion_coefficients(const Camera& camera);
 /// map into the image. Infinite if it never folds.
 double monotonic_radius(const Camera& camera);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 
 #include "hypotrack/back_project.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 double distance_from_segment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
@@ -55,4 +55,4 @@ double distance_from_line(const Eigen::Matrix2Xd& line, const Eigen::Vector2d& p
   return nearest;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

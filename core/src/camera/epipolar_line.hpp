@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the pixels (2xN) where another camera may show what a pixel of `camera` shows: its
 /// epipolar line, curved by a lens. They go from infinity to 5 cm, evenly in inverse depth. NaN:
@@ -20,4 +22,5 @@ double distance_from_line(const Eigen::Matrix2Xd& line, const Eigen::Vector2d& p
 /// outside the image.
 Eigen::Vector2d project_uniquely(const Camera& camera, const Eigen::Vector3d& p_world);
 
+}  // namespace internal
 }  // namespace hypotrack

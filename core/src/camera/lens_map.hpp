@@ -3,12 +3,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "camera/distort.hpp"
 #include "hypotrack/pixel.hpp"
 
 /// Maps tile pixels to a camera's image: plain data and the one function that CPU and CUDA share,
 /// without Eigen and OpenCV.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 enum class Lens : std::int32_t { none, brown, fisheye };
 
@@ -81,4 +83,5 @@ HYPOTRACK_PIXEL bool inside_image(ImagePoint p, int width, int height) {
          p.y < static_cast<float>(height) - 0.5f;
 }
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Least cosine of the angle between optical axes of a pair with a left and a right camera.
@@ -26,4 +26,4 @@ std::string problem_of_pair(std::span<const Camera> cameras) {
       -1000 * second.x());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

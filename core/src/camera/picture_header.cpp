@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 27;
@@ -63,4 +63,4 @@ std::string problem_of_size(std::string_view bytes) {
                      kMostPixels);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,10 +3,14 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns what is wrong if a PNG or JPEG file has more pixels, by its header, than are read: a few
 /// bytes must not take gigabytes. Empty for other formats and for damaged headers.
 std::string problem_of_size(std::string_view bytes);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <optional>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns rectified_from_world of a pair, or nothing if it is not near-parallel.
@@ -52,4 +52,4 @@ IdealRig make_ideal_rig(std::span<const Camera> cameras) {
   return rig;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Largest rotation of each optical axis by which a pair is still rectified. The rotation makes
 /// both axes parallel and perpendicular to the baseline. The limit admits pairs with any roll,
@@ -31,4 +33,5 @@ struct IdealRig {
 /// close to the mean optical axis as that allows.
 IdealRig make_ideal_rig(std::span<const Camera> cameras);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 
 #include "hypotrack/back_project.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 Eigen::Vector3d triangulate(const Camera& a, const Eigen::Vector2d& in_a, const Camera& b,
                             const Eigen::Vector2d& in_b) {
@@ -25,4 +25,4 @@ Eigen::Vector3d triangulate(const Camera& a, const Eigen::Vector2d& in_a, const 
          2;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

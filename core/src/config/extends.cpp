@@ -10,7 +10,7 @@
 #include "config/file_name.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -77,4 +77,4 @@ std::unique_ptr<YamlNode> read_study_file(const fs::path& file) {
   return read(file, readers);
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/exported.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads a study and, if it `extends` another, adds to that one.
 ///
@@ -14,4 +16,5 @@ namespace hypotrack::detail {
 /// study that is extended, unless one of them gives another. Throws ConfigError.
 std::unique_ptr<YamlNode> read_study_file(const std::filesystem::path& file);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -11,7 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ fs::path find_file(const FileName& name, std::string_view kind) {
                                 name.text, beside.string(), hint));
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

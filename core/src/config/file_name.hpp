@@ -5,9 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A reference to a file, `"@trackers/recommended"` or `"@FILE.yaml"`, and where it is written.
 struct FileName {
@@ -27,4 +29,5 @@ std::optional<FileName> file_name_in(const YamlNode& value);
 /// Throws ConfigError if there is no such file.
 std::filesystem::path find_file(const FileName& name, std::string_view kind);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -14,7 +14,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 /// The file and key path of an include `@FILE.yaml` or `@FILE.yaml#key.path`.
@@ -132,4 +132,4 @@ void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string>
   includes.resolve(value, path);
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

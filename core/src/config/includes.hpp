@@ -7,9 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Replaces includes of other files by their values, and remembers the files that it read.
 ///
@@ -56,4 +58,5 @@ void resolve_includes(std::unique_ptr<YamlNode>& value, std::vector<std::string>
 std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::string> overrides,
                                       Includes& includes);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

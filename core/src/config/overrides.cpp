@@ -10,7 +10,7 @@
 #include "config/includes.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 std::unique_ptr<YamlNode>& list_slot(YamlNode& list, std::string_view step, std::string_view path,
@@ -158,4 +158,4 @@ void apply_override(YamlNode& root, const std::string& assignment) {
   assign(root, path, std::move(value), say);
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

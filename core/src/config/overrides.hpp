@@ -8,9 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Splits a path such as `models.0.type` into its steps.
 std::vector<std::string> split_path(std::string_view path);
@@ -42,4 +44,5 @@ std::unique_ptr<YamlNode> read_assigned(const std::string& path, std::string_vie
 void assign(YamlNode& root, std::span<const std::string> path, std::unique_ptr<YamlNode> value,
             const std::string& say);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -11,7 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 
 void fail_at(const ConfigNode& node, std::string_view problem) {
   std::string path = node.path();
@@ -73,4 +73,4 @@ void fail_unknown(const ConfigNode& map, const std::string& key,
                   allowed.empty() ? "nothing" : fmt::format("{}", fmt::join(allowed, ", "))));
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

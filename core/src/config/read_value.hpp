@@ -4,9 +4,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Throws ConfigError with the text `scene.yaml:3:5: optimizer.particles: problem`.
 [[noreturn]] void fail_at(const ConfigNode& node, std::string_view problem);
@@ -30,4 +32,5 @@ double read_double(const ConfigNode& node, const ParamInfo& info);
 /// Returns the text of a scalar that is not null. Throws ConfigError.
 const std::string& read_text(const ConfigNode& node, std::string_view expected);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -8,7 +8,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 /// Converts TOML nodes of one document.
@@ -97,4 +97,4 @@ std::unique_ptr<YamlNode> read_toml(std::string_view text,
   }
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -13,7 +13,7 @@
 #include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -129,4 +129,4 @@ std::vector<std::string> take_tracker(YamlNode& document, std::span<const std::s
   return left;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -11,7 +11,7 @@
 #include "config/yaml_text.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 bool is_word_character(char c) {
@@ -174,4 +174,4 @@ std::string YamlDocument::text() const {
   return text;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

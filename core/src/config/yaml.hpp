@@ -8,9 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
+
 // YAML documents: as trees that know where their values are written, and as maps to be written.
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The file or `--set` override that nodes come from.
 struct YamlOrigin {
@@ -114,4 +117,5 @@ class YamlDocument {
   std::unique_ptr<YamlNode> root_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::detail

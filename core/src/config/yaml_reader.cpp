@@ -13,7 +13,7 @@
 #include "config/yaml_text.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 /// Returns true if a quoted scalar at the start of `text` has its closing quote.
@@ -245,4 +245,4 @@ std::unique_ptr<YamlNode> read_yaml_file(const std::filesystem::path& file) {
   return read_document(text, file.string(), std::filesystem::absolute(file).parent_path());
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -16,7 +16,7 @@
 #include "base/descriptor.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 /// Returns the length of the UTF-8 sequence at the start of `rest`, 0 if it is invalid.
@@ -168,4 +168,4 @@ void YamlText::check(const YamlOrigin& origin) const {
   }
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "config/yaml.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns true for UTF-8 without noncharacters, which yaml-cpp writes as others.
 bool is_text(std::string_view text);
@@ -46,4 +48,5 @@ class YamlText {
   mutable std::size_t known_characters_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Makes the cost that draws with a HypothesisRenderer and scores on the CPU. `why_here` is the
 /// reason for not using a GPU; its backend() includes it.
@@ -21,7 +23,11 @@ std::unique_ptr<Cost> make_host_cost(const Scene& scene, std::vector<ObjectiveTe
 void check_room(const Eigen::Ref<const Eigen::MatrixXf>& residuals, Eigen::Index rows,
                 Eigen::Index columns);
 
-namespace cuda {
+}  // namespace internal
+}  // namespace hypotrack
+
+namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why the settings' GPU cannot evaluate these terms, with `residuals` if true; empty if it
 /// can.
@@ -47,5 +53,5 @@ std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> t
 std::unique_ptr<Cost> make_egl_cost(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                                     const EvaluateSettings& settings, std::string& why_not);
 
-}  // namespace cuda
-}  // namespace hypotrack
+}  // namespace internal
+}  // namespace hypotrack::cuda

@@ -7,7 +7,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/stop.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the frame without the images that no term reads.
@@ -96,4 +96,4 @@ const Eigen::MatrixXd& Cost::normalized(const Eigen::Ref<const Eigen::MatrixXd>&
   return normalized_;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
@@ -13,6 +14,7 @@
 #include "tile/tiles.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 enum class Backend { automatic, cpu, egl, cuda };
 std::span<const std::string_view> enum_names(Backend);
@@ -149,4 +151,5 @@ std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> t
 bool evaluates_with_cuda(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                          const EvaluateSettings& settings, const Requirements& requirements);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 #include "cost/hypothesis_drawer.hpp"
 #include "cost/hypothesis_renderer.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 class CpuRenderer : public HypothesisRenderer {
@@ -77,4 +77,4 @@ std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool d
   return std::make_unique<CpuRenderer>(scene, draws, threads);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kRows = 64;  // per block: half a row of a tile
@@ -137,4 +137,4 @@ NormalEquations DifferenceBlocks::normal_equations(
   return sums;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

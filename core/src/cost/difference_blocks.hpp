@@ -5,9 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Differences between the residuals of neighbouring points and those of one point, stored only
 /// where they differ. Most residuals do not depend on most parameters.
@@ -38,4 +40,5 @@ class DifferenceBlocks {
   std::vector<Column> columns_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

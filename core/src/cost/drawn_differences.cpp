@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 DrawnDifferences::DrawnDifferences(const ScenePlan& plan, std::vector<ObjectiveTerm> terms,
                                    int threads)
@@ -60,4 +60,4 @@ void DrawnDifferences::add(const Eigen::MatrixXd& states, const Eigen::VectorXd&
   sums.g += found.g;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

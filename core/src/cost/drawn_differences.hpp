@@ -4,12 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "cost/difference_blocks.hpp"
 #include "cost/hypothesis_drawer.hpp"
 #include "cost/term_residuals.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Normal equations of terms that need rendering and offer nothing but residuals: draws a state and
 /// all its neighbours.
@@ -45,4 +47,5 @@ class DrawnDifferences {
   DifferenceBlocks blocks_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 FallbackCost::FallbackCost(const Scene& scene, std::vector<ObjectiveTerm> terms,
                            const EvaluateSettings& settings, const Requirements& requirements)
@@ -24,4 +24,4 @@ void FallbackCost::leave_device(const DeviceError& error) {
   device_error_ = error.what();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Owns the cost of a scene, and replaces it by one on the CPU after its device failed.
 class FallbackCost {
@@ -36,4 +38,5 @@ class FallbackCost {
   std::string device_error_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

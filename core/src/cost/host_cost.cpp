@@ -20,7 +20,7 @@
 #include "cost/normal_equations.hpp"
 #include "cost/term_residuals.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 bool any_draws(const std::vector<ObjectiveTerm>& terms) {
@@ -45,11 +45,11 @@ class HostCost final : public Cost, public StateResiduals {
         renderer_(make_renderer(scene, settings, any_draws(terms()))),
         arena_(settings.threads > 0 ? settings.threads : tbb::info::default_concurrency()) {
     if (TermResiduals::why_none(terms()).empty()) residuals_.emplace(terms());
-    if (residuals_ && Linearizer::can_linearize(terms())) {
+    if (residuals_ && HostLinearizer::can_linearize(terms())) {
       const auto make = [this, &scene](int bands) {
-        return std::make_unique<Linearizer>(scene, terms(), arena_.max_concurrency(), bands);
+        return std::make_unique<HostLinearizer>(scene, terms(), arena_.max_concurrency(), bands);
       };
-      linearizers_.emplace([make] { return make(Linearizer::kBands); });
+      linearizers_.emplace([make] { return make(HostLinearizer::kBands); });
       narrow_linearizers_.emplace([make] { return make(1); });
     }
   }
@@ -78,7 +78,7 @@ class HostCost final : public Cost, public StateResiduals {
     return std::make_unique<Differences>(*this, difference_memory_);
   }
   bool can_linearize() const override { return linearizers_.has_value(); }
-  bool draws_neighbours() const override { return Linearizer::draws_neighbours(terms()); }
+  bool draws_neighbours() const override { return HostLinearizer::draws_neighbours(terms()); }
   NormalEquations linearize(const Eigen::Ref<const Eigen::MatrixXd>& states,
                             const Eigen::Ref<const Eigen::VectorXd>& steps, double blur) override {
     const Neighbourhood at{states, steps, blur};
@@ -96,7 +96,7 @@ class HostCost final : public Cost, public StateResiduals {
     arena_.execute([&] {
       tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
         check();
-        pool.use([&](Linearizer& linearizer) {
+        pool.use([&](HostLinearizer& linearizer) {
           out[i] = linearizer.linearize(states[i], points[i].steps, points[i].blur);
         });
       });
@@ -264,4 +264,4 @@ std::unique_ptr<Cost> make_host_cost(const Scene& scene, std::vector<ObjectiveTe
   return std::make_unique<HostCost>(scene, std::move(terms), settings, std::move(why_here));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

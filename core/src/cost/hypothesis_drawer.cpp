@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 AlignedFloats zeros(std::size_t count) {
@@ -167,4 +167,4 @@ void HypothesisDrawer::fill(std::size_t view) {
                  frame_->views[view], visible_[view], tile_storage_[view].get());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

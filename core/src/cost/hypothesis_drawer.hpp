@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/raster_kernels.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/observation.hpp"
@@ -11,6 +12,7 @@
 #include "scene/scene_poser.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The cameras of a frame's tiles, in the kernels' form.
 struct FrameProjection {
@@ -63,4 +65,5 @@ class HypothesisDrawer {
   std::vector<DepthTile> tiles_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

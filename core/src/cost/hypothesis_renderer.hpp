@@ -5,11 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Draws hypotheses for the cost that scores on the CPU. An implementation is one source file with
 /// a make_* function (below).
@@ -45,4 +47,5 @@ std::unique_ptr<HypothesisRenderer> make_cpu_renderer(const Scene& scene, bool d
 /// one per core). Throws DeviceError if there is no OpenGL.
 std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene, int threads);
 
+}  // namespace internal
 }  // namespace hypotrack

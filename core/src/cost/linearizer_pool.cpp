@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void LinearizerPool::prepare(const Observation& observation) {
   observation_ = &observation;
@@ -17,7 +17,7 @@ LinearizerPool::Entry LinearizerPool::take() {
   return entry;
 }
 
-void LinearizerPool::use(const std::function<void(Linearizer&)>& work) {
+void LinearizerPool::use(const std::function<void(HostLinearizer&)>& work) {
   Entry entry = take();
   if (!entry.is_prepared) entry.linearizer->prepare(*observation_);
   entry.is_prepared = true;
@@ -26,4 +26,4 @@ void LinearizerPool::use(const std::function<void(Linearizer&)>& work) {
   free_.push_back(std::move(entry));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

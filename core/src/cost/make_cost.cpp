@@ -6,12 +6,12 @@
 #include <utility>
 
 #include "cost/backends.hpp"
-#include "cost/linearizer.hpp"
+#include "cost/host_linearizer.hpp"
 #include "cost/split_cost.hpp"
 #include "cost/term_residuals.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::vector<ObjectiveTerm> checked(std::vector<ObjectiveTerm> terms) {
@@ -36,7 +36,8 @@ std::string why_automatic_on_cpu(const Scene& scene, const std::vector<Objective
                                  const Requirements& requirements) {
   if (requirements.least_squares && requirements.jacobian != Linearization::unused) {
     const bool needed = requirements.jacobian == Linearization::needed;
-    const bool better = Linearizer::can_linearize(terms) && !Linearizer::draws_neighbours(terms);
+    const bool better =
+        HostLinearizer::can_linearize(terms) && !HostLinearizer::draws_neighbours(terms);
     std::string why;
     if (needed) why = cuda::why_not_linearized(terms);
     if (why.empty() && !requirements.device && better) why = cuda::why_neighbours_are_drawn(terms);
@@ -71,7 +72,7 @@ CostOffer offer_of(const std::vector<ObjectiveTerm>& terms, const Requirements& 
     if (const std::string why = cuda::why_not_linearized(terms); !why.empty()) {
       offer.no_jacobian = fmt::format("{}{}, or `backend: cpu`", why, kInstead);
     }
-  } else if (!Linearizer::can_linearize(terms)) {
+  } else if (!HostLinearizer::can_linearize(terms)) {
     offer.no_jacobian = fmt::format(
         "no term that needs rendering has slopes or a Jacobian of its residuals{}", kInstead);
   }
@@ -144,4 +145,4 @@ void check_room(const Eigen::Ref<const Eigen::MatrixXf>& residuals, Eigen::Index
                           residuals.rows(), residuals.cols(), rows, columns));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,7 +2,7 @@
 
 #include "cost/difference_blocks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 NormalEquations normal_equations(const Eigen::Ref<const Eigen::VectorXf>& r,
                                  const Eigen::Ref<const Eigen::MatrixXf>& beside,
@@ -21,4 +21,4 @@ Eigen::VectorXd scale_of_finite(const Eigen::Ref<const Eigen::VectorXd>& scale,
   return costs.array().isFinite().select(scale.array(), 0.0);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -291,7 +291,7 @@ void walk(const Work& work) { Walk(work).run(); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(walk);
 }  // namespace
@@ -330,5 +330,5 @@ void PixelRows::join_terms(std::span<const PixelSlopes> terms, int width, TileRo
   residuals_ /= slopes_;  // not read where the slope is 0
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

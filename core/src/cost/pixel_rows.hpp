@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/raster_kernels.hpp"
 #include "scene/scene_plan.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Number of neighbouring vertices that share a list of the parameters that move them.
 inline constexpr std::size_t kMoverBlock = 8;
@@ -84,4 +86,5 @@ class PixelRows {
   std::size_t motion_size_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 
 #include "cost/pixel_rows.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::size_t block_count(const ScenePlan& plan) {
@@ -95,4 +95,4 @@ void PosedNeighbours::list_movers() {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,9 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/hypothesis_drawer.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A drawn state and the projected vertices of states that differ from it in one parameter each.
 class PosedNeighbours {
@@ -55,4 +57,5 @@ class PosedNeighbours {
   std::vector<std::vector<std::vector<int>>> movers_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

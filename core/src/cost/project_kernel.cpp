@@ -80,7 +80,7 @@ void project_both(const float* in_x, const float* in_y, const float* in_z, std::
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(project_one);
 HWY_EXPORT(project_both);
@@ -96,5 +96,5 @@ void project_pair(const float* x, const float* y, const float* z, std::size_t co
   HWY_DYNAMIC_DISPATCH(project_both)(x, y, z, count, views, records, ranges);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

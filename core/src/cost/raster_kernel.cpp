@@ -413,7 +413,7 @@ void clear(float* tile, int stride, int x0, int y0, int x1, int y1) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(cull);
 HWY_EXPORT(draw);
@@ -435,5 +435,5 @@ void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1) {
   HWY_DYNAMIC_DISPATCH(clear)(tile, stride, x0, y0, x1, y1);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

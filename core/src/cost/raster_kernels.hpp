@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "scene/simd_kernels.hpp"
 
 // The vectorised inner loops of the CPU renderer, behind plain data. They are compiled once per
@@ -12,6 +13,7 @@
 // (hypotrack/cuda/{vertices,cull,fill}.cuh). Both sides use the same operations with the same
 // fusing. Whoever changes one side must change the other.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Depth bounds (metres) and largest pixel distance of drawable vertices. The distance is from the
 /// tile's origin, in every view that shares the vertex' record. Triangles with any other vertex are
@@ -68,4 +70,5 @@ void draw_triangles(const std::uint32_t* corners, std::uint32_t degenerate, cons
 /// Sets the pixels x0 <= x < x1, y0 <= y < y1 of a tile to zero; all others must already be zero.
 void clear_pixels(float* tile, int stride, int x0, int y0, int x1, int y1);
 
+}  // namespace internal
 }  // namespace hypotrack

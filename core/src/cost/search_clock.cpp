@@ -22,9 +22,13 @@ double seconds_of(SearchClock clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 SearchClockScope::SearchClockScope(SearchClock clock)
     : before_(std::exchange(clock_of_thread, clock)) {}
 
 SearchClockScope::~SearchClockScope() { clock_of_thread = before_; }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "hypotrack/search.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Makes a clock that of the searches on this thread, while it lives.
 class SearchClockScope {
@@ -16,4 +18,5 @@ class SearchClockScope {
   SearchClock before_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

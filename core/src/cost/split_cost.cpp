@@ -7,7 +7,7 @@
 #include "cost/backends.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 bool draws(const ObjectiveTerm& term) {
@@ -194,4 +194,4 @@ std::unique_ptr<Cost> make_split_cost(const Scene& scene, const SplitTerms& term
                                      std::move(backend));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The terms of a scene that a GPU evaluates, and those that stay on the CPU.
 struct SplitTerms {
@@ -26,4 +28,5 @@ std::unique_ptr<Cost> make_split_cost(const Scene& scene, const SplitTerms& term
                                       std::unique_ptr<Cost> drawn, std::unique_ptr<Cost> posed,
                                       std::string backend);
 
+}  // namespace internal
 }  // namespace hypotrack

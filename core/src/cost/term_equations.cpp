@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Adds the products of a Jacobian by search dimensions.
@@ -61,4 +61,4 @@ void add_by_differences(const ObjectiveTerm& term, const Eigen::MatrixXd& states
   add(term.weight, j, at, sums);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/objective.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the derivatives of a state (column 0) by the dimensions of its neighbours, which differ
 /// by steps[i]; 0 where a step is 0. States are normalised. Derivatives of quaternions stay within
@@ -24,4 +26,5 @@ void add_by_jacobian(const ObjectiveTerm& term, const RenderedHypothesis& hypoth
 void add_by_differences(const ObjectiveTerm& term, const Eigen::MatrixXd& states,
                         const Eigen::VectorXd& steps, NormalEquations& sums);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string TermResiduals::why_none(const std::vector<ObjectiveTerm>& terms) {
   constexpr const char* kInstead =
@@ -77,4 +77,4 @@ double TermResiduals::write(std::size_t term, const RenderedHypothesis& hypothes
   return cost;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/objective.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Number of residuals of one term.
 struct TermRows {
@@ -48,4 +50,5 @@ class TermResiduals {
   Eigen::Index count_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

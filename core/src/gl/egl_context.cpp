@@ -11,7 +11,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::gl {
+namespace hypotrack::gl::internal {
 namespace {
 
 constexpr int kVersionNeeded = 33;  // 3.3 in epoxy's notation
@@ -239,4 +239,4 @@ CurrentContext::~CurrentContext() {
   }
 }
 
-}  // namespace hypotrack::gl
+}  // namespace hypotrack::gl::internal

@@ -2,7 +2,10 @@
 
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::gl {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An OpenGL core context (3.3 or newer) without a window. It tries NVIDIA's devices, other
 /// graphics devices, software devices and Mesa's surfaceless platform, in this order. The displays
@@ -44,4 +47,5 @@ class CurrentContext {
   void* former_read_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::gl

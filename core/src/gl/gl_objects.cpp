@@ -4,7 +4,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::gl {
+namespace hypotrack::gl::internal {
 namespace {
 
 std::string shader_log(GLuint shader) {
@@ -118,4 +118,4 @@ void check_errors(const char* what) {
   throw DeviceError(fmt::format("OpenGL failed at {}: {} (0x{:04x})", what, name, error));
 }
 
-}  // namespace hypotrack::gl
+}  // namespace hypotrack::gl::internal

@@ -5,7 +5,10 @@
 #include <string>
 #include <utility>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::gl {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Owner of an OpenGL name. The context that created the object must be current at its deletion.
 template <void (*kDelete)(GLuint)>
@@ -61,4 +64,5 @@ void check_framebuffer(const char* what);
 /// Throws DeviceError if OpenGL has reported an error since the last check.
 void check_errors(const char* what);
 
+}  // namespace internal
 }  // namespace hypotrack::gl

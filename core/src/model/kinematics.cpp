@@ -72,6 +72,10 @@ std::vector<Eigen::Isometry3d> world_from_bones(const ModelData& data,
   return bones;
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 Eigen::Matrix3Xf skin(const ModelData& data, std::span<const Eigen::Isometry3d> world_from_bone) {
   const Mesh& mesh = data.mesh;
   Bones world_from_bind = bind_transforms(data);
@@ -102,6 +106,9 @@ Eigen::Matrix3Xd place_landmarks(const ModelData& data,
   return placed;
 }
 
+}  // namespace hypotrack::internal
+
+namespace hypotrack {
 namespace {
 
 /// Throws PluginError unless a model that poses itself returned as many points as its data has.

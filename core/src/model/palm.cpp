@@ -7,7 +7,7 @@
 
 #include "hypotrack/kinematics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the model's landmarks at rest, with every angle moved by a share of the way to its upper
@@ -47,4 +47,4 @@ std::optional<PalmAxes> palm_axes(const Model& model) {
   return PalmAxes{across.normalized() * (side > 0 ? 1 : -1), (to_index + to_little).normalized()};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

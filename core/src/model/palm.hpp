@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Directions of a hand at rest in the model's frame: unit vectors, perpendicular to each other.
 struct PalmAxes {
@@ -18,4 +20,5 @@ struct PalmAxes {
 /// side.
 std::optional<PalmAxes> palm_axes(const Model& model);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Skins the vertices by linear blend skinning: 3xV, metres, in the frame of the given bones.
 /// Computes in double precision and rounds at the end.
@@ -17,4 +19,5 @@ Eigen::Matrix3Xf skin(const ModelData& data, std::span<const Eigen::Isometry3d> 
 Eigen::Matrix3Xd place_landmarks(const ModelData& data,
                                  std::span<const Eigen::Isometry3d> world_from_bone);
 
+}  // namespace internal
 }  // namespace hypotrack

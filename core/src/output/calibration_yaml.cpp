@@ -5,7 +5,7 @@
 
 #include "output/recording_writer.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string calibration_yaml(const std::vector<Camera>& cameras) {
   static constexpr std::array<std::string_view, 3> kModels{"none", "brown", "fisheye"};
@@ -23,4 +23,4 @@ std::string calibration_yaml(const std::vector<Camera>& cameras) {
   return text;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -17,7 +17,7 @@
 #include "output/sigma_table.hpp"
 #include "output/true_landmarks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -283,4 +283,4 @@ Evaluation evaluate(const EvaluationInput& input) {
   return evaluation;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "output/metrics/metrics.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Tables to compare, and their units.
 struct EvaluationInput {
@@ -33,4 +35,5 @@ struct Evaluation {
 /// common, and tables in different units.
 Evaluation evaluate(const EvaluationInput& input);
 
+}  // namespace internal
 }  // namespace hypotrack

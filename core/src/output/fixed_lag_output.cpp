@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void FixedLagOutput::add(const SceneTracker& tracker, const Frame& frame,
                          const Solution& solution) {
@@ -43,4 +43,4 @@ void FixedLagOutput::finish_unchanged() {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

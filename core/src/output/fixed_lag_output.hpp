@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "output/output_queue.hpp"
 #include "track/scene_tracker.hpp"
 #include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Passes a run's frames to its output: at once or, with fixed-lag smoothing, when their states are
 /// settled.
@@ -46,4 +48,5 @@ class FixedLagOutput {
   std::deque<Waiting> waiting_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -1,6 +1,6 @@
 #include "output/frame_statuses.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 FrameStatuses statuses_of(const Scene& scene, const Solution& solution) {
   FrameStatuses out{status_named(to_string(solution.status)).value()};
@@ -10,4 +10,4 @@ FrameStatuses statuses_of(const Scene& scene, const Solution& solution) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -13,7 +13,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kMostWaiting = 24;  // 64 MiB of pictures of 1280 x 720
@@ -97,4 +97,4 @@ void ImageWriter::wait() {
   impl_->rethrow();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

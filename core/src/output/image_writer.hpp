@@ -4,7 +4,10 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Writes PNG or JPEG files on all cores while the caller goes on. The files do not depend on the
 /// threads' timing.
@@ -29,4 +32,5 @@ class ImageWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 #include "output/run_directory.hpp"
 #include "output/true_landmarks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::vector<std::string> MetricsOutput::file_names() const {
   return {"truth_states.csv", "truth_landmarks.csv", "errors.csv",   "uncertainty.csv", "trace.csv",
@@ -93,4 +93,4 @@ void MetricsOutput::finish(bool complete) {
   TextFile(run_->file(kSummaryFile)).write(to_json(summary_));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

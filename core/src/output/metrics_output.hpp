@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/summary.hpp"
@@ -18,6 +19,7 @@
 #include "session/term_times.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Measures a run: summary.json and, with predicted uncertainty, uncertainty.csv. With ground
 /// truth: truth_states.csv, truth_landmarks.csv, errors.csv, metrics.json and worst_<frame>.jpg. Of
@@ -75,4 +77,5 @@ class MetricsOutput final : public Output {
   std::map<std::string, int> faults_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 #include <future>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kMostWaiting = 8;  // frames with pictures
@@ -73,4 +73,4 @@ void OutputQueue::settle() {
   rethrow();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

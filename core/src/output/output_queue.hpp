@@ -7,9 +7,11 @@
 #include <thread>
 
 #include "base/bounded_queue.hpp"
+#include "base/exported.hpp"
 #include "output/run_output.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Gives the frames of a run to its outputs, in order: to plain ones at once, to drawing ones in a
 /// thread of their own. While many frames wait for that, the caller waits.
@@ -53,4 +55,5 @@ class OutputQueue {
   std::jthread thread_;  ///< ends before what it uses
 };
 
+}  // namespace internal
 }  // namespace hypotrack

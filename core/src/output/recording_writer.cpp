@@ -16,7 +16,7 @@
 #include "output/start_files.hpp"
 #include "output/true_landmarks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kDepthUnitMm = 0.1;
@@ -236,4 +236,4 @@ void RecordingWriter::finish() {
   part_.clear();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

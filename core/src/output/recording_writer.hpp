@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -15,6 +16,7 @@
 #include "session/scene_file.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Format of a recording's colour pictures: lossless, or JPEG of quality 95.
 enum class PictureFormat { png, jpeg };
@@ -96,4 +98,5 @@ class RecordingWriter {
 /// them).
 std::string calibration_yaml(const std::vector<Camera>& cameras);
 
+}  // namespace internal
 }  // namespace hypotrack

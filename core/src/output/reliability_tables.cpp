@@ -14,7 +14,7 @@
 #include "output/run_directory.hpp"
 #include "output/sigma_table.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ void add_run(const fs::path& run, UncertaintyCalibration& calibration) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

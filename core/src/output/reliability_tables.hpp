@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Predicted uncertainty of runs with ground truth, and their true errors.
 struct UncertaintyCalibration {
@@ -20,4 +22,5 @@ struct UncertaintyCalibration {
 /// DataError on missing and damaged files, naming what is missing.
 void add_run(const std::filesystem::path& run, UncertaintyCalibration& calibration);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "output/run_directory.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void expect_row_per_frame(const std::filesystem::path& table, std::size_t rows) {
   const std::filesystem::path file = table.parent_path() / kSummaryFile;
@@ -29,4 +29,4 @@ void expect_row_per_frame(const std::filesystem::path& table, std::size_t rows) 
       table.string(), rows, frames->dump(), file.string()));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -11,7 +11,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr const char* kFirst = "run.yaml";     // of every run
@@ -206,4 +206,4 @@ void RunDirectory::finish() {
   std::filesystem::remove_all(previous_, error);  // the next run does it if this fails
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,9 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
+#include "base/exported.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns whether a file's name is that of a result. A # in the latter stands for any number.
 bool is_result(std::string_view name, std::string_view result);
@@ -19,7 +20,7 @@ inline constexpr const char* kSummaryFile = "summary.json";
 
 /// Throws DataError if a folder holds a run without its last file: the run goes on,
 /// or was killed.
-HYPOTRACK_API void expect_finished_run(const std::filesystem::path& folder);
+void expect_finished_run(const std::filesystem::path& folder);
 
 /// The folder of a run's results. Files have their names from the start and may be read while they
 /// grow. The last result appears when all others are complete: with it, a run is finished. Results
@@ -79,4 +80,5 @@ class RunDirectory {
   int descriptor_ = -1;  ///< file descriptor of the locked folder
 };
 
+}  // namespace internal
 }  // namespace hypotrack

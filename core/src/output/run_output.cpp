@@ -16,7 +16,7 @@
 #include "hypotrack/text_file.hpp"
 #include "output/true_landmarks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr const char* kProtocol = "run.yaml";
@@ -114,8 +114,16 @@ void check_outputs(const std::vector<NamedOutput>& outputs) {
   own_columns(outputs);
 }
 
+}  // namespace hypotrack::internal
+
+namespace hypotrack {
+
 OutputContext::~OutputContext() = default;
 Output::~Output() = default;
+
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
 
 /// The run as one of its outputs sees it.
 class RunOutput::Context final : public OutputContext {
@@ -266,4 +274,4 @@ Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
   return metrics_->summary();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
@@ -14,6 +15,7 @@
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Throws ConfigError if two outputs of a run write a file or a column of one name, PluginError if
 /// a name is none.
@@ -93,4 +95,5 @@ class RunOutput {
   int frames_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 SigmaTable::SigmaTable(const std::filesystem::path& file)
     : table_(file), frame_(table_.find("frame")) {
@@ -31,4 +31,4 @@ std::map<int, Eigen::VectorXd> SigmaTable::by_frame() const {
   return frames;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "base/csv.hpp"
+#include "base/exported.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads the sigmas of uncertainty.csv, in metres.
 class SigmaTable {
@@ -28,4 +30,5 @@ class SigmaTable {
   std::vector<int> columns_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

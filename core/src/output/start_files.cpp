@@ -8,7 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/params.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Copies a file; returns the copy's name, or the absolute path of a file that does not exist.
@@ -43,4 +43,4 @@ std::string copy_start_files(const InitSettings& init, const std::filesystem::pa
   return out.text();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 double clock_fps(const Summary& s) {
   return s.clock.total > 0 ? s.metrics.frames / s.clock.total : 0;
@@ -69,4 +69,4 @@ std::string to_json(const Summary& s) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

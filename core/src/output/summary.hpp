@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "output/metrics/metrics.hpp"
 #include "output/metrics/reliability.hpp"
 #include "plugin/plugin_notes.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// How long a run took by the clock, and how long its parts worked beside each other, in seconds.
 struct ClockTimes {
@@ -51,4 +53,5 @@ double clock_fps(const Summary& summary);
 /// those of sigma where there is none.
 std::string to_json(const Summary& summary);
 
+}  // namespace internal
 }  // namespace hypotrack

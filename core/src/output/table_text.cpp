@@ -4,13 +4,17 @@
 
 #include "hypotrack/tables.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string states_header(const Scene& scene) {
   std::string line = "frame,time";
   for (const Parameter& p : scene.parameters()) line += "," + p.name;
   return line + "\n";
 }
+
+}  // namespace hypotrack::internal
+
+namespace hypotrack {
 
 std::string landmarks_header(std::span<const std::string> landmark_names) {
   std::string line = "frame,time";
@@ -23,6 +27,10 @@ std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::Vec
   for (const double value : values) line += fmt::format(",{}", value);
   return line + "\n";
 }
+
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
 
 std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landmarks,
                            const std::vector<bool>& absent) {
@@ -38,4 +46,4 @@ std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landm
   return line + "\n";
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,11 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 
 // Lines of the tables that tables.hpp describes.
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Text in the cells of a landmark whose model is absent.
 inline constexpr std::string_view kAbsent = "absent";
@@ -22,4 +24,5 @@ std::string states_header(const Scene& scene);
 std::string landmarks_line(int frame, double time, const Eigen::Matrix3Xd& landmarks,
                            const std::vector<bool>& absent = {});
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string known(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
@@ -46,4 +46,4 @@ FrameOutcome TraceOutput::judge(int frame, double error_mm) {
   return outcome;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <optional>
 #include <utility>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/text_file.hpp"
 #include "output/metrics/frame_outcome.hpp"
 #include "track/search_trace.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Writes how searches converged: trace.csv, a row per batch of evaluations, and truth_costs.csv, a
 /// row per frame with a true state. The files appear with the first frame that has data for them.
@@ -30,4 +32,5 @@ class TraceOutput {
   std::map<int, std::pair<double, double>> costs_;  ///< of answer and truth, of frames to judge
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::optional<Eigen::Matrix3Xd> true_landmarks(const Scene& scene, const Frame& frame) {
   if (!frame.truth) return std::nullopt;
@@ -46,4 +46,4 @@ std::vector<bool> absent_models(const LandmarkRow& row, std::span<const std::siz
   return absent;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

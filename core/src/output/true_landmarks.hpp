@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the world positions of the true landmarks (3xL, metres; NaN columns are unknown or
 /// absent). Returns nothing if the frame has no truth.
@@ -26,4 +28,5 @@ std::vector<std::size_t> landmark_owners(const Scene& scene);
 std::vector<bool> absent_models(const LandmarkRow& row, std::span<const std::size_t> owners,
                                 std::size_t models);
 
+}  // namespace internal
 }  // namespace hypotrack

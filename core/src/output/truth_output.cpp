@@ -8,7 +8,7 @@
 #include "output/table_text.hpp"
 #include "output/true_landmarks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void TruthOutput::open() {
   landmarks_.emplace(run_->file("truth_landmarks.csv"));
@@ -36,4 +36,4 @@ void TruthOutput::add(const Frame& frame, const Eigen::Matrix3Xd& landmarks,
   states_->write(table_line(frame.index, frame.time, frame.truth->state));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <optional>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/text_file.hpp"
 #include "output/metrics/landmark_errors.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Writes the truth of a run frame by frame: truth_states.csv, truth_landmarks.csv and errors.csv.
 /// A file appears with the first frame that has data for it.
@@ -34,4 +36,5 @@ class TruthOutput {
   std::optional<TextFile> states_, landmarks_, errors_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void UncertaintyOutput::add(const Solution& solution, const Eigen::VectorXd& errors) {
   if (solution.sigma.size() == 0) return;
@@ -31,4 +31,4 @@ std::optional<double> UncertaintyOutput::mean_sigma() const {
   return sum_ / static_cast<double>(count_);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

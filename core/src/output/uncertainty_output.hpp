@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/solution.hpp"
 #include "hypotrack/text_file.hpp"
 #include "output/metrics/reliability.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Writes the predicted uncertainty frame by frame: uncertainty.csv, a column per landmark, in
 /// millimetres. The file appears with the first frame that has data for it.
@@ -34,4 +36,5 @@ class UncertaintyOutput {
   std::int64_t count_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 bool is_less_bad(const WorstFrame& a, const WorstFrame& b) { return a.error < b.error; }
@@ -69,4 +69,4 @@ void WorstFrames::write(OutputContext& run) const {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

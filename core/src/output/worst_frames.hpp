@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 #include "picture/comparison.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A frame that is kept for its large error.
 struct WorstFrame {
@@ -48,4 +50,5 @@ class WorstFrames {
   std::vector<WorstFrame> candidates_;  ///< the worst of every kApart frames, up to places()
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Nearly everybody can tell orange and blue apart (BGR).
@@ -155,4 +155,4 @@ cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image, const Camera& 
   return sheet.with_legend(caption);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,10 +4,12 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/renderer.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The state and landmarks of a scene; either may be unknown.
 struct ScenePose {
@@ -23,4 +25,5 @@ cv::Mat draw_comparison(Renderer& renderer, const cv::Mat& image, const Camera& 
                         const ScenePose& solution, const ScenePose& truth,
                         const std::string& caption);
 
+}  // namespace internal
 }  // namespace hypotrack

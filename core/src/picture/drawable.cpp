@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 template <class Matrix>
@@ -74,4 +74,4 @@ void pose_drawable(const Drawable& drawable, const Eigen::Matrix3Xf& vertices) {
   upload(GL_ARRAY_BUFFER, drawable.normals, drawable.mesh.normals(vertices), GL_STREAM_DRAW);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
 #include "hypotrack/model.hpp"
 #include "picture/shading_mesh.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The OpenGL objects of a model.
 struct Drawable {
@@ -26,4 +28,5 @@ Drawable make_drawable(const Mesh& mesh);
 /// Uploads the positions and normals of posed vertices (3xV, world).
 void pose_drawable(const Drawable& drawable, const Eigen::Matrix3Xf& vertices);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 
 #include "hypotrack/back_project.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kLargestPinhole = 6144;  // pixels along one side
@@ -164,4 +164,4 @@ cv::Mat sample_nearest(const cv::Mat& source, const LensView& view) {
   return target;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

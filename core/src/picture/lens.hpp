@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Mapping from a pinhole camera's picture to a part of a real camera's picture.
 struct LensView {
@@ -44,4 +46,5 @@ cv::Mat sample_linear(const cv::Mat& source, const LensView& view);
 /// times finer than the pinhole's picture.
 cv::Mat sample_nearest(const cv::Mat& source, const LensView& view);
 
+}  // namespace internal
 }  // namespace hypotrack

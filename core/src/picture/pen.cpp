@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kPenBits = 4;  // of subpixels
@@ -87,4 +87,4 @@ cv::Mat side_by_side(const std::vector<cv::Mat>& images, std::span<const std::st
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

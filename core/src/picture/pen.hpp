@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Draws lines and points on an 8-bit BGR image, with a dark edge so that they show on any ground.
 /// Coordinates are pixels with centres at integers. NaN and far outside: not drawn.
@@ -32,4 +35,5 @@ class Pen {
 /// Joins 8-bit BGR images side by side, with lines of text below.
 cv::Mat side_by_side(const std::vector<cv::Mat>& images, std::span<const std::string> text);
 
+}  // namespace internal
 }  // namespace hypotrack

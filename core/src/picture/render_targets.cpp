@@ -8,7 +8,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 void attach(GLenum attachment, const gl::Renderbuffer& buffer) {
@@ -67,4 +67,4 @@ GeometryTarget make_geometry_target(const TargetSize& size) {
   return t;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

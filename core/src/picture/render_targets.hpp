@@ -1,9 +1,11 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Size of framebuffers; they grow to the largest picture drawn so far.
 struct TargetSize {
@@ -39,4 +41,5 @@ TargetSize grown(const TargetSize& former, const TileCamera& camera, int samples
 ColorTarget make_color_target(const TargetSize& size);
 GeometryTarget make_geometry_target(const TargetSize& size);
 
+}  // namespace internal
 }  // namespace hypotrack

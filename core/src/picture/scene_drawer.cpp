@@ -16,7 +16,7 @@
 #include "picture/render_targets.hpp"
 #include "picture/shaders.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Near clipping distance: a projection has no meaning at the camera's centre.
@@ -269,4 +269,4 @@ Geometry SceneDrawer::draw_geometry(const TileCamera& camera) {
   return geometry;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

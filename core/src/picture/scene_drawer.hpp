@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/renderer.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Depth and label of the nearest surface at pixel centres.
 struct Geometry {
@@ -51,4 +53,5 @@ class SceneDrawer {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

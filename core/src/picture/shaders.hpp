@@ -1,6 +1,9 @@
 #pragma once
 
+#include "base/exported.hpp"
+
 namespace hypotrack::shaders {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Vertex shader, world to clip space; row 0 of the framebuffer is the image's top row.
 inline constexpr const char* kSceneVertex = R"(#version 330 core
@@ -64,4 +67,5 @@ void main() {
 }
 )";
 
+}  // namespace internal
 }  // namespace hypotrack::shaders

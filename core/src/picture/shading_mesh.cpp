@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Disjoint sets of corners (union-find).
@@ -121,4 +121,4 @@ Eigen::Matrix3Xf ShadingMesh::normals(const Eigen::Matrix3Xf& vertices) const {
   return normals;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A mesh prepared for drawing. A vertex of the model becomes several corners where texture
 /// coordinates or, at sharp edges of the bind pose, normals differ.
@@ -38,4 +40,5 @@ class ShadingMesh {
   Eigen::Matrix3Xi triangles_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -15,7 +15,7 @@
 #include "hypotrack/picture.hpp"
 #include "picture/pen.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the border of a tile in the image of its camera, 2xN.
@@ -161,4 +161,4 @@ cv::Mat draw_start(const Scene& scene, const std::vector<Camera>& cameras, const
   return side_by_side(views, caption);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A state to draw over the views of a frame.
 struct StartToDraw {
@@ -26,4 +28,5 @@ struct StartToDraw {
 cv::Mat draw_start(const Scene& scene, const std::vector<Camera>& cameras, const TileSettings& tile,
                    const Frame& frame, const StartToDraw& start);
 
+}  // namespace internal
 }  // namespace hypotrack

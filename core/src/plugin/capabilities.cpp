@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::array<Capability, 12> kKnown = {{
@@ -49,4 +49,4 @@ std::string format_capabilities_markdown() {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <string>
 #include <string_view>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A word of a plugin's description that says what it offers or needs beyond its kind.
 struct Capability {
@@ -26,4 +29,5 @@ std::string format_capabilities();
 /// Returns the same as a table of the documentation.
 std::string format_capabilities_markdown();
 
+}  // namespace internal
 }  // namespace hypotrack

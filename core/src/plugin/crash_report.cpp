@@ -9,7 +9,7 @@
 
 #include "plugin/running_plugin.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 std::atomic<bool> g_exit_is_early = false;
@@ -57,4 +57,4 @@ EarlyExitReport::EarlyExitReport() {
 
 EarlyExitReport::~EarlyExitReport() { g_exit_is_early = false; }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -3,7 +3,10 @@
 #include <array>
 #include <csignal>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Says which plugin ran (RunningPlugin) if the program crashes during this object's lifetime. The
 /// crash then ends the program as usual. Signals that something else handles are left alone.
@@ -29,4 +32,5 @@ class EarlyExitReport {
   EarlyExitReport& operator=(const EarlyExitReport&) = delete;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -9,8 +9,7 @@
 #include "base/installation.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
-namespace detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 constexpr const char* kPluginPathVariable = "HYPOTRACK_PLUGIN_PATH";
@@ -62,5 +61,4 @@ std::vector<std::filesystem::path> plugin_search_path(
   return folders;
 }
 
-}  // namespace detail
-}  // namespace hypotrack
+}  // namespace hypotrack::detail::internal

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the path of a program that hypotrack starts by itself, in libexec/hypotrack.
 std::filesystem::path libexec_program(const std::string& name);
@@ -22,4 +25,5 @@ std::filesystem::path own_plugin_folder();
 std::vector<std::filesystem::path> plugin_search_path(
     const std::vector<std::filesystem::path>& extra);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 std::string_view trim(std::string_view text) {
@@ -42,4 +42,4 @@ std::vector<HelpLine> help_lines(std::string_view text) {
   return out;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

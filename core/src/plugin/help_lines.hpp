@@ -4,7 +4,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A line of describe_params(): key, type and help, with two spaces or more between them.
 struct HelpLine {
@@ -15,4 +18,5 @@ struct HelpLine {
 /// Splits the text of describe_params() into its lines. They refer to the text.
 std::vector<HelpLine> help_lines(std::string_view text);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -17,7 +17,7 @@
 #include "plugin/library.hpp"
 #include "plugin/probe.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the complete lines of a report.
@@ -207,4 +207,4 @@ std::string format_check(const PluginRow& row) {
                      row.version);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

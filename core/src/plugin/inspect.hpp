@@ -7,7 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A plugin library's description. If `problem` is not empty, only the path and what the file name
 /// tells are set.
@@ -58,4 +61,5 @@ std::string format_markdown(const PluginRow& row);
 /// Formats "FILE: optimizer 'pso' 0.1.0 can be used", or why it cannot.
 std::string format_check(const PluginRow& row);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -11,7 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "plugin/whole_file.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 constexpr std::string_view kFilePrefix = "libhypotrack_";
@@ -176,4 +176,4 @@ std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expecte
   return "";
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -7,9 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Kind and name from a library's file name: libhypotrack_<kind>_<name>.so.
 struct PluginId {
@@ -43,4 +45,5 @@ const HypotrackPlugin& descriptor_of(void* library);
 /// can. Checks that a member exists before it reads it.
 std::string find_mismatch(const HypotrackPlugin& plugin, const PluginId& expected);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -13,7 +13,7 @@
 #include "plugin/help_lines.hpp"
 #include "plugin/inspect.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::string escaped(std::string_view text) {
@@ -71,4 +71,4 @@ std::string format_markdown(const PluginRow& row) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

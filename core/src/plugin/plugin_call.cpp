@@ -14,7 +14,7 @@
 #include "hypotrack/stop.hpp"
 #include "plugin/folders.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string current_exception_name() {
   return name;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

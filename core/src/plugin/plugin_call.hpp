@@ -4,11 +4,13 @@
 #include <string_view>
 #include <utility>
 
+#include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
 #include "plugin/running_plugin.hpp"
 
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Names a plugin of a scene: its place there, kind, name and library.
 /// `a.yaml:7:3: optimizer 'pso' (/usr/lib/hypotrack/plugins/libhypotrack_optimizer_pso.so)`.
@@ -54,4 +56,5 @@ decltype(auto) call_plugin(const std::string& who, bool explains, const std::str
 /// Returns the type name of the exception being handled: `int`.
 std::string current_exception_name();
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -40,6 +40,10 @@ void PluginLog::warning(std::string_view text) const {
   if (notes_) notes_->add(who_, true, text);
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 void PluginNotes::add(const std::string& who, bool warning, std::string_view text) {
   const std::lock_guard lock(mutex_);
   auto& of_plugin = indices_[who];
@@ -75,4 +79,4 @@ std::vector<PluginNote> PluginNotes::all() const {
   return notes_;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "hypotrack/export.hpp"
+#include "base/exported.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What a plugin told the user.
 struct PluginNote {
@@ -22,7 +23,7 @@ struct PluginNote {
 };
 
 /// Collects what the plugins of one scene tell the user. May be used from several threads at once.
-class HYPOTRACK_API PluginNotes {
+class PluginNotes {
  public:
   /// Number of different texts of one plugin; further ones count as one.
   static constexpr std::size_t kMostTexts = 20;
@@ -45,4 +46,5 @@ class HYPOTRACK_API PluginNotes {
       indices_;  ///< of notes, by plugin and text
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "plugin/library.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 void write_line(std::string line) {
@@ -60,4 +60,4 @@ void run_probe(const std::filesystem::path& file) {
   _exit(0);  // skips the destructors of a library that may be broken
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

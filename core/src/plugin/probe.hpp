@@ -2,7 +2,10 @@
 
 #include <filesystem>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// File descriptor of the probe program's report, separate from anything that a plugin prints.
 inline constexpr int kProbeDescriptor = 3;
@@ -15,4 +18,5 @@ inline constexpr const char* kProbeDescribing = "while describing its parameters
 /// Opens a library, writes the report and exits: the probe program's main function.
 [[noreturn]] void run_probe(const std::filesystem::path& file);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

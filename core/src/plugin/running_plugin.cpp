@@ -12,7 +12,7 @@
 
 #include "plugin/signal_stack.hpp"
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 // Of the calling thread. Initial-exec: a signal handler may not allocate thread-local memory.
@@ -80,4 +80,4 @@ void report_end(const char* ends) {
       write(STDERR_FILENO, line.text().data(), line.text().size());
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

@@ -2,7 +2,10 @@
 
 #include <optional>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::detail {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Names the plugin whose code the calling thread runs during this object's lifetime, for the
 /// message if the program ends meanwhile. Objects of one thread nest; the newest counts.
@@ -49,4 +52,5 @@ std::optional<int> running_frame();
 /// that signal handlers may call it.
 void report_end(const char* ends);
 
+}  // namespace internal
 }  // namespace hypotrack::detail

@@ -5,7 +5,7 @@
 #include <memory>
 #include <new>
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 constexpr std::size_t kSize = std::size_t{1} << 16;
@@ -45,4 +45,4 @@ void ensure_signal_stack() {
   t_ensured = true;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

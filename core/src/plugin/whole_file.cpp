@@ -8,7 +8,7 @@
 #include <fstream>
 #include <limits>
 
-namespace hypotrack::detail {
+namespace hypotrack::detail::internal {
 namespace {
 
 constexpr unsigned char kClass = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
@@ -45,4 +45,4 @@ std::uintmax_t elf_size(const std::filesystem::path& file) {
   return size;
 }
 
-}  // namespace hypotrack::detail
+}  // namespace hypotrack::detail::internal

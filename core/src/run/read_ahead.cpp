@@ -3,7 +3,7 @@
 #include <chrono>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kFramesAhead = 4;
@@ -45,4 +45,4 @@ std::optional<Frame> ReadAhead::next() {
   return std::move(item.frame);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

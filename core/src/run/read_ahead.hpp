@@ -6,9 +6,11 @@
 #include <thread>
 
 #include "base/bounded_queue.hpp"
+#include "base/exported.hpp"
 #include "hypotrack/source.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads frames of a source in a thread of its own while the caller works on earlier ones. A live
 /// source is asked in the caller's thread: frames read ahead would be old.
@@ -42,4 +44,5 @@ class ReadAhead {
   std::jthread thread_;  ///< not started for a live source; ends before what it uses
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <exception>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 Results::Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
                  const std::string& backend, const std::filesystem::path& folder,
@@ -60,4 +60,4 @@ void Results::finish_after_error(const ClockTimes& clock) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

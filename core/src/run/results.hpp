@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/exported.hpp"
 #include "hypotrack/session.hpp"
 #include "output/fixed_lag_output.hpp"
 #include "output/output_queue.hpp"
@@ -14,6 +15,7 @@
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Results of a run in a folder.
 class Results {
@@ -71,4 +73,5 @@ class Results {
   FixedLagOutput frames_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 
 #include "track/faults/fault_text.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void RunNotes::add(const Solution& solution, const ClockTimes& clock) {
   add_fault(solution);
@@ -68,4 +68,4 @@ void RunNotes::finish() {
   for (const std::string& line : plugins_.repeated_lines()) watcher_.say(line);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <string>
 #include <utility>
 
+#include "base/exported.hpp"
 #include "hypotrack/session.hpp"
 #include "plugin/plugin_notes.hpp"
 #include "run/results.hpp"
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Says what a run's user should know while it goes on, each thing once.
 class RunNotes {
@@ -45,4 +47,5 @@ class RunNotes {
   bool start_said_, device_said_ = false, outputs_said_ = false;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

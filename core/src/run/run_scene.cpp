@@ -21,7 +21,7 @@
 #include "shape/estimated_scene.hpp"
 #include "track/scene_tracker.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Asks a watcher whether to stop, and remembers a yes.
@@ -249,4 +249,4 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
   return result;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/session.hpp"
 #include "output/summary.hpp"
 #include "session/opened_scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// How a run ended.
 struct RunResult {
@@ -36,4 +38,5 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
                     PluginLoader& plugins, const RunOptions& options, RunWatcher& watcher,
                     RunAdditions additions = {});
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include "scene/pose_kernel.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 BonePoser::BonePoser(const ModelData& data) : skeleton_(data) {}
 
@@ -19,4 +19,4 @@ void BonePoser::pose(std::span<const double> parameters, const Eigen::Isometry3d
   pose_skeleton(skeleton_.layout(), state, camera.data(), workspace.data(), camera_from_bind);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

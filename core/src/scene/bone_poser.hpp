@@ -4,10 +4,12 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 #include "hypotrack/skeleton.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Forward kinematics of one model without allocation per hypothesis. It computes
 /// world_from_bones() in single precision, by the same operations as the GPU.
@@ -29,4 +31,5 @@ class BonePoser {
   Skeleton skeleton_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -47,7 +47,7 @@ void bound(const float* in_x, const float* in_y, const float* in_z, std::size_t 
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(bound);
 }  // namespace
@@ -57,5 +57,5 @@ void bound_points(const float* x, const float* y, const float* z, std::size_t co
   HWY_DYNAMIC_DISPATCH(bound)(x, y, z, count, camera_from_first, bounds);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

@@ -7,13 +7,13 @@
 
 #include "camera/distort.hpp"
 #include "camera/distortion.hpp"
-#include "camera/interval.hpp"
+#include "camera/interval_number.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 struct Rectangle {
-  Interval x, y;
+  IntervalNumber x, y;
 };
 
 /// Returns the bounds as the rotated camera sees them on its plane z = 1, or nothing if it looks
@@ -34,11 +34,11 @@ std::optional<Rectangle> turned(const Bounds& bounds, const Eigen::Matrix3d& cam
     x[i] = d.x() / d.z();
     y[i] = d.y() / d.z();
   }
-  return Rectangle{Interval::around(x), Interval::around(y)};
+  return Rectangle{IntervalNumber::around(x), IntervalNumber::around(y)};
 }
 
 /// Returns the interval of the squares of an interval's numbers.
-Interval square(Interval a) {
+IntervalNumber square(IntervalNumber a) {
   const double low = a.low * a.low;
   const double high = a.high * a.high;
   const bool has_zero = a.low <= 0 && a.high >= 0;
@@ -47,11 +47,11 @@ Interval square(Interval a) {
 
 /// Returns the interval of fisheye factors. atan(r) / r decreases with r; the rest of the factor is
 /// a polynomial of the angle.
-Interval fisheye_factors(const double* k, Interval r2) {
-  const Interval r{std::sqrt(r2.low), std::sqrt(r2.high)};
-  const Interval angle{std::atan(r.low), std::atan(r.high)};
+IntervalNumber fisheye_factors(const double* k, IntervalNumber r2) {
+  const IntervalNumber r{std::sqrt(r2.low), std::sqrt(r2.high)};
+  const IntervalNumber angle{std::atan(r.low), std::atan(r.high)};
   const auto per_radius = [](double a, double radius) { return radius < 1e-8 ? 1.0 : a / radius; };
-  const Interval flat{per_radius(angle.high, r.high), per_radius(angle.low, r.low)};
+  const IntervalNumber flat{per_radius(angle.high, r.high), per_radius(angle.low, r.low)};
   return flat * fisheye_polynomial(k, square(angle));
 }
 
@@ -66,7 +66,7 @@ Rectangle distorted(const Camera& camera, const Rectangle& ideal) {
       return out;
     }
     case DistortionModel::fisheye: {
-      const Interval factor = fisheye_factors(k.data(), square(ideal.x) + square(ideal.y));
+      const IntervalNumber factor = fisheye_factors(k.data(), square(ideal.x) + square(ideal.y));
       return {ideal.x * factor, ideal.y * factor};
     }
   }
@@ -76,7 +76,7 @@ Rectangle distorted(const Camera& camera, const Rectangle& ideal) {
 /// Returns true if an interval lies at least one pixel inside the image. The margin far exceeds
 /// rounding: single precision, used for bounds and shares, moves a point by about 1e-6 of the
 /// image's width.
-bool inside(Interval pixels, int size) {
+bool inside(IntervalNumber pixels, int size) {
   constexpr double kMargin = 1.0;
   return pixels.low >= kMargin - 0.5 && pixels.high <= size - 0.5 - kMargin;
 }
@@ -92,4 +92,4 @@ bool surely_shown(const Camera& camera, const Eigen::Matrix3d& camera_from_ideal
          inside(image.y * camera.fy + camera.cy, camera.height);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::uint64_t directed_edge(int from, int to) {
@@ -66,4 +66,4 @@ bool is_closed_outwards(const Mesh& mesh) {
                      [&](int root) { return volume[static_cast<std::size_t>(root)] > 0; });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 
+#include "base/exported.hpp"
 #include "scene/scene_poser.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One number per vertex of a block.
 using BlockArray = Eigen::Array<float, kBlock, 1>;
@@ -28,4 +30,5 @@ inline PointBlock point_block(const ScenePoser& poser, std::size_t first,
           m(2, 0) * x + m(2, 1) * y + m(2, 2) * z + m(2, 3)};
 }
 
+}  // namespace internal
 }  // namespace hypotrack

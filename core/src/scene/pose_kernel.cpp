@@ -145,7 +145,7 @@ void pose(const SkeletonLayout& skeleton, const float* state, const float* first
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(pose);
 }  // namespace
@@ -155,5 +155,5 @@ void pose_skeleton(const SkeletonLayout& skeleton, const float* state,
   HWY_DYNAMIC_DISPATCH(pose)(skeleton, state, first_from_world, locals, first_from_bind);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

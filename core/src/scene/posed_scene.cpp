@@ -6,7 +6,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr float kNearest = 1e-3f;  // least distance in front of every camera, metres
@@ -79,4 +79,4 @@ void PosedScene::check_in_front() const {
                   behind_.part->item->name, behind_.view, behind_.nearest));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "camera/rectification.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/scene_poser.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A rectangle in the plane z = 1 of an ideal camera.
 struct Bounds {
@@ -76,4 +78,5 @@ class PosedScene {
   Behind behind_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

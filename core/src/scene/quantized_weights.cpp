@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 QuantizedWeights quantize_weights(const Mesh& mesh, int vertex) {
   std::map<int, int> weight_of;
@@ -29,4 +29,4 @@ QuantizedWeights quantize_weights(const Mesh& mesh, int vertex) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,10 +3,12 @@
 #include <array>
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Bone influences of a vertex with quantised weights, in units of 1 / cuda::kUnitWeight. Bones
 /// are distinct and in rising order; the weights add up exactly. CPU and GPU skin with the same
@@ -19,4 +21,5 @@ struct QuantizedWeights {
 /// Quantises the bone influences of one vertex.
 QuantizedWeights quantize_weights(const Mesh& mesh, int vertex);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "scene/quantized_weights.hpp"
 #include "scene/vertex_order.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::uint32_t round_up(std::size_t count) {
@@ -117,4 +117,4 @@ void ScenePlan::add_triangles(const Mesh& mesh, const std::vector<std::uint32_t>
   ranges.push_back(range);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/bone_poser.hpp"
 #include "scene/simd_kernels.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 using AlignedFloats = hwy::AlignedFreeUniquePtr<float[]>;
 
@@ -64,4 +66,5 @@ struct ScenePlan {
   AlignedFloats aligned_positions_, aligned_weights_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Largest parameter. Larger ones are meaningless and would overflow single precision later.
@@ -83,4 +83,4 @@ void ScenePoser::fill_up_blocks() {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <span>
 
+#include "base/exported.hpp"
 #include "scene/scene_plan.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Poses all vertices of a scene in single precision, in the order of its plan, without allocation.
 /// Use one per thread.
@@ -38,4 +40,5 @@ class ScenePoser {
   Eigen::Matrix3Xd posed_landmarks_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

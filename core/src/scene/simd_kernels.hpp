@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/exported.hpp"
+
 // The vectorised inner loops that pose and bound a scene, behind plain data, compiled once per
 // instruction set and chosen at run time. Arrays named `aligned` begin at multiples of 64 bytes.
 // Posed vertices are the same to the last bit on the GPU (hypotrack/cuda/vertices.cuh) wherever
 // there is a fused multiply-add. A change of one side needs the same change of the other.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Vertices are handled in blocks of this many, whatever the width of the machine's vectors.
 inline constexpr int kBlock = 16;
@@ -58,4 +61,5 @@ const char* simd_target();
 /// Returns the instruction sets of the compiled kernels, as Highway's bits.
 std::int64_t compiled_simd_targets();
 
+}  // namespace internal
 }  // namespace hypotrack

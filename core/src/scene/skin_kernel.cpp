@@ -41,7 +41,7 @@ const char* target_name() { return hwy::TargetName(HWY_TARGET); }
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 HWY_EXPORT(skin);
 HWY_EXPORT(target_name);
@@ -55,5 +55,5 @@ std::int64_t compiled_simd_targets() { return HWY_TARGETS; }
 
 const char* simd_target() { return HWY_DYNAMIC_DISPATCH(target_name)(); }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 #endif

@@ -4,7 +4,7 @@
 #include <array>
 #include <numeric>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Returns the bones of a vertex, in rising order.
@@ -28,4 +28,4 @@ std::vector<int> order_by_bones(const Mesh& mesh) {
   return order;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

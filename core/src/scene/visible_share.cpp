@@ -8,7 +8,7 @@
 #include "scene/lens_reach.hpp"
 #include "scene/point_block.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 void distort(DistortionModel model, const float* k, BlockArray& x, BlockArray& y) {
@@ -95,4 +95,4 @@ double VisibleShare::of(const PosedScene& scene) const {
   return all == 0 ? 0 : static_cast<double>(visible) / static_cast<double>(all);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,11 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "camera/rectification.hpp"
 #include "hypotrack/camera.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Computes how much of a scene its cameras see, ignoring occlusion.
 class VisibleShare {
@@ -40,4 +42,5 @@ class VisibleShare {
   std::vector<SeenBy> views_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

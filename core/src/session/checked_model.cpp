@@ -7,7 +7,7 @@
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr float kFarthest = 1e9F;  // metres; beyond, single precision may overflow
@@ -66,4 +66,4 @@ std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, s
   return std::make_shared<CheckedModel>(std::move(model), std::move(who));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

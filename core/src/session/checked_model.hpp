@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's model: names it in what it throws and where it crashes, and checks the points
 /// that it poses.
@@ -36,4 +38,5 @@ class CheckedModel final : public Model {
 /// `who`, its plugin_label(), if it has no landmarks.
 std::shared_ptr<const Model> checked_model(std::shared_ptr<const Model> model, std::string who);
 
+}  // namespace internal
 }  // namespace hypotrack

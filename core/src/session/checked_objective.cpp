@@ -12,7 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "plugin/plugin_call.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns whether all numbers are finite: times 0, others are NaN. Eigen sums with SIMD.
@@ -124,4 +124,4 @@ void CheckedObjective::check_finite(std::span<const float> numbers, const char* 
                   who_, what, numbers[i], i, numbers.size()));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

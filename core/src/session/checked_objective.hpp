@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/objective.hpp"
 #include "session/term_times.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's objective: names it in what it throws and where it crashes, checks its
 /// costs and residuals, and measures how long it works.
@@ -60,4 +62,5 @@ class CheckedObjective final : public Objective, public ResidualTerm {
   std::shared_ptr<TermTimes> times_ = std::make_shared<TermTimes>();
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 
 #include "plugin/plugin_call.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 CheckedOutput::CheckedOutput(std::unique_ptr<Output> output, std::string who)
     : output_(std::move(output)),
@@ -62,4 +62,4 @@ void CheckedOutput::finish(bool complete) {
   call([&] { output_->finish(complete); });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

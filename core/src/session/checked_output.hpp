@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/output.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's output: names it and the frame in what it throws and where it crashes. Errors
 /// of outputs that come with hypotrack stay as they are.
@@ -36,4 +38,5 @@ class CheckedOutput final : public Output {
   bool explains_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 #include "plugin/plugin_call.hpp"
 #include "tile/frame_checks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 CheckedSource::CheckedSource(std::unique_ptr<Source> source, const Scene& scene, std::string plugin,
                              std::string who)
@@ -100,4 +100,4 @@ std::vector<std::string> CheckedSource::statistics() const {
   return lines;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/source.hpp"
 #include "session/frame_clock.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's source: names it in what it throws and where it crashes, and checks cameras,
 /// frame rate, and every frame's number, pictures and ground truth. Corrects times that do not
@@ -50,4 +52,5 @@ class CheckedSource final : public Source {
   FrameClock clock_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include "plugin/plugin_call.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 CheckedStart::CheckedStart(std::unique_ptr<Start> start, std::string who)
     : start_(std::move(start)),
@@ -23,4 +23,4 @@ std::optional<double> CheckedStart::size(const StartContext& context, std::size_
   return detail::call_plugin(who_, explains_, "", [&] { return start_->size(context, model); });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <memory>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/start.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Wraps a plugin's start: names it in what it throws and where it crashes. Errors of starts that
 /// come with hypotrack stay as they are.
@@ -26,4 +28,5 @@ class CheckedStart final : public Start {
   bool explains_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void FrameClock::take(Frame& frame) {
   constexpr double kIntervals = 10, kSeconds = 0.5;  // cameras drop some frames now and then
@@ -21,4 +21,4 @@ void FrameClock::take(Frame& frame) {
   last_ = time;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

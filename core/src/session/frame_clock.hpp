@@ -2,9 +2,11 @@
 
 #include <optional>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Corrects times that do not grow, and notices gaps.
 class FrameClock {
@@ -23,4 +25,5 @@ class FrameClock {
   double added_ = 0;            ///< to the times of the source
 };
 
+}  // namespace internal
 }  // namespace hypotrack

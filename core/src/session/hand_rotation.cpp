@@ -15,7 +15,7 @@
 #include "hypotrack/suggest.hpp"
 #include "model/palm.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 struct HandDirections {
@@ -91,4 +91,4 @@ Eigen::Quaterniond read_hand_rotation(const ConfigNode& node, const Scene::Item&
   return Eigen::Quaterniond(world_from_model).normalized();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads `{palm: DIRECTION, fingers: DIRECTION}`, the rotation of a hand (world_from_model). A
 /// direction is [x, y, z] in the world or a word: to_camera, away, left, right, up, down, as seen
@@ -16,4 +18,5 @@ namespace hypotrack {
 Eigen::Quaterniond read_hand_rotation(const ConfigNode& node, const Scene::Item& item,
                                       std::span<const Camera> cameras);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -67,6 +67,10 @@ std::optional<double> Start::size(const StartContext& /*context*/, std::size_t /
 void Start::find(const StartContext& /*context*/, std::size_t /*model*/, const TakePose& /*take*/) {
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Frame* frame,
                                            std::vector<std::string>* notes) {
   const Scene& scene = *session.scene;
@@ -95,4 +99,4 @@ Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first,
   return *start_state(session, &first, notes);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -20,7 +20,7 @@
 #include "session/checked_start.hpp"
 #include "session/opened_scene.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using detail::YamlDocument;
@@ -368,4 +368,4 @@ std::unique_ptr<FixedLagSmoother> make_fixed_lag_smoother(const OpenedScene& ses
       parts.photometric.match && parts.photometric.highlights);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

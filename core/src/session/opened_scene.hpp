@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/output.hpp"
 #include "hypotrack/plugin.hpp"
@@ -20,6 +21,7 @@
 #include "track/smooth/fixed_lag_smoother.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An output and the name of its plugin.
 struct NamedOutput {
@@ -82,4 +84,5 @@ std::optional<Eigen::VectorXd> start_state(const OpenedScene& session, const Fra
 Eigen::VectorXd initial_state(const OpenedScene& session, const Frame& first,
                               std::vector<std::string>* notes = nullptr);
 
+}  // namespace internal
 }  // namespace hypotrack

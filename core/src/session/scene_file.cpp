@@ -9,7 +9,7 @@
 #include "config/read_value.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Refuses keys that have another name today.
@@ -74,4 +74,4 @@ LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::s
   return scene;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

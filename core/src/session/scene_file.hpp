@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/params.hpp"
@@ -19,6 +20,7 @@
 #include "track/status.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The start that takes its parameters from `init.file` and `init.frame`.
 inline constexpr std::string_view kStartFromFile = "file";
@@ -174,4 +176,5 @@ struct LoadedScene {
 /// Reads a scene file and applies the overrides. Throws ConfigError, also on unknown keys.
 LoadedScene load_scene(const std::filesystem::path& path, std::span<const std::string> overrides);
 
+}  // namespace internal
 }  // namespace hypotrack

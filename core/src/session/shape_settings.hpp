@@ -6,9 +6,11 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What shapes are estimated from.
 enum class ShapeFrom {
@@ -59,4 +61,5 @@ struct ShapeEstimateSettings {
   }
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,10 @@
 #include <memory>
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A sum of durations that several threads may add to.
 class TimeSum {
@@ -48,4 +51,5 @@ struct NamedTermTimes {
   std::shared_ptr<const TermTimes> times;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

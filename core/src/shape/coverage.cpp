@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::int64_t covered_pixels(const DepthTile& tile) {
   std::int64_t count = 0;
@@ -36,4 +36,4 @@ void Coverage::write_residuals(const RenderedHypothesis& hypothesis,
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <span>
 
+#include "base/exported.hpp"
 #include "hypotrack/objective.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Charges a constant cost for every covered pixel of the first view. A sum over pixels rewards
 /// covering more of them, so a free size grows without limit. With a charge, covering a pixel pays
@@ -31,4 +33,5 @@ class Coverage final : public Objective, public ResidualTerm {
 /// Returns the number of covered pixels of a view.
 std::int64_t covered_pixels(const DepthTile& tile);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "shape/replay_source.hpp"
 #include "shape/size_by_starts.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns overrides that make a synthetic source keep rendering the models as the scene gives
@@ -72,4 +72,4 @@ EstimatedScene open_estimated(const std::filesystem::path& scene_file,
   return opened;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,10 +5,12 @@
 #include <span>
 #include <string>
 
+#include "base/exported.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A scene with `shape.estimate_s`, ready to be tracked. Its models have the shape found in the
 /// first seconds. Its source starts with the frames in which it was found.
@@ -24,4 +26,5 @@ EstimatedScene open_estimated(const std::filesystem::path& scene_file,
                               std::span<const std::string> overrides, PluginLoader& plugins,
                               const ShapeProgress& progress = {});
 
+}  // namespace internal
 }  // namespace hypotrack

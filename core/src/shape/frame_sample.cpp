@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void FrameSample::add(const Frame& frame, const Solution& solution) {
   if (solution.status != Status::tracked) return;
@@ -26,4 +26,4 @@ std::vector<TrackedFrame> FrameSample::take() {
   return kept;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

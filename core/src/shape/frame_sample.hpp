@@ -2,10 +2,12 @@
 
 #include <vector>
 
+#include "base/exported.hpp"
 #include "shape/image_problem.hpp"
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Samples the tracked frames of a run evenly, without knowing their number. Whenever it holds
 /// twice as many frames as wanted, it drops every second one.
@@ -24,4 +26,5 @@ class FrameSample {
   std::vector<TrackedFrame> held_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

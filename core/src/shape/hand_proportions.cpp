@@ -3,7 +3,7 @@
 #include <string_view>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Correlations with the palm's length, which is the scale, and with each other of the lengths of
@@ -50,4 +50,4 @@ Eigen::MatrixXd shape_correlations(std::span<const ShapeParameter> parameters) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

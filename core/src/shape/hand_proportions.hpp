@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the correlations of shape parameters among people (PxP). Parameters are those of a hand
 /// by their names: `scale`, `thumb`, `index`, `middle`, `ring`, `little`, `width`. All others are
@@ -16,4 +18,5 @@ namespace hypotrack {
 /// that stretches the middle finger and shortens its neighbours.
 Eigen::MatrixXd shape_correlations(std::span<const ShapeParameter> parameters);
 
+}  // namespace internal
 }  // namespace hypotrack

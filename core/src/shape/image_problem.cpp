@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Eigen::Index;
@@ -199,4 +199,4 @@ std::vector<FrameSystem> ImageProblem::systems(const JointTrial& trial) {
   return systems;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/frame.hpp"
 #include "shape/coverage.hpp"
@@ -13,6 +14,7 @@
 #include "track/search_space.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A frame and the state that a tracker has found for it.
 struct TrackedFrame {
@@ -90,4 +92,5 @@ class ImageProblem final : public JointProblem {
   double thinner_ = 0;  // metres
 };
 
+}  // namespace internal
 }  // namespace hypotrack

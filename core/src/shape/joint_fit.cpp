@@ -7,7 +7,7 @@
 #include "hypotrack/damping.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 JointProblem::~JointProblem() = default;
 
@@ -173,4 +173,4 @@ JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& 
   return fit;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <functional>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A shape that all frames share, and a pose for each frame.
 struct JointTrial {
@@ -65,4 +68,5 @@ struct JointFit {
 JointFit fit_jointly(JointProblem& problem, JointTrial start, const ShapePrior& prior,
                      int iterations, const std::function<bool()>& stop = {});
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 
 #include "hypotrack/landmark_fit.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Eigen::Index;
@@ -140,4 +140,4 @@ std::vector<FrameSystem> LandmarkProblem::systems(const JointTrial& trial) {
   return systems;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,11 +2,13 @@
 
 #include <vector>
 
+#include "base/exported.hpp"
 #include "shape/joint_fit.hpp"
 #include "shape/shape_targets.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns whether enough landmarks of a scene are known to say where the wanted models are.
 bool place_models(const Scene& scene, const ShapeTargets& targets,
@@ -45,4 +47,5 @@ class LandmarkProblem final : public JointProblem {
   std::vector<Eigen::Matrix3Xd> landmarks_;  // NaN for other models
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 ReplaySource::ReplaySource(const Source& from, std::vector<Frame> frames)
     : cameras_(from.cameras()),
@@ -47,4 +47,4 @@ std::vector<Frame> first_seconds(Source& source, double seconds) {
   return frames;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

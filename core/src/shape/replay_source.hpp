@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/source.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Replays frames that were read already, then continues with the rest of a source.
 class ReplaySource final : public Source {
@@ -36,4 +38,5 @@ class ReplaySource final : public Source {
 /// that time, the frame behind it is one of them.
 std::vector<Frame> first_seconds(Source& source, double seconds);
 
+}  // namespace internal
 }  // namespace hypotrack

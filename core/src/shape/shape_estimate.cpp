@@ -15,7 +15,7 @@
 #include "shape/image_problem.hpp"
 #include "shape/landmark_problem.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Eigen::VectorXd;
@@ -262,4 +262,4 @@ std::string shape_file_text(const ShapeEstimate& estimate) {
   return text + shape_yaml(estimate.shape);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "session/opened_scene.hpp"
 #include "session/shape_settings.hpp"
@@ -13,6 +14,7 @@
 #include "track/scene_tracker.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The result of fitting a shape.
 struct ShapeEstimate {
@@ -68,4 +70,5 @@ std::vector<std::string> warnings_of_bounds(const ShapeEstimate& estimate);
 /// Returns the text of a `shape_file` with the shape, and its origin and warnings in comments.
 std::string shape_file_text(const ShapeEstimate& estimate);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -11,7 +11,7 @@
 #include "hypotrack/suggest.hpp"
 #include "shape/hand_proportions.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::vector<std::string> names_of(const std::vector<ShapeParameter>& parameters) {
@@ -141,4 +141,4 @@ std::unique_ptr<Scene> ShapeTargets::reshaped(const Scene& scene, const Eigen::V
   return std::make_unique<Scene>(std::move(models));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "shape/joint_fit.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The models whose shape is estimated, and the shape parameters that they share: the hands of a
 /// scene belong to one person.
@@ -47,4 +49,5 @@ class ShapeTargets {
   std::vector<std::size_t> place_;  // index of each wanted parameter among all
 };
 
+}  // namespace internal
 }  // namespace hypotrack

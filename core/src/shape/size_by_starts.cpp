@@ -6,7 +6,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 std::vector<Frame> spread_frames(Source& source, std::size_t most) {
@@ -76,4 +76,4 @@ ShapeEstimate size_by_starts(OpenedScene session, const ShapeEstimateSettings& s
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

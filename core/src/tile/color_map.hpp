@@ -3,11 +3,13 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/pixel.hpp"
 
 /// Maps one camera's colours to another's: plain data and the one function that CPU and CUDA share,
 /// without Eigen and OpenCV.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Coefficients of gain * value + offset for blue, green and red; values are 0 .. 255.
 struct ColorMap {
@@ -30,4 +32,5 @@ HYPOTRACK_PIXEL std::uint32_t mapped_channel(const ColorMap& map, int channel,
   return static_cast<std::uint32_t>(pixel::round(pixel::min(pixel::max(exact, 0.0f), 255.0f)));
 }
 
+}  // namespace internal
 }  // namespace hypotrack

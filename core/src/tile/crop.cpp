@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the pinhole camera of a square image, `extent` wide on the plane z = 1, around a centre.
@@ -40,4 +40,4 @@ std::vector<TileCamera> crop(std::span<const Bounds> around, const IdealRig& rig
   return tiles;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

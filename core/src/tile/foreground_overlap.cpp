@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// A view with a mask.
@@ -96,4 +96,4 @@ ForegroundOverlap foreground_overlap(const PosedScene& scene,
   return covers ? ForegroundOverlap::in_parts : ForegroundOverlap::nowhere;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

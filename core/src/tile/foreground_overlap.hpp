@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Overlap of a scene with the foreground masks of a frame.
 enum class ForegroundOverlap {
@@ -23,4 +25,5 @@ ForegroundOverlap foreground_overlap(const PosedScene& scene,
                                      const Eigen::Isometry3d& world_from_scene,
                                      std::span<const Camera> cameras, std::span<const View> views);
 
+}  // namespace internal
 }  // namespace hypotrack

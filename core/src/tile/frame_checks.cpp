@@ -8,7 +8,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 void check_image(const cv::Mat& image, int type, const char* what, const char* expected,
@@ -49,4 +49,4 @@ void check_views(const Frame& frame, const std::vector<Camera>& cameras) {
   for (std::size_t i = 0; i < found; ++i) check_view(frame, i, cameras[i]);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

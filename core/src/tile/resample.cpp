@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 cv::Mat inside_mask(const ImageMap& map, int size, cv::Size image) {
@@ -160,4 +160,4 @@ cv::Mat Resampler::resample_background(const cv::Mat& background, const TileCame
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

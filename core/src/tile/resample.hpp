@@ -3,12 +3,14 @@
 #include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "tile/resample_plan.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Image positions of all pixels of a tile and a margin of one pixel.
 struct ImageMap {
@@ -44,4 +46,5 @@ class Resampler {
   cv::Size image_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

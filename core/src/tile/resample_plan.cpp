@@ -7,7 +7,7 @@
 
 #include "camera/distortion.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kGrid = 9;  // sample positions along one side of a tile
@@ -147,4 +147,4 @@ ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile, cv::Siz
   return plan;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

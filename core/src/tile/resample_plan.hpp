@@ -3,12 +3,14 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
+#include "base/exported.hpp"
 #include "camera/lens_map.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/observation.hpp"
 #include "tile/color_map.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Antialiasing of a reduction: means over blocks x blocks image pixels, then samples x samples
 /// bilinear lookups per tile pixel.
@@ -47,4 +49,5 @@ ReductionPlan plan_reduction(double scale);
 ResamplePlan plan_resampling(const LensMap& map, const TileCamera& tile, cv::Size image,
                              double scale);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -15,7 +15,7 @@
 #include "tile/foreground_overlap.hpp"
 #include "tile/frame_checks.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kLargestZoom = 16.0;  // tile pixels per image pixel
@@ -136,4 +136,4 @@ Observation TileMaker::make(const Frame& frame, const Eigen::VectorXd& state) co
   return resample(frame, plan(frame, state));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

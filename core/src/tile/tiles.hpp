@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
@@ -15,6 +16,7 @@
 #include "tile/resample.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Parameters of a scene's `tile:` section.
 struct TileSettings {
@@ -84,4 +86,5 @@ class TileMaker {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

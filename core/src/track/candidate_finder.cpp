@@ -9,7 +9,7 @@
 #include "track/displace.hpp"
 #include "track/model_search.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Ratio of odds below which candidates count as equally probable; their costs decide then.
@@ -339,4 +339,4 @@ void CandidateFinder::learn(const Frame& frame, const Candidate& best, const Mod
   if (is_time && all) recovery_.learn_backgrounds(frame, best.found.state);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/frame_search.hpp"
@@ -17,6 +18,7 @@
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One flag per model of a scene.
 using ModelFlags = std::vector<bool>;
@@ -161,4 +163,5 @@ class CandidateFinder {
   bool contradicted_ = false;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 
 #include "hypotrack/random.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns a random direction for (seed, model, purpose): three normal numbers have no preferred
@@ -47,4 +47,4 @@ Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displ
   return state;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

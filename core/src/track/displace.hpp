@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Size of a random displacement of a state.
 struct Displacement {
@@ -19,4 +21,5 @@ struct Displacement {
 Eigen::VectorXd displaced(const Scene& scene, Eigen::VectorXd state, const Displacement& by,
                           std::uint64_t seed);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 #include "plugin/plugin_call.hpp"
 #include "track/search_cost.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Turns colour matching off where no term looks at pictures.
@@ -227,4 +227,4 @@ Observation FrameSearch::seen(const Frame& frame) const {
   return tiles_.resample(frame, plan);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

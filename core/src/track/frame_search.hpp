@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/fallback_cost.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -19,6 +20,7 @@
 #include "track/tracker_parts.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 class SearchCost;
 
@@ -132,4 +134,5 @@ class FrameSearch {
   const GroundTruth* truth_ = nullptr;                ///< of the traced frame; null: unknown
 };
 
+}  // namespace internal
 }  // namespace hypotrack

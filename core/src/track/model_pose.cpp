@@ -1,6 +1,6 @@
 #include "track/model_pose.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 bool is_rigid(const Scene::Item& item) { return item.model->dimension() == kPoseSize; }
 
@@ -16,4 +16,4 @@ void set_pose(const Scene::Item& item, const Eigen::Isometry3d& pose, Eigen::Vec
   state.segment<kPoseSize>(item.offset) << pose.translation(), q.w(), q.x(), q.y(), q.z();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

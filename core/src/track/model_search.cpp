@@ -12,7 +12,7 @@
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Longest time since a model was surely right, in seconds, at which two agreeing poses end the
@@ -254,4 +254,4 @@ void CandidateFinder::ModelSearch::run() {
     ask_starts();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "track/candidate_finder.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Collects candidates for one model of a frame that is lost or in a doubtful pose: around guesses,
 /// and where starts see the model.
@@ -72,4 +74,5 @@ class CandidateFinder::ModelSearch {
   bool sure_ = false;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

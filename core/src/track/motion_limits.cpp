@@ -4,7 +4,7 @@
 
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 Reach reach_within(const MotionLimits& limits, double seconds) {
   // Frames with equal or decreasing times count as 1/30 s apart.
@@ -34,4 +34,4 @@ bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& fr
   });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

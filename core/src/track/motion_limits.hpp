@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Largest change of a scene's pose that a search allows.
 struct Reach {
@@ -36,4 +38,5 @@ Reach reach_within(const MotionLimits& limits, double seconds);
 bool is_within(const Scene& scene, const Reach& reach, const Eigen::VectorXd& from,
                const Eigen::VectorXd& to);
 
+}  // namespace internal
 }  // namespace hypotrack

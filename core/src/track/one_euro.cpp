@@ -4,7 +4,7 @@
 
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the low-pass filter's weight of a new value (Eq. 3 of the paper, for a sampling
@@ -47,4 +47,4 @@ Eigen::VectorXd OneEuroFilter::filter(const Eigen::VectorXd& state, double time)
   return state_ = moved(*scene_, state_, step);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `output.smoothing:` of a scene.
 struct OneEuroSettings {
@@ -65,4 +67,5 @@ class OneEuroFilter {
   double time_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Shares of the last motion that may go on, the middle one first.
@@ -54,4 +54,4 @@ void Predictor::add(const Eigen::VectorXd& state, double time) {
   time_ = time;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

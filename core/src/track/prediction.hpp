@@ -6,11 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/tangent.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Share of the last motion that a prediction extrapolates.
 enum class Prediction {
@@ -79,4 +81,5 @@ class Predictor {
   std::optional<Eigen::VectorXd> velocity_;  ///< per second
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr Eigen::Index kRows = 64;  // per block: half a row of a tile
@@ -85,4 +85,4 @@ ResidualInformation residual_information(const Eigen::MatrixXf& residuals,
   return sums.divided();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

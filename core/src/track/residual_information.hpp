@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Information of the linearised residuals about a pose: J^T J / s^2 and J^T r / s^2, with s^2 the
 /// mean square of the residuals that J touches.
@@ -17,4 +20,5 @@ struct ResidualInformation {
 ResidualInformation residual_information(const Eigen::MatrixXf& residuals,
                                          const Eigen::VectorXd& width);
 
+}  // namespace internal
 }  // namespace hypotrack

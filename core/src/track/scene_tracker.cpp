@@ -17,7 +17,7 @@
 #include "track/tangent.hpp"
 #include "track/term_maps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Number of first frames that are searched from several starts.
@@ -600,4 +600,4 @@ std::string SceneTracker::problem_of_start(const Frame& frame) const {
   return {};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/search_record.hpp"
@@ -28,6 +29,7 @@
 #include "track/uncertainty.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Tracks a scene from frame to frame. The search of a frame starts from the last solution, or from
 /// its extrapolated motion.
@@ -174,4 +176,5 @@ class SceneTracker {
   std::future<Candidate> job_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

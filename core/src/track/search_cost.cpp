@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 void add_to(RecordedSearch* record, const Eigen::MatrixXd& states, const Eigen::VectorXd& costs) {
@@ -105,4 +105,4 @@ std::vector<NormalEquations> SearchCost::linearize_each(std::span<const Neighbou
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/search_record.hpp"
@@ -10,6 +11,7 @@
 #include "track/search_tally.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The cost that optimizers minimise: converts search points to states, whose costs it returns.
 class SearchCost final : public CostFunction, public ResidualCost {
@@ -51,4 +53,5 @@ class SearchCost final : public CostFunction, public ResidualCost {
   SearchTally tally_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the moving models' parameter groups as groups of dimensions. A rotation vector takes the
@@ -153,4 +153,4 @@ Eigen::MatrixXd SearchSpace::states(const Eigen::Ref<const Eigen::MatrixXd>& poi
   return states;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

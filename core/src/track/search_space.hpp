@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/scene.hpp"
@@ -13,6 +14,7 @@
 #include "track/prediction.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Parametrisation of rotations in search points.
 enum class RotationSearch {
@@ -94,4 +96,5 @@ class SearchSpace {
   std::vector<SearchGroup> groups_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 [[noreturn]] void refuse_answer(const std::string& who, const std::string& what) {
@@ -47,4 +47,4 @@ void check_answer(OptimizerResult& answer, const SearchTally& tally, const Searc
                                    budget.evaluations));
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

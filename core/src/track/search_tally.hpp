@@ -6,10 +6,12 @@
 #include <limits>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "track/search_trace.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What one search evaluated, counted where its optimizer gets the costs.
 struct SearchTally {
@@ -46,4 +48,5 @@ struct SearchTally {
 void check_answer(OptimizerResult& answer, const SearchTally& tally, const SearchRegion& region,
                   const Budget& budget, const std::string& who);
 
+}  // namespace internal
 }  // namespace hypotrack

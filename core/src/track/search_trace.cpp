@@ -2,7 +2,7 @@
 
 #include "hypotrack/search.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 SearchTracer::SearchTracer(TracedSearch& search)
     : search_(search),
       cpu_begin_(seconds_of(SearchClock::cpu)),
@@ -17,4 +17,4 @@ void SearchTracer::add(std::int64_t evaluations, double cost) {
                            seconds_of(SearchClock::wall) - wall_begin_});
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The state of a search after a batch of evaluations. Times count from its beginning.
 struct TraceStep {
@@ -44,4 +47,5 @@ class SearchTracer {
   double cpu_begin_, wall_begin_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -17,6 +17,10 @@ std::string_view to_string(Status status) {
   return names[static_cast<std::size_t>(status)];
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 double StatusMonitor::usual_cost() const {
   constexpr std::size_t kEnough = 5;  // too few costs to compare with below that
   if (costs_.size() < kEnough) return -std::numeric_limits<double>::infinity();
@@ -82,4 +86,4 @@ Status StatusMonitor::judge_by_cost(const StatusEvidence& evidence) {
   return evidence.sigma > settings_.uncertain_sigma ? Status::uncertain : Status::tracked;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

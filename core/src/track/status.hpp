@@ -2,6 +2,7 @@
 
 #include <deque>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "hypotrack/solution.hpp"
 #include "tile/foreground_overlap.hpp"
@@ -10,6 +11,7 @@
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `tracker:` of a scene.
 struct StatusSettings {
@@ -127,4 +129,5 @@ class StatusMonitor {
   int steady_ = 0;  ///< frames in a row that were tracked or reached `tracked_above`
 };
 
+}  // namespace internal
 }  // namespace hypotrack

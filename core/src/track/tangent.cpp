@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr Eigen::Index kTangentPose = 6;  // and in a difference
@@ -81,4 +81,4 @@ std::vector<TangentPart> tangent_parts(const Scene& scene) {
   return parts;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

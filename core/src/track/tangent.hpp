@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the rotation by a rotation vector, whose length is the angle.
 Eigen::Quaterniond rotation_exp(const Eigen::Vector3d& vector);
@@ -34,4 +36,5 @@ struct TangentPart {
 /// Returns all parts of a difference, in order. A rigid model has no part for joints.
 std::vector<TangentPart> tangent_parts(const Scene& scene);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include "cost/hypothesis_renderer.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns z in metres of a drawn tile; 0 where nothing is drawn.
@@ -36,4 +36,4 @@ void draw_maps(const Scene& scene, const std::vector<ObjectiveTerm>& terms, Sear
   });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

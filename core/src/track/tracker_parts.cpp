@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 Requirements requirements_of(const TrackerParts& parts) {
   Requirements all = parts.optimizer->requirements();
@@ -19,4 +19,4 @@ bool look_at_pictures(const std::vector<ObjectiveTerm>& terms) {
   });
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

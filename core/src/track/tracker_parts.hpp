@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/optimizer.hpp"
@@ -17,6 +18,7 @@
 #include "track/status.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The components and settings of a tracker.
 struct TrackerParts {
@@ -45,4 +47,5 @@ Requirements requirements_of(const TrackerParts& parts);
 /// Returns whether any term with a weight looks at pictures.
 bool look_at_pictures(const std::vector<ObjectiveTerm>& terms);
 
+}  // namespace internal
 }  // namespace hypotrack

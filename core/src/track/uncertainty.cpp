@@ -8,7 +8,7 @@
 #include "track/residual_information.hpp"
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Steps of the finite differences: large enough to move edges by about a pixel.
@@ -153,4 +153,4 @@ Eigen::VectorXd PoseUncertainty::of(Cost& cost, const Eigen::VectorXd& state) co
   return sigma;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

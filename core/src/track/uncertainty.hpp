@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/uncertainty_settings.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Estimates the error of each landmark of a solution from the residuals r around it. J is their
 /// Jacobian (central differences in the tangent space). s^2 is the mean square of the residuals
@@ -43,4 +45,5 @@ class PoseUncertainty {
   Eigen::VectorXd width_;  ///< square roots of the diagonal of P
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `tracker.uncertainty:` of a scene. Widths are one standard deviation.
 /// docs/results/uncertainty.md says what the defaults were fitted to.
@@ -46,4 +48,5 @@ struct UncertaintySettings {
   }
 };
 
+}  // namespace internal
 }  // namespace hypotrack

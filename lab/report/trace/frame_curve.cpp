@@ -11,7 +11,7 @@
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -108,4 +108,4 @@ std::vector<FrameCurve> read_curves(const std::filesystem::path& file, TraceCost
   return curves;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/trace/profiles.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// What a convergence is drawn over: a column of trace.csv.
 enum class TraceCost { evaluations, cpu_seconds, wall_seconds };
@@ -34,4 +36,5 @@ struct FrameCurve {
 /// Throws DataError on missing and damaged files.
 std::vector<FrameCurve> read_curves(const std::filesystem::path& file, TraceCost over);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 
 #include "base/statistics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -56,4 +56,4 @@ std::vector<double> geometric_places(double lowest, double highest, int count) {
   return places;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

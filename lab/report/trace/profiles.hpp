@@ -4,7 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A search for a target: what it spent until it reached the target, or in all if it never did.
 struct Trial {
@@ -42,4 +45,5 @@ std::optional<Quartiles> quartiles(std::vector<double> numbers);
 /// factors. Both are positive.
 std::vector<double> geometric_places(double lowest, double highest, int count);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -14,7 +14,7 @@
 #include "lab/json_file.hpp"
 #include "lab/report/trace/frame_curve.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kPlaces = 80;  // along a line
@@ -310,4 +310,4 @@ Json traced_plot(const StudyData& study, const PlotRequest& request, const Runs&
           {"facets", panels.all()}};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

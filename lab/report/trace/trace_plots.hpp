@@ -4,10 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "lab/report/plot_parts.hpp"
 #include "lab/report/study_data.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns whether plots of a kind are made from trace.csv.
 bool is_traced(std::string_view kind);
@@ -31,4 +33,5 @@ bool has_trace(const StudyRun& run);
 nlohmann::ordered_json traced_plot(const StudyData& study, const PlotRequest& request,
                                    const Runs& runs);
 
+}  // namespace internal
 }  // namespace hypotrack

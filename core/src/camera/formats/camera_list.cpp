@@ -2,7 +2,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 constexpr std::array<std::string_view, 3> kLensModels = {"none", "brown", "fisheye"};
@@ -58,4 +58,4 @@ std::vector<NamedCamera> read_camera_list(const ConfigNode& file,
   return cameras;
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

@@ -5,7 +5,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 /// Reads a rotation: a 3x3 matrix, or a vector along the axis, as long as the angle in radians.
@@ -57,4 +57,4 @@ std::vector<NamedCamera> read_camera_tables(const ConfigNode& file,
   return out;
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/config.hpp"
 
@@ -9,6 +10,7 @@
 // without widths and heights where it gives none. They throw DataError, naming file, line and key.
 
 namespace hypotrack::calibration {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads hypotrack's own form: `cameras`, a list.
 std::vector<NamedCamera> read_camera_list(const ConfigNode& file,
@@ -44,4 +46,5 @@ std::vector<NamedCamera> read_zed(const ConfigNode& file, const CalibrationSetti
 std::vector<NamedCamera> read_camera_tables(const ConfigNode& file,
                                             const CalibrationSettings& settings);
 
+}  // namespace internal
 }  // namespace hypotrack::calibration

@@ -6,7 +6,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 /// Reads a 4x4 rigid transform.
@@ -90,4 +90,4 @@ std::vector<NamedCamera> read_kalibr(const ConfigNode& file, const CalibrationSe
   }
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

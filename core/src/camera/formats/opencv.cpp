@@ -2,7 +2,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 Camera read_one(const ConfigNode& file, const CalibrationSettings& settings) {
@@ -59,4 +59,4 @@ std::vector<NamedCamera> read_opencv_single(const ConfigNode& file,
   return cameras;
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

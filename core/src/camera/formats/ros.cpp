@@ -4,7 +4,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 /// A camera of ROS, and how its pictures are rectified.
@@ -89,4 +89,4 @@ std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSetti
   return out;
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

@@ -5,7 +5,7 @@
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
 
-namespace hypotrack::calibration {
+namespace hypotrack::calibration::internal {
 namespace {
 
 /// A resolution of a ZED's pictures.
@@ -96,4 +96,4 @@ std::vector<NamedCamera> read_zed(const ConfigNode& file, const CalibrationSetti
                               settings.file.string(), pictures.width, pictures.height, known));
 }
 
-}  // namespace hypotrack::calibration
+}  // namespace hypotrack::calibration::internal

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "hypotrack/media.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The functions of media.hpp, in the module that links against OpenCV's libraries.
 struct MediaLibrary {
@@ -18,4 +20,5 @@ struct MediaLibrary {
 inline constexpr const char* kMediaLibrary = "hypotrack_media_library";
 using GetMediaLibrary = const MediaLibrary& (*)();
 
+}  // namespace internal
 }  // namespace hypotrack

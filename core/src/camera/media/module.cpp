@@ -3,7 +3,7 @@
 
 #include "camera/media/library.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 class CapturedFile final : public VideoFile {
@@ -41,7 +41,7 @@ std::unique_ptr<VideoFile> open(const std::string& file) {
 }
 
 }  // namespace
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
 
 extern "C" __attribute__((visibility("default"))) const hypotrack::MediaLibrary&
 hypotrack_media_library() {

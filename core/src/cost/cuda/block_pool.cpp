@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 /// A size class; there are four between two powers of two.
@@ -53,4 +53,4 @@ void BlockPool::give_back(void* block, std::size_t bytes) noexcept {
   kept_[size.index] = block;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

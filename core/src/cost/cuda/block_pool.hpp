@@ -5,7 +5,10 @@
 #include <functional>
 #include <mutex>
 
+#include "base/exported.hpp"
+
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A pool of memory blocks that are slow to allocate. It keeps returned blocks for reuse and never
 /// releases them. Block sizes are rounded up by at most a quarter. Thread-safe.
@@ -34,4 +37,5 @@ class BlockPool {
   std::array<void*, kClasses> kept_{};  // linked lists: a block starts with the next address
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

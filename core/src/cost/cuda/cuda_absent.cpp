@@ -4,7 +4,7 @@
 #include "cost/cuda/page_locked_images.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 std::string why_no_device(int) { return "this hypotrack was built without CUDA"; }
 
@@ -40,4 +40,4 @@ std::unique_ptr<Cost> make_egl_cost(const Scene&, const std::vector<ObjectiveTer
   return nullptr;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

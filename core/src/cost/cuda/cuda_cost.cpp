@@ -17,7 +17,7 @@
 #include "hypotrack/cuda/device_cost.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 /// Poses, draws and scores on the GPU: uploads hypotheses unless they are there already, downloads
@@ -188,4 +188,4 @@ std::unique_ptr<Cost> make_cost(const Scene& scene, std::vector<ObjectiveTerm> t
   return std::make_unique<CudaCost>(scene, std::move(terms), settings);
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

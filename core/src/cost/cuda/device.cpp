@@ -6,7 +6,7 @@
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 std::string version_text(int version) {
@@ -88,4 +88,4 @@ Device::~Device() { cudaStreamDestroy(native(stream_)); }
 
 void Device::use() const { check(cudaSetDevice(index_), "choosing the device"); }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

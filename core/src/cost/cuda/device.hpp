@@ -5,9 +5,11 @@
 #include <optional>
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why this machine cannot use the GPU backend: built without CUDA, no driver, driver too
 /// old, or no such device. Empty if it can.
@@ -45,4 +47,5 @@ class Device {
   std::string name_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

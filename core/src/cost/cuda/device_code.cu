@@ -2,7 +2,7 @@
 
 #include <cuda_runtime.h>
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 __global__ void probe() {}
@@ -16,4 +16,4 @@ bool has_code_for_current_device() {
   return false;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -8,7 +8,7 @@
 #include "cost/cuda/transfer.hpp"
 #include "cost/normal_equations.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 std::size_t size(std::int64_t numbers) { return static_cast<std::size_t>(numbers); }
@@ -207,4 +207,4 @@ void DeviceLinearizer::enqueue_differences(int points, int columns) {
   batch_.download(0, costs_.size(), stream);
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
@@ -12,9 +13,10 @@
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
-/// Computes normal equations of the terms' residuals on the GPU: the Linearizer of the CPU, there.
-/// Terms with slopes take one drawn hypothesis. The results are the same in every run.
+/// Computes normal equations of the terms' residuals on the GPU: the HostLinearizer of the CPU,
+/// there. Terms with slopes take one drawn hypothesis. The results are the same in every run.
 class DeviceLinearizer {
  public:
   /// Both must outlive it; `cost` normalises states.
@@ -51,4 +53,5 @@ class DeviceLinearizer {
   PinnedBuffer<double> row_sums_staging_, gram_sums_staging_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

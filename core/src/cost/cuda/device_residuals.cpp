@@ -6,7 +6,7 @@
 #include "cost/cuda/transfer.hpp"
 #include "cost/normal_equations.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 void DeviceResiduals::reserve(Eigen::Index states) {
   frame_.reserve(states, [&](std::int64_t count) {
@@ -104,4 +104,4 @@ NormalEquations unpack_gram(const double* sums, const Eigen::Ref<const Eigen::Ve
   return out;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cuda/frame_on_device.hpp"
 #include "cost/cuda/host_batch.hpp"
 #include "hypotrack/optimizer.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Memory of DeviceResiduals, kept from search to search.
 struct ResidualMemory {
@@ -56,4 +58,5 @@ class DeviceResiduals final : public ResidualDifferences {
 /// Extracts the normal equations from the matrix of enqueue_gram(), for columns times `scale`.
 NormalEquations unpack_gram(const double* sums, const Eigen::Ref<const Eigen::VectorXd>& scale);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

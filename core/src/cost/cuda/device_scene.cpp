@@ -11,7 +11,7 @@
 #include "scene/quantized_weights.hpp"
 #include "scene/vertex_order.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 /// The concatenated surfaces of a scene's models, on the host.
@@ -123,4 +123,4 @@ DeviceScene::DeviceScene(const Scene& scene) {
              upload(triangles_, surface.triangles)};
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

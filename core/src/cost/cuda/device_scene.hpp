@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why the GPU cannot pose and draw a scene: a model that poses itself, or too many
 /// vertices or bones. Empty if it can.
@@ -30,4 +32,5 @@ class DeviceScene {
   SceneLayout layout_{};
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

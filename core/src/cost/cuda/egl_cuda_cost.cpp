@@ -11,7 +11,7 @@
 #include "gl/egl_context.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr std::int64_t kMostBytes = std::int64_t{1} << 30;  // of drawn hypotheses
@@ -99,4 +99,4 @@ std::unique_ptr<Cost> make_egl_cost(const Scene& scene, const std::vector<Object
   return std::make_unique<EglCudaCost>(scene, terms, settings, std::move(drawer));
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -8,7 +8,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/stereo_pixels.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 FrameLayout frame_layout(const Observation& observation, const BandEnds& bands) {
   const std::size_t views = observation.views.size();
@@ -44,4 +44,4 @@ FrameLayout frame_layout(const Observation& observation, const BandEnds& bands) 
   return frame;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -7,7 +7,7 @@
 #include "cost/cuda/transfer.hpp"
 #include "cost/term_residuals.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 FrameOnDevice::FrameOnDevice(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
                              const EvaluateSettings& settings)
@@ -199,4 +199,4 @@ std::uint64_t FrameOnDevice::revision() const {
   return sum;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

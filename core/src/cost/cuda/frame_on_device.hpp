@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "cost/cuda/device.hpp"
 #include "cost/cuda/device_scene.hpp"
@@ -13,6 +14,7 @@
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A frame on the GPU and the terms that score its hypotheses, all on one stream.
 class FrameOnDevice {
@@ -113,4 +115,5 @@ class FrameOnDevice {
   DeviceObservation observation_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

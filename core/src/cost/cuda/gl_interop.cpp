@@ -12,7 +12,7 @@
 #include "gl/egl_context.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 cudaTextureObject_t make_texture(cudaGraphicsResource_t resource) {
@@ -83,4 +83,4 @@ MappedLayers::~MappedLayers() {
   cudaGraphicsUnmapResources(1, &resource_, native(stream_));
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

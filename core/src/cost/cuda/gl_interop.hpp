@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <string>
 
+#include "base/exported.hpp"
 #include "cost/gl/egl_layers.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
 struct cudaGraphicsResource;
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns why CUDA device `index` cannot read what an OpenGL context draws; empty if it can.
 std::string why_not_shared(const gl::Context& context, int index);
@@ -49,4 +51,5 @@ class MappedLayers {
   std::uint64_t texture_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

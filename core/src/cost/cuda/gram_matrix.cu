@@ -3,7 +3,7 @@
 #include "hypotrack/cuda/block.cuh"
 #include "hypotrack/cuda/runtime.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr int kThreads = 256;
@@ -108,4 +108,4 @@ void enqueue_gram(const GramJob& job, Stream stream) {
          0, stream, false, job, numbers, blocks);
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
 /// Normal equations in GPU memory: the Gram matrix (inner products) of D + 1 columns, which are the
 /// differences of residuals and the residuals themselves.
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Side of the squares of columns that are computed together; only one of two symmetric squares is.
 inline constexpr int kGramSide = 4;
@@ -39,4 +41,5 @@ struct GramJob {
 /// Enqueues the sums, which are the same in every run.
 void enqueue_gram(const GramJob& job, Stream stream);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

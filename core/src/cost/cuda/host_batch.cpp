@@ -6,7 +6,7 @@
 #include "cost/backends.hpp"
 #include "cost/cuda/transfer.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 void HostBatch::upload(const Eigen::MatrixXd& states, Stream stream) {
   count_ = states.cols();
@@ -38,4 +38,4 @@ void HostBatch::read(Eigen::Ref<Eigen::VectorXd> costs,
   }
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A batch of hypotheses from the host: uploads states and downloads costs.
 class HostBatch {
@@ -27,4 +29,5 @@ class HostBatch {
   PinnedBuffer<double> points_staging_, costs_staging_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -8,7 +8,7 @@
 
 #include "cost/cuda/pooled_mat_allocator.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr std::size_t kAlignment = 256;
@@ -81,4 +81,4 @@ void ImageUpload::flush(Stream stream) {
 
 void ImageUpload::finish(Stream stream) { flush(stream); }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -2,9 +2,11 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Uploads parts of one view's images, one after the other, into one block of device memory.
 class ImageUpload {
@@ -28,4 +30,5 @@ class ImageUpload {
   std::size_t first_ = 0;  // start of the parts not yet copied
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr int kRows = 64;  // number of parts of the scene's height
@@ -77,4 +77,4 @@ BandEnds bands_of_equal_work(const PosedScene& scene, const TileCamera& tile) {
   return ends;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

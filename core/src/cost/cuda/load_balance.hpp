@@ -2,11 +2,13 @@
 
 #include <array>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/observation.hpp"
 #include "scene/posed_scene.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The type of FrameLayout::work_ends.
 using BandEnds = std::array<float, kMostBands + 1>;
@@ -19,4 +21,5 @@ BandEnds even_bands();
 /// of the average row's pixels.
 BandEnds bands_of_equal_work(const PosedScene& scene, const TileCamera& tile);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -7,7 +7,7 @@
 #include "cost/cuda/pooled_mat_allocator.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr std::size_t kBound = std::size_t{1} << 30;
@@ -49,4 +49,4 @@ void page_lock_images(int device) {
   (void)installed;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "base/exported.hpp"
+
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Makes OpenCV allocate all later images of 64 KiB or more in page-locked memory, which a GPU
 /// reads directly. It takes up to 1 GiB, reuses it and never releases it. Makes `device` the GPU of
@@ -8,4 +11,5 @@ namespace hypotrack::cuda {
 /// exec before they touch such an image.
 void page_lock_images(int device);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -8,7 +8,7 @@
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/cuda/vertices.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr int kPoseThreads = 512;
@@ -431,4 +431,4 @@ void enqueue_pixel_rows(const SceneLayout& scene, const DeviceLimits& limits,
          static_cast<int>(blocks));
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

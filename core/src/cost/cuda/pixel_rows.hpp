@@ -2,10 +2,12 @@
 
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
 /// Normal equations of pixel residuals in GPU memory. The method is that of cost/pixel_rows.hpp.
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Side of the squares of columns whose products a warp sums.
 inline constexpr int kRowSide = 32;
@@ -51,4 +53,5 @@ void enqueue_posing(const SceneLayout& scene, const DeviceLimits& limits, const 
 void enqueue_pixel_rows(const SceneLayout& scene, const DeviceLimits& limits,
                         const PixelRowsJob& job, Stream stream);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

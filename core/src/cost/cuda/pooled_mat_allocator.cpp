@@ -3,7 +3,7 @@
 #include <limits>
 #include <memory>
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 /// Returns the bytes of an image without gaps; 0 if it is empty or too large.
@@ -61,4 +61,4 @@ void PooledMatAllocator::deallocate(cv::UMatData* image) const {
   delete image;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -2,9 +2,11 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
 #include "cost/cuda/block_pool.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An OpenCV allocator that takes images from a BlockPool. OpenCV's own allocator handles small
 /// images, images in the caller's memory, and all others if the pool is empty. It must outlive its
@@ -28,4 +30,5 @@ class PooledMatAllocator final : public cv::MatAllocator {
   BlockPool& pool_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -4,7 +4,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 /// Returns the largest of count / 2, count / 4, ... 1 that can be reserved; 0 if none can.
@@ -33,4 +33,4 @@ void reserve_batch(std::int64_t count, const std::function<void(std::int64_t)>& 
   }
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -1,6 +1,6 @@
 #include "cost/cuda/side_stream.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 
 SideStream::SideStream() {
   check(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking), "creating a stream");
@@ -25,4 +25,4 @@ void SideStream::join(Stream main) {
   check(cudaStreamWaitEvent(native(main), joined_), "waiting for an event");
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

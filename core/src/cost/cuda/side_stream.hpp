@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A second stream, whose work runs beside that of a main stream.
 class SideStream {
@@ -23,4 +25,5 @@ class SideStream {
   cudaEvent_t forked_ = nullptr, joined_ = nullptr;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

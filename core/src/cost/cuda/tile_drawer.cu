@@ -4,7 +4,7 @@
 
 #include "hypotrack/cuda/evaluate.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr std::int64_t kMostBytes = std::int64_t{32} << 20;  // of tiles; less than the L2 cache
@@ -137,4 +137,4 @@ DrawnBatch TileDrawer::enqueue(const SceneLayout& scene, const BatchLayout& batc
           .stride = pixels_};
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

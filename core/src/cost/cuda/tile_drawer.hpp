@@ -2,11 +2,13 @@
 
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/block_memory.cuh"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Draws hypotheses into device memory, once for all terms.
 class TileDrawer {
@@ -44,4 +46,5 @@ class TileDrawer {
   DeviceBuffer<float> depth_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -4,7 +4,7 @@
 
 #include "hypotrack/cuda/runtime.cuh"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr int kSide = 16;         // side of the square of pixels per thread block
@@ -81,4 +81,4 @@ void enqueue_resampling(const FrameResampling& frame, const DeviceLimits& limits
          reduces && overlaps_launches(limits), frame);
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "cost/cuda/tile_pixels.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Everything that the tile kernels of a frame read and write; pointers are to device memory.
 struct FrameResampling {
@@ -17,4 +19,5 @@ struct FrameResampling {
 /// point to must be enqueued before.
 void enqueue_resampling(const FrameResampling& frame, const DeviceLimits& limits, Stream stream);
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

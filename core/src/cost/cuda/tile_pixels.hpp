@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "camera/lens_map.hpp"
 #include "hypotrack/cuda/layout.hpp"
 #include "hypotrack/pixel.hpp"
@@ -11,6 +12,7 @@
 /// OpenCV calls of Resampler::resample (INTER_AREA means, remap with INTER_LINEAR) with their
 /// rounding: lookups to 1/32 pixel, results to integers after each step.
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A rectangle of an image.
 struct ImagePart {
@@ -167,4 +169,5 @@ HYPOTRACK_PIXEL float tile_depth(const ViewResampling& view, ImagePoint p, int u
   return along > 0.0f && along < kLargest ? along : 0.0f;
 }
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -11,7 +11,7 @@
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 std::size_t area(cv::Size size) {
@@ -112,4 +112,4 @@ DeviceObservation TileResampler::resample(const Frame& frame, const TilePlan& pl
   return observation;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

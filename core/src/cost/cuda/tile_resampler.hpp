@@ -3,12 +3,14 @@
 #include <memory>
 #include <span>
 
+#include "base/exported.hpp"
 #include "cost/cuda/load_balance.hpp"
 #include "hypotrack/cuda/device_objective.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/tiles.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Resamples tiles on the GPU; the pixels equal those of TileMaker::resample up to rounding.
 class TileResampler {
@@ -34,4 +36,5 @@ class TileResampler {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -5,7 +5,7 @@
 #include "cost/cuda/frame_layout.hpp"
 #include "cost/cuda/transfer.hpp"
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 std::uint32_t packed(const TileView& view, int y, int x) {
@@ -58,4 +58,4 @@ DeviceObservation TileUpload::upload(const Observation& observation, Stream stre
   return out;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -2,10 +2,12 @@
 
 #include <array>
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Uploads tiles that the CPU has resampled.
 class TileUpload {
@@ -25,4 +27,5 @@ class TileUpload {
   PinnedBuffer<FrameLayout> layout_staging_{1};
 };
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "hypotrack/cuda/runtime.cuh"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Enqueues the upload of the first `count` objects.
 template <class T>
@@ -21,4 +23,5 @@ void to_host(PinnedBuffer<T>& to, const DeviceBuffer<T>& from, std::size_t first
         "downloading");
 }
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

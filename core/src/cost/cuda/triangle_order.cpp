@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numeric>
 
-namespace hypotrack::cuda {
+namespace hypotrack::cuda::internal {
 namespace {
 
 constexpr int kBits = 10;  // per coordinate
@@ -53,4 +53,4 @@ std::vector<int> order_by_place(const Mesh& mesh) {
   return order;
 }
 
-}  // namespace hypotrack::cuda
+}  // namespace hypotrack::cuda::internal

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "base/exported.hpp"
 #include "cost/cuda/tile_pixels.hpp"
 #include "tile/resample.hpp"
 
 namespace hypotrack::cuda {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns the part of an image that depth is read from. Depth is not reduced, so it includes the
 /// last pixels that fill no block.
@@ -40,4 +42,5 @@ inline ViewResampling view_resampling(const Resampler& camera, const TileCamera&
   return out;
 }
 
+}  // namespace internal
 }  // namespace hypotrack::cuda

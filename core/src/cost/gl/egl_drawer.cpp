@@ -13,7 +13,7 @@
 #include "gl/egl_context.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 EglView make_view(const TileCamera& c, const Eigen::Isometry3d& first_from_world) {
@@ -110,4 +110,4 @@ void EglDrawer::draw(const Eigen::Ref<const Eigen::MatrixXd>& states, const EglL
   gl::check_errors("drawing hypotheses");
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "base/exported.hpp"
 #include "cost/gl/egl_layers.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Draws batches of hypotheses with OpenGL, as in the paper. The vertex shader skins. Inverse depth
 /// goes to a texture array, one layer per hypothesis and view, where the larger value wins.
@@ -41,4 +43,5 @@ class EglDrawer {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

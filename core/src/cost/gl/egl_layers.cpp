@@ -8,7 +8,7 @@
 #include "gl/egl_context.hpp"
 #include "gl/gl_objects.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 struct EglLayers::Impl {
   const gl::Context& context;
@@ -66,4 +66,4 @@ void EglLayers::read(int layers, float* pixels) const {
   gl::check_errors("reading hypotheses back");
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,11 +2,16 @@
 
 #include <memory>
 
-namespace hypotrack {
+#include "base/exported.hpp"
 
-namespace gl {
+namespace hypotrack::gl {
+inline namespace HYPOTRACK_EXPORTED internal {
 class Context;
 }
+}  // namespace hypotrack::gl
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Size of a texture array.
 struct LayerSize {
@@ -40,4 +45,5 @@ class EglLayers {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 #include "hypotrack/kinematics.hpp"
 #include "scene/mesh_topology.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Rows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
@@ -92,4 +92,4 @@ void EglModel::draw(int instances) const {
                           GL_UNSIGNED_INT, nullptr, instances);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

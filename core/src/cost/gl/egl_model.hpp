@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <span>
 
+#include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
 #include "hypotrack/scene.hpp"
 #include "scene/bone_poser.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A model on the OpenGL side, for drawing hypotheses. A context must be current for every call
 /// except pose(), and for the destructor.
@@ -41,4 +43,5 @@ class EglModel {
   gl::Buffer positions_, bones_, weights_, triangles_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -2,7 +2,7 @@
 
 #include <epoxy/gl.h>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Vertex shader for linear blend skinning with 3x4 matrices from a buffer; one instance per
@@ -70,4 +70,4 @@ void EglProgram::set_view(int view, const Eigen::Matrix4f& clip_from_first) cons
   glUniformMatrix4fv(clip_from_first_, 1, GL_FALSE, clip_from_first.data());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

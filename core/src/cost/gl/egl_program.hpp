@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
 #include "gl/gl_objects.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The shader program that draws hypotheses, with its uniforms. The context of its construction
 /// must be current for every call.
@@ -31,4 +33,5 @@ class EglProgram {
   int clip_from_first_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 #include "cost/hypothesis_renderer.hpp"
 #include "gl/egl_context.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kMostRows = 8192;  // read back at once, unless one hypothesis has more
@@ -99,4 +99,4 @@ std::unique_ptr<HypothesisRenderer> make_egl_renderer(const Scene& scene, int th
   return std::make_unique<EglRenderer>(scene, threads);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

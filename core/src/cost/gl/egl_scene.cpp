@@ -5,7 +5,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using States = Eigen::Ref<const Eigen::MatrixXd>;
@@ -104,4 +104,4 @@ void EglScene::draw_instances(const EglModel& model, Eigen::Index first, Eigen::
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/gl/egl_model.hpp"
 #include "cost/gl/egl_program.hpp"
 #include "gl/gl_objects.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The projection and size of a view for OpenGL.
 struct EglView {
@@ -50,4 +52,5 @@ class EglScene {
   BonePoser::Workspace workspace_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -3,7 +3,7 @@
 #include "model/import/steps.hpp"
 #include "model/import/texture.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
                      Mesh& mesh) {
@@ -32,4 +32,4 @@ void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<i
                      : read_texture(file.options.texture, file.path.string());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

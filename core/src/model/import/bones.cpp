@@ -6,7 +6,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the bone's bind transform without scale, which glTF exporters put into rigs.
@@ -51,4 +51,4 @@ std::vector<ImportedBone> convert_bones(const MeshFile& file) {
   return bones;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

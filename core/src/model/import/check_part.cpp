@@ -5,7 +5,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using mesh_wire::MeshPart;
@@ -85,4 +85,4 @@ void check_part(const MeshFile& file, const MeshPart& part) {
   check_weights(file, part);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kWeightSumTolerance = 0.02;  // weights stored as bytes are off by up to 4 / 255
@@ -39,4 +39,4 @@ void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, co
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -16,7 +16,7 @@
 #include "model/import/ply_header.hpp"
 #include "model/import/text_mesh.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
@@ -159,4 +159,4 @@ void check_mesh_format(const std::filesystem::path& path) {
   check(file);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,7 +6,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using mesh_wire::MeshPart;
@@ -127,4 +127,4 @@ Soup join_parts(const MeshFile& file) {
   return soup;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -6,7 +6,7 @@
 #include "model/import/steps.hpp"
 #include "model/import/texture.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using mesh_wire::MeshPart;
@@ -78,4 +78,4 @@ void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<in
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -9,7 +9,7 @@
 #include "model/import/process.hpp"
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 void read_scene(MeshFile& file) {
@@ -39,6 +39,10 @@ ImportedMesh convert_mesh(const MeshFile& file) {
     fill_vertex_colors(soup, welded.triangles, imported.mesh);
   return imported;
 }
+
+}  // namespace hypotrack::internal
+
+namespace hypotrack {
 
 ImportedMesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options) {
   if (!(options.scale > 0) || !std::isfinite(options.scale)) {

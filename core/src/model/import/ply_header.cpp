@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kMostLines = 1000;
@@ -127,4 +127,4 @@ PlyHeader read_ply_header(std::istream& in) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

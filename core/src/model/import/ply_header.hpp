@@ -4,7 +4,10 @@
 #include <iosfwd>
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The header of a PLY file (Turk 1994).
 struct PlyHeader {
@@ -18,4 +21,5 @@ struct PlyHeader {
 /// Reads a header up to and including the line `end_header`.
 PlyHeader read_ply_header(std::istream& in);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 #include "base/subprocess.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kLargestAnswer = std::size_t{2} << 30;
@@ -81,4 +81,4 @@ std::string run_mesh_reader(const MeshReader& reader, const std::filesystem::pat
   return std::move(captured.output);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

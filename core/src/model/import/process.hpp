@@ -4,7 +4,10 @@
 #include <filesystem>
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 struct MeshReader {
   std::filesystem::path program;  ///< hypotrack_mesh_reader
@@ -20,4 +23,5 @@ MeshReader default_mesh_reader(const std::filesystem::path& mesh);
 /// time limit or writes more than 2 GiB.
 std::string run_mesh_reader(const MeshReader& reader, const std::filesystem::path& mesh);
 
+}  // namespace internal
 }  // namespace hypotrack

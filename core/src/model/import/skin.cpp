@@ -1,6 +1,6 @@
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns which points are corners of triangles. The weights of others are unchecked.
@@ -39,4 +39,4 @@ void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,12 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/mesh_io.hpp"
 #include "model/import/weld.hpp"
 #include "model/import/wire.hpp"
 
 // import_mesh() after the reader program has read the file, and its steps in their order.
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 inline constexpr double kFarthestPoint = 1e9;  ///< from the origin, along an axis, in metres
 
@@ -90,4 +92,5 @@ void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<in
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
                      Mesh& mesh);
 
+}  // namespace internal
 }  // namespace hypotrack

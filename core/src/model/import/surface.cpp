@@ -1,6 +1,6 @@
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 bool is_degenerate(const Soup& soup, const Eigen::Vector3i& corners) {
@@ -54,4 +54,4 @@ Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh) {
   return welded;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

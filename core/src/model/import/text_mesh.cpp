@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::string_view kSpaces = " \t\r\v\f";
@@ -170,4 +170,4 @@ std::string problem_of_text_stl(std::istream& in) {
   return fmt::format("line {}: ends without 'endsolid'; the file is cut off", number);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

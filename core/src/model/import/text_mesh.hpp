@@ -3,7 +3,10 @@
 #include <istream>
 #include <string>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Says what is wrong with an OBJ file that its importer would not notice: a number that is none, a
 /// face of fewer than three corners, an index that names nothing. Begins with `line N: `; empty if
@@ -14,4 +17,5 @@ std::string problem_of_obj(std::istream& in);
 /// with `line N: `; empty if it does not.
 std::string problem_of_text_stl(std::istream& in);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 #include "hypotrack/media.hpp"
 #include "hypotrack/text_file.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Decodes a compressed image; returns an empty one if it is damaged. Throws DataError, naming
@@ -85,4 +85,4 @@ cv::Mat load_texture(const mesh_wire::Scene& scene, const std::string& name,
   return decode_embedded(scene.textures[index], mesh.string());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "base/exported.hpp"
 #include "model/import/wire.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads an image as 8-bit BGR. Throws DataError if it is missing or damaged; `where` names the
 /// user of the image in the message.
@@ -16,4 +18,5 @@ cv::Mat read_texture(const std::filesystem::path& image, const std::string& wher
 cv::Mat load_texture(const mesh_wire::Scene& scene, const std::string& name,
                      const std::filesystem::path& mesh);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Corners = Eigen::Matrix<float, 2, 3>;
@@ -46,4 +46,4 @@ void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

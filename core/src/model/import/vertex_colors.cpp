@@ -4,7 +4,7 @@
 
 #include "model/import/steps.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Color = std::array<std::uint8_t, 3>;  // RGB
@@ -66,4 +66,4 @@ void fill_vertex_colors(const Soup& soup, const std::vector<int>& kept, Mesh& me
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// A grid of points. Its cells are much wider than the tolerance, so that the ball around a point
@@ -96,4 +96,4 @@ std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences)
   return merged;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

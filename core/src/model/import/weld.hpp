@@ -3,7 +3,10 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Welding distance, as a share of the bounding box's diagonal. Exporters split vertices along
 /// seams and round the copies at most in the last digits.
@@ -22,4 +25,5 @@ struct BoneWeight {
 /// entries of one bone first. The sum of all must be positive.
 std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences);
 
+}  // namespace internal
 }  // namespace hypotrack

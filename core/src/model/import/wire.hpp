@@ -10,9 +10,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/exported.hpp"
+
 // The data that the reader process sends to the program: plain data, field by field, in the
 // machine's byte order. Both ends are the same build on the same machine.
 namespace hypotrack::mesh_wire {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 struct Weight {
   std::uint32_t bone;    ///< index into Scene::bones
@@ -192,4 +195,5 @@ inline Scene decode(std::string_view bytes) {
   return scene;
 }
 
+}  // namespace internal
 }  // namespace hypotrack::mesh_wire

@@ -7,7 +7,7 @@
 
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::string_view to_string(FrameOutcome outcome) {
   switch (outcome) {
@@ -58,4 +58,4 @@ double OutcomeCounts::share(FrameOutcome outcome) const {
   return static_cast<double>(counts_[static_cast<int>(outcome)]) / known;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,8 +4,10 @@
 #include <string_view>
 
 #include "base/csv.hpp"
+#include "base/exported.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The part of a tracker to which a wrong frame is due.
 enum class FrameOutcome {
@@ -39,4 +41,5 @@ class OutcomeCounts {
   int counts_[4] = {};
 };
 
+}  // namespace internal
 }  // namespace hypotrack

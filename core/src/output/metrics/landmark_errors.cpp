@@ -6,7 +6,7 @@
 
 #include "base/statistics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 LandmarkLayout landmark_layout(std::span<const std::string> names) {
   LandmarkLayout layout;
@@ -45,4 +45,4 @@ FrameError frame_error(const LandmarkLayout& layout, const Eigen::Matrix3Xd& est
   return error;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

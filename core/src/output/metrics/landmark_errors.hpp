@@ -6,7 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Assignment of landmarks to models.
 struct LandmarkLayout {
@@ -36,4 +39,5 @@ struct FrameError {
 FrameError frame_error(const LandmarkLayout& layout, const Eigen::Matrix3Xd& estimate,
                        const Eigen::Matrix3Xd& truth);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -110,4 +110,4 @@ Metrics MetricsCollector::metrics() const {
   return m;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,12 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "base/statistics.hpp"
 #include "output/metrics/frame_outcome.hpp"
 #include "output/metrics/landmark_errors.hpp"
 #include "output/metrics/status_metrics.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 inline constexpr double kLostErrorMm = 40;
 inline constexpr double kAucLowMm = 20;
@@ -101,4 +103,5 @@ class MetricsCollector {
   std::vector<double> jitter_mm_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

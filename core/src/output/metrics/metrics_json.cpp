@@ -5,7 +5,7 @@
 
 #include "output/metrics/metrics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -84,4 +84,4 @@ std::string to_json(const Metrics& m) {
   return json.dump(2) + "\n";  // nlohmann writes NaN as null
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

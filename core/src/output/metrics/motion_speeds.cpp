@@ -11,7 +11,7 @@
 #include "hypotrack/median.hpp"
 #include "hypotrack/params.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Adds a step to a speed whose mean is still a sum. Returns whether it is the new peak.
@@ -130,4 +130,4 @@ std::string motion_text(std::span<const ModelSpeeds> speeds) {
   return text;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

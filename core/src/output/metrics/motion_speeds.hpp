@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "hypotrack/tables.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Speed between consecutive frames.
 struct Speed {
@@ -37,4 +39,5 @@ std::string motion_json(std::span<const ModelSpeeds> speeds);
 /// Returns a readable text with one line per model.
 std::string motion_text(std::span<const ModelSpeeds> speeds);
 
+}  // namespace internal
 }  // namespace hypotrack

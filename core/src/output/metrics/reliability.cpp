@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kFirstEnd = 0.0005;  // metres
@@ -56,4 +56,4 @@ double Reliability::within(int sigmas) const {
                         : std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

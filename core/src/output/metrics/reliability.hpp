@@ -4,7 +4,10 @@
 #include <array>
 #include <cstdint>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Statistics of landmarks with a sigma in [low, high). Lengths are in metres.
 struct ReliabilityBin {
@@ -45,4 +48,5 @@ class Reliability {
   std::array<std::int64_t, 3> within_{};
 };
 
+}  // namespace internal
 }  // namespace hypotrack

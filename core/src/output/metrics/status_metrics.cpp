@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 std::optional<FrameStatus> status_named(std::string_view word) {
   static constexpr std::array<std::string_view, 5> kNames{"tracked", "uncertain", "lost", "absent",
@@ -98,4 +98,4 @@ StatusMetrics StatusCollector::metrics() const {
   return m;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 inline constexpr double kRightErrorMm = 10;  ///< up to this error a frame should be tracked
 inline constexpr double kFalseErrorMm = 20;  ///< beyond this error no frame should be tracked
@@ -101,4 +104,5 @@ class StatusCollector {
   double least_lost_sigma_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+}  // namespace internal
 }  // namespace hypotrack

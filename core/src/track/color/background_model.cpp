@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 void BackgroundModel::learn(const cv::Mat3b& picture, const cv::Mat1b& models) {
   constexpr float kRate = 0.125f;                    // of a frame in the mean
   constexpr float kSame = 12;                        // levels of a channel: at most noise
@@ -48,4 +48,4 @@ cv::Mat1f BackgroundModel::changed(const cv::Mat3b& picture) const {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,7 +2,10 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Learns what each pixel of a still camera shows without the models. A mean colour is known where
 /// the last pictures agreed with it, so nothing is known of a moving camera. Source: Wren et al.,
@@ -25,4 +28,5 @@ class BackgroundModel {
   cv::Mat4b background_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

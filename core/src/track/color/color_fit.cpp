@@ -8,7 +8,7 @@
 
 #include "hypotrack/median.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kFewest = 100;       // samples
@@ -187,4 +187,4 @@ Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map
   return sum / 3;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

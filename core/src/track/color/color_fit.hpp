@@ -2,10 +2,12 @@
 
 #include <optional>
 
+#include "base/exported.hpp"
 #include "tile/color_map.hpp"
 #include "track/color/color_samples.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Estimates the map from the other view's colours to the first's, from samples at the same points.
 /// Matches the two distributions instead of single samples: a slightly wrong pose shifts the
@@ -33,4 +35,5 @@ double median_difference(const ColorSamples& samples, const ColorMap& map);
 /// channels, for each of N samples (0 .. 255).
 Eigen::VectorXf gray_difference(const ColorSamples& samples, const ColorMap& map);
 
+}  // namespace internal
 }  // namespace hypotrack

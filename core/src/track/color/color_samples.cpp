@@ -7,7 +7,7 @@
 #include "hypotrack/stereo_pixels.hpp"
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kGrid = 64;
@@ -228,4 +228,4 @@ ViewDirections ColorSampler::directions(std::size_t other) const {
   return {to(camera), to(views[other].camera)};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/scene.hpp"
@@ -14,6 +15,7 @@
 #include "track/color/highlights.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Colours of two views at the same surface points: blue, green and red, 0 .. 255.
 struct ColorSamples {
@@ -59,4 +61,5 @@ class ColorSampler {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

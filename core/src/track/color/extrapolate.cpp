@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 cv::Mat extrapolate(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Size tile) {
   constexpr double kReach = 1.5;        // grid points
@@ -23,4 +23,4 @@ cv::Mat extrapolate(const cv::Mat& inside, const Eigen::VectorXf& values, cv::Si
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kLights = 128;  // 18 degrees apart; half vectors are 9 apart and highlights 24 wide
@@ -73,4 +73,4 @@ Eigen::VectorXf Highlights::expected(const Eigen::Matrix3Xf& normals,
   return difference(normals, to).transpose() * strength_;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Directions from a surface to two cameras: unit vectors in the world.
 struct ViewDirections {
@@ -44,4 +47,5 @@ class Highlights {
   Eigen::VectorXf strength_;  ///< of the lights (L)
 };
 
+}  // namespace internal
 }  // namespace hypotrack

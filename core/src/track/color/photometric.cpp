@@ -7,7 +7,7 @@
 #include "track/color/color_fit.hpp"
 #include "track/color/extrapolate.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // A line is determined by its values at two levels; their changes are limited.
@@ -138,4 +138,4 @@ void PhotometricMatch::apply(TilePlan& plan) const {
   if (!views_.empty()) plan.header.context.color_difference = views_[0].difference;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

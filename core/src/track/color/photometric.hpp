@@ -4,12 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `photometric:` of a scene.
 struct PhotometricSettings {
@@ -84,4 +86,5 @@ class PhotometricMatch {
   std::vector<Learned> views_;  // without the first
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 
 #include "track/recover/silhouette.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns where pictures may show the models: their silhouettes and a margin for wrong poses.
@@ -49,4 +49,4 @@ void StillBackground::add_to(TilePlan& plan, std::span<const Resampler> resample
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

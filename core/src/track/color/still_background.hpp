@@ -3,12 +3,14 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
 #include "tile/tiles.hpp"
 #include "track/color/background_model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Learns the background of each view and cuts it into tiles.
 class StillBackground {
@@ -27,4 +29,5 @@ class StillBackground {
   std::vector<BackgroundModel> views_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

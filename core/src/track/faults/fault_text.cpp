@@ -23,6 +23,10 @@ std::string_view to_string(FrameFault fault) {
   return kNames[static_cast<std::size_t>(fault)];
 }
 
+}  // namespace hypotrack
+
+namespace hypotrack::internal {
+
 bool spoils_pictures(FrameFault fault) {
   return fault > FrameFault::none && fault < FrameFault::brightness;
 }
@@ -78,4 +82,4 @@ std::string describe(FrameFault fault, int view) {
   return {};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

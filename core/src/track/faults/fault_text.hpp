@@ -2,9 +2,11 @@
 
 #include <string>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame_fault.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Returns whether a frame with this fault has pictures that must not be searched.
 bool spoils_pictures(FrameFault fault);
@@ -13,4 +15,5 @@ bool spoils_pictures(FrameFault fault);
 /// the view that has it. Empty for FrameFault::none.
 std::string describe(FrameFault fault, int view);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -8,7 +8,7 @@
 
 #include "hypotrack/back_project.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns whether two pictures of one view are equal but for rounding, as of a video's codec.
@@ -93,4 +93,4 @@ const std::vector<bool>& FrozenViews::seen_by(std::size_t other, std::size_t vie
   return seen;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

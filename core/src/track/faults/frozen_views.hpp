@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "track/faults/small_picture.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 using SmallPictures = std::vector<std::shared_ptr<const SmallPicture>>;
 
@@ -35,4 +37,5 @@ class FrozenViews {
   std::vector<std::vector<bool>> seen_;  ///< by view and other view; empty: not needed so far
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 
 #include "track/faults/fault_text.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns whether two pictures differ far less from each other than each does from itself a cell
@@ -115,4 +115,4 @@ std::optional<int> PictureChecks::jumping_view(const SmallPictures& now) {
   return first;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

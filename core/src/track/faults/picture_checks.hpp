@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/frame_fault.hpp"
@@ -10,6 +11,7 @@
 #include "track/faults/view_order.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A fault and the view that has it.
 struct ViewFault {
@@ -45,4 +47,5 @@ class PictureChecks {
   std::vector<float> jumps_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

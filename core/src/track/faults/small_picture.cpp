@@ -7,7 +7,7 @@
 
 #include "hypotrack/median.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kCellsInARow = 160;
@@ -75,4 +75,4 @@ float gain_between(const SmallPicture& before, const SmallPicture& now) {
   return tells ? upper_median(std::move(ratios)) : 1.0F;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,7 +4,10 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
+
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A small grey picture of a view, of about 160 cells in a row. A cell is the mean of some pixels
 /// of one row, in 1/16 of a grey level.
@@ -29,4 +32,5 @@ SmallPicture shrink(const cv::Mat& color);
 /// cells. 1 if most of the first is too dark to tell.
 float gain_between(const SmallPicture& before, const SmallPicture& now);
 
+}  // namespace internal
 }  // namespace hypotrack

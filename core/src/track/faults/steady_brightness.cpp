@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void SteadyBrightness::next(std::span<const float> jumps) {
   constexpr float kAlmost = 0.1F;  // colours follow the rest
@@ -25,4 +25,4 @@ Frame SteadyBrightness::applied_to(const Frame& frame) const {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

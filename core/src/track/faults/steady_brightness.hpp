@@ -3,9 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/frame.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Takes jumps of brightness out of pictures: what was learned of colours stays true.
 class SteadyBrightness {
@@ -20,4 +22,5 @@ class SteadyBrightness {
   std::vector<float> gains_;  ///< of each view's pictures against what is searched
 };
 
+}  // namespace internal
 }  // namespace hypotrack

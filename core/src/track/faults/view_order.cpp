@@ -8,7 +8,7 @@
 
 #include "hypotrack/back_project.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Places are compared by patches of kPatchWidth x kPatchHeight cells.
@@ -154,4 +154,4 @@ bool ViewOrder::is_exchanged(const SmallPicture& first, const SmallPicture& seco
   return votes.exchanged >= kFewest && votes.exchanged >= kTimes * votes.right;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

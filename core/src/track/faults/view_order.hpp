@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "track/faults/small_picture.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Tells whether the pictures of two cameras arrive exchanged: it matches places of the first
 /// picture along the epipolar lines that they have in the right order and in the wrong one.
@@ -55,4 +57,5 @@ class ViewOrder {
   std::vector<Step> steps_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

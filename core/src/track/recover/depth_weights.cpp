@@ -8,7 +8,7 @@
 #include "hypotrack/back_project.hpp"
 #include "hypotrack/stop.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kPlanes = 48;      // evenly spaced in inverse depth
@@ -101,4 +101,4 @@ std::array<cv::Mat1f, 2> DepthWeights::weights(const std::array<cv::Mat3b, 2>& p
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Tells surfaces in a range of depths from others, by the correlation of both pictures over
 /// planes. Source: Collins, "A space-sweep approach to true multi-image matching", CVPR 1996.
@@ -35,4 +37,5 @@ class DepthWeights {
   std::array<std::vector<Plane>, 2> planes_;  ///< by view, made at the first use
 };
 
+}  // namespace internal
 }  // namespace hypotrack

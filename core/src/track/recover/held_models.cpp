@@ -2,7 +2,7 @@
 
 #include "hypotrack/kinematics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 Eigen::Matrix3Xd landmarks_of(const Scene& scene, std::size_t model, const Eigen::VectorXd& state) {
@@ -54,4 +54,4 @@ double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before, const Ei
   return sum;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/model_pose.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A rigid model that moves with the sought one, such as an object in a hand.
 struct HeldModel {
@@ -30,4 +32,5 @@ std::vector<bool> held_by(const Scene& scene, std::size_t model, const Eigen::Ve
 double moved_in_hand(const Scene& scene, const Eigen::VectorXd& before, const Eigen::VectorXd& now,
                      const std::vector<bool>& shown);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 #include "hypotrack/damping.hpp"
 #include "track/search_cost.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kBlur = 2;         // pixels of a silhouette's way
@@ -148,4 +148,4 @@ void LeastSquares::refine(std::span<Refined> states, int iterations) {
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

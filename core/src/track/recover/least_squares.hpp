@@ -5,11 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/search_space.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A state and its cost.
 struct Refined {
@@ -45,4 +47,5 @@ class LeastSquares {
   std::int64_t evaluations_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

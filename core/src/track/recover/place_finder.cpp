@@ -9,7 +9,7 @@
 
 #include "hypotrack/stop.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 /// A reduced view.
 struct ReducedView {
   cv::Mat3b color;
@@ -299,4 +299,4 @@ void PlaceFinder::explain(ReducedView& view, std::size_t i, const Eigen::Vector3
   cv::integral(view.probability, view.sums, CV_64F);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

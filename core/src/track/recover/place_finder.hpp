@@ -5,12 +5,14 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "tile/color_map.hpp"
 #include "track/verify/foreground_colors.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A place where a model may be.
 struct Place {
@@ -84,4 +86,5 @@ class PlaceFinder {
   int reductions_[2] = {1, 1};
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -10,7 +10,7 @@
 
 #include "hypotrack/kinematics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kPosePadding = 0.5;  // of a hypothesis, around it
@@ -273,4 +273,4 @@ void PoseSearch::improve_limbs(LeastSquares& least_squares, Cost& cost,
   }
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

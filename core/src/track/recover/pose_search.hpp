@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -20,6 +21,7 @@
 #include "track/recover/recovery_settings.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A guess of a model's pose, and the distribution of hypotheses around it.
 struct PoseGuess {
@@ -108,4 +110,5 @@ class PoseSearch {
   double radius_ = 0;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 
 #include "hypotrack/params.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr std::size_t kRememberedPostures = 8;
@@ -86,4 +86,4 @@ void Postures::remember(const Eigen::VectorXd& parameters) {
   replaced_ = (replaced_ + 1) % kRememberedPostures;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Postures to try for a model: limbs straight or bent in many combinations, and postures seen
 /// before. A posture is a model's parameters after its pose.
@@ -34,4 +36,5 @@ class Postures {
   std::size_t replaced_ = 0;  ///< index, after those, of the next posture to replace
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -13,7 +13,7 @@
 #include "track/recover/silhouette.hpp"
 #include "track/verify/surface_points.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kFinderWindow = 0.75;  // of a model's radius: what a place is looked for by
@@ -247,4 +247,4 @@ Candidates Recovery::find(const Task& task, const PoseGuess& guess,
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -23,6 +24,7 @@
 #include "track/verify/pose_verifier.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// The last known pose of a lost model.
 struct LastKnown {
@@ -106,4 +108,5 @@ class Recovery {
   std::array<BackgroundModel, 2> backgrounds_;    ///< of the reduced pictures
 };
 
+}  // namespace internal
 }  // namespace hypotrack

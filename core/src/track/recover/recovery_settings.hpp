@@ -3,10 +3,12 @@
 #include <span>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// When a recovery is computed.
 enum class RecoveryRun {
@@ -71,4 +73,5 @@ struct RecoverySettings {
   }
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kSide = 12;             // pixels of a patch
@@ -64,4 +64,4 @@ void SearchedPlaces::end_frame() {
   for (Place& place : places_) place.seen = false;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,10 +5,12 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Remembers places that were searched in vain, so that they are not searched again while both
 /// views look the same there.
@@ -39,4 +41,5 @@ class SearchedPlaces {
   std::vector<Place> places_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

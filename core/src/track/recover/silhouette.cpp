@@ -6,7 +6,7 @@
 
 #include "hypotrack/kinematics.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
                       const Eigen::VectorXd& state, const Camera& camera, int reduction) {
@@ -33,4 +33,4 @@ cv::Mat1b silhouettes(const Scene& scene, const std::vector<bool>& models,
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

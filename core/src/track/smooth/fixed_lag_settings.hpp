@@ -2,9 +2,11 @@
 
 #include <cstdint>
 
+#include "base/exported.hpp"
 #include "hypotrack/params.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// `smoothing.fixed_lag:` of a scene.
 struct FixedLagSettings {
@@ -59,4 +61,5 @@ struct FixedLagSettings {
   }
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -9,7 +9,7 @@
 #include "cost/term_residuals.hpp"
 #include "hypotrack/error.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Multiplies the weights of terms that look at the pose only.
@@ -110,4 +110,4 @@ std::vector<FixedLagSmoother::Settled> FixedLagSmoother::finish() {
   return take();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

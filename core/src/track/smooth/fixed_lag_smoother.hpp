@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/fallback_cost.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
@@ -14,6 +15,7 @@
 #include "track/smooth/trajectory_fit.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Fixed-lag smoother: improves each state with the frames of a window before and after it. It fits
 /// the frames of a window together (TrajectoryFit), from the states that were found. Then it
@@ -63,4 +65,5 @@ class FixedLagSmoother {
   std::vector<Settled> settled_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

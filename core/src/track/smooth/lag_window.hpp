@@ -3,9 +3,11 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "base/exported.hpp"
 #include "hypotrack/observation.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// A state of a frame and its time.
 struct TimedState {
@@ -16,4 +18,5 @@ struct TimedState {
 /// Tiles of a frame; empty if it had no picture or the scene was not in view.
 using FrameTiles = std::optional<Observation>;
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -5,7 +5,7 @@
 
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 double seconds_between(const TimedState& before, const TimedState& after) {
@@ -39,4 +39,4 @@ double MotionPrior::cost(const TimedState& before, const TimedState& here,
   return weight_.dot(change(before, here, after).residual.cwiseAbs2());
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -3,11 +3,13 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "base/exported.hpp"
 #include "hypotrack/scene.hpp"
 #include "track/smooth/fixed_lag_settings.hpp"
 #include "track/smooth/lag_window.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Prior of constant velocity: velocities do a random walk in the tangent space (the white-noise
 /// acceleration of Bar-Shalom, Li and Kirubarajan, "Estimation with Applications to Tracking and
@@ -41,4 +43,5 @@ class MotionPrior {
   Eigen::VectorXd weight_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 #include "track/color/color_fit.hpp"
 #include "track/color/extrapolate.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 
 void TileHighlights::learn(const std::vector<FrameTiles>& tiles,
                            const std::vector<TimedState>& states) {
@@ -35,4 +35,4 @@ Observation TileHighlights::off(const Observation& tiles, const Eigen::VectorXd&
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "track/color/color_samples.hpp"
 #include "track/color/highlights.hpp"
 #include "track/smooth/lag_window.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Removes highlights from the tiles of a window's frames. Learns them from all frames together: a
 /// pose that follows its own highlights contradicts frames with other poses.
@@ -29,4 +31,5 @@ class TileHighlights {
   std::vector<Highlights> views_;  // without the first
 };
 
+}  // namespace internal
 }  // namespace hypotrack

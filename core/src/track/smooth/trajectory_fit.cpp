@@ -9,7 +9,7 @@
 
 #include "track/tangent.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Steps of finite differences. Slopes need motion by a fraction of a pixel, residuals by about one
@@ -267,4 +267,4 @@ std::int64_t TrajectoryFit::improve(std::vector<TimedState>& states,
   return done * evaluations_per_linearization();
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/damping.hpp"
 #include "track/smooth/motion_prior.hpp"
 #include "track/smooth/tile_highlights.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Finds the motion, a state per frame, that minimises
 ///
@@ -75,4 +77,5 @@ class TrajectoryFit {
   TileHighlights* highlights_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

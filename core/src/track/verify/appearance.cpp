@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr float kNewest = 0.1f;   // least weight of a new colour
@@ -90,4 +90,4 @@ double Appearance::likeness(const SurfaceSamples& samples) const {
   return best;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

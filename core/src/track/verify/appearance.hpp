@@ -3,9 +3,11 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Learns the colours of a model's surface points and compares later frames with them. A box that
 /// is turned or shifted agrees between the views, but not with its own earlier picture.
@@ -27,4 +29,5 @@ class Appearance {
   std::vector<float> times_;  ///< frames in which each point was seen
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -12,7 +12,7 @@
 
 #include "hypotrack/median.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr int kWindow = 5;              // grid points along a patch
@@ -315,4 +315,4 @@ Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors) 
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

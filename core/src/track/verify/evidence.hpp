@@ -5,10 +5,12 @@
 #include <limits>
 #include <string_view>
 
+#include "base/exported.hpp"
 #include "track/verify/foreground_colors.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Image measurements of one model in one frame: how well the pictures support its pose.
 struct Evidence {
@@ -50,4 +52,5 @@ std::array<std::string_view, Evidence::kCount> evidence_names();
 /// probabilities, 0.5 before anything was learned.
 Evidence measure(const SurfaceSamples& samples, const ForegroundColors& colors);
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 // Histogram bins of brightness and of the red and green chromaticity, which light changes less.
@@ -105,4 +105,4 @@ float ForegroundColors::probability(const cv::Vec3f& color) const {
   return probability_[bin_of(color).index()];
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -4,9 +4,11 @@
 #include <span>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Knows how likely a colour belongs to a model, from frames where the model's pose is surely
 /// right. P = f / (f + b), with f and b the frequencies of the colour on the model and beside it.
@@ -29,4 +31,5 @@ class ForegroundColors {
   std::vector<float> foreground_, background_, probability_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -7,7 +7,7 @@
 #include "track/verify/symmetries.hpp"
 #include "track/verify/weights.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kHidden = 0.7;     // share of a model's points that others hide: not verified
@@ -135,4 +135,4 @@ void PoseVerifier::learn(const std::vector<bool>& right) {
     if (right[m] && evidence_[m].covered <= kHidden) models_[m].learn(evidence_[m]);
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

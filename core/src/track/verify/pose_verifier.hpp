@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -16,6 +17,7 @@
 #include "track/verify/surface_samples.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Estimates from the pictures alone whether the pose of one model is right.
 class ModelVerifier {
@@ -116,4 +118,5 @@ class PoseVerifier {
   Eigen::VectorXd state_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

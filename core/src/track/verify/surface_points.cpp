@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 double fraction(double x) { return x - std::floor(x); }
@@ -91,4 +91,4 @@ std::vector<cv::Vec3f> texture_colors(const Mesh& mesh, const SurfacePoints& poi
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

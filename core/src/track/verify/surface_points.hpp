@@ -4,9 +4,11 @@
 #include <opencv2/core/types.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/model.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Points on a mesh, each a weighted sum of its triangle's corners.
 struct SurfacePoints {
@@ -28,4 +30,5 @@ Eigen::Matrix3Xf positions(const SurfacePoints& points, const Eigen::Matrix3Xf& 
 /// square of `side` metres. Returns none without a texture.
 std::vector<cv::Vec3f> texture_colors(const Mesh& mesh, const SurfacePoints& points, double side);
 
+}  // namespace internal
 }  // namespace hypotrack

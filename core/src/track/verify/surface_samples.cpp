@@ -11,7 +11,7 @@
 #include "hypotrack/stereo_pixels_map-inl.hpp"
 #include "tile/tiles.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 constexpr double kSamplePadding = 0.25;  // of the model's extent, so that the ring fits
@@ -250,4 +250,4 @@ SurfaceSamples SurfaceSampler::sample(const Frame& frame, const Eigen::VectorXd&
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "hypotrack/camera.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/scene.hpp"
@@ -12,6 +13,7 @@
 #include "track/verify/surface_points.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// One view around a drawn model, resampled to a square grid of points.
 struct SampledView {
@@ -66,4 +68,5 @@ class SurfaceSampler {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

@@ -6,7 +6,7 @@
 
 #include "track/verify/surface_points.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 /// Returns the 24 rotations that put a cube onto itself.
@@ -76,4 +76,4 @@ std::vector<Eigen::Isometry3d> symmetries(const Mesh& mesh) {
   return out;
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal

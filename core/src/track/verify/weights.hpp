@@ -3,11 +3,13 @@
 
 #include <array>
 
+#include "base/exported.hpp"
 #include "track/verify/evidence.hpp"
 
 /// Weights of networks over ModelVerifier::features(): how likely a model's landmarks are within
 /// 10 mm of where they are in truth, and not more than 20 mm off.
 namespace hypotrack::verifier_weights {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 inline constexpr int kHidden = 32;
 
@@ -385,4 +387,5 @@ inline constexpr Network kExperienced{
 /// Of the usual likeness times its difference to the likeness.
 inline constexpr double kLikeness = 9;
 
+}  // namespace internal
 }  // namespace hypotrack::verifier_weights

@@ -6,10 +6,12 @@
 #include <map>
 #include <string>
 
+#include "base/exported.hpp"
 #include "model/import/wire.hpp"
 
 // Conversion from assimp's data to mesh_wire's.
 namespace hypotrack::mesh_wire {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 using Bones = std::map<std::string, std::uint32_t, std::less<>>;  ///< name to index
 
@@ -28,4 +30,5 @@ void convert_meshes(const aiScene& scene, Scene& out);
 /// Converts materials and embedded textures.
 void convert_materials(const aiScene& scene, Scene& out);
 
+}  // namespace internal
 }  // namespace hypotrack::mesh_wire

@@ -5,7 +5,7 @@
 
 #include "model/import/reader/convert.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 
 aiMatrix4x4 global_transform(const aiNode* node) {
   aiMatrix4x4 global;
@@ -52,4 +52,4 @@ void find_parents(const aiScene& scene, const Bones& known, Scene& out) {
   }
 }
 
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal

@@ -2,7 +2,7 @@
 
 #include "model/import/reader/convert.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 namespace {
 
 Material convert_material(const aiMaterial& material) {
@@ -44,4 +44,4 @@ void convert_materials(const aiScene& scene, Scene& out) {
   }
 }
 
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal

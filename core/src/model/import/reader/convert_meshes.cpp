@@ -4,7 +4,7 @@
 
 #include "model/import/reader/convert.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 namespace {
 
 bool similar(const aiMatrix4x4& a, const aiMatrix4x4& b) {
@@ -93,4 +93,4 @@ void convert_meshes(const aiScene& scene, Scene& out) {
   find_parents(scene, bones, out);
 }
 
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal

@@ -6,7 +6,7 @@
 
 #include "hypotrack/text_file.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 namespace {
 
 using Json = nlohmann::json;
@@ -56,4 +56,4 @@ std::uint64_t count_gltf_triangles(const std::string& file) {
   return triangles;
 }
 
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal

@@ -15,7 +15,7 @@
 #include "model/import/reader/convert.hpp"
 #include "model/import/reader/gltf.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 namespace {
 
 /// Knows regular files only. A pipe that a mesh names as its materials or its data would be waited
@@ -87,4 +87,4 @@ Scene read_scene(const std::string& file) {
   return out;
 }
 
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal

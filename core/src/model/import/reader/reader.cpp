@@ -11,7 +11,7 @@
 
 #include "model/import/reader/read_scene.hpp"
 
-namespace hypotrack::mesh_wire {
+namespace hypotrack::mesh_wire::internal {
 namespace {
 
 constexpr rlim_t kMemoryLimit = rlim_t{4} << 30;
@@ -35,7 +35,7 @@ bool write_all(std::string_view bytes) {
 }
 
 }  // namespace
-}  // namespace hypotrack::mesh_wire
+}  // namespace hypotrack::mesh_wire::internal
 
 int main(int argc, char** argv) {
   namespace wire = hypotrack::mesh_wire;

@@ -44,7 +44,7 @@ NormalEquations linearize(Cost& cost, const Scene& scene, const Eigen::VectorXd&
   return cost.least_squares()->linearize(moved_states(scene, state, steps), steps, blur);
 }
 
-TEST(Linearizer, MakesAutomaticTakeTheCpuForTermsWithoutSlopesOnAGpu) {
+TEST(HostLinearizer, MakesAutomaticTakeTheCpuForTermsWithoutSlopesOnAGpu) {
   const Scene scene = test::hand_scene();
   for (const auto linearization : {Linearization::needed, Linearization::welcome}) {
     const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.2f, 0.5f), "pattern"}},
@@ -122,7 +122,7 @@ TEST_P(Linearize, KnowsWhatMovingSilhouettesChange) {
 INSTANTIATE_TEST_SUITE_P(Pairs, Linearize, testing::Bool(),
                          [](const auto& pair) { return pair.param ? "Rectified" : "General"; });
 
-TEST(Linearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
+TEST(HostLinearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
   const Scene scene = test::hand_scene();
   const auto cost = make_cost(scene, {{1, std::make_shared<DepthPattern>(0.0f, 0.5f)}},
                               {.backend = Backend::cpu, .threads = 1}, {.least_squares = true});
@@ -134,7 +134,7 @@ TEST(Linearizer, FeelsSilhouettesLessFirmlyTheMoreTheyAreBlurred) {
   EXPECT_TRUE((2 * soft.a).isApprox(sharp.a, 1e-5));
 }
 
-TEST(Linearizer, AddsTermsUpWithTheirWeights) {
+TEST(HostLinearizer, AddsTermsUpWithTheirWeights) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const auto of = [&](const std::vector<ObjectiveTerm>& terms) {
@@ -155,7 +155,7 @@ TEST(Linearizer, AddsTermsUpWithTheirWeights) {
   EXPECT_TRUE(x.a.isApprox(identity, 1e-3));
 }
 
-TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
+TEST(HostLinearizer, DoesNotDependOnTheNumberOfThreads) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   NormalEquations expected;
@@ -171,7 +171,7 @@ TEST(Linearizer, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Linearizer, OfABatchIsThatOfEachStateWithAnyNumberOfThreads) {
+TEST(HostLinearizer, OfABatchIsThatOfEachStateWithAnyNumberOfThreads) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const Eigen::VectorXd steps = metres_and_radians(scene.dimension() - 1, 2e-4, 2e-3);
@@ -200,7 +200,7 @@ TEST(Linearizer, OfABatchIsThatOfEachStateWithAnyNumberOfThreads) {
   }
 }
 
-TEST(Linearizer, OfABatchFollowsTheFrameThatIsPrepared) {
+TEST(HostLinearizer, OfABatchFollowsTheFrameThatIsPrepared) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene), other = test::general_pair(scene);
   const auto cost = pattern_cost(scene, frame);
@@ -213,7 +213,7 @@ TEST(Linearizer, OfABatchFollowsTheFrameThatIsPrepared) {
   EXPECT_TRUE(found.a.isApprox(expected.a, 1e-4));
 }
 
-TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
+TEST(HostLinearizer, LeavesOutWhatHasNoRoomToMove) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const auto cost = pattern_cost(scene, frame);
@@ -227,7 +227,7 @@ TEST(Linearizer, LeavesOutWhatHasNoRoomToMove) {
   EXPECT_EQ(some.g[2], all.g[2]);
 }
 
-TEST(Linearizer, OfOneFingerIsThatPartOfTheWhole) {
+TEST(HostLinearizer, OfOneFingerIsThatPartOfTheWhole) {
   const Scene scene = test::hand_scene();
   const Observation frame = test::rectified_pair(scene);
   const auto cost = pattern_cost(scene, frame);

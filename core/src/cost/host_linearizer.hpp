@@ -4,18 +4,20 @@
 #include <memory>
 #include <vector>
 
+#include "base/exported.hpp"
 #include "cost/cost.hpp"
 #include "hypotrack/observation.hpp"
 #include "hypotrack/optimizer.hpp"
 #include "hypotrack/scene.hpp"
 
 namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Computes normal equations of the terms' residuals. A term gives them by its Jacobian, or by the
 /// slopes of its pixels (PixelRows), or by differences. All analytic terms share one drawn
 /// hypothesis; for differences of terms that need rendering, neighbours are drawn. The result does
 /// not depend on the number of threads.
-class Linearizer {
+class HostLinearizer {
  public:
   /// Returns true if the terms are a sum of squares and one that needs rendering has a Jacobian or
   /// slopes, or none needs rendering.
@@ -29,9 +31,9 @@ class Linearizer {
 
   /// The scene must outlive it. It is called in an arena of at most `threads` slots. Fewer `bands`
   /// take less time in all, and leave less to do at the same time.
-  Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
-             int bands = kBands);
-  ~Linearizer();
+  HostLinearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
+                 int bands = kBands);
+  ~HostLinearizer();
 
   /// Sets the cameras of a frame's tiles. The terms must be prepared for that frame.
   void prepare(const Observation& observation);
@@ -45,4 +47,5 @@ class Linearizer {
   std::unique_ptr<Impl> impl_;
 };
 
+}  // namespace internal
 }  // namespace hypotrack

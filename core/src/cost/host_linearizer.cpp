@@ -1,4 +1,4 @@
-#include "cost/linearizer.hpp"
+#include "cost/host_linearizer.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
@@ -13,7 +13,7 @@
 #include "cost/posed_neighbours.hpp"
 #include "cost/term_equations.hpp"
 
-namespace hypotrack {
+namespace hypotrack::internal {
 namespace {
 
 using Products = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -63,7 +63,7 @@ std::span<const double> state_of(const Eigen::MatrixXd& states) {
 
 }  // namespace
 
-struct Linearizer::Impl {
+struct HostLinearizer::Impl {
   /// The pixels of a view in one term.
   struct PixelPart {
     const ResidualTerm* term;
@@ -239,7 +239,7 @@ struct Linearizer::Impl {
   DrawnDifferences differences;
 };
 
-bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
+bool HostLinearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   bool draws = false, analytic = false;
   for (const ObjectiveTerm& term : terms) {
     if (term.weight == 0) continue;
@@ -250,17 +250,17 @@ bool Linearizer::can_linearize(const std::vector<ObjectiveTerm>& terms) {
   return analytic || !draws;
 }
 
-bool Linearizer::draws_neighbours(const std::vector<ObjectiveTerm>& terms) {
+bool HostLinearizer::draws_neighbours(const std::vector<ObjectiveTerm>& terms) {
   return !with_residuals_only(terms).empty();
 }
 
-Linearizer::Linearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms, int threads,
-                       int bands)
+HostLinearizer::HostLinearizer(const Scene& scene, const std::vector<ObjectiveTerm>& terms,
+                               int threads, int bands)
     : impl_(std::make_unique<Impl>(scene, terms, threads, bands)) {}
 
-Linearizer::~Linearizer() = default;
+HostLinearizer::~HostLinearizer() = default;
 
-void Linearizer::prepare(const Observation& observation) {
+void HostLinearizer::prepare(const Observation& observation) {
   Impl& self = *impl_;
   self.frame = FrameProjection(observation);
   self.neighbours.prepare(self.frame);
@@ -268,8 +268,8 @@ void Linearizer::prepare(const Observation& observation) {
   self.take_terms();
 }
 
-NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen::VectorXd& steps,
-                                      double blur) {
+NormalEquations HostLinearizer::linearize(const Eigen::MatrixXd& states,
+                                          const Eigen::VectorXd& steps, double blur) {
   const Eigen::Index d = steps.size();
   const NormalEquations nothing{Eigen::MatrixXd::Zero(d, d), Eigen::VectorXd::Zero(d)};
   NormalEquations pixels = nothing, others = nothing, drawn = nothing;
@@ -279,4 +279,4 @@ NormalEquations Linearizer::linearize(const Eigen::MatrixXd& states, const Eigen
   return {pixels.a + others.a + drawn.a, pixels.g + others.g + drawn.g};
 }
 
-}  // namespace hypotrack
+}  // namespace hypotrack::internal
