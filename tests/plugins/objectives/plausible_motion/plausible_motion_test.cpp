@@ -32,12 +32,17 @@ class PlausibleMotionTest : public testing::Test {
  protected:
   double cost(const PlausibleMotionParams& params, const Eigen::VectorXd& state) const {
     PlausibleMotion objective(params, scene_);
+    const Observation observation = frame();
+    objective.prepare(observation);
+    return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
+  }
+
+  Observation frame() const {
     Observation observation;
     observation.scene = &scene_;
     observation.start = start_;
     observation.context.no_motion_prior = no_motion_prior_;
-    objective.prepare(observation);
-    return objective.cost({{state.data(), static_cast<std::size_t>(state.size())}, {}});
+    return observation;
   }
 
   double& angle(Eigen::VectorXd& state, const std::string& name) const {
@@ -79,6 +84,19 @@ TEST_F(PlausibleMotionTest, CostsOneForEveryJointThatTurnsBySigma) {
   EXPECT_NEAR(cost(params, state), 1, 1e-6);
   angle(state, "left.thumb_abduction") -= 0.4;
   EXPECT_NEAR(cost(params, state), 5, 1e-6);
+}
+
+TEST_F(PlausibleMotionTest, ForgetsTheFramesBefore) {
+  PlausibleMotion seen({}, scene_);
+  for (const bool no_motion_prior : {false, true, false}) {
+    angle(start_, "right.index_flexion_1") += 0.3;
+    no_motion_prior_ = no_motion_prior;
+    const Observation observation = frame();
+    seen.prepare(observation);
+    const Eigen::VectorXd rest = scene_.rest_state();
+    EXPECT_EQ(seen.cost({{rest.data(), static_cast<std::size_t>(rest.size())}, {}}),
+              cost({}, rest));
+  }
 }
 
 TEST_F(PlausibleMotionTest, WithoutMotionPriorHoldsNothingToWhereTheSearchStarted) {
