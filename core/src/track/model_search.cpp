@@ -11,6 +11,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/search.hpp"
+#include "track/recover/held_models.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -119,6 +120,28 @@ void CandidateFinder::ModelSearch::improve_limbs(Candidate& one) {
   one = finder_.go_on(frame_, one, seed_of_part(seed_, part_++));
 }
 
+void CandidateFinder::ModelSearch::put_back(Candidate& one) {
+  constexpr double kMoved = 0.003;  // metres, of any landmark: a search evens out less
+  const Scene& scene = finder_.scene_;
+  Eigen::VectorXd state = one.found.state;
+  for (const HeldModel& held : task_.held) {
+    const Eigen::VectorXd kept =
+        moved_with(scene, held.model, model_, request_.together, one.found.state);
+    const Scene::Item& item = scene.items()[held.model];
+    const Eigen::Index size = item.model->dimension();
+    state.segment(item.offset, size) = kept.segment(item.offset, size);
+  }
+  const Eigen::Matrix3Xd motion = scene.landmarks(state) - scene.landmarks(one.found.state);
+  if (!(motion.colwise().norm().maxCoeff() > kMoved)) return;
+  if (finder_.search_.tiles().visible_share(state) == 0) return;
+  Candidate back = one;
+  back.found.state = std::move(state);
+  back = finder_.go_on(frame_, back, seed_of_part(seed_, part_++));
+  const std::int64_t evaluations = back.found.evaluations;
+  one = finder_.best_of(frame_, {std::move(one), std::move(back)});
+  one.found.evaluations = evaluations;
+}
+
 void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
   FrameSearch& search = finder_.search_;
   search.show(shown_, moving_);
@@ -131,6 +154,7 @@ void CandidateFinder::ModelSearch::add(const Eigen::VectorXd& state) {
     one.found.state = turned;
     one = finder_.go_on(frame_, one, seed_of_part(seed_, part_++));
   }
+  if (has_held_) put_back(one);
   best_.found.evaluations += std::exchange(one.found.evaluations, 0);
   const Reach reach = reach_within(finder_.settings_.motion, task_.last.seconds);
   const bool may_be_anywhere = !std::isfinite(task_.last.seconds) || request_.contradicts;

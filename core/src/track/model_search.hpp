@@ -37,6 +37,8 @@ class CandidateFinder::ModelSearch {
   void add(const Eigen::VectorXd& state);
   /// Searches again from where limbs lie elsewhere, if the pictures support that better.
   void improve_limbs(Candidate& one);
+  /// Searches again with what the model holds put back to where it was held. Keeps the better pose.
+  void put_back(Candidate& one);
   /// Searches the first places of the guesses. Calls `take` with states of the scene.
   template <class Take>
   void search_places(const GlobalSearchSettings& effort, std::size_t most, const Take& take);

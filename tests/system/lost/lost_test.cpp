@@ -271,12 +271,11 @@ TEST(Lost, FollowsOneHandWhileTheOtherIsAway) {
 }
 
 TEST(Lost, FindsABoxInTheHandThatHeldIt) {
-  // A box that comes back 10 mm off along itself stays so. It does in one of five returns with the
-  // real-time tracker, in one of ten with this one. Which of the seeds these are differs
-  // between CPUs; with this one the box was at most 0.4 mm off.
+  // Unless it is put back as it was held, the box ends a quarter turn about its long axis off, at
+  // 12 mm, with three of twenty seeds. This is one of them.
   const auto frames = track_models("hand_and_box.yaml", 30,
                                    {"source.faults=[{frames: [8, 19], kind: absent}]",
-                                    "tracker=@trackers/recommended", "seed=5"});
+                                    "tracker=@trackers/recommended", "seed=2"});
   constexpr std::size_t kAway = 8, kBack = 20;
   for (std::size_t m = 0; m < 2; ++m) {
     for (std::size_t i = kAway; i < kBack; ++i) {
