@@ -1,10 +1,16 @@
 #include "session/checked_source.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <cmath>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <utility>
+#include <vector>
 
+#include "expect_error.hpp"
+#include "hypotrack/error.hpp"
 #include "test_models.hpp"
 
 namespace hypotrack {
@@ -32,10 +38,43 @@ class StoppedClock final : public Source {
   int next_ = 0;
 };
 
+/// A source of frames without views, with these numbers and times.
+class ListedFrames final : public Source {
+ public:
+  explicit ListedFrames(std::vector<std::pair<int, double>> frames)
+      : frames_(std::move(frames)), cameras_(1) {
+    cameras_[0].fx = cameras_[0].fy = 100;
+  }
+  const std::vector<Camera>& cameras() const override { return cameras_; }
+  double frame_rate() const override { return 10; }
+  std::optional<Frame> next() override {
+    if (next_ == frames_.size()) return std::nullopt;
+    Frame frame;
+    std::tie(frame.index, frame.time) = frames_[next_++];
+    return frame;
+  }
+
+ private:
+  std::vector<std::pair<int, double>> frames_;
+  std::vector<Camera> cameras_;
+  std::size_t next_ = 0;
+};
+
 class CheckedSourceTest : public ::testing::Test {
  protected:
   CheckedSource checked(bool live) const {
     return {std::make_unique<StoppedClock>(live), scene_, "stopped"};
+  }
+  using Frames = std::vector<std::pair<int, double>>;
+
+  /// Reads all frames.
+  void read(Frames frames) const {
+    CheckedSource source(std::make_unique<ListedFrames>(std::move(frames)), scene_, "listed");
+    while (source.next()) {
+    }
+  }
+  std::string refusal(Frames frames) const {
+    return test::message_of<DataError>([&] { read(std::move(frames)); });
   }
   Scene scene_{{{"box", std::make_shared<Model>(test::make_test_box({0.1, 0.1, 0.1}))}}};
 };
@@ -51,6 +90,16 @@ TEST_F(CheckedSourceTest, MovesFramesThatComeAtTheSameTime) {
   const Frame second = *source.next();
   EXPECT_DOUBLE_EQ(second.time, 7.1);
   EXPECT_EQ(second.fault, FrameFault::time_back);
+}
+
+TEST_F(CheckedSourceTest, RefusesNumbersThatDoNotGrowAndTimesThatAreNone) {
+  using testing::AllOf, testing::HasSubstr;
+  EXPECT_NO_THROW(read({{0, 0}, {1, 0.1}, {5, 0.5}}));
+  EXPECT_THAT(refusal({{0, 0}, {0, 0.1}}), AllOf(HasSubstr("frame 0 at 0.1 s follows frame 0"),
+                                                 HasSubstr("this is a bug in the source")));
+  EXPECT_THAT(refusal({{2, 0}, {1, 0.1}}), HasSubstr("frame 1 at 0.1 s follows frame 2"));
+  EXPECT_THAT(refusal({{-1, 0}}), HasSubstr("frame -1 at 0 s"));
+  EXPECT_THAT(refusal({{0, std::nan("")}}), HasSubstr("frame 0 at nan s"));
 }
 
 }  // namespace
