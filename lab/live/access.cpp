@@ -59,7 +59,7 @@ void check(const AccessRules& rules) {
     if (is_loopback(rules.host)) return;
     throw ConfigError(
         fmt::format("--web-host {}: others could see and steer this run; give a secret word that "
-                    "they need, --web-token WORD, or leave --web-host out",
+                    "they need, --web-token-file FILE, or leave --web-host out",
                     rules.host));
   }
   const bool plain = std::ranges::all_of(rules.token, [](unsigned char c) {
@@ -67,9 +67,9 @@ void check(const AccessRules& rules) {
   });
   if (!plain || rules.token.size() < kShortest)
     throw ConfigError(fmt::format(
-        "--web-token: expected {} or more letters, digits, '-', '_' and '.'; for example the "
-        "output of `openssl rand -hex 16`",
-        kShortest));
+        "{}: expected {} or more letters, digits, '-', '_' and '.'; for example the output of "
+        "`openssl rand -hex 16`",
+        rules.token_source, kShortest));
 }
 
 std::string refusal(const AccessRules& rules, const Caller& caller) {

@@ -10,8 +10,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Who may use the live view.
 struct AccessRules {
-  std::string host = "127.0.0.1";  ///< at which the server listens
-  std::string token = {};          ///< empty: none is needed
+  std::string host = "127.0.0.1";            ///< at which the server listens
+  std::string token = {};                    ///< empty: none is needed
+  std::string token_source = "--web-token";  ///< as messages name it
 };
 
 /// What a request says about its sender.

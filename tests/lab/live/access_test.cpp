@@ -74,8 +74,11 @@ TEST(LiveAccess, OtherHostsNeedAToken) {
 TEST(LiveAccess, TokensAreLongAndPlain) {
   for (const char* token : {"short", "with space in it", "semi;colon;inside"})
     EXPECT_THAT(test::message_of<ConfigError>([&] { check({.token = token}); }),
-                HasSubstr("expected 8 or more letters"))
+                HasSubstr("--web-token: expected 8 or more letters"))
         << token;
+  EXPECT_THAT(test::message_of<ConfigError>(
+                  [] { check({.token = "short", .token_source = "HYPOTRACK_WEB_TOKEN"}); }),
+              HasSubstr("HYPOTRACK_WEB_TOKEN: expected"));
 }
 
 }  // namespace
