@@ -63,6 +63,24 @@ TEST_F(WebAccessTest, TheTokenOpensThePage) {
   EXPECT_EQ(status_of("/state", {{"Cookie", "a=b; " + cookie.substr(0, cookie.find(';'))}}), 200);
 }
 
+TEST_F(WebAccessTest, TheTokenOpensThePageByAnyName) {
+  start({"--web-token", "a-secret-word", "--web-host", "0.0.0.0"});
+  for (const char* host : {"station.local", "station.lab.example:8080", "container-host"}) {
+    EXPECT_EQ(status_of("/?token=a-secret-word", {{"Host", host}}), 200) << host;
+    EXPECT_EQ(status_of("/", {{"Host", host}}), 403) << host;
+  }
+  EXPECT_EQ(post("/pause", {{"Host", "hands.example"}, {"Origin", "https://Hands.example"}}), 204);
+  EXPECT_EQ(post("/resume", {{"Host", "hands.example"}, {"Origin", "https://evil.example"}}), 403);
+}
+
+TEST_F(WebAccessTest, RefusedNamesAreToldTheOptionThatAllowsThem) {
+  start();
+  const httplib::Result answer = get("/", {{"Host", "station.local"}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 403);
+  EXPECT_THAT(answer->body, HasSubstr("--web-token-file FILE"));
+}
+
 TEST_F(WebAccessTest, OtherHostsThanLoopbackNeedAToken) {
   expect_refused(box_scene(), {"--web-host 0.0.0.0", "--web-token-file FILE"},
                  {"--web", "0", "--web-host", "0.0.0.0"});
