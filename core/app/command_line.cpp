@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -100,12 +101,25 @@ CommandInfo info_of(const CLI::App& app, const std::string& name) {
   return info;
 }
 
+/// Overwrites an option and its value (`--option VALUE`, `--option=VALUE`) among a program's
+/// arguments, which every user of the computer may read in the list of processes.
+void wipe(std::string_view option, std::span<char*> arguments) {
+  bool is_value = false;
+  for (char* const argument : arguments) {
+    const std::string_view word = argument;
+    const bool alone = word == option;
+    const bool joined = word.starts_with(option) && word.substr(option.size()).starts_with('=');
+    if (is_value || alone || joined) std::fill_n(argument, word.size(), '\0');
+    is_value = alone;
+  }
+}
+
 }  // namespace
 
 Command Command::add_command(const std::string& name, const std::string& summary) const {
   CLI::App* command = app_->add_subcommand(name, summary);
   command->fallthrough();
-  return Command(*command);
+  return Command(*command, *secrets_);
 }
 
 void Command::add(const std::string& name, OptionTarget target, const std::string& help,
@@ -122,6 +136,7 @@ void Command::add(const std::string& name, OptionTarget target, const std::strin
   if (!rules.excludes.empty()) option->excludes(app_->get_option(rules.excludes));
   if (!rules.if_bare.empty()) option->expected(0, 1)->default_str(rules.if_bare);
   if (rules.commas) option->delimiter(',');
+  if (rules.secret) secrets_->push_back(name);
 }
 
 void Command::hide() const { app_->group(""); }
@@ -145,13 +160,17 @@ CommandLine::CommandLine(const std::string& description, const std::string& vers
 
 CommandLine::~CommandLine() = default;
 
-Command CommandLine::root() const { return Command(*app_); }
+Command CommandLine::root() { return Command(*app_, secrets_); }
 
 CommandInfo CommandLine::info() const { return info_of(*app_, app_->get_name()); }
 
 int CommandLine::run(int argc, char** argv) {
+  const std::span<char*> given(argv, static_cast<std::size_t>(argc));
+  std::vector<std::string> words;  // without the program's name, the last one first
+  for (std::size_t i = given.size(); i > 1; --i) words.emplace_back(given[i - 1]);
+  for (const std::string& option : secrets_) wipe(option, given);
   try {
-    app_->parse(argc, argv);
+    app_->parse(std::move(words));
     return 0;
   } catch (const CLI::ParseError& e) {
     return app_->exit(e) == 0 ? 0 : 2;

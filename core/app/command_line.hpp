@@ -48,12 +48,14 @@ struct OptionRules {
   std::string excludes = {};    ///< an option that may not be given with this one
   bool commas = false;          ///< one value may be a list with commas
   std::string if_bare = {};     ///< value of the option where it is given without one
+  bool secret = false;          ///< lists of processes show neither option nor value
 };
 
 /// One command of the program: its options and what it does. A handle that may be copied.
 class Command {
  public:
-  explicit Command(CLI::App& app) : app_(&app) {}
+  /// `secrets`: takes the names of the secret options.
+  Command(CLI::App& app, std::vector<std::string>& secrets) : app_(&app), secrets_(&secrets) {}
 
   Command add_command(const std::string& name, const std::string& summary) const;
   /// Adds an option (`--name`) or an argument by position (`name`). The target must outlive the
@@ -70,6 +72,7 @@ class Command {
 
  private:
   CLI::App* app_;
+  std::vector<std::string>* secrets_;
 };
 
 /// The whole command line.
@@ -78,15 +81,17 @@ class CommandLine {
   CommandLine(const std::string& description, const std::string& version);
   ~CommandLine();
 
-  Command root() const;
+  Command root();
   /// Describes all commands that are not hidden.
   CommandInfo info() const;
   /// Parses and calls the command's action. Prints the help or a mistake. Returns the exit code of
-  /// a mistake, 0 otherwise. Lets exceptions of the action through.
+  /// a mistake, 0 otherwise. Lets exceptions of the action through. Overwrites secret options in
+  /// argv.
   int run(int argc, char** argv);
 
  private:
   std::unique_ptr<CLI::App> app_;
+  std::vector<std::string> secrets_;  ///< names of options
 };
 
 }  // namespace hypotrack::app

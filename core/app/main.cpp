@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/standard_streams.hpp"
 #include "commands.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
@@ -44,6 +45,7 @@ bool close_output() {
 
 int main(int argc, char** argv) {
   using namespace hypotrack::app;
+  hypotrack::open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is then an error of writing
   const hypotrack::detail::CrashReport crash_report;
   const hypotrack::detail::EarlyExitReport exit_report;

@@ -14,12 +14,18 @@ namespace hypotrack::app {
 namespace {
 
 void open_web(const ViewerOptions& options, LiveRun& live) {
-  const bool has_rules = !options.web.token.empty() || options.web.host != LiveViewOptions().host;
+  const bool has_rules =
+      options.token.word || options.token.file || options.web.host != LiveViewOptions().host;
   if (!options.web_port && has_rules)
-    throw ConfigError("--web-host and --web-token belong to a live view; give --web PORT, too");
+    throw ConfigError(
+        "--web-host, --web-token and --web-token-file belong to a live view; give --web PORT, too");
   if (!options.web_port) return;
+  WebToken token =
+      read_web_token(options.token, [](const std::string& text) { tell("{}\n", text); });
   LiveViewOptions web = options.web;
   web.port = *options.web_port;
+  web.token = std::move(token.word);
+  web.token_source = std::move(token.source);
   std::unique_ptr<LiveView> page = open_live_view(web, live.controls());
   tell("live view: {}\n", page->address());
   live.add(std::move(page));
@@ -35,7 +41,20 @@ void add_viewer_options(const Command& command, ViewerOptions& options) {
               {.check = whole_number(0, 65535), .if_bare = "8080"});
   command.add("--web-host", &options.web.host, "Address at which others reach the page",
               {.show_default = true, .check = file_name()});
-  command.add("--web-token", &options.web.token, "Secret word that the page's address needs");
+  command.add("--web-token-file", &options.token.file,
+              "File with a secret word that the page's address needs; the variable "
+              "HYPOTRACK_WEB_TOKEN may have the word, too",
+              {.check = file_name()});
+  command.add(
+      "--web-token", &options.token.word,
+      "The secret word itself; others may read it until the program has begun",
+      {.check = {.problem =
+                     [](const std::string& text) {
+                       return std::string(text.empty() ? "is empty, expected a secret word" : "");
+                     }},
+       .value_name = "WORD",
+       .secret = true});
+  options.token.variable = take_web_token_variable();
 }
 
 void open_viewers(const ViewerOptions& options, LiveRun& live) {

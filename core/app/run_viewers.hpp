@@ -5,6 +5,7 @@
 #include "command_line.hpp"
 #include "lab/live/live_view.hpp"
 #include "viewing/live_run.hpp"
+#include "web_token.hpp"
 
 namespace hypotrack::app {
 
@@ -12,8 +13,10 @@ namespace hypotrack::app {
 struct ViewerOptions {
   bool preview = false;
   std::optional<int> web_port;
-  LiveViewOptions web;
+  LiveViewOptions web;  ///< without port and token
+  WebTokenSources token;
 };
+/// Takes the token's variable out of the environment, too.
 void add_viewer_options(const Command& command, ViewerOptions& options);
 
 /// Opens the viewers that are wanted, and says where the page is. Throws ConfigError or DeviceError

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <exception>
 
+#include "base/standard_streams.hpp"
 #include "window/load_window.hpp"
 #include "window/window_messages.hpp"
 
@@ -37,6 +38,7 @@ WindowContent content_of(char** arguments) {
 }  // namespace hypotrack
 
 int main(int count, char** arguments) {
+  hypotrack::open_standard_streams();
   constexpr int kArguments = 4;
   if (count != kArguments) {
     std::fputs("usage: hypotrack_window TITLE WIDTH HEIGHT; hypotrack starts it\n", stderr);

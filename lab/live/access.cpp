@@ -2,7 +2,6 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +19,7 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-/// Returns the name in a Host header, without port and brackets.
+/// Returns the name in a Host header, without port and brackets, in small letters.
 std::string name_in(std::string_view header) {
   if (header.starts_with('[')) return lower(header.substr(1, header.find(']') - 1));
   return lower(header.substr(0, header.find(':')));
@@ -32,10 +31,13 @@ bool is_address(const std::string& host) {
          inet_pton(AF_INET6, host.c_str(), parsed.data()) == 1;
 }
 
-bool is_own_name(const std::string& host) {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return host == lower(name.data());
+/// Returns whether an Origin header names the host of a Host header. A proxy that adds TLS has
+/// another scheme and port.
+bool is_origin_of(std::string_view origin, std::string_view host) {
+  constexpr std::string_view kSeparator = "://";
+  const std::size_t scheme_end = origin.find(kSeparator);
+  if (scheme_end == std::string_view::npos) return false;  // "null"
+  return name_in(origin.substr(scheme_end + kSeparator.size())) == name_in(host);
 }
 
 /// Compares in a time that does not tell how far two texts agree.
@@ -59,7 +61,7 @@ void check(const AccessRules& rules) {
     if (is_loopback(rules.host)) return;
     throw ConfigError(
         fmt::format("--web-host {}: others could see and steer this run; give a secret word that "
-                    "they need, --web-token WORD, or leave --web-host out",
+                    "they need, --web-token-file FILE, or leave --web-host out",
                     rules.host));
   }
   const bool plain = std::ranges::all_of(rules.token, [](unsigned char c) {
@@ -67,23 +69,31 @@ void check(const AccessRules& rules) {
   });
   if (!plain || rules.token.size() < kShortest)
     throw ConfigError(fmt::format(
-        "--web-token: expected {} or more letters, digits, '-', '_' and '.'; for example the "
-        "output of `openssl rand -hex 16`",
-        kShortest));
+        "{}: expected {} or more letters, digits, '-', '_' and '.'; for example the output of "
+        "`openssl rand -hex 16`",
+        rules.token_source, kShortest));
 }
 
 std::string refusal(const AccessRules& rules, const Caller& caller) {
-  const std::string host = name_in(caller.host);
-  const bool known = is_loopback(rules.host) ? is_loopback(host)
-                                             : is_address(host) || host == "localhost" ||
-                                                   host == lower(rules.host) || is_own_name(host);
-  if (!known) return fmt::format("'{}' is no name of this server", caller.host);
-  if (!caller.origin.empty() && lower(caller.origin) != "http://" + lower(caller.host))
-    return fmt::format("pages of {} may not use this server", caller.origin);
+  const bool open = rules.token.empty();
+  if (open && !is_loopback(name_in(caller.host)))
+    return fmt::format(
+        "'{}' is no name of this server; without a secret word it has localhost, 127.0.0.1 and ::1 "
+        "only. To open it by other names start the run with --web-token-file FILE",
+        caller.host);
+  const bool own_page =
+      caller.origin.empty() || (open ? lower(caller.origin) == "http://" + lower(caller.host)
+                                     : is_origin_of(caller.origin, caller.host));
+  if (!own_page)
+    return fmt::format(
+        "pages of {} may not use this server, which was asked for as '{}'; a proxy between has to "
+        "pass the header Host on{}",
+        caller.origin, caller.host,
+        open ? ", and the run needs a secret word: --web-token-file FILE" : "");
   const bool foreign = !caller.fetch_site.empty() && caller.fetch_site != "same-origin" &&
                        caller.fetch_site != "none";
   if (foreign && !caller.navigates) return "pages of other servers may not use this one";
-  if (!rules.token.empty() && !equal_tokens(rules.token, caller.token))
+  if (!open && !equal_tokens(rules.token, caller.token))
     return "the token is missing or wrong; open the address that `hypotrack run` printed";
   return {};
 }

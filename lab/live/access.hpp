@@ -10,8 +10,9 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Who may use the live view.
 struct AccessRules {
-  std::string host = "127.0.0.1";  ///< at which the server listens
-  std::string token = {};          ///< empty: none is needed
+  std::string host = "127.0.0.1";            ///< at which the server listens
+  std::string token = {};                    ///< empty: none is needed
+  std::string token_source = "--web-token";  ///< as messages name it
 };
 
 /// What a request says about its sender.
@@ -30,9 +31,14 @@ bool is_loopback(std::string_view host);
 /// characters that addresses would escape.
 void check(const AccessRules& rules);
 
-/// Returns why a request is refused; empty if it is allowed. The header Host must be an address or
-/// one of this machine's names, so that no foreign name can be made to lead here (DNS rebinding).
-/// Pages of other origins may only link here.
+/// Returns why a request is refused; empty if it is allowed. Pages of other hosts may only link
+/// here.
+///
+/// A foreign name can be made to lead here (DNS rebinding). Without a token, the header Host must
+/// therefore be a name of loopback, and Origin the very same server. With a token any name is
+/// served, as that of a container's host or a proxy: a page of a foreign name has not the token,
+/// as browsers keep cookies by name. As they give them to all ports of a name, the ports of Host
+/// and Origin are not compared.
 std::string refusal(const AccessRules& rules, const Caller& caller);
 
 }  // namespace internal

@@ -106,12 +106,19 @@ void Connection::name(Function function, std::string& ip, int& port) const {
   port = ntohs(v6 ? v6_address->sin6_port : v4_address->sin_port);
 }
 
+/// Gives a request without a length the length 0, which it has by RFC 9112, section 6.3. httplib
+/// would take all that comes until the client hangs up for its body.
+void complete(httplib::Request& request) {
+  if (!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding"))
+    request.set_header("Content-Length", "0");
+}
+
 }  // namespace
 
 bool HttpServer::process_and_close_socket(socket_t socket) {
   Connection connection(socket, *this);
   bool closed = false;
-  return process_request(connection, true, closed, nullptr);
+  return process_request(connection, true, closed, complete);
 }
 
 }  // namespace hypotrack::internal

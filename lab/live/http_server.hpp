@@ -10,7 +10,7 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// An HTTP server that takes one request of each connection, within some seconds, and that no
-/// client can keep from ending.
+/// client can keep from ending. A request without a length has no body.
 class HttpServer final : public httplib::Server {
  public:
   /// Ends what waits for clients. Streams may still send what they have.

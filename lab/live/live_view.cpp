@@ -11,7 +11,8 @@ namespace hypotrack::internal {
 namespace {
 
 AccessRules checked(const LiveViewOptions& options) {
-  AccessRules rules{.host = options.host, .token = options.token};
+  AccessRules rules{
+      .host = options.host, .token = options.token, .token_source = options.token_source};
   check(rules);
   return rules;
 }

@@ -14,6 +14,7 @@ struct LiveViewOptions {
   std::string host = "127.0.0.1";
   int port = 0;  ///< 0: any that is free
   std::string token = {};
+  std::string token_source = "--web-token";  ///< as messages name it
 };
 
 /// A web page that shows a run while it tracks, and steers it. The page ends with the object.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/standard_streams.hpp"
 #include "hand_labeler.hpp"
 #include "session/opened_scene.hpp"
 
@@ -36,6 +37,7 @@ void label_scene(const std::filesystem::path& scene, const std::vector<std::stri
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   std::filesystem::path scene, out;
   std::vector<std::string> set;
   CLI::App app("Labels the hands of a recording by a learned detector, in both views.",

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/standard_streams.hpp"
 #include "doctor/probe.hpp"
 
 namespace hypotrack::doctor {
@@ -34,6 +35,7 @@ bool report(const Check& check) {
 
 int main(int argc, char** argv) {
   using namespace hypotrack::doctor;
+  hypotrack::open_standard_streams();
   const std::map<std::string, Check (*)()> probes = {{"opengl", probe_opengl},
                                                      {"cuda", probe_cuda},
                                                      {"video", probe_video},

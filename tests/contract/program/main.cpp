@@ -4,6 +4,7 @@
 #include <iostream>
 #include <map>
 
+#include "base/standard_streams.hpp"
 #include "plugin/crash_report.hpp"
 #include "plugin/running_plugin.hpp"
 #include "subject.hpp"
@@ -31,6 +32,7 @@ int run(Subject& subject) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   if (argc < 3 || argc > 4 || !kChecks.contains(argv[1])) {
     std::cerr << "usage: hypotrack_contract_test KIND FILE.so [PARAMETERS.yaml]\n"
                  "KIND is model, objective, optimizer, source, start or output; PARAMETERS.yaml "

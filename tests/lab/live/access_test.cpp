@@ -8,6 +8,7 @@
 namespace hypotrack {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -32,9 +33,26 @@ TEST(LiveAccess, OtherNamesAreRefusedOnLoopback) {
     EXPECT_THAT(refusal(kLocal, from(host)), HasSubstr("is no name of this server")) << host;
 }
 
-TEST(LiveAccess, AddressesAreAllowedAndForeignNamesRefusedOnOtherHosts) {
-  EXPECT_THAT(refusal(kOpen, from("192.168.0.7:8080")), IsEmpty());
-  EXPECT_THAT(refusal(kOpen, from("evil.example:8080")), HasSubstr("is no name of this server"));
+TEST(LiveAccess, AnyNameIsServedWithTheToken) {
+  for (const char* host : {"192.168.0.7:8080", "[fe80::1]:8080", "Station.local:8080",
+                           "station.lab.example", "container-host:18080", "hands.example."}) {
+    EXPECT_THAT(refusal(kOpen, from(host)), IsEmpty()) << host;
+    EXPECT_THAT(refusal({.token = kOpen.token}, from(host)), IsEmpty()) << host;
+  }
+}
+
+TEST(LiveAccess, ForeignNamesThatLeadHereDoNotHaveTheToken) {
+  Caller caller = from("evil.example:8080");
+  caller.origin = "http://evil.example:8080";
+  caller.fetch_site = "same-origin";
+  caller.token = "";
+  EXPECT_THAT(refusal(kOpen, caller), HasSubstr("the token is missing or wrong"));
+  EXPECT_THAT(refusal(kLocal, caller), HasSubstr("is no name of this server"));
+}
+
+TEST(LiveAccess, RefusedNamesAreToldTheOptionThatAllowsThem) {
+  EXPECT_THAT(refusal(kLocal, from("station.local:8080")),
+              AllOf(HasSubstr("'station.local:8080'"), HasSubstr("--web-token-file FILE")));
 }
 
 TEST(LiveAccess, OnlyPagesOfTheServerMayUseIt) {
@@ -46,6 +64,23 @@ TEST(LiveAccess, OnlyPagesOfTheServerMayUseIt) {
     caller.origin = origin;
     EXPECT_THAT(refusal(kLocal, caller), HasSubstr("may not use this server")) << origin;
   }
+}
+
+TEST(LiveAccess, WithATokenPagesOfTheSameHostMayUseIt) {
+  Caller caller = from("Hands.example:8080");
+  for (const char* origin :
+       {"http://hands.example:8080", "https://hands.example", "https://HANDS.example:8443"}) {
+    caller.origin = origin;
+    EXPECT_THAT(refusal(kOpen, caller), IsEmpty()) << origin;
+  }
+  for (const char* origin : {"https://hands.example.evil.example", "https://example", "null",
+                             "hands.example", "https://"}) {
+    caller.origin = origin;
+    EXPECT_THAT(refusal(kOpen, caller), HasSubstr("may not use this server")) << origin;
+  }
+  caller = from("[fe80::1]:8080");
+  caller.origin = "http://[fe80::1]:8080";
+  EXPECT_THAT(refusal(kOpen, caller), IsEmpty());
 }
 
 TEST(LiveAccess, OtherPagesMayLinkToThePageButNotShowItsPictures) {
@@ -74,8 +109,11 @@ TEST(LiveAccess, OtherHostsNeedAToken) {
 TEST(LiveAccess, TokensAreLongAndPlain) {
   for (const char* token : {"short", "with space in it", "semi;colon;inside"})
     EXPECT_THAT(test::message_of<ConfigError>([&] { check({.token = token}); }),
-                HasSubstr("expected 8 or more letters"))
+                HasSubstr("--web-token: expected 8 or more letters"))
         << token;
+  EXPECT_THAT(test::message_of<ConfigError>(
+                  [] { check({.token = "short", .token_source = "HYPOTRACK_WEB_TOKEN"}); }),
+              HasSubstr("HYPOTRACK_WEB_TOKEN: expected"));
 }
 
 }  // namespace

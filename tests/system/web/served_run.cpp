@@ -7,11 +7,13 @@
 
 namespace hypotrack::test {
 
-void ServedRun::start(const std::vector<std::string>& more) {
+void ServedRun::start(const std::vector<std::string>& more,
+                      const std::vector<std::string>& environment) {
   Start start;
   start.arguments = {"run",   scene(box_scene()),     "--out", path("out").string(), "--web", "0",
                      "--set", "source.frames=1000000"};
   start.arguments.insert(start.arguments.end(), more.begin(), more.end());
+  start.environment = environment;
   start.err = path("err");
   program_.emplace(start);
   const std::regex address("live view: http://[^:]+:([0-9]+)/(\\?token=(.*))?\n");

@@ -16,12 +16,16 @@ class ServedRun : public AppTest {
  protected:
   void TearDown() override;
 
-  /// Starts the run and waits for the first frame. `more`: further options.
-  void start(const std::vector<std::string>& more = {});
+  /// Starts the run and waits for the first frame. `more`: further options; `environment`:
+  /// `NAME=value`.
+  void start(const std::vector<std::string>& more = {},
+             const std::vector<std::string>& environment = {});
 
   /// Returns a client of the page that has the token.
   httplib::Client client() const;
   int port() const { return port_; }
+  /// Returns the word in the address that the run printed.
+  const std::string& token() const { return token_; }
   Program& program() { return *program_; }
 
   httplib::Result get(const std::string& address, const httplib::Headers& headers = {}) const;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "hypotrack/media.hpp"
 #include "served_run.hpp"
@@ -23,6 +24,17 @@ TEST_F(SteeringTest, PauseStopsFramesAndStepAdvancesOne) {
   EXPECT_EQ(post("/resume"), 204);
   const auto later = wait_for([&](const auto& now) { return now["frame"] > frame + 3; });
   EXPECT_EQ(later["run"], "runs");
+}
+
+TEST_F(SteeringTest, CurlPausesARunAsTheGuideSays) {
+  const std::string curl = "/usr/bin/curl";
+  if (!std::filesystem::exists(curl)) GTEST_SKIP() << "needs curl";
+  start();
+  const std::string address = fmt::format("http://127.0.0.1:{}/pause", port());
+  const Captured said = capture_output(
+      {curl, {"-s", "--noproxy", "*", "-X", "POST", address, "-w", "%{http_code}"}}, {1});
+  EXPECT_EQ(said.output, "204");
+  wait_for([](const auto& now) { return now["run"] == "paused"; });
 }
 
 TEST_F(SteeringTest, CtrlCEndsAPausedRun) {

@@ -9,6 +9,7 @@
 #include <exception>
 #include <string_view>
 
+#include "base/standard_streams.hpp"
 #include "model/import/reader/read_scene.hpp"
 
 namespace hypotrack::mesh_wire::internal {
@@ -39,6 +40,7 @@ bool write_all(std::string_view bytes) {
 
 int main(int argc, char** argv) {
   namespace wire = hypotrack::mesh_wire;
+  hypotrack::open_standard_streams();
   unsigned seconds = 0;
   if (argc != 3 ||
       std::from_chars(argv[2], argv[2] + std::string_view(argv[2]).size(), seconds).ec !=
