@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
@@ -50,12 +51,15 @@ int info(const CalibrationOptions& options) {
   fmt::print("{}: {}, {} camera{}\n", options.settings.file.string(), found.format,
              found.cameras.size(), found.cameras.size() == 1 ? "" : "s");
   print_cameras(found.cameras);
+  for (const std::string& note : found.notes) fmt::print("note: {}\n", note);
   return 0;
 }
 
 int convert(const CalibrationOptions& options) {
   check_new_file(options.out, options.force);
-  const std::vector<Camera> cameras = load_calibration(settings_of(options));
+  std::vector<std::string> notes;
+  const std::vector<Camera> cameras = load_calibration(settings_of(options), {}, &notes);
+  for (const std::string& note : notes) tell("note: {}\n", note);
   for (std::size_t i = 0; i < cameras.size(); ++i)
     if (cameras[i].width == 0) {
       throw DataError(fmt::format("{}: does not say how large the pictures are; give --image-size",
