@@ -93,7 +93,10 @@ Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings
     return {"hypotrack", read_camera_list(file, settings)};
   if (first_of(file, {"M1", "K1", "cameraMatrix1", "M2", "K2", "cameraMatrix2"}).defined())
     return {"OpenCV stereo", read_opencv_stereo(file, settings)};
-  if (is_ros(file)) return {"ROS camera_info", read_ros(file, settings)};
+  if (is_ros(file)) {
+    std::vector<NamedCamera> cameras = read_ros(file, settings, notes);
+    return {"ROS camera_info", std::move(cameras), std::move(notes)};
+  }
   if (file.get("camera_matrix").defined())
     return {"OpenCV camera", read_opencv_single(file, settings)};
   if (file.get("cam0").get("intrinsics").defined()) return {"Kalibr", read_kalibr(file, settings)};

@@ -27,11 +27,12 @@ std::vector<NamedCamera> read_opencv_stereo(const ConfigNode& file,
 std::vector<NamedCamera> read_opencv_single(const ConfigNode& file,
                                             const CalibrationSettings& settings);
 
-/// Returns whether a file is a camera_info of ROS.
+/// Returns whether a file is a camera_info of ROS: a file of camera_calibration, or a message.
 bool is_ros(const ConfigNode& file);
 
 /// Reads a camera_info of ROS, or those of a pair, whose projection matrices give the baseline.
-std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings);
+std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings,
+                                  std::vector<std::string>& notes);
 
 /// Reads a camchain of Kalibr. Poses come from T_cn_cnm1, or else from T_cam_imu or T_imu_cam of
 /// each camera.
