@@ -18,7 +18,7 @@ namespace {
 
 struct CalibrationOptions {
   CalibrationSettings settings;
-  std::optional<std::string> units, image_size;
+  std::optional<std::string> units, model, image_size;
   double scale = 1;
   std::filesystem::path out;
   bool force = false;
@@ -33,6 +33,11 @@ CalibrationSettings settings_of(const CalibrationOptions& options) {
     const auto names = enum_names(LengthUnit());
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == *options.units) out.units = static_cast<LengthUnit>(i);
+  }
+  if (options.model) {
+    const auto names = enum_names(DistortionModel());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == *options.model) out.model = static_cast<DistortionModel>(i);
   }
   if (options.image_size) {
     int width = 0, height = 0;
@@ -146,6 +151,8 @@ void add_file_options(const Command& command, CalibrationOptions& options) {
               {.check = one_of({"m", "cm", "mm"})});
   command.add("--scale", &options.scale, "Further factor on the translations",
               {.check = positive_number()});
+  command.add("--model", &options.model, "Lens model, where the file does not say",
+              {.check = one_of({"none", "brown", "fisheye"})});
   command.add("--image-size", &options.image_size, "Size of the pictures",
               {.value_name = "1280x720"});
   command.add("--any-baseline", &options.settings.any_baseline,

@@ -55,13 +55,15 @@ TEST_F(CalibrationCommandsTest, InfoPrintsCamerasAndHowTheyStand) {
   EXPECT_THAT(outcome.out, HasSubstr("hypotrack, 2 cameras"));
   EXPECT_THAT(outcome.out, HasSubstr("640 x 480 px, focal lengths 500.00 500.00 px"));
   EXPECT_THAT(outcome.out, HasSubstr("baseline 60.00 mm"));
+  EXPECT_THAT(outcome.out, HasSubstr("sees 65.2 x 51.3 degrees\n"));
 }
 
-TEST_F(CalibrationCommandsTest, InfoSaysWhatIsNotUsed) {
+TEST_F(CalibrationCommandsTest, InfoSaysWhatTheLensAddsAndWhatIsNotUsed) {
   write_text(path("SN1.conf"), kZedFile);
   const Outcome outcome =
       run_program({"calibration", "info", path("SN1.conf").string(), "--image-size", "1280x720"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("sees 95.9 x 56.7 degrees; without the lens 84.8 x 54.4\n"));
   EXPECT_THAT(outcome.out, HasSubstr("SN1.conf: not used: [NEWS] (not understood)\n"));
   const Outcome converted =
       run_program({"calibration", "convert", path("SN1.conf").string(), "--image-size", "1280x720",
