@@ -11,13 +11,14 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
+#include "tell.hpp"
 
 namespace hypotrack::app {
 namespace {
 
 struct CalibrationOptions {
   CalibrationSettings settings;
-  std::optional<std::string> units, image_size;
+  std::optional<std::string> units, model, image_size;
   double scale = 1;
   std::filesystem::path out;
   bool force = false;
@@ -32,6 +33,11 @@ CalibrationSettings settings_of(const CalibrationOptions& options) {
     const auto names = enum_names(LengthUnit());
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i] == *options.units) out.units = static_cast<LengthUnit>(i);
+  }
+  if (options.model) {
+    const auto names = enum_names(DistortionModel());
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i] == *options.model) out.model = static_cast<DistortionModel>(i);
   }
   if (options.image_size) {
     int width = 0, height = 0;
@@ -50,12 +56,15 @@ int info(const CalibrationOptions& options) {
   fmt::print("{}: {}, {} camera{}\n", options.settings.file.string(), found.format,
              found.cameras.size(), found.cameras.size() == 1 ? "" : "s");
   print_cameras(found.cameras);
+  for (const std::string& note : found.notes) fmt::print("note: {}\n", note);
   return 0;
 }
 
 int convert(const CalibrationOptions& options) {
   check_new_file(options.out, options.force);
-  const std::vector<Camera> cameras = load_calibration(settings_of(options));
+  std::vector<std::string> notes;
+  const std::vector<Camera> cameras = load_calibration(settings_of(options), {}, &notes);
+  for (const std::string& note : notes) tell("note: {}\n", note);
   for (std::size_t i = 0; i < cameras.size(); ++i)
     if (cameras[i].width == 0) {
       throw DataError(fmt::format("{}: does not say how large the pictures are; give --image-size",
@@ -142,6 +151,8 @@ void add_file_options(const Command& command, CalibrationOptions& options) {
               {.check = one_of({"m", "cm", "mm"})});
   command.add("--scale", &options.scale, "Further factor on the translations",
               {.check = positive_number()});
+  command.add("--model", &options.model, "Lens model, where the file does not say",
+              {.check = one_of({"none", "brown", "fisheye"})});
   command.add("--image-size", &options.image_size, "Size of the pictures",
               {.value_name = "1280x720"});
   command.add("--any-baseline", &options.settings.any_baseline,

@@ -84,6 +84,7 @@ struct NamedCamera {
 struct Calibration {
   std::string format;
   std::vector<NamedCamera> cameras;
+  std::vector<std::string> notes = {};  ///< lines for the user, such as what was not understood
 };
 
 /// Reads a calibration file. The first camera is the world unless the file gives it a pose. A
@@ -95,9 +96,10 @@ struct Calibration {
 HYPOTRACK_API Calibration read_calibration(const CalibrationSettings& settings,
                                            const ImageSize& pictures = {});
 
-/// Returns the cameras of read_calibration().
+/// Returns the cameras of read_calibration(), whose notes go to `notes` if it is given.
 HYPOTRACK_API std::vector<Camera> load_calibration(const CalibrationSettings& settings,
-                                                   const ImageSize& pictures = {});
+                                                   const ImageSize& pictures = {},
+                                                   std::vector<std::string>* notes = nullptr);
 
 /// Sets a camera's size to that of its images. Throws DataError, naming `where`, if the camera is
 /// calibrated for another size.

@@ -83,12 +83,20 @@ Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings
                      const ImageSize& pictures) {
   using namespace calibration;
   const ImageSize given = size_in(settings);
-  if (is_zed(file)) return {"ZED", read_zed(file, settings, given.width != 0 ? given : pictures)};
+  std::vector<std::string> notes;
+  if (is_zed(file)) {
+    std::vector<NamedCamera> cameras =
+        read_zed(file, settings, given.width != 0 ? given : pictures, notes);
+    return {"ZED", std::move(cameras), std::move(notes)};
+  }
   if (const ConfigNode list = file.get("cameras"); list.defined() && !list.is_map())
     return {"hypotrack", read_camera_list(file, settings)};
   if (first_of(file, {"M1", "K1", "cameraMatrix1", "M2", "K2", "cameraMatrix2"}).defined())
     return {"OpenCV stereo", read_opencv_stereo(file, settings)};
-  if (is_ros(file)) return {"ROS camera_info", read_ros(file, settings)};
+  if (is_ros(file)) {
+    std::vector<NamedCamera> cameras = read_ros(file, settings, notes);
+    return {"ROS camera_info", std::move(cameras), std::move(notes)};
+  }
   if (file.get("camera_matrix").defined())
     return {"OpenCV camera", read_opencv_single(file, settings)};
   if (file.get("cam0").get("intrinsics").defined()) return {"Kalibr", read_kalibr(file, settings)};
@@ -151,11 +159,12 @@ Calibration read_calibration(const CalibrationSettings& settings, const ImageSiz
   return out;
 }
 
-std::vector<Camera> load_calibration(const CalibrationSettings& settings,
-                                     const ImageSize& pictures) {
+std::vector<Camera> load_calibration(const CalibrationSettings& settings, const ImageSize& pictures,
+                                     std::vector<std::string>* notes) {
+  Calibration read = read_calibration(settings, pictures);
+  if (notes) *notes = std::move(read.notes);
   std::vector<Camera> out;
-  for (NamedCamera& camera : read_calibration(settings, pictures).cameras)
-    out.push_back(std::move(camera.camera));
+  for (NamedCamera& camera : read.cameras) out.push_back(std::move(camera.camera));
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -66,6 +67,81 @@ void blank_opencv_marks(std::string& text) {
   for (std::size_t at = text.find(kTag); at != std::string::npos; at = text.find(kTag, at)) {
     text.replace(at, kTag.size(), kTag.size(), ' ');
   }
+}
+
+/// Returns whether a part of a YAML text has comments, directives and ends of documents only.
+bool says_nothing(std::string_view part) {
+  while (!part.empty()) {
+    const std::size_t end = std::min(part.find('\n'), part.size());
+    std::string_view line = part.substr(0, end);
+    part.remove_prefix(std::min(end + 1, part.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+    const bool nothing =
+        line.empty() || line.starts_with('#') || line.starts_with('%') || line.starts_with("...");
+    if (!nothing) return false;
+  }
+  return true;
+}
+
+/// Returns the documents of a YAML text, without their `---`, and without empty ones.
+std::vector<std::string_view> documents_of(std::string_view text) {
+  std::vector<std::string_view> out;
+  std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const auto end_at = [&](std::size_t end) {
+    const std::string_view document = text.substr(begin, end - begin);
+    if (!says_nothing(document)) out.push_back(document);
+  };
+  for (std::size_t line = begin; line < text.size();) {
+    const std::string_view rest = text.substr(line);
+    if (rest.starts_with("---") &&
+        (rest.size() == 3 || std::isspace(static_cast<unsigned char>(rest[3])))) {
+      end_at(line);
+      begin = line + 3;
+    }
+    line += std::min(rest.find('\n'), rest.size() - 1) + 1;
+  }
+  end_at(text.size());
+  return out;
+}
+
+/// Returns what a document says, but for the header of a message of ROS.
+std::string content_of(const ConfigNode& document) {
+  std::string out;
+  for (const std::string& key : document.keys())
+    if (key != "header") out += fmt::format("{}:\n{}", key, document.get(key).to_yaml());
+  return out;
+}
+
+/// Reads the only document of a text, or the first of equal ones: `ros2 topic echo` writes one for
+/// each message, with `---` after it.
+ConfigNode parse_yaml(std::string text, const std::filesystem::path& file) {
+  const std::vector<std::string_view> documents = documents_of(text);
+  const auto parse = [&](std::string_view document, std::string name) {
+    return ConfigNode::parse(document, std::move(name), file.parent_path());
+  };
+  if (documents.empty()) return parse(text, file.string());
+  const auto begin = static_cast<std::size_t>(documents[0].data() - text.data());
+  // Blanks instead of what stands before it keep all positions.
+  std::replace_if(
+      text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin),
+      [](char c) { return c != '\n'; }, ' ');
+  ConfigNode first =
+      parse(std::string_view(text).substr(0, begin + documents[0].size()), file.string());
+  const std::string content = documents.size() > 1 ? content_of(first) : "";
+  for (std::size_t i = 1; i < documents.size(); ++i) {
+    if (documents[i] == documents[0]) continue;
+    const char* const start = documents[i].data();
+    const auto line = 1 + std::count(std::as_const(text).data(), start, '\n');
+    const ConfigNode other =
+        parse(documents[i], fmt::format("{}: document from line {}", file.string(), line));
+    if (content_of(other) == content && !content.empty()) continue;
+    throw DataError(
+        fmt::format("{}:{}: a YAML document begins that differs from the first; expected one "
+                    "document, or equal ones. Write the camera_info of each camera into a file of "
+                    "its own",
+                    file.string(), line));
+  }
+  return first;
 }
 
 std::string name_at(const ConfigNode& node, std::string_view name) {
@@ -154,7 +230,7 @@ ConfigNode read_calibration_text(const std::filesystem::path& file) {
         break;
       case Language::yaml:
         blank_opencv_marks(text);
-        break;
+        return parse_yaml(std::move(text), file);
       case Language::unknown:
         throw DataError(fmt::format(
             "{}: is XML or compressed; expected YAML or JSON of cv::FileStorage, or TOML",

@@ -12,8 +12,9 @@ namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Reads YAML or JSON of cv::FileStorage, or TOML, with hypotrack's own parser of YAML:
-/// cv::FileStorage crashes on damaged files and does not locate errors. Throws DataError on XML and
-/// compressed files, files over 8 MiB and broken text.
+/// cv::FileStorage crashes on damaged files and does not locate errors. Of several YAML documents
+/// that are equal but for their `header` it returns the first. Throws DataError on XML and
+/// compressed files, files over 8 MiB, documents that differ and broken text.
 ConfigNode read_calibration_text(const std::filesystem::path& file);
 
 /// A matrix of a YAML file: `!!opencv-matrix` with rows, cols, dt and data, a plain list of numbers

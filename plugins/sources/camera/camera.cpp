@@ -62,8 +62,9 @@ class LiveCamera final : public Source {
   LiveCamera(const Params& params, PluginContext& context)
       : params_(params),
         devices_(devices_of(params, context.config())),
-        cameras_(params.uncalibrated ? std::vector<Camera>(2)
-                                     : load_calibration(params.calibration, wanted_size())) {
+        cameras_(params.uncalibrated
+                     ? std::vector<Camera>(2)
+                     : load_calibration(params.calibration, wanted_size(), &notes_)) {
     if (cameras_.size() != 2) {
       throw DataError(
           fmt::format("{}: holds {} cameras; expected two, one for each view, which `cameras` "
@@ -107,10 +108,8 @@ class LiveCamera final : public Source {
   }
 
   std::vector<std::string> notes() const override {
-    std::vector<std::string> notes;
-    for (std::size_t i = 0; i < devices_.size(); ++i) {
-      for (std::string& refused : pictures().refused(i)) notes.push_back(std::move(refused));
-    }
+    std::vector<std::string> notes = notes_;
+    for (std::string& setting : refused()) notes.push_back(std::move(setting));
     return notes;
   }
 
@@ -159,9 +158,18 @@ class LiveCamera final : public Source {
       take_image_sizes();
     } catch (const DataError& e) {
       std::string text = e.what();
-      for (const std::string& refused : notes()) text += "; " + refused;
+      for (const std::string& setting : refused()) text += "; " + setting;
       throw DataError(text);
     }
+  }
+
+  /// Returns the settings that the devices refused.
+  std::vector<std::string> refused() const {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < devices_.size(); ++i) {
+      for (std::string& setting : pictures().refused(i)) out.push_back(std::move(setting));
+    }
+    return out;
   }
 
   void take_image_sizes() {
@@ -222,6 +230,7 @@ class LiveCamera final : public Source {
 
   Params params_;
   std::vector<DeviceSettings> devices_;
+  std::vector<std::string> notes_;  ///< on the calibration
   std::vector<Camera> cameras_;
   std::optional<Capture> capture_;
   double rate_ = 30;

@@ -140,7 +140,7 @@ class ImageSequence : public Source {
     first_ = found.images.first;
     rate_ = params.frame_rate.value_or(kUsualRate) / params.step;
     take_times(found.stamps);
-    cameras_ = load_calibration(params.calibration, first_image(0).size);
+    cameras_ = load_calibration(params.calibration, first_image(0).size, &notes_);
     if (cameras_.size() != views_) {
       throw DataError(fmt::format(
           "{}: holds {} cameras, the source has {} views (left{}); expected "
@@ -155,6 +155,7 @@ class ImageSequence : public Source {
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
+  std::vector<std::string> notes() const override { return notes_; }
   double frame_rate() const override { return rate_; }
   std::optional<int> frame_count() const override { return static_cast<int>(lists_[0].size()); }
 
@@ -275,6 +276,7 @@ class ImageSequence : public Source {
   double rate_ = kUsualRate;      ///< frames per second
   std::vector<double> times_;     ///< of the frames, seconds since the first; empty: constant rate
   std::vector<Camera> cameras_;
+  std::vector<std::string> notes_;  ///< on the calibration
   TruthTables truth_;
   std::size_t next_ = 0;         ///< frame that is decoded next
   std::deque<Decoded> decoded_;  ///< frames before it that were not asked for yet

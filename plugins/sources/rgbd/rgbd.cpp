@@ -95,7 +95,7 @@ class Rgbd final : public Source {
     end_ = color_.size();
     if (params.count) end_ = std::min(end_, next_ + static_cast<std::size_t>(*params.count));
     require_a_pair();
-    cameras_ = load_calibration(params.calibration);
+    cameras_ = load_calibration(params.calibration, {}, &notes_);
     if (cameras_.size() != 1) {
       throw DataError(
           fmt::format("{}: holds {} cameras; expected one: the colour camera, which "
@@ -113,6 +113,7 @@ class Rgbd final : public Source {
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
+  std::vector<std::string> notes() const override { return notes_; }
   double frame_rate() const override { return params_.frame_rate.value_or(rate_of(color_)); }
   std::optional<int> frame_count() const override { return static_cast<int>(end_) - params_.start; }
 
@@ -195,6 +196,7 @@ class Rgbd final : public Source {
   std::vector<std::optional<std::size_t>> partners_;  ///< of every colour image: index in depth_
   std::size_t next_ = 0, end_ = 0;
   std::vector<Camera> cameras_;
+  std::vector<std::string> notes_;  ///< on the calibration
   TruthTables truth_;
 };
 

@@ -51,8 +51,9 @@ std::vector<Camera> make_cameras(const CameraParams& params, const std::string& 
   return cameras;
 }
 
-std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std::string& where) {
-  std::vector<Camera> cameras = load_calibration(settings);
+std::vector<Camera> load_cameras(const CalibrationSettings& settings, const std::string& where,
+                                 std::vector<std::string>& notes) {
+  std::vector<Camera> cameras = load_calibration(settings, {}, &notes);
   for (const Camera& c : cameras) {
     if (c.width > 0 && c.height > 0) continue;
     throw ConfigError(
@@ -110,8 +111,9 @@ class Synthetic final : public Source {
 
   Synthetic(const Params& params, PluginContext& context)
       : scene_(context.scene()),
-        cameras_(params.calibration ? load_cameras(*params.calibration, context.config().where())
-                                    : make_cameras(params.cameras, context.config().where())),
+        cameras_(params.calibration
+                     ? load_cameras(*params.calibration, context.config().where(), notes_)
+                     : make_cameras(params.cameras, context.config().where())),
         frame_rate_(params.frame_rate),
         script_(read_motion(params, scene_, cameras_, context.config())),
         faults_(params.faults, context.config().get("faults"), scene_, cameras_),
@@ -129,6 +131,7 @@ class Synthetic final : public Source {
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
+  std::vector<std::string> notes() const override { return notes_; }
   double frame_rate() const override { return frame_rate_; }
   std::optional<int> frame_count() const override {
     int count = 0;
@@ -221,6 +224,7 @@ class Synthetic final : public Source {
   }
 
   const Scene scene_;
+  std::vector<std::string> notes_;  ///< on the calibration
   const std::vector<Camera> cameras_;
   const double frame_rate_;
   const Script script_;

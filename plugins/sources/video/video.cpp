@@ -66,7 +66,7 @@ class Video : public Source {
     const std::size_t views = split_ ? 2 : readers_.size();
     cameras_ = load_calibration(
         params.calibration,
-        {split_ ? readers_[0].width() / 2 : readers_[0].width(), readers_[0].height()});
+        {split_ ? readers_[0].width() / 2 : readers_[0].width(), readers_[0].height()}, &notes_);
     if (cameras_.size() != views) {
       throw DataError(
           fmt::format("{}: holds {} cameras, the source has {} views; expected one "
@@ -89,6 +89,7 @@ class Video : public Source {
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
+  std::vector<std::string> notes() const override { return notes_; }
 
   double frame_rate() const override {
     const double recorded = readers_[0].frame_rate() > 0 ? readers_[0].frame_rate() : 30;
@@ -210,6 +211,7 @@ class Video : public Source {
   std::vector<std::filesystem::path> files_;
   std::vector<VideoReader> readers_;
   std::vector<Camera> cameras_;
+  std::vector<std::string> notes_;  ///< on the calibration
   TruthTables truth_;
   int first_ = 0;  ///< frame of the first video at which the source begins
   int index_ = 0;

@@ -2,13 +2,11 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <numbers>
 #include <random>
 
-#include "hypotrack/calibration.hpp"
+#include "calibration_files.hpp"
 #include "hypotrack/error.hpp"
-#include "test_paths.hpp"
 
 namespace hypotrack {
 namespace {
@@ -56,12 +54,16 @@ fx=350
 fy=350
 cx=336
 cy=188
+k1=-0.17
+k2=0.02
 
 [RIGHT_CAM_VGA]
 fx=349
 fy=349
 cx=335
 cy=187
+k1=-0.18
+k2=0.03
 
 [STEREO]
 Baseline=120
@@ -109,29 +111,7 @@ std::string ros(double angle, double offset_px) {
   return out.str();
 }
 
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  if (at == std::string::npos) throw std::logic_error("the text does not hold " + what);
-  return text.replace(at, what.size(), by);
-}
-
-class CalibrationFormats : public testing::Test {
- protected:
-  CalibrationSettings file(const std::string& name, const std::string& text) {
-    CalibrationSettings settings;
-    settings.file = write(name, text);
-    return settings;
-  }
-  std::filesystem::path write(const std::string& name, const std::string& text) {
-    const std::filesystem::path path = folder_.path() / name;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
-  }
-  auto loading(const CalibrationSettings& settings, ImageSize pictures = {}) {
-    return [=] { load_calibration(settings, pictures); };
-  }
-  test::TemporaryDirectory folder_;
-};
+class CalibrationFormats : public test::CalibrationFiles {};
 
 TEST_F(CalibrationFormats, KalibrTakesPosesFromTheImuWhereThereIsNoChain) {
   const std::vector<Camera> cameras = load_calibration(file("camchain.yaml", kKalibr));
@@ -317,6 +297,7 @@ TEST(RealCalibrations, OfEveryFormatAreRead) {
   for (const ImageSize size : {ImageSize{2208, 1242}, {1920, 1080}, {1280, 720}, {672, 376}}) {
     EXPECT_NEAR(apart(settings, size).first, 0.12, 1e-9);
     EXPECT_LT(apart(settings, size).second, 1);
+    EXPECT_EQ(load_calibration(settings, size)[1].distortion[1], 0.0267266);
   }
   settings.file = folder / "stereo/rig/camera_array.toml";
   settings.cameras = {"0", "3"};

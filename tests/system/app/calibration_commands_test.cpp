@@ -18,6 +18,29 @@ cameras:
      R: [1, 0, 0, 0, 1, 0, 0, 0, 1], T: [-0.06, 0, 0]}
 )";
 
+constexpr const char* kZedFile = R"([LEFT_CAM_HD]
+fx=700.895
+fy=700.895
+cx=665.54
+cy=371.155
+k1=-0.175995
+k2=0.0265533
+
+[RIGHT_CAM_HD]
+fx=699.05
+fy=699.05
+cx=639.74
+cy=374.974
+k1=-0.175152
+k2=0.0267266
+
+[STEREO]
+Baseline=120
+
+[NEWS]
+a=1
+)";
+
 class CalibrationCommandsTest : public AppTest {
  protected:
   std::string cameras() const {
@@ -32,6 +55,31 @@ TEST_F(CalibrationCommandsTest, InfoPrintsCamerasAndHowTheyStand) {
   EXPECT_THAT(outcome.out, HasSubstr("hypotrack, 2 cameras"));
   EXPECT_THAT(outcome.out, HasSubstr("640 x 480 px, focal lengths 500.00 500.00 px"));
   EXPECT_THAT(outcome.out, HasSubstr("baseline 60.00 mm"));
+  EXPECT_THAT(outcome.out, HasSubstr("sees 65.2 x 51.3 degrees\n"));
+}
+
+TEST_F(CalibrationCommandsTest, InfoSaysWhatTheLensAddsAndWhatIsNotUsed) {
+  write_text(path("SN1.conf"), kZedFile);
+  const Outcome outcome =
+      run_program({"calibration", "info", path("SN1.conf").string(), "--image-size", "1280x720"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("sees 95.9 x 56.7 degrees; without the lens 84.8 x 54.4\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("SN1.conf: not used: [NEWS] (not understood)\n"));
+  const Outcome converted =
+      run_program({"calibration", "convert", path("SN1.conf").string(), "--image-size", "1280x720",
+                   "--out", path("zed.yaml").string()});
+  EXPECT_EQ(converted.exit_code, 0) << converted.err;
+  EXPECT_THAT(converted.err, HasSubstr("note: " + path("SN1.conf").string() + ": not used: "));
+}
+
+TEST_F(CalibrationCommandsTest, ValidateSaysWhatOfACalibrationIsNotUsed) {
+  write_text(path("SN1.conf"), kZedFile);
+  const std::string file = scene(
+      replaced(box_scene(), "cameras: {width: 160, height: 120, focal_px: 160, baseline_mm: 80}",
+               "calibration: {file: SN1.conf, image_size: [1280, 720]}"));
+  const Outcome outcome = run_program({"validate", file});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("SN1.conf: not used: [NEWS] (not understood)\n"));
 }
 
 TEST_F(CalibrationCommandsTest, ConvertWritesWhatItReads) {

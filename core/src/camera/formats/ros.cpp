@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <string>
 
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
@@ -7,12 +8,28 @@
 namespace hypotrack::calibration::internal {
 namespace {
 
+// Keys of files that camera_calibration writes, and those of messages of ROS 1 and 2.
+using Names = std::initializer_list<std::string_view>;
+const Names kMatrix = {"camera_matrix", "K", "k"};
+const Names kDistortion = {"distortion_coefficients", "D", "d"};
+const Names kRectification = {"rectification_matrix", "R", "r"};
+const Names kProjection = {"projection_matrix", "P", "p"};
+
 /// A camera of ROS, and how its pictures are rectified.
 struct RosCamera {
   NamedCamera named;
   Eigen::Matrix3d rectified_from_camera = Eigen::Matrix3d::Identity();
-  double offset = 0;  ///< metres along x from this to the first camera, in the rectified frame
+  /// Metres from this to the first camera, in the rectified frame.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
 };
+
+/// Returns whether a node is a list or a matrix without numbers.
+bool is_empty(const ConfigNode& node) {
+  if (node.is_list()) return node.size() == 0;
+  const ConfigNode data = node.get("data");
+  return data.is_list() && data.size() == 0 &&
+         (node.get("rows").scalar() == "0" || node.get("cols").scalar() == "0");
+}
 
 void read_ros_lens(const ConfigNode& file, Camera& camera) {
   constexpr std::array<std::string_view, 4> kNames = {"plumb_bob", "rational_polynomial",
@@ -22,9 +39,74 @@ void read_ros_lens(const ConfigNode& file, Camera& camera) {
                                                      DistortionModel::none};
   const ConfigNode model = file.get("distortion_model");
   const auto kind = kKinds[static_cast<std::size_t>(index_of(model, "distortion_model", kNames))];
-  if (kind == DistortionModel::none) return;
-  read_lens(required(file, {"distortion_coefficients"}, "expected a camera_info of ROS"), kind,
-            camera);
+  const ConfigNode coefficients = first_of(file, kDistortion);
+  const bool empty = is_empty(coefficients);
+  if (kind == DistortionModel::none && (empty || !coefficients.defined())) return;
+  if (empty && model.scalar() == "plumb_bob") return;  // of rectified pictures
+  if (empty) {
+    throw DataError(
+        fmt::format("{}: the distortion is empty, and the distortion_model is {}; expected its "
+                    "coefficients, or plumb_bob or none for pictures without distortion",
+                    coefficients.where(), model.scalar()));
+  }
+  read_lens(required(file, kDistortion, "expected a camera_info of ROS"), kind, camera);
+}
+
+/// Reads image_width and image_height, or the width and height of a message.
+ImageSize read_ros_size(const ConfigNode& file) {
+  const ImageSize size = read_size(file);
+  const ConfigNode width = file.get("width"), height = file.get("height");
+  if (size.width != 0 || (!width.defined() && !height.defined())) return size;
+  if (!width.defined() || !height.defined()) {
+    throw DataError(
+        fmt::format("{}: gives only one of width and height; expected both", file.where()));
+  }
+  return {read_count(width, "width"), read_count(height, "height")};
+}
+
+/// Throws DataError if a message is about pictures that were made smaller or cut out. Its numbers
+/// are of the whole pictures.
+void expect_whole_pictures(const ConfigNode& file, const ImageSize& size) {
+  for (const char* key : {"binning_x", "binning_y"}) {
+    const ConfigNode binning = file.get(key);
+    if (!binning.defined() || read_number(binning, key) <= 1) continue;
+    throw DataError(
+        fmt::format("{}: {} is {}; expected 0 or 1: take the camera_info of pictures without "
+                    "binning",
+                    binning.where(), key, binning.scalar()));
+  }
+  const ConfigNode roi = file.get("roi");
+  const auto is = [&](std::string_view key, double other) {
+    const ConfigNode node = roi.get(key);
+    if (!node.defined()) return true;
+    const double value = read_number(node, key);
+    return value == 0 || value == other;
+  };
+  if (is("x_offset", 0) && is("y_offset", 0) && is("width", size.width) &&
+      is("height", size.height))
+    return;
+  throw DataError(
+      fmt::format("{}: roi is a part of the pictures; expected zeros, or all of {} x {}: take the "
+                  "camera_info of whole pictures",
+                  roi.where(), size.width, size.height));
+}
+
+/// Reads where the first camera is from a projection matrix: fx' Tx and fy' Ty in its last column,
+/// for cameras beside and above each other.
+Eigen::Vector3d read_offset(const ConfigNode& node, double metres) {
+  const YamlMatrix matrix = read_matrix(node, "projection_matrix");
+  expect_shape(matrix, 3, 4);
+  const std::vector<double>& p = matrix.values;
+  for (const double focal : {p[0], p[5]}) {
+    if (focal > 0) continue;
+    throw DataError(
+        fmt::format("{} has the focal length {}; expected a positive one", matrix.where, focal));
+  }
+  if (p[8] != 0 || p[9] != 0 || p[10] != 1 || p[11] != 0) {
+    throw DataError(fmt::format("{} has the last row {} {} {} {}; expected 0 0 1 0", matrix.where,
+                                p[8], p[9], p[10], p[11]));
+  }
+  return metres * Eigen::Vector3d(p[3] / p[0], p[7] / p[5], 0);
 }
 
 RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& settings,
@@ -33,12 +115,13 @@ RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& set
   Camera& camera = out.named.camera;
   const ConfigNode name = file.get("camera_name");
   out.named.name = name.is_scalar() && !name.scalar().empty() ? name.scalar() : usual_name;
-  const ImageSize size = read_size(file);
+  const ImageSize size = read_ros_size(file);
+  expect_whole_pictures(file, size);
   camera.width = size.width;
   camera.height = size.height;
-  read_intrinsics(file.get("camera_matrix"), camera);
+  read_intrinsics(first_of(file, kMatrix), camera);
   read_ros_lens(file, camera);
-  if (const ConfigNode r = file.get("rectification_matrix"); r.defined()) {
+  if (const ConfigNode r = first_of(file, kRectification); r.defined()) {
     const YamlMatrix matrix = read_matrix(r, "rectification_matrix");
     expect_shape(matrix, 3, 3);
     Camera holder;
@@ -46,26 +129,59 @@ RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& set
              Eigen::Vector3d::Zero(), matrix.where, holder);
     out.rectified_from_camera = holder.camera_from_world.linear();
   }
-  if (const ConfigNode p = file.get("projection_matrix"); p.defined()) {
-    const YamlMatrix matrix = read_matrix(p, "projection_matrix");
-    expect_shape(matrix, 3, 4);
-    if (!(matrix.values[0] > 0)) {
-      throw DataError(fmt::format("{} has the focal length {}; expected a positive one",
-                                  matrix.where, matrix.values[0]));
-    }
-    out.offset = metres_per_unit(file, settings) * matrix.values[3] / matrix.values[0];
-  }
+  if (const ConfigNode p = first_of(file, kProjection); p.defined())
+    out.offset = read_offset(p, metres_per_unit(file, settings));
   return out;
+}
+
+/// Adds one note on all keys of a file that are not used.
+void note_unused_keys(const ConfigNode& file, const std::string& file_name,
+                      std::vector<std::string>& notes) {
+  constexpr std::array<std::string_view, 27> kKeys = {"header",
+                                                      "camera_matrix",
+                                                      "K",
+                                                      "k",
+                                                      "distortion_coefficients",
+                                                      "D",
+                                                      "d",
+                                                      "rectification_matrix",
+                                                      "R",
+                                                      "r",
+                                                      "projection_matrix",
+                                                      "P",
+                                                      "p",
+                                                      "distortion_model",
+                                                      "camera_name",
+                                                      "image_width",
+                                                      "image_height",
+                                                      "imageSize",
+                                                      "image_size",
+                                                      "resolution",
+                                                      "size",
+                                                      "width",
+                                                      "height",
+                                                      "units",
+                                                      "binning_x",
+                                                      "binning_y",
+                                                      "roi"};
+  std::vector<std::string> unknown;
+  for (const std::string& key : file.keys())
+    if (std::ranges::find(kKeys, key) == kKeys.end()) unknown.push_back(key);
+  if (unknown.empty()) return;
+  notes.push_back(
+      fmt::format("{}: not used: {} (not understood)", file_name, fmt::join(unknown, ", ")));
 }
 
 }  // namespace
 
 bool is_ros(const ConfigNode& file) {
-  return file.get("camera_matrix").defined() && file.get("distortion_model").defined();
+  return first_of(file, kMatrix).defined() && file.get("distortion_model").defined();
 }
 
-std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings) {
+std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings,
+                                  std::vector<std::string>& notes) {
   const RosCamera first = read_ros_camera(file, settings, "left");
+  note_unused_keys(file, settings.file.string(), notes);
   if (settings.second.empty()) return {first.named};
   const ConfigNode other = read_calibration_text(settings.second);
   if (!is_ros(other)) {
@@ -75,17 +191,19 @@ std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSetti
                     settings.second.string(), settings.file.string()));
   }
   const RosCamera second = read_ros_camera(other, settings, "right");
-  if (first.offset == second.offset) {
+  note_unused_keys(other, settings.second.string(), notes);
+  const Eigen::Vector3d offset = second.offset - first.offset;
+  if (offset == Eigen::Vector3d::Zero()) {
     throw DataError(
         fmt::format("{}: the projection matrices of both cameras say that they are at one place "
-                    "(row 1, column 4); expected cameras that were calibrated together",
+                    "(rows 1 and 2, column 4); expected cameras that were calibrated together",
                     settings.second.string()));
   }
   std::vector<NamedCamera> out{first.named, second.named};
   const Eigen::Matrix3d camera_from_rectified = second.rectified_from_camera.transpose();
   Eigen::Isometry3d& pose = out[1].camera.camera_from_world;
   pose.linear() = camera_from_rectified * first.rectified_from_camera;
-  pose.translation() = camera_from_rectified * Eigen::Vector3d(second.offset - first.offset, 0, 0);
+  pose.translation() = camera_from_rectified * offset;
   return out;
 }
 
