@@ -6,39 +6,17 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 
+#include "calibrate/charuco.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::calibrate {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, cv::aruco::PREDEFINED_DICTIONARY_NAME>, 21>
-    kDictionaries = {{{"4X4_50", cv::aruco::DICT_4X4_50},
-                      {"4X4_100", cv::aruco::DICT_4X4_100},
-                      {"4X4_250", cv::aruco::DICT_4X4_250},
-                      {"4X4_1000", cv::aruco::DICT_4X4_1000},
-                      {"5X5_50", cv::aruco::DICT_5X5_50},
-                      {"5X5_100", cv::aruco::DICT_5X5_100},
-                      {"5X5_250", cv::aruco::DICT_5X5_250},
-                      {"5X5_1000", cv::aruco::DICT_5X5_1000},
-                      {"6X6_50", cv::aruco::DICT_6X6_50},
-                      {"6X6_100", cv::aruco::DICT_6X6_100},
-                      {"6X6_250", cv::aruco::DICT_6X6_250},
-                      {"6X6_1000", cv::aruco::DICT_6X6_1000},
-                      {"7X7_50", cv::aruco::DICT_7X7_50},
-                      {"7X7_100", cv::aruco::DICT_7X7_100},
-                      {"7X7_250", cv::aruco::DICT_7X7_250},
-                      {"7X7_1000", cv::aruco::DICT_7X7_1000},
-                      {"ARUCO_ORIGINAL", cv::aruco::DICT_ARUCO_ORIGINAL},
-                      {"APRILTAG_16h5", cv::aruco::DICT_APRILTAG_16h5},
-                      {"APRILTAG_25h9", cv::aruco::DICT_APRILTAG_25h9},
-                      {"APRILTAG_36h10", cv::aruco::DICT_APRILTAG_36h10},
-                      {"APRILTAG_36h11", cv::aruco::DICT_APRILTAG_36h11}}};
 constexpr double kUsualMarker = 0.75;  // of a square
 
 /// Parses a number at the start of a text and removes it.
@@ -90,28 +68,6 @@ std::vector<cv::Point2f> chessboard_corners(const cv::Mat& gray, cv::Size size) 
 
 }  // namespace
 
-struct BoardFinder::Markers {
-  explicit Markers(const Board& board)
-      : dictionary(cv::aruco::getPredefinedDictionary(
-            std::ranges::find(kDictionaries, board.dictionary,
-                              &decltype(kDictionaries)::value_type::first)
-                ->second)),
-        layout(cv::aruco::CharucoBoard::create(board.size.width, board.size.height,
-                                               static_cast<float>(board.square),
-                                               static_cast<float>(board.marker), dictionary)),
-        parameters(cv::aruco::DetectorParameters::create()) {}
-
-  cv::Ptr<cv::aruco::Dictionary> dictionary;
-  cv::Ptr<cv::aruco::CharucoBoard> layout;
-  cv::Ptr<cv::aruco::DetectorParameters> parameters;
-};
-
-std::vector<std::string> dictionary_names() {
-  std::vector<std::string> out;
-  for (const auto& [name, dictionary] : kDictionaries) out.emplace_back(name);
-  return out;
-}
-
 double parse_length(std::string_view text, std::string_view what) {
   constexpr std::array<std::pair<std::string_view, double>, 3> kUnits = {
       {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}}};
@@ -155,23 +111,16 @@ void number_alike(const BoardCorners& left, BoardCorners& right) {
 }
 
 BoardFinder::BoardFinder(const Board& board) : board_(board) {
-  if (board.kind == Board::Kind::charuco) markers_ = std::make_unique<Markers>(board);
+  if (board.kind == Board::Kind::charuco) markers_ = std::make_unique<CharucoFinder>(board);
 }
 BoardFinder::~BoardFinder() = default;
 
 BoardCorners BoardFinder::find(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
+  if (markers_) return markers_->find(gray);
   BoardCorners out;
-  if (!markers_) {
-    out.at = chessboard_corners(gray, board_.size);
-    for (int i = 0; i < static_cast<int>(out.at.size()); ++i) out.ids.push_back(i);
-    return out;
-  }
-  std::vector<std::vector<cv::Point2f>> markers;
-  std::vector<int> ids;
-  cv::aruco::detectMarkers(gray, markers_->dictionary, markers, ids, markers_->parameters);
-  if (ids.empty()) return out;
-  cv::aruco::interpolateCornersCharuco(markers, ids, gray, markers_->layout, out.at, out.ids);
+  out.at = chessboard_corners(gray, board_.size);
+  for (int i = 0; i < static_cast<int>(out.at.size()); ++i) out.ids.push_back(i);
   return out;
 }
 
@@ -186,11 +135,7 @@ BoardCorners BoardFinder::find_quickly(const cv::Mat& picture) const {
 
 bool BoardFinder::sees_part(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
-  if (!markers_) return cv::checkChessboard(gray, board_.size);
-  std::vector<std::vector<cv::Point2f>> markers;
-  std::vector<int> ids;
-  cv::aruco::detectMarkers(gray, markers_->dictionary, markers, ids, markers_->parameters);
-  return !ids.empty();
+  return markers_ ? markers_->sees_marker(gray) : cv::checkChessboard(gray, board_.size);
 }
 
 double BoardFinder::edge_width(const cv::Mat& picture, const BoardCorners& found) const {
@@ -200,7 +145,7 @@ double BoardFinder::edge_width(const cv::Mat& picture, const BoardCorners& found
 }
 
 cv::Point3f BoardFinder::place(int id) const {
-  if (markers_) return markers_->layout->chessboardCorners[static_cast<std::size_t>(id)];
+  if (markers_) return markers_->place(id);
   const int column = id % board_.size.width, row = id / board_.size.width;
   return {static_cast<float>(column * board_.square), static_cast<float>(row * board_.square), 0};
 }

@@ -38,6 +38,8 @@ double parse_length(std::string_view text, std::string_view what);
 /// one: most boards look the same upside down.
 void number_alike(const BoardCorners& left, BoardCorners& right);
 
+class CharucoFinder;
+
 /// Finds the corners of a board in pictures.
 class BoardFinder {
  public:
@@ -60,9 +62,8 @@ class BoardFinder {
   cv::Point3f place(int id) const;
 
  private:
-  struct Markers;
   Board board_;
-  std::unique_ptr<Markers> markers_;  ///< of ChArUco
+  std::unique_ptr<CharucoFinder> markers_;  ///< of ChArUco
 };
 
 }  // namespace hypotrack::calibrate

@@ -2,9 +2,10 @@
 
 #include <gmock/gmock.h>
 
-#include <opencv2/aruco/charuco.hpp>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "calibrate/charuco.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::calibrate {
@@ -19,12 +20,6 @@ cv::Mat chessboard(cv::Size corners, int square) {
   for (int row = 0; row <= corners.height; ++row)
     for (int column = row % 2; column <= corners.width; column += 2)
       out(cv::Rect((column + 1) * square, (row + 1) * square, square, square)) = 0;
-  return out;
-}
-
-cv::Mat charuco(const cv::Ptr<cv::aruco::Dictionary>& dictionary) {
-  cv::Mat out;
-  cv::aruco::CharucoBoard::create(5, 7, 0.03f, 0.0225f, dictionary)->draw({500, 700}, out, 20);
   return out;
 }
 
@@ -64,9 +59,9 @@ TEST(Board, LargePicturesAreSearchedQuicklyWithTheSameResult) {
 }
 
 TEST(Board, MarkersAreFoundInHalfAPictureAndInverted) {
-  const cv::Mat picture = charuco(cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_100));
   Board board = parse_board("charuco:5x7", "30mm");
   board.dictionary = "5X5_100";
+  const cv::Mat picture = CharucoFinder(board).drawn({500, 700}, 20);
   EXPECT_EQ(BoardFinder(board).find(picture).ids.size(), 24u);
   const BoardCorners half = BoardFinder(board).find(picture(cv::Rect(0, 0, 500, 400)));
   EXPECT_GE(half.ids.size(), 8u);
@@ -79,6 +74,24 @@ TEST(Board, MarkersAreFoundInHalfAPictureAndInverted) {
   board.inverted = false;
   board.dictionary = "7X7_50";
   EXPECT_TRUE(BoardFinder(board).find(picture).ids.empty());
+}
+
+TEST(Board, CornersBetweenMarkersAreNumberedAndPlacedRowByRow) {
+  const Board board = parse_board("charuco:5x7", "30mm");
+  const BoardFinder finder(board);
+  const cv::Mat picture = CharucoFinder(board).drawn({540, 740}, 20);  // 100 pixels a square
+  const BoardCorners found = finder.find(picture);
+  ASSERT_EQ(found.at.size(), 24u);
+  for (int id = 0; id < 24; ++id) {
+    const cv::Point2f at = found.at[static_cast<std::size_t>(id)];
+    EXPECT_EQ(found.ids[static_cast<std::size_t>(id)], id);
+    EXPECT_NEAR(finder.place(id).x - finder.place(0).x, 0.03 * (id % 4), 1e-6);
+    EXPECT_NEAR(std::abs(finder.place(id).y - finder.place(0).y), 0.03 * (id / 4), 1e-6);
+    EXPECT_NEAR(at.x - found.at[0].x, 100 * (id % 4), 1);
+    EXPECT_NEAR(std::abs(at.y - found.at[0].y), 100 * (id / 4), 1);
+  }
+  EXPECT_TRUE(finder.sees_part(picture));
+  EXPECT_FALSE(finder.sees_part(cv::Mat1b(480, 640, uchar{255})));
 }
 
 TEST(Board, CornersThatWereCountedFromTheOtherEndAreTurned) {

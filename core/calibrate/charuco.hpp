@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "calibrate/board.hpp"
+
+namespace hypotrack::calibrate {
+
+/// Finds the markers and corners of a ChArUco board. charuco.cpp alone knows OpenCV's markers,
+/// whose interface is another one from version 4.7 on.
+class CharucoFinder {
+ public:
+  explicit CharucoFinder(const Board& board);
+  ~CharucoFinder();
+  /// Returns the corners between two markers each in a grey picture.
+  BoardCorners find(const cv::Mat& gray) const;
+  /// Returns whether a grey picture has a marker of the dictionary in it.
+  bool sees_marker(const cv::Mat& gray) const;
+  /// Returns where a corner is on the board, in metres.
+  cv::Point3f place(int id) const;
+  /// Draws the board on white, for tests.
+  cv::Mat drawn(cv::Size size, int margin) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hypotrack::calibrate
