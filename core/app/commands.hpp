@@ -42,6 +42,6 @@ void add_new_plugin_command(const Command& plugins, CommonOptions& common, int& 
 void add_new_command(const Command& root, CommonOptions& common, int& exit_code);
 void add_doctor_command(const Command& root, CommonOptions& common, int& exit_code);
 /// Adds a hidden command that writes completions and manual pages of all commands.
-void add_shell_files_command(const CommandLine& line);
+void add_shell_files_command(CommandLine& line);
 
 }  // namespace hypotrack::app

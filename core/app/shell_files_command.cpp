@@ -28,7 +28,7 @@ void write_shell_files(const CommandInfo& program, const std::filesystem::path& 
 
 }  // namespace
 
-void add_shell_files_command(const CommandLine& line) {
+void add_shell_files_command(CommandLine& line) {
   auto share = std::make_shared<std::filesystem::path>();
   const Command command = line.root().add_command(
       "write-shell-files", "Write shell completions and manual pages, for installations");
