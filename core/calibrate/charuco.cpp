@@ -59,8 +59,9 @@ struct Markers {
 
 #if HYPOTRACK_NEW_MARKERS
 
-struct CharucoFinder::Impl {
-  explicit Impl(const Board& board)
+/// Finds and draws a board's markers and corners.
+struct DetectorMarkings {
+  explicit DetectorMarkings(const Board& board)
       : dictionary(cv::aruco::getPredefinedDictionary(dictionary_of(board))),
         layout(board.size, static_cast<float>(board.square), static_cast<float>(board.marker),
                dictionary),
@@ -86,11 +87,12 @@ struct CharucoFinder::Impl {
   cv::aruco::CharucoDetector corner_detector;
   std::vector<cv::Point3f> places;
 };
+using Markings = DetectorMarkings;
 
 #else
 
-struct CharucoFinder::Impl {
-  explicit Impl(const Board& board)
+struct ArucoMarkings {
+  explicit ArucoMarkings(const Board& board)
       : dictionary(cv::aruco::getPredefinedDictionary(dictionary_of(board))),
         layout(cv::aruco::CharucoBoard::create(board.size.width, board.size.height,
                                                static_cast<float>(board.square),
@@ -115,7 +117,13 @@ struct CharucoFinder::Impl {
   std::vector<cv::Point3f> places;
 };
 
+using Markings = ArucoMarkings;
+
 #endif
+
+struct CharucoFinder::Impl : Markings {
+  using Markings::Markings;
+};
 
 std::vector<std::string> dictionary_names() {
   std::vector<std::string> out;
