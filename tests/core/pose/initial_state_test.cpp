@@ -165,17 +165,25 @@ TEST(InitialState, IsAPoseFile) {
   EXPECT_NEAR(initial_state(session, {})[2], 0.700, 1e-12);
 }
 
-TEST(InitialState, IsARowOfAStateTable) {
+TEST(InitialState, IsTheRowOfThatFrameInAStateTable) {
   const test::TemporaryDirectory folder;
   OpenedScene session = box_session();
   const auto file = folder.path() / "track.csv";
-  set_start(session, "{type: file, frame: 4, file: " + quoted(file) + "}");
-  const std::vector<StateRow> rows{{3, 0.1, session.scene->rest_state()},
-                                   {4, 0.2, session.scene->rest_state()}};
+  Eigen::VectorXd moved = session.scene->rest_state();
+  moved[0] += 0.125;
+  const std::vector<StateRow> rows{{3, 0.1, session.scene->rest_state()}, {5, 0.2, moved}};
   write_states(file, *session.scene, rows);
-  EXPECT_EQ(initial_state(session, {}), rows[1].state);
-  set_start(session, "{type: file, frame: 9, file: " + quoted(file) + "}");
-  EXPECT_THAT(message_of(session, {}), HasSubstr("has no frame 9 to start from; it has 3 to 4"));
+  for (const StateRow& row : rows) {
+    set_start(session,
+              "{type: file, frame: " + std::to_string(row.frame) + ", file: " + quoted(file) + "}");
+    EXPECT_EQ(initial_state(session, {}), row.state);
+  }
+  for (const char* missing : {"0", "4", "9"}) {  // 4 is between two rows
+    set_start(session,
+              std::string("{type: file, frame: ") + missing + ", file: " + quoted(file) + "}");
+    EXPECT_THAT(message_of(session, {}), HasSubstr(std::string("has no frame ") + missing +
+                                                   " to start from; it has 3 to 5"));
+  }
 }
 
 TEST(InitialState, IsNotToBeHadFromATableWithoutRows) {
