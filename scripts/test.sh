@@ -2,7 +2,7 @@
 # Installs what is missing, builds with warnings as errors and runs tests.
 #
 #   scripts/test.sh              the first tier: the tests that tell most in least time
-#   scripts/test.sh --all        all tests; then those of readers with sanitizers, without the lab's packages
+#   scripts/test.sh --all        all tests, then the sanitizer build of the readers, without the lab's packages
 #   scripts/test.sh --deal [N]   the first tier, and hand N of the rest. Hands 0 to 9 are the second tier, dealt
 #                                by the tests' names, and 10 those with sanitizers. The last commit chooses
 set -euo pipefail
