@@ -21,6 +21,7 @@ struct ImportedBone {
 struct ImportedMesh {
   Mesh mesh;  ///< all meshes of the file, welded by position; bone_indices refer to `bones`
   std::vector<ImportedBone> bones;  ///< empty for a rigid mesh, whose weights are 4x0
+  std::vector<std::string> notes;   ///< for the user: what the file has that is not used, and where
 };
 
 /// Options of import_mesh().

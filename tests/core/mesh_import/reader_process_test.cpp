@@ -70,6 +70,7 @@ mesh_wire::Scene example() {
   scene.bones.push_back({"bone", "parent", {1, 2}});
   scene.materials.push_back({{0.5f, 0.25f, 0}, "*0"});
   scene.textures.push_back({0, 0, "bytes"});
+  scene.notes = {"a note"};
   return scene;
 }
 
@@ -83,6 +84,7 @@ TEST(MeshWire, ReadsWhatItWrites) {
   EXPECT_EQ(scene.bones[0].file_from_bone, example().bones[0].file_from_bone);
   EXPECT_EQ(scene.materials[0].texture, "*0");
   EXPECT_EQ(scene.textures[0].bytes, "bytes");
+  EXPECT_EQ(scene.notes, example().notes);
 }
 
 TEST(MeshWire, RefusesEveryTruncation) {

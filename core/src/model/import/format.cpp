@@ -42,16 +42,18 @@ std::uint32_t little_endian(const FileHead& file, std::size_t offset) {
 
 bool is_text(const FileHead& file) { return file.head.find('\0') == std::string::npos; }
 
+using Notes = std::vector<std::string>;
+
 /// Fails if a function finds something wrong with a text file's lines.
-void check_text(const FileHead& file, std::string_view format,
-                std::string (*problem_of)(std::istream&)) {
+void check_text(const FileHead& file, std::string_view format, Notes& notes,
+                std::string (*problem_of)(std::istream&, Notes&)) {
   std::ifstream in(file.name, std::ios::binary);
-  const std::string problem = problem_of(in);
+  const std::string problem = problem_of(in, notes);
   if (problem.empty()) return;
   fail(file, fmt::format("the {} file is damaged: {}; copy or export it again", format, problem));
 }
 
-void check_glb(const FileHead& file) {
+void check_glb(const FileHead& file, Notes&) {
   if (file.size < 20 || !file.head.starts_with("glTF")) {
     fail(file, "this is no GLB file: it does not begin with 'glTF'");
   }
@@ -65,17 +67,17 @@ void check_glb(const FileHead& file) {
   }
 }
 
-void check_gltf(const FileHead& file) {
+void check_gltf(const FileHead& file, Notes&) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos || file.head[first] != '{' || !is_text(file)) {
     fail(file, "this is no glTF file: it does not begin with a JSON object");
   }
 }
 
-void check_stl(const FileHead& file) {
+void check_stl(const FileHead& file, Notes& notes) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
-  if (solid && is_text(file)) return check_text(file, "STL", problem_of_text_stl);
+  if (solid && is_text(file)) return check_text(file, "STL", notes, problem_of_text_stl);
   if (file.size < 84) fail(file, "this is no STL file: it is too short for the binary header");
   const std::uint64_t triangles = little_endian(file, 80);
   if (file.size < 84 + 50 * triangles) {
@@ -85,17 +87,17 @@ void check_stl(const FileHead& file) {
   }
 }
 
-void check_obj(const FileHead& file) {
+void check_obj(const FileHead& file, Notes& notes) {
   if (!is_text(file)) fail(file, "this is no OBJ file: it is not text");
   for (const std::string_view other : {"ply\n", "ply\r", "solid ", "glTF"}) {
     if (file.head.starts_with(other)) {
       fail(file, fmt::format("this is no OBJ file: it begins with '{}'", other.substr(0, 3)));
     }
   }
-  check_text(file, "OBJ", problem_of_obj);
+  check_text(file, "OBJ", notes, problem_of_obj);
 }
 
-void check_ply(const FileHead& file) {
+void check_ply(const FileHead& file, Notes&) {
   std::ifstream in(file.name, std::ios::binary);
   const PlyHeader header = read_ply_header(in);
   if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
@@ -133,11 +135,11 @@ FileHead open(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_mesh_format(const std::filesystem::path& path) {
+std::vector<std::string> check_mesh_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  using Check = void (*)(const FileHead&);
+  using Check = void (*)(const FileHead&, Notes&);
   Check check = extension == ".obj"    ? check_obj
                 : extension == ".ply"  ? check_ply
                 : extension == ".stl"  ? check_stl
@@ -156,7 +158,9 @@ void check_mesh_format(const std::filesystem::path& path) {
     fail(file, fmt::format("the mesh file has {} MiB; at most {} MiB are read: decimate the mesh",
                            file.size >> 20, kLargestFile >> 20));
   }
-  check(file);
+  Notes notes;
+  check(file, notes);
+  return notes;
 }
 
 }  // namespace hypotrack::internal
