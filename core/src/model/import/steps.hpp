@@ -67,8 +67,8 @@ void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, co
 /// Fills the mesh's vertices and triangles and returns how they relate to the soup.
 Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
 
-/// Fills the bone influences; a welded vertex has the mean of its copies' influences. Copies that
-/// no triangle uses do not count.
+/// Fills the bone influences; a welded vertex has the mean of its copies' influences, which are
+/// equal but for rounding. Copies that no triangle uses do not count.
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
 /// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
