@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstring>
+
 #include "hypotrack/mesh_io.hpp"
 #include "mesh_files.hpp"
 
@@ -10,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::StartsWith;
 
 class MeshNotes : public ::testing::Test {
  protected:
@@ -38,6 +42,36 @@ TEST_F(MeshNotes, ObjNamesItsUnknownStatementsWithTheirFirstLine) {
               ElementsAre("statements that are not read: 1 `cstype` from line 10 (curves and "
                           "surfaces: export triangles), 2 `l` from line 1 (lines), 1 `mine` from "
                           "line 12"));
+}
+
+TEST_F(MeshNotes, PlyNamesItsUnknownElementsAndProperties) {
+  EXPECT_THAT(notes("a.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                    "property float y\nproperty float z\nproperty float quality\n"
+                    "element face 1\nproperty list uchar int vertex_indices\n"
+                    "property uchar red\nelement edge 1\nproperty int vertex1\nend_header\n"
+                    "0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2 255\n0\n"),
+              ElementsAre("elements and properties that are not read: vertex quality, face red, "
+                          "edge"));
+}
+
+/// Returns binary_stl() with the attributes of its four facets.
+std::string stl_with(const std::string& header, std::array<std::uint16_t, 4> attributes) {
+  std::string file = binary_stl();
+  file.replace(0, header.size(), header);
+  for (std::size_t i = 0; i < attributes.size(); ++i)
+    std::memcpy(file.data() + 84 + 50 * i + 48, &attributes[i], sizeof(attributes[i]));
+  return file;
+}
+
+TEST_F(MeshNotes, StlNamesAttributesThatAreNotReadAsColours) {
+  EXPECT_THAT(notes("viscam.stl", stl_with("", {0x801f, 0x83e0, 0, 0xfc00})), IsEmpty());
+  EXPECT_THAT(notes("odd.stl", stl_with("", {0, 5, 0x7fff, 0})),
+              ElementsAre("the attributes of 2 facets are not read: export PLY, OBJ or GLB if they "
+                          "are colours"));
+  EXPECT_THAT(notes("magics.stl", stl_with("COLOR=", {0x1f, 0x3e0, 0x8000, 0})),
+              ElementsAre(StartsWith("the attributes of 3 facets are not read, which have colours "
+                                     "as Materialise Magics")));
 }
 
 }  // namespace

@@ -74,17 +74,39 @@ void check_gltf(const FileHead& file, Notes&) {
   }
 }
 
+/// Tells of the attributes of a binary STL file that are not read.
+void note_stl_attributes(const FileHead& file, std::uint64_t triangles, Notes& notes) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  // Colours are read where the highest bit says that there is one, as VisCAM writes them.
+  const bool magics = file.head.substr(0, 80).find("COLOR=") != std::string::npos;
+  std::ifstream in(file.name, std::ios::binary);
+  in.seekg(kHeader);
+  std::uint64_t unread = 0;
+  std::array<char, kTriangle> bytes;
+  for (std::uint64_t i = 0; i < triangles && in.read(bytes.data(), kTriangle); ++i) {
+    const auto low = static_cast<unsigned char>(bytes[48]);
+    const auto high = static_cast<unsigned char>(bytes[49]);
+    const bool has_flag = (high & 0x80) != 0, has_value = low != 0 || (high & 0x7f) != 0;
+    unread += (magics ? has_flag != has_value : !has_flag && has_value) ? 1 : 0;
+  }
+  if (unread > 0)
+    notes.push_back(fmt::format(
+        "the attributes of {} facets are not read{}: export PLY, OBJ or GLB if they are colours",
+        unread, magics ? ", which have colours as Materialise Magics writes them" : ""));
+}
+
 void check_stl(const FileHead& file, Notes& notes) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
   if (solid && is_text(file)) return check_text(file, "STL", notes, problem_of_text_stl);
   if (file.size < 84) fail(file, "this is no STL file: it is too short for the binary header");
   const std::uint64_t triangles = little_endian(file, 80);
-  if (file.size < 84 + 50 * triangles) {
+  if (file.size != 84 + 50 * triangles) {  // the importer takes no others for binary
     fail(file, fmt::format("the STL file is damaged or none: its header says {} triangles, which "
                            "take {} bytes; it has {}",
                            triangles, 84 + 50 * triangles, file.size));
   }
+  note_stl_attributes(file, triangles, notes);
 }
 
 void check_obj(const FileHead& file, Notes& notes) {
@@ -97,9 +119,11 @@ void check_obj(const FileHead& file, Notes& notes) {
   check_text(file, "OBJ", notes, problem_of_obj);
 }
 
-void check_ply(const FileHead& file, Notes&) {
+void check_ply(const FileHead& file, Notes& notes) {
   std::ifstream in(file.name, std::ios::binary);
   const PlyHeader header = read_ply_header(in);
+  if (!header.unread.empty())
+    notes.push_back("elements and properties that are not read: " + header.unread);
   if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
   std::uint64_t found = 0;
   std::string line;
