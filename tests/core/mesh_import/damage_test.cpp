@@ -146,10 +146,10 @@ TEST_F(DamagedMesh, BoneScaledUnevenlyIsRefused) {
               HasSubstr("bone 'tip' is scaled unevenly or sheared at the bind pose"));
 }
 
-TEST_F(DamagedMesh, FileThatCrashesTheImporterIsAnErrorLikeAnyOther) {
-  // The JSON parser of assimp 5.2.5 recurses until its stack ends.
+TEST_F(DamagedMesh, JsonThatWouldEndTheImportersStackIsAnErrorLikeAnyOther) {
+  // The JSON parser of assimp 5.2.5 recurses.
   const std::string bytes = "{\"asset\":" + std::string(2'000'000, '[') + "}";
-  EXPECT_THAT(error("a.gltf", bytes), HasSubstr("the importer crashed (SIGSEGV)"));
+  EXPECT_THAT(error("a.gltf", bytes), HasSubstr("its JSON is nested deeper than 64 levels"));
 }
 
 TEST_F(DamagedMesh, NotJsonIsTheImportersOwnMessage) {
