@@ -57,8 +57,10 @@ CheckedScene check_scene(const std::filesystem::path& file, std::span<const std:
   if (usable) {
     tracker.check(first);
     if (draw && looks) draw_on_first(found_start(session, tracker, first));
-    for (const std::string& note : session.notes) tell("note: {}\n", note);
-    for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
+  }
+  for (const std::string& note : session.notes) tell("note: {}\n", note);
+  for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
+  if (usable) {
     tell_notes(*session.source, tracker, first);
     tell_faults(*session.source, tracker, first);
   }

@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "interrupt.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
 #include "shape/shape_estimate.hpp"
@@ -46,6 +47,8 @@ class Rounds {
 
   OpenedScene open(const std::vector<std::string>& found) {
     base_ = open_source(options_.scene.scene, options_.scene.set, plugins_);
+    if (!std::exchange(told_, true))
+      for (const std::string& line : base_.plugin_notes->take_lines()) tell("{}\n", line);
     std::vector<std::string> overrides = options_.scene.set;
     overrides.insert(overrides.end(), found.begin(), found.end());
     total_ = base_.source->frame_count();
@@ -62,6 +65,7 @@ class Rounds {
   PluginLoader& plugins_;
   OpenedScene base_;
   std::optional<int> total_;
+  bool told_ = false;  // the notes on the models, which are the same in every round
 };
 
 int finish(const ShapeEstimate& estimate, const FitShapeOptions& options) {
@@ -75,6 +79,7 @@ int finish(const ShapeEstimate& estimate, const FitShapeOptions& options) {
 int fit_to_labels(const FitShapeOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
   OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
+  for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   const ShapeEstimateSettings settings = session.shape;
   const ShapeEstimate estimate =
       shape_of_labels(std::move(session), settings, options.frames.value_or(0));

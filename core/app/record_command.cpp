@@ -13,6 +13,7 @@
 #include "interrupt.hpp"
 #include "keeping_frames.hpp"
 #include "output/recording_writer.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
 #include "tell.hpp"
@@ -73,6 +74,7 @@ void finish(RecordingWriter& writer, const FrameCounts& counts, const Source& so
 int record(const RecordOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
   const OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
+  for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   Source& source = *session.source;
   for (const std::string& note : source.notes()) tell("note: {}\n", note);
   RecordingWriter writer(*session.scene, source.cameras(), source.frame_rate(), session.resolved,

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/pose.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "session/opened_scene.hpp"
 #include "tell.hpp"
 #include "window/display.hpp"
@@ -83,6 +84,7 @@ int click_start(const StartOptions& options, const CommonOptions& common) {
   check_display("write the clicks by hand and start with `init: {from: clicks, file: FILE.yaml}`");
   PluginLoader plugins(common.plugin_path);
   OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
+  for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   const Frame frame = frame_at(*session.source, options.frame);
   clicking::Clicker clicker(*session.scene, session.source->cameras(), options.tolerance);
   if (!let_click(clicker, session, frame)) {

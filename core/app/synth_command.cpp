@@ -11,6 +11,7 @@
 #include "interrupt.hpp"
 #include "keeping_frames.hpp"
 #include "output/recording_writer.hpp"
+#include "plugin/plugin_notes.hpp"
 #include "progress.hpp"
 #include "session/opened_scene.hpp"
 #include "tell.hpp"
@@ -27,6 +28,7 @@ struct SynthOptions {
 int synth(const SynthOptions& options, const CommonOptions& common) {
   PluginLoader plugins(common.plugin_path);
   const OpenedScene session = open_source(options.scene.scene, options.scene.set, plugins);
+  for (const std::string& line : session.plugin_notes->take_lines()) tell("{}\n", line);
   RecordingWriter writer(*session.scene, session.source->cameras(), session.source->frame_rate(),
                          session.resolved, options.out);
   writer.copy_start(session.init);

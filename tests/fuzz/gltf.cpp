@@ -1,4 +1,4 @@
-// Checks of glTF and GLB files before their import, and the count of their triangles.
+// Checks of glTF and GLB files before their import, and the plain files that are made of them.
 
 #include "model/import/reader/gltf.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 void check(const std::filesystem::path& file) {
   check_mesh_format(file);
   try {
-    mesh_wire::count_gltf_triangles(file.string());
+    mesh_wire::plain_gltf(file.string());
   } catch (const std::exception& error) {  // the reading process tells it to ours
     throw DataError(error.what());
   }

@@ -19,8 +19,11 @@ struct ImportedBone {
 
 /// The mesh and bones of a file, in the file's axes, lengths multiplied by `scale`.
 struct ImportedMesh {
-  Mesh mesh;  ///< all meshes of the file, welded by position; bone_indices refer to `bones`
+  /// All meshes of the file; bone_indices refer to `bones`. Points in one place are welded if the
+  /// same bones hold them by equal weights.
+  Mesh mesh;
   std::vector<ImportedBone> bones;  ///< empty for a rigid mesh, whose weights are 4x0
+  std::vector<std::string> notes;   ///< for the user: what the file has that is not used, and where
 };
 
 /// Options of import_mesh().

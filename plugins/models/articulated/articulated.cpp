@@ -42,7 +42,7 @@ struct Object {
   std::vector<std::string> links;
 };
 
-Object from_urdf(const ArticulatedParams& params, const std::string& where) {
+Object from_urdf(const ArticulatedParams& params, const std::string& where, const PluginLog& log) {
   for (const auto* path : {&params.rig, &params.texture})
     if (!path->empty())
       throw ConfigError(fmt::format("{}: a URDF file takes no `rig` and no `texture`; leave {} out",
@@ -56,12 +56,12 @@ Object from_urdf(const ArticulatedParams& params, const std::string& where) {
   Object object{assemble(description.mechanism, file), description.mechanism.links};
   std::vector<Part> parts;
   for (const Visual& visual : description.visuals)
-    parts.push_back({visual_mesh(visual, file), visual.link});
+    parts.push_back({visual_mesh(visual, file, log), visual.link});
   object.assembly.data.mesh = join(parts, object.assembly, file);
   return object;
 }
 
-Object from_mesh(const ArticulatedParams& params, const std::string& where) {
+Object from_mesh(const ArticulatedParams& params, const std::string& where, const PluginLog& log) {
   if (params.rig.empty())
     throw ConfigError(
         fmt::format("{}: {} needs a `rig`, which says which of its bones move; or "
@@ -73,6 +73,7 @@ Object from_mesh(const ArticulatedParams& params, const std::string& where) {
   const ObjectRig rig = read_object_rig(params.rig);
   const ImportedMesh imported =
       import_mesh(params.file, {.scale = rig.scale, .texture = params.texture});
+  for (const std::string& note : imported.notes) log.note(note);
   const std::string rig_name =
       fmt::format("{} (for {})", params.rig.string(), params.file.filename().string());
   Object object{rig_object(imported, rig, rig_name), {}};
@@ -96,7 +97,8 @@ ModelData make_object(const ArticulatedParams& params, const PluginContext& cont
   const std::string where = context.config().where(), file = params.file.string();
   std::string type = params.file.extension().string();
   std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
-  Object object = type == ".urdf" ? from_urdf(params, where) : from_mesh(params, where);
+  const PluginLog log = context.log();
+  Object object = type == ".urdf" ? from_urdf(params, where, log) : from_mesh(params, where, log);
   ModelData& data = object.assembly.data;
   data.landmarks = params.anchors.empty()
                        ? bounding_box_landmarks_of_bones(data)

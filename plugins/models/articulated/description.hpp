@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hypotrack/plugin_log.hpp"
 #include "mechanism.hpp"
 
 namespace hypotrack::articulated {
@@ -35,8 +36,8 @@ struct Description {
 /// name, if it is damaged or has floating or planar joints.
 Description read_urdf(const std::filesystem::path& file, double scale = 1);
 
-/// Makes the surface of a visual, in its link's frame. Reads its mesh and texture. Throws
-/// DataError.
-Mesh visual_mesh(const Visual& visual, const std::string& where);
+/// Makes the surface of a visual, in its link's frame. Reads its mesh and texture; `log`
+/// receives what the mesh file has that is not used. Throws DataError.
+Mesh visual_mesh(const Visual& visual, const std::string& where, const PluginLog& log = {});
 
 }  // namespace hypotrack::articulated

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <utility>
 
 #include "description.hpp"
 #include "hypotrack/error.hpp"
@@ -30,10 +31,12 @@ void scale(Mesh& mesh, const Eigen::Vector3d& factors) {
   if (mesh.uv_triangles.cols() > 0) mesh.uv_triangles.row(1).swap(mesh.uv_triangles.row(2));
 }
 
-Mesh read_mesh(const Visual& visual, const std::string& where) {
+Mesh read_mesh(const Visual& visual, const std::string& where, const PluginLog& log) {
   Mesh mesh;
   try {
-    mesh = import_mesh(visual.mesh, {.scale = 1, .texture = visual.texture}).mesh;
+    ImportedMesh imported = import_mesh(visual.mesh, {.scale = 1, .texture = visual.texture});
+    for (const std::string& note : imported.notes) log.note(note);
+    mesh = std::move(imported.mesh);
   } catch (const DataError& error) {
     throw DataError(fmt::format("{}: {}", where, error.what()));
   }
@@ -41,7 +44,7 @@ Mesh read_mesh(const Visual& visual, const std::string& where) {
   return mesh;
 }
 
-Mesh shape_of(const Visual& visual, const std::string& where) {
+Mesh shape_of(const Visual& visual, const std::string& where, const PluginLog& log) {
   switch (visual.kind) {
     case ShapeKind::box:
       return box_mesh(visual.size);
@@ -52,14 +55,14 @@ Mesh shape_of(const Visual& visual, const std::string& where) {
     case ShapeKind::mesh:
       break;
   }
-  return read_mesh(visual, where);
+  return read_mesh(visual, where, log);
 }
 
 }  // namespace
 
-Mesh visual_mesh(const Visual& visual, const std::string& where) {
+Mesh visual_mesh(const Visual& visual, const std::string& where, const PluginLog& log) {
   const std::string here = where + ": " + visual.name;
-  Mesh mesh = shape_of(visual, here);
+  Mesh mesh = shape_of(visual, here, log);
   if (visual.kind != ShapeKind::mesh && !visual.texture.empty())
     mesh.texture = read_texture(visual.texture, here);
   if (mesh.texture.empty() && visual.color) mesh.color = *visual.color;

@@ -92,7 +92,8 @@ void check_size(const ModelData& data, const std::string& where) {
   }
 }
 
-ModelData neutral_hand(const HandParams& params, const ConfigNode& config) {
+ModelData neutral_hand(const HandParams& params, const PluginContext& context) {
+  const ConfigNode& config = context.config();
   const std::filesystem::path rig_file = find_rig(params, config);
   Rig rig = read_rig(rig_file);
   rig.scale *= params.scale;
@@ -102,6 +103,7 @@ ModelData neutral_hand(const HandParams& params, const ConfigNode& config) {
       params.mesh.empty() ? data_file("hands/hypotrack_hand.glb") : params.mesh;
   const std::string where = fmt::format("{} (for {})", rig_file.string(), mesh.filename().string());
   const ImportedMesh imported = import_mesh(mesh, {.scale = rig.scale, .texture = params.texture});
+  for (const std::string& note : imported.notes) context.log().note(note);
   ModelData data = rig_hand(imported, rig, where);
   build(data, {.lengths = finger_lengths(params.finger_scale, config.where())});
   check_size(data, where);
@@ -117,8 +119,7 @@ class Hand : public Model {
  public:
   using Params = HandParams;
   Hand(const Params& params, PluginContext& context)
-      : Hand(neutral_hand(params, context.config()),
-             read_shape(params.shape, hand_shape_parameters())) {}
+      : Hand(neutral_hand(params, context), read_shape(params.shape, hand_shape_parameters())) {}
 
   std::vector<ShapeParameter> shape_parameters() const override {
     std::vector<ShapeParameter> parameters = hand_shape_parameters();

@@ -76,9 +76,10 @@ double metres(Unit unit) {
   return 1;
 }
 
-ModelData make_object(const RigidMeshParams& params) {
+ModelData make_object(const RigidMeshParams& params, const PluginLog& log) {
   ImportedMesh imported = import_mesh(
       params.mesh, {.scale = params.scale * metres(params.units), .texture = params.texture});
+  for (const std::string& note : imported.notes) log.note(note);
   Eigen::Matrix3Xf& vertices = imported.mesh.vertices;
   const Eigen::Vector3f low = vertices.rowwise().minCoeff();
   const Eigen::Vector3f high = vertices.rowwise().maxCoeff();
@@ -114,8 +115,9 @@ ModelData scaled(ModelData neutral, std::span<const double> values) {
 class RigidMesh : public Model {
  public:
   using Params = RigidMeshParams;
-  explicit RigidMesh(const Params& params)
-      : RigidMesh(make_object(params), read_shape(params.shape, size_parameters())) {}
+  RigidMesh(const Params& params, PluginContext& context)
+      : RigidMesh(make_object(params, context.log()), read_shape(params.shape, size_parameters())) {
+  }
 
   std::vector<ShapeParameter> shape_parameters() const override {
     std::vector<ShapeParameter> parameters = size_parameters();

@@ -2,65 +2,13 @@
 
 #include <cstring>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
+#include "glb_writer.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/mesh_io.hpp"
 
 namespace hypotrack::test {
 namespace {
-
-using Json = nlohmann::json;
-
-constexpr int kFloat = 5126;
-constexpr int kUnsignedShort = 5123;
-constexpr int kUnsignedByte = 5121;
-
-class GlbWriter {
- public:
-  template <class T>
-  int add(const std::vector<T>& values, const char* type, int component_type) {
-    const int view = add_view(values.data(), values.size() * sizeof(T));
-    json_["accessors"].push_back({{"bufferView", view},
-                                  {"componentType", component_type},
-                                  {"count", values.size()},
-                                  {"type", type}});
-    return static_cast<int>(json_["accessors"].size()) - 1;
-  }
-
-  int add_view(const void* data, std::size_t size) {
-    while (binary_.size() % 4 != 0) binary_ += '\0';
-    json_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", size}});
-    binary_.append(static_cast<const char*>(data), size);
-    return static_cast<int>(json_["bufferViews"].size()) - 1;
-  }
-
-  Json& json() { return json_; }
-
-  std::string finish() {
-    while (binary_.size() % 4 != 0) binary_ += '\0';
-    json_["asset"]["version"] = "2.0";
-    json_["buffers"] = {{{"byteLength", binary_.size()}}};
-    std::string text = json_.dump();
-    while (text.size() % 4 != 0) text += ' ';
-    const auto total = static_cast<std::uint32_t>(12 + 8 + text.size() + 8 + binary_.size());
-    std::string file = "glTF";
-    append(file, 2);
-    append(file, total);
-    append(file, static_cast<std::uint32_t>(text.size()));
-    file += "JSON" + text;
-    append(file, static_cast<std::uint32_t>(binary_.size()));
-    return file + std::string("BIN\0", 4) + binary_;
-  }
-
- private:
-  static void append(std::string& file, std::uint32_t value) {
-    file.append(reinterpret_cast<const char*>(&value), sizeof(value));
-  }
-  Json json_;
-  std::string binary_;
-};
 
 /// Nodes 0 .. n-1 are the bones, node n carries the mesh.
 void add_skeleton(GlbWriter& writer, const GlbContent& content) {

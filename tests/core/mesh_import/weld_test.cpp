@@ -43,6 +43,19 @@ TEST(WeldPoints, SurvivesPointsInOnePlace) {
   EXPECT_TRUE(weld_points(Eigen::Matrix3Xf(3, 0)).empty());
 }
 
+TEST(WeldPoints, KeepsPointsApartThatOtherBonesHold) {
+  Eigen::Matrix3Xf points = Eigen::Matrix3Xf::Zero(3, 6);
+  points.col(5) << 1, 0, 0;
+  // The order of influences and those of weight 0 do not count; what a bone holds in parts adds up.
+  EXPECT_THAT(weld_points(points, {{{0, 0.5f}, {1, 0.5f}},
+                                   {{0, 1}},
+                                   {{1, 0.5f}, {0, 0.5f}, {2, 0}},
+                                   {{0, 0.4f}, {0, 0.6f}},
+                                   {{0, 0.5f}, {2, 0.5f}},
+                                   {{0, 1}}}),
+              ElementsAre(0, 1, 0, 1, 4, 5));
+}
+
 TEST(StrongestInfluences, KeepsFourAndSumsToOne) {
   const auto kept = strongest_influences(
       {{5, 0.1f}, {1, 0.2f}, {2, 0.15f}, {3, 0.25f}, {4, 0.05f}, {1, 0.2f}, {6, 0.05f}});
@@ -69,24 +82,38 @@ TEST(Weld, SeamsSplitTextureCoordinatesButNotTheSurface) {
   EXPECT_EQ(imported.mesh.uv_triangles.cols(), 2);
 }
 
-TEST(Weld, CopiesOfAVertexShareTheMeanOfTheirWeights) {
-  TemporaryDirectory folder;
+/// Returns glb({}) with a copy of the vertex at (0, 1, 0), which only the last triangle uses.
+GlbContent with_copy(std::array<float, 4> weights_of_copy) {
   GlbContent content;
-  content.positions.push_back(content.positions[2]);  // a copy of vertex 2 held by the other bone
-  content.joints[2] = {0, 0, 0, 0};
-  content.joints.push_back({1, 0, 0, 0});
-  content.weights.push_back({1, 0, 0, 0});
-  content.indices.back() = 3;
+  content.positions.push_back(content.positions[2]);
+  content.joints[2] = {0, 1, 0, 0};
+  content.weights[2] = {1, 0, 0, 0};
+  content.joints.push_back({0, 1, 0, 0});
+  content.weights.push_back(weights_of_copy);
   content.indices[content.indices.size() - 2] = 4;
-  const ImportedMesh imported = import_mesh(write_file(folder.path() / "a.glb", glb(content)));
+  return content;
+}
+
+TEST(Weld, CopiesWithWeightsThatDifferByRoundingAreOneVertexWithTheirMean) {
+  TemporaryDirectory folder;
+  const ImportedMesh imported =
+      import_mesh(write_file(folder.path() / "a.glb", glb(with_copy({1 - 0.004f, 0.004f, 0, 0}))));
   ASSERT_EQ(imported.mesh.vertices.cols(), 4);
   for (Eigen::Index v = 0; v < 4; ++v) {
     EXPECT_FLOAT_EQ(imported.mesh.bone_weights.col(v).sum(), 1);
     if (imported.mesh.vertices.col(v).isApprox(Eigen::Vector3f(0, 1, 0))) {
-      EXPECT_FLOAT_EQ(imported.mesh.bone_weights(0, v), 0.5f);
-      EXPECT_FLOAT_EQ(imported.mesh.bone_weights(1, v), 0.5f);
+      EXPECT_NEAR(imported.mesh.bone_weights(0, v), 0.998f, 1e-5f);
+      EXPECT_NEAR(imported.mesh.bone_weights(1, v), 0.002f, 1e-5f);
     }
   }
+}
+
+TEST(Weld, RigidPartsThatTouchStayApart) {
+  TemporaryDirectory folder;
+  const ImportedMesh imported =
+      import_mesh(write_file(folder.path() / "a.glb", glb(with_copy({0, 1, 0, 0}))));
+  ASSERT_EQ(imported.mesh.vertices.cols(), 5);
+  for (Eigen::Index v = 0; v < 5; ++v) EXPECT_EQ(imported.mesh.bone_weights(0, v) == 1, v != 3);
 }
 
 TEST(Weld, DegenerateTrianglesAndUnusedVerticesGoAway) {

@@ -6,6 +6,7 @@
 
 #include "hypotrack/media.hpp"
 #include "model_plugins.hpp"
+#include "plugin/plugin_notes.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -169,6 +170,20 @@ TEST_F(RigidMesh, ReadsTheScannedBoxesWithTheirTexture) {
     ++found;
   }
   EXPECT_EQ(found, 2);
+}
+
+TEST(MeshModels, TellTheUserWhatTheirFileHasThatIsNotUsed) {
+  TemporaryDirectory folder;
+  const auto path = folder.path() / "a.obj";
+  std::ofstream(path) << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\ncstype bezier\n";
+  const auto notes = std::make_shared<PluginNotes>();
+  PluginLoader().make<Model>(
+      ConfigNode::parse("{type: rigid_mesh, mesh: " + path.string() + "}", "scene.yaml"), nullptr,
+      {}, nullptr, notes);
+  EXPECT_THAT(notes->take_lines(),
+              testing::ElementsAre(testing::AllOf(
+                  testing::StartsWith("note: model (rigid_mesh): " + path.string() + ": "),
+                  testing::HasSubstr("`cstype` from line 5"))));
 }
 
 }  // namespace

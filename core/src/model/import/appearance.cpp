@@ -6,7 +6,7 @@
 namespace hypotrack::internal {
 
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
-                     Mesh& mesh) {
+                     Mesh& mesh, std::vector<std::string>& /*notes*/) {
   std::set<std::string> textures;
   std::size_t most = 0;
   for (const mesh_wire::MeshPart& part : file.scene.meshes) {

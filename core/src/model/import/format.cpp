@@ -42,16 +42,18 @@ std::uint32_t little_endian(const FileHead& file, std::size_t offset) {
 
 bool is_text(const FileHead& file) { return file.head.find('\0') == std::string::npos; }
 
+using Notes = std::vector<std::string>;
+
 /// Fails if a function finds something wrong with a text file's lines.
-void check_text(const FileHead& file, std::string_view format,
-                std::string (*problem_of)(std::istream&)) {
+void check_text(const FileHead& file, std::string_view format, Notes& notes,
+                std::string (*problem_of)(std::istream&, Notes&)) {
   std::ifstream in(file.name, std::ios::binary);
-  const std::string problem = problem_of(in);
+  const std::string problem = problem_of(in, notes);
   if (problem.empty()) return;
   fail(file, fmt::format("the {} file is damaged: {}; copy or export it again", format, problem));
 }
 
-void check_glb(const FileHead& file) {
+void check_glb(const FileHead& file, Notes&) {
   if (file.size < 20 || !file.head.starts_with("glTF")) {
     fail(file, "this is no GLB file: it does not begin with 'glTF'");
   }
@@ -65,39 +67,63 @@ void check_glb(const FileHead& file) {
   }
 }
 
-void check_gltf(const FileHead& file) {
+void check_gltf(const FileHead& file, Notes&) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (first == std::string::npos || file.head[first] != '{' || !is_text(file)) {
     fail(file, "this is no glTF file: it does not begin with a JSON object");
   }
 }
 
-void check_stl(const FileHead& file) {
+/// Tells of the attributes of a binary STL file that are not read.
+void note_stl_attributes(const FileHead& file, std::uint64_t triangles, Notes& notes) {
+  constexpr std::size_t kHeader = 84, kTriangle = 50;
+  // Colours are read where the highest bit says that there is one, as VisCAM writes them.
+  const bool magics = file.head.substr(0, 80).find("COLOR=") != std::string::npos;
+  std::ifstream in(file.name, std::ios::binary);
+  in.seekg(kHeader);
+  std::uint64_t unread = 0;
+  std::array<char, kTriangle> bytes;
+  for (std::uint64_t i = 0; i < triangles && in.read(bytes.data(), kTriangle); ++i) {
+    const auto low = static_cast<unsigned char>(bytes[48]);
+    const auto high = static_cast<unsigned char>(bytes[49]);
+    const bool has_flag = (high & 0x80) != 0, has_value = low != 0 || (high & 0x7f) != 0;
+    unread += (magics ? has_flag != has_value : !has_flag && has_value) ? 1 : 0;
+  }
+  if (unread > 0)
+    notes.push_back(fmt::format(
+        "the attributes of {} facets are not read{}: export PLY, OBJ or GLB if they are colours",
+        unread, magics ? ", which have colours as Materialise Magics writes them" : ""));
+}
+
+void check_stl(const FileHead& file, Notes& notes) {
   const std::size_t first = file.head.find_first_not_of(" \t\r\n");
   const bool solid = first != std::string::npos && file.head.substr(first).starts_with("solid");
-  if (solid && is_text(file)) return check_text(file, "STL", problem_of_text_stl);
+  if (solid && is_text(file)) return check_text(file, "STL", notes, problem_of_text_stl);
   if (file.size < 84) fail(file, "this is no STL file: it is too short for the binary header");
   const std::uint64_t triangles = little_endian(file, 80);
-  if (file.size < 84 + 50 * triangles) {
+  if (file.size != 84 + 50 * triangles) {  // the importer takes no others for binary
     fail(file, fmt::format("the STL file is damaged or none: its header says {} triangles, which "
                            "take {} bytes; it has {}",
                            triangles, 84 + 50 * triangles, file.size));
   }
+  note_stl_attributes(file, triangles, notes);
 }
 
-void check_obj(const FileHead& file) {
+void check_obj(const FileHead& file, Notes& notes) {
   if (!is_text(file)) fail(file, "this is no OBJ file: it is not text");
   for (const std::string_view other : {"ply\n", "ply\r", "solid ", "glTF"}) {
     if (file.head.starts_with(other)) {
       fail(file, fmt::format("this is no OBJ file: it begins with '{}'", other.substr(0, 3)));
     }
   }
-  check_text(file, "OBJ", problem_of_obj);
+  check_text(file, "OBJ", notes, problem_of_obj);
 }
 
-void check_ply(const FileHead& file) {
+void check_ply(const FileHead& file, Notes& notes) {
   std::ifstream in(file.name, std::ios::binary);
   const PlyHeader header = read_ply_header(in);
+  if (!header.unread.empty())
+    notes.push_back("elements and properties that are not read: " + header.unread);
   if (!header.problem.empty()) fail(file, "this is no PLY file: " + header.problem);
   std::uint64_t found = 0;
   std::string line;
@@ -133,11 +159,11 @@ FileHead open(const std::filesystem::path& path) {
 
 }  // namespace
 
-void check_mesh_format(const std::filesystem::path& path) {
+std::vector<std::string> check_mesh_format(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  using Check = void (*)(const FileHead&);
+  using Check = void (*)(const FileHead&, Notes&);
   Check check = extension == ".obj"    ? check_obj
                 : extension == ".ply"  ? check_ply
                 : extension == ".stl"  ? check_stl
@@ -156,7 +182,9 @@ void check_mesh_format(const std::filesystem::path& path) {
     fail(file, fmt::format("the mesh file has {} MiB; at most {} MiB are read: decimate the mesh",
                            file.size >> 20, kLargestFile >> 20));
   }
-  check(file);
+  Notes notes;
+  check(file, notes);
+  return notes;
 }
 
 }  // namespace hypotrack::internal

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "base/exported.hpp"
 
@@ -9,8 +11,8 @@ inline namespace HYPOTRACK_EXPORTED internal {
 
 /// Throws DataError unless `file` exists, is at most 256 MiB and looks like OBJ, PLY, STL, glTF or
 /// GLB. Checks the file name, the beginning and, for GLB, PLY and binary STL, the end. The importer
-/// gets no other files.
-void check_mesh_format(const std::filesystem::path& file);
+/// gets no other files. Returns notes on what the importer would leave out without a word.
+std::vector<std::string> check_mesh_format(const std::filesystem::path& file);
 
 }  // namespace internal
 }  // namespace hypotrack

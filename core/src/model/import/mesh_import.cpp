@@ -13,7 +13,7 @@ namespace hypotrack::internal {
 namespace {
 
 void read_scene(MeshFile& file) {
-  check_mesh_format(file.path);
+  std::vector<std::string> notes = check_mesh_format(file.path);
   try {
     file.scene = mesh_wire::decode(run_mesh_reader(default_mesh_reader(file.path), file.path));
   } catch (const std::runtime_error& error) {
@@ -21,6 +21,7 @@ void read_scene(MeshFile& file) {
     file.fail(fmt::format("the mesh could not be read: {}", error.what()));
   }
   if (!file.scene.error.empty()) file.fail("the mesh could not be read: " + file.scene.error);
+  file.scene.notes.insert(file.scene.notes.begin(), notes.begin(), notes.end());
 }
 
 }  // namespace
@@ -29,14 +30,16 @@ void MeshFile::fail(const std::string& what) const { throw DataError(path.string
 
 ImportedMesh convert_mesh(const MeshFile& file) {
   ImportedMesh imported;
+  imported.notes = file.scene.notes;
   imported.bones = convert_bones(file);
   const Soup soup = join_parts(file);
   const Welded welded = fill_surface(file, soup, imported.mesh);
   fill_weights(soup, welded, imported.mesh);
   if (soup.has_all_uvs) fill_uvs(soup, welded.triangles, imported.mesh);
-  fill_appearance(file, soup, welded.triangles, imported.mesh);
+  fill_appearance(file, soup, welded.triangles, imported.mesh, imported.notes);
   if (imported.mesh.texture.empty() && !soup.colors.empty())
     fill_vertex_colors(soup, welded.triangles, imported.mesh);
+  for (std::string& note : imported.notes) note = fmt::format("{}: {}", file.path.string(), note);
   return imported;
 }
 

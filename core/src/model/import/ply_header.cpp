@@ -47,6 +47,33 @@ std::uint64_t size_of(std::string_view type) {
   return found == kSizes.end() ? 0 : found->second;
 }
 
+/// Returns whether the importer reads an element.
+bool reads_element(std::string_view name) {
+  constexpr std::array<std::string_view, 4> kRead = {"vertex", "face", "tristrips", "material"};
+  return std::ranges::find(kRead, name) != kRead.end();
+}
+
+/// Returns whether the importer reads a property, or it says nothing about the surface.
+bool reads_property(std::string_view element, std::string_view name) {
+  constexpr std::array<std::string_view, 23> kOfVertices = {"x",           "y",
+                                                            "z",           "nx",
+                                                            "ny",          "nz",
+                                                            "red",         "green",
+                                                            "blue",        "r",
+                                                            "g",           "b",
+                                                            "alpha",       "s",
+                                                            "t",           "u",
+                                                            "v",           "a",
+                                                            "texture_u",   "texture_v",
+                                                            "diffuse_red", "diffuse_green",
+                                                            "diffuse_blue"};
+  constexpr std::array<std::string_view, 3> kOfFaces = {"vertex_indices", "vertex_index",
+                                                        "texcoord"};
+  if (element == "vertex") return std::ranges::find(kOfVertices, name) != kOfVertices.end();
+  if (element == "face") return std::ranges::find(kOfFaces, name) != kOfFaces.end();
+  return true;
+}
+
 class Header {
  public:
   /// Returns true if there is more to read.
@@ -75,12 +102,14 @@ class Header {
     if (words.size() != 3) return false;
     name_ = words[1];
     bytes_ = 0;
+    if (!reads_element(name_)) add_unread(name_);
     std::istringstream in(words[2]);
     return in >> count_ && in.eof() && words[2][0] != '-' && count_ < kMostElements;
   }
   bool take_property(const Words& words) {
     const bool list = words.size() == 5 && words[1] == "list";
     if (name_.empty() || (!list && words.size() != 3)) return false;
+    if (!reads_property(name_, words.back())) add_unread(name_ + " " + words.back());
     if (!list) {
       bytes_ += size_of(words[1]);
       return size_of(words[1]) > 0;
@@ -88,6 +117,13 @@ class Header {
     const std::uint64_t length = size_of(words[2]), item = size_of(words[3]);
     bytes_ += length + (words[4].starts_with("vertex_ind") ? kCorners * item : 0);
     return length > 0 && item > 0;
+  }
+  void add_unread(const std::string& name) {
+    constexpr std::size_t kMost = 20, kLongest = 60;
+    if (++unread_ <= kMost)
+      out_.unread += (unread_ == 1 ? "" : ", ") + name.substr(0, kLongest);
+    else if (unread_ == kMost + 1)
+      out_.unread += " and others";
   }
   bool finish() {
     add_element();
@@ -106,6 +142,7 @@ class Header {
   bool known_format_ = false;
   std::string name_;  ///< element of the following properties
   std::uint64_t count_ = 0, bytes_ = 0;
+  std::size_t unread_ = 0;
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ struct PlyHeader {
   std::string problem;  ///< why the header is invalid; then nothing else is set
   bool is_text = false;
   std::string elements;     ///< "8 vertex, 12 face"
+  std::string unread;       ///< elements and properties that are not read: "edge, vertex quality"
   std::uint64_t count = 0;  ///< number of all elements; a text file has one line for each
   std::uint64_t least = 0;  ///< least size of all elements in a binary file, bytes
 };

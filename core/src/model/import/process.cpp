@@ -37,9 +37,14 @@ void check_end(const Captured& captured, const MeshReader& reader,
                                        reader.time_limit.count()));
   }
   if (end.signal != 0) {
-    throw unreadable(mesh, fmt::format("the importer crashed ({}); the file is damaged: export "
-                                       "it again",
-                                       signal_name(end.signal)));
+    throw unreadable(
+        mesh,
+        fmt::format(
+            "the importer crashed ({}). It cannot read this file, which may be valid: open it in "
+            "another program, such as Blender, and export it anew, as GLB without compression, or "
+            "as "
+            "OBJ if it has no bones",
+            signal_name(end.signal)));
   }
   if (end.code != 0) {
     throw unreadable(mesh,

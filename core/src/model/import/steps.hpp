@@ -46,7 +46,8 @@ struct Welded {
   std::vector<int> vertex;     // per representative point: index of its vertex, or -1
 };
 
-/// Makes the mesh and bones of what was read, by all steps below. Throws DataError.
+/// Makes the mesh and bones of what was read, by all steps below. Their notes and those of the
+/// scene begin with the path. Throws DataError.
 ImportedMesh convert_mesh(const MeshFile& file);
 
 std::vector<ImportedBone> convert_bones(const MeshFile& file);
@@ -66,8 +67,8 @@ void check_weight_sums(const MeshFile& file, const mesh_wire::MeshPart& part, co
 /// Fills the mesh's vertices and triangles and returns how they relate to the soup.
 Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
 
-/// Fills the bone influences; a welded vertex has the mean of its copies' influences. Copies that
-/// no triangle uses do not count.
+/// Fills the bone influences; a welded vertex has the mean of its copies' influences, which are
+/// equal but for rounding. Copies that no triangle uses do not count.
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
 /// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
@@ -89,8 +90,9 @@ void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<in
                     Mesh& mesh);
 
 /// Fills texture or colour; removes the texture coordinates if there is no texture.
+/// `notes` receives what is not drawn as the file says.
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
-                     Mesh& mesh);
+                     Mesh& mesh, std::vector<std::string>& notes);
 
 }  // namespace internal
 }  // namespace hypotrack

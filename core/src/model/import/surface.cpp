@@ -15,7 +15,10 @@ bool is_degenerate(const Soup& soup, const Eigen::Vector3i& corners) {
 
 /// Welds the points, drops degenerate triangles and numbers the remaining vertices by first use.
 Welded weld(const Soup& soup) {
-  Welded welded{.same = weld_points(soup.points), .triangles = {}, .points = {}, .vertex = {}};
+  Welded welded{.same = weld_points(soup.points, soup.influences),
+                .triangles = {},
+                .points = {},
+                .vertex = {}};
   welded.vertex.assign(welded.same.size(), -1);
   for (int t = 0; t < soup.triangles.cols(); ++t) {
     const Eigen::Vector3i corners = soup.triangles.col(t).unaryExpr(

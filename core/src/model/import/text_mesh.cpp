@@ -1,12 +1,16 @@
 #include "model/import/text_mesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,6 +50,61 @@ std::string problem_of_numbers(std::span<const std::string_view> words, std::siz
   return {};
 }
 
+/// The statements of an OBJ file that are not read, by their first word.
+class UnreadStatements {
+ public:
+  void add(std::string_view word, int line) {
+    constexpr std::size_t kMost = 50, kLongest = 20;
+    const std::string name(word.substr(0, kLongest));
+    const auto known = all_.find(name);
+    if (known != all_.end()) {
+      ++known->second.count;
+    } else if (all_.size() < kMost) {
+      all_[name] = {1, line};
+    } else {
+      ++further_;
+    }
+  }
+
+  void tell(std::vector<std::string>& notes) const {
+    if (all_.empty()) return;
+    std::vector<std::string> texts;
+    for (const auto& [name, seen] : all_) {
+      const std::string what = meaning(name);
+      texts.push_back(fmt::format("{} `{}` from line {}{}", seen.count, name, seen.first,
+                                  what.empty() ? "" : " (" + what + ")"));
+    }
+    if (further_ > 0) texts.push_back(fmt::format("{} others", further_));
+    notes.push_back(fmt::format("statements that are not read: {}", fmt::join(texts, ", ")));
+  }
+
+ private:
+  struct Seen {
+    int count = 0, first = 0;
+  };
+
+  static std::string meaning(std::string_view name) {
+    constexpr std::array<std::string_view, 16> kFreeForm = {
+        "vp",   "cstype", "deg",  "bmat", "step", "curv", "curv2", "surf",
+        "parm", "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech"};
+    if (name == "l") return "lines";
+    if (name == "p") return "points";
+    if (std::ranges::find(kFreeForm, name) != kFreeForm.end())
+      return "curves and surfaces: export triangles";
+    return {};
+  }
+
+  std::map<std::string, Seen, std::less<>> all_;
+  int further_ = 0;
+};
+
+/// Returns whether a statement of an OBJ file is read, or says nothing about the surface.
+bool is_read(std::string_view word) {
+  constexpr std::array<std::string_view, 10> kRead = {"v", "vt", "vn", "f",      "fo",
+                                                      "g", "o",  "s",  "usemtl", "mtllib"};
+  return std::ranges::find(kRead, word) != kRead.end();
+}
+
 /// Reads the lines of an OBJ file.
 class ObjReader {
  public:
@@ -53,6 +112,7 @@ class ObjReader {
     constexpr std::array<std::pair<std::string_view, std::size_t>, kElements> kLeast = {
         {{"v", 3}, {"vt", 1}, {"vn", 3}}};
     if (words.empty()) return {};
+    if (!is_read(words[0])) unread_.add(words[0], line);
     if (words[0] == "f") return problem_of_face(words);
     for (std::size_t e = 0; e < kElements; ++e) {
       if (words[0] != kLeast[e].first) continue;
@@ -78,6 +138,8 @@ class ObjReader {
     }
     return {};
   }
+
+  void tell(std::vector<std::string>& notes) const { unread_.tell(notes); }
 
   int line = 0;
 
@@ -120,11 +182,12 @@ class ObjReader {
 
   std::array<std::int64_t, kElements> counts_{};
   std::array<Named, kElements> largest_{};
+  UnreadStatements unread_;
 };
 
 }  // namespace
 
-std::string problem_of_obj(std::istream& in) {
+std::string problem_of_obj(std::istream& in, std::vector<std::string>& notes) {
   ObjReader reader;
   std::string text;
   for (std::string line; std::getline(in, line);) {
@@ -139,10 +202,11 @@ std::string problem_of_obj(std::istream& in) {
     if (!problem.empty()) return fmt::format("line {}: {}", reader.line, problem);
     text.clear();
   }
+  reader.tell(notes);
   return reader.problem_at_end();
 }
 
-std::string problem_of_text_stl(std::istream& in) {
+std::string problem_of_text_stl(std::istream& in, std::vector<std::string>& /*notes*/) {
   // The lines of a facet; `solid` and `endsolid` stand around any number of them.
   constexpr std::array<std::string_view, 7> kFacet = {"facet",  "outer",   "vertex",  "vertex",
                                                       "vertex", "endloop", "endfacet"};

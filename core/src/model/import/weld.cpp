@@ -1,8 +1,10 @@
 #include "model/import/weld.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
+#include <utility>
 
 namespace hypotrack::internal {
 namespace {
@@ -14,8 +16,9 @@ class Grid {
   Grid(const Eigen::Vector3f& origin, float tolerance)
       : origin_(origin.cast<double>()), tolerance_(tolerance), cell_(64.0 * tolerance) {}
 
-  /// Returns the first point in the grid within the tolerance of `p`, or -1.
-  int find(const Eigen::Matrix3Xf& points, const Eigen::Vector3f& p) const {
+  /// Returns the first point in the grid within the tolerance of `p` that `matches`, or -1.
+  template <class Matches>
+  int find(const Eigen::Matrix3Xf& points, const Eigen::Vector3f& p, const Matches& matches) const {
     const Eigen::Vector3d relative = p.cast<double>() - origin_;
     const auto low = cell(relative.array() - tolerance_);
     const auto high = cell(relative.array() + tolerance_);
@@ -27,7 +30,7 @@ class Grid {
           if (entry == cells_.end()) continue;
           for (const int candidate : entry->second) {
             const bool near = (points.col(candidate) - p).norm() <= tolerance_;
-            if (near && (found < 0 || candidate < found)) found = candidate;
+            if (near && (found < 0 || candidate < found) && matches(candidate)) found = candidate;
           }
         }
       }
@@ -56,29 +59,13 @@ class Grid {
   std::unordered_map<std::uint64_t, std::vector<int>> cells_;
 };
 
-}  // namespace
+using Influences = std::vector<BoneWeight>;
 
-std::vector<int> weld_points(const Eigen::Matrix3Xf& points) {
-  std::vector<int> representative(static_cast<std::size_t>(points.cols()), 0);
-  if (points.cols() == 0) return representative;
-  const Eigen::Vector3f low = points.rowwise().minCoeff();
-  const double diagonal = (points.rowwise().maxCoeff() - low).cast<double>().norm();
-  const auto tolerance = static_cast<float>(kWeldTolerance * diagonal);
-  if (!(tolerance > 0)) return representative;  // all points coincide
-  Grid grid(low, tolerance);
-  for (int i = 0; i < points.cols(); ++i) {
-    const Eigen::Vector3f p = points.col(i);
-    const int found = grid.find(points, p);
-    representative[static_cast<std::size_t>(i)] = found < 0 ? i : found;
-    if (found < 0) grid.add(p, i);
-  }
-  return representative;
-}
-
-std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences) {
+/// Sorts influences by bone, and adds up several entries of one bone.
+Influences by_bone(Influences influences) {
   std::sort(influences.begin(), influences.end(),
             [](const BoneWeight& a, const BoneWeight& b) { return a.bone < b.bone; });
-  std::vector<BoneWeight> merged;
+  Influences merged;
   for (const BoneWeight& influence : influences) {
     if (!merged.empty() && merged.back().bone == influence.bone) {
       merged.back().weight += influence.weight;
@@ -86,6 +73,51 @@ std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences)
       merged.push_back(influence);
     }
   }
+  return merged;
+}
+
+/// Returns the sum of the differences of two lists' weights, which by_bone() has sorted.
+float difference(const Influences& a, const Influences& b) {
+  float sum = 0;
+  auto at = b.begin();
+  for (const BoneWeight& influence : a) {
+    for (; at != b.end() && at->bone < influence.bone; ++at) sum += at->weight;
+    const bool both = at != b.end() && at->bone == influence.bone;
+    sum += both ? std::abs(influence.weight - at->weight) : influence.weight;
+    if (both) ++at;
+  }
+  for (; at != b.end(); ++at) sum += at->weight;
+  return sum;
+}
+
+}  // namespace
+
+std::vector<int> weld_points(const Eigen::Matrix3Xf& points,
+                             const std::vector<std::vector<BoneWeight>>& influences) {
+  std::vector<int> representative(static_cast<std::size_t>(points.cols()), 0);
+  if (points.cols() == 0) return representative;
+  const Eigen::Vector3f low = points.rowwise().minCoeff();
+  const double diagonal = (points.rowwise().maxCoeff() - low).cast<double>().norm();
+  const auto tolerance = static_cast<float>(kWeldTolerance * diagonal);
+  if (!(tolerance > 0)) return representative;  // all points coincide
+  std::vector<Influences> held;
+  held.reserve(influences.size());
+  for (const Influences& of_point : influences) held.push_back(by_bone(of_point));
+  Grid grid(low, tolerance);
+  for (int i = 0; i < points.cols(); ++i) {
+    const Eigen::Vector3f p = points.col(i);
+    const int found = grid.find(points, p, [&](int other) {
+      return held.empty() || difference(held[static_cast<std::size_t>(i)],
+                                        held[static_cast<std::size_t>(other)]) <= kEqualWeights;
+    });
+    representative[static_cast<std::size_t>(i)] = found < 0 ? i : found;
+    if (found < 0) grid.add(p, i);
+  }
+  return representative;
+}
+
+std::vector<BoneWeight> strongest_influences(std::vector<BoneWeight> influences) {
+  std::vector<BoneWeight> merged = by_bone(std::move(influences));
   std::stable_sort(merged.begin(), merged.end(),
                    [](const BoneWeight& a, const BoneWeight& b) { return a.weight > b.weight; });
   merged.resize(std::min<std::size_t>(merged.size(), 4));

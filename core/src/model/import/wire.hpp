@@ -57,9 +57,10 @@ struct Scene {
   std::vector<BoneNode> bones;
   std::vector<Material> materials;
   std::vector<Texture> textures;
+  std::vector<std::string> notes;  ///< for the user: what the file has that is not read
 };
 
-inline constexpr std::string_view kMagic = "hypotrack mesh 2";
+inline constexpr std::string_view kMagic = "hypotrack mesh 3";
 
 /// Appends values to a byte buffer.
 class Writer {
@@ -132,6 +133,10 @@ class Reader {
 
 // One list of fields per struct serves writing and reading.
 template <class Archive, class T>
+requires std::is_same_v<std::remove_const_t<T>, std::string>
+void fields(Archive& archive, T& text) { archive(text); }
+
+template <class Archive, class T>
 requires std::is_same_v<std::remove_const_t<T>, MeshPart>
 void fields(Archive& archive, T& part) {
   archive(part.name);
@@ -174,6 +179,7 @@ void fields(Archive& archive, T& scene) {
   archive(scene.bones);
   archive(scene.materials);
   archive(scene.textures);
+  archive(scene.notes);
 }
 
 inline std::string encode(const Scene& scene) {

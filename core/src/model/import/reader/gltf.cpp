@@ -1,59 +1,164 @@
 #include "model/import/reader/gltf.hpp"
 
-#include <cstring>
-#include <nlohmann/json.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
-#include "hypotrack/text_file.hpp"
+#include "model/import/reader/gltf_meshes.hpp"
+#include "model/import/reader/gltf_skin.hpp"
+#include "model/import/reader/gltf_support.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
 
-using Json = nlohmann::json;
+class PlainWriter {
+ public:
+  explicit PlainWriter(const std::string& file) : file_(file) {}
+  PlainGltf write();
 
-Json read_json(const std::string& file) {
-  const std::string bytes = read_whole(file).value_or("");
-  if (!bytes.starts_with("glTF")) return Json::parse(bytes);
-  // GLB: a header of 12 bytes, then chunks of length, type and data; the first chunk is the JSON.
-  std::uint32_t length = 0;
-  if (bytes.size() < 20) throw std::runtime_error("the GLB file ends within its header");
-  std::memcpy(&length, bytes.data() + 12, sizeof(length));
-  if (length > bytes.size() - 20) throw std::runtime_error("the GLB file ends within its JSON");
-  return Json::parse(bytes.substr(20, length));
+ private:
+  void part_skins();
+  bool is_quantized(const Json& mesh) const;
+  void write_skins();
+  void write_images();
+  void write_nodes();
+  void write_scenes();
+
+  GltfFile file_;
+  Json root_;
+  GlbBuilder glb_;
+  std::map<std::size_t, std::size_t> skins_of_meshes_;
+  std::vector<double> scales_;  // of the meshes' positions
+};
+
+/// Returns whether positions of a mesh are whole numbers.
+bool PlainWriter::is_quantized(const Json& mesh) const {
+  return std::ranges::any_of(list(mesh, "primitives"), [&](const Json& primitive) {
+    const Json& index = member(member(primitive, "attributes"), "POSITION");
+    const Json& type =
+        index.is_null() ? index : member(item(root_, "accessors", index), "componentType");
+    return !type.is_null() && type != kFloats;
+  });
 }
 
-/// Returns a value as a whole number. Throws std::runtime_error if it is anything else.
-std::uint64_t whole(const Json& value, const char* name) {
-  if (value.is_number_unsigned()) return value.get<std::uint64_t>();
-  throw std::runtime_error(std::string("a value of '") + name + "' is no whole number from 0 on");
+void PlainWriter::write_skins() {
+  scales_.assign(root_["meshes"].size(), 1);
+  std::map<std::size_t, std::vector<std::size_t>> meshes;  // of the skins that move quantised ones
+  for (const auto& [mesh, skin] : skins_of_meshes_)
+    if (is_quantized(root_["meshes"][mesh])) meshes[skin];
+  for (const auto& [mesh, skin] : skins_of_meshes_)
+    if (meshes.contains(skin)) meshes[skin].push_back(mesh);
+  for (std::size_t number = 0; number < list(root_, "skins").size(); ++number) {
+    Json& skin = root_["skins"][number];
+    const std::size_t joints = list(skin, "joints").size();
+    if (joints == 0) throw std::runtime_error("a skin has no joints");
+    GltfValues matrices{16, {}};
+    const Json& index = member(skin, "inverseBindMatrices");
+    if (!index.is_null()) matrices = read_accessor(file_, index, {16}, "inverseBindMatrices");
+    if (!index.is_null() && matrices.count() < joints)
+      throw std::runtime_error("a skin has " + std::to_string(matrices.count()) +
+                               " inverse bind matrices for " + std::to_string(joints) + " joints");
+    while (matrices.count() < joints)  // they are the identity where none are given
+      for (int k = 0; k < 16; ++k) matrices.numbers.push_back(k % 5 == 0 ? 1 : 0);
+    if (const auto moved = meshes.find(number); moved != meshes.end()) {
+      const double scale = take_scale(matrices);
+      for (const std::size_t mesh : moved->second) scales_[mesh] = scale;
+    }
+    skin["inverseBindMatrices"] = glb_.add<float>(matrices, kFloats);
+  }
 }
 
-/// glTF 2.0, "mesh.primitive.mode".
-std::uint64_t triangles_of(std::uint64_t mode, std::uint64_t corners) {
-  constexpr int kTriangles = 4;
-  constexpr int kStrip = 5;
-  constexpr int kFan = 6;
-  if (mode == kTriangles) return corners / 3;
-  return (mode == kStrip || mode == kFan) && corners > 2 ? corners - 2 : 0;
+void PlainWriter::write_images() {
+  if (list(root_, "images").empty()) return;
+  for (Json& image : root_["images"]) {
+    const Json& view = member(image, "bufferView");
+    if (!view.is_null()) image["bufferView"] = glb_.add_view(file_.view(view));
+  }
+}
+
+/// Gives each skin that moves a mesh a copy of it: assimp has one mesh for all nodes.
+void PlainWriter::part_skins() {
+  constexpr std::size_t kMostCopies = 1000;
+  std::map<std::uint64_t, std::map<std::uint64_t, std::size_t>> copies;  // by mesh and skin
+  std::size_t made = 0;
+  for (Json& node : root_["nodes"]) {
+    if (member(node, "mesh").is_null()) continue;
+    const std::uint64_t mesh = whole(node["mesh"], "mesh");
+    item(root_, "meshes", node["mesh"]);
+    auto& of_mesh = copies[mesh];
+    const std::uint64_t skin = whole(node, "skin", UINT64_MAX);
+    if (skin != UINT64_MAX) item(root_, "skins", node["skin"]);
+    if (of_mesh.empty()) of_mesh[skin] = static_cast<std::size_t>(mesh);
+    if (!of_mesh.contains(skin)) {
+      if (++made > kMostCopies) throw std::runtime_error("its meshes have too many skins");
+      Json copy = root_["meshes"][static_cast<std::size_t>(mesh)];
+      root_["meshes"].push_back(std::move(copy));
+      of_mesh[skin] = root_["meshes"].size() - 1;
+    }
+    node["mesh"] = of_mesh[skin];
+    if (skin != UINT64_MAX) skins_of_meshes_[of_mesh[skin]] = static_cast<std::size_t>(skin);
+  }
+}
+
+void PlainWriter::write_nodes() {
+  for (Json& node : root_["nodes"]) {
+    node.erase("camera");
+    node.erase("weights");
+    if (member(node, "mesh").is_null()) continue;
+    if (!list(item(root_, "meshes", node["mesh"]), "primitives").empty()) continue;
+    node.erase("mesh");
+    node.erase("skin");
+  }
+}
+
+/// Adds a scene of all nodes to a file without scenes, which is a library of meshes.
+void PlainWriter::write_scenes() {
+  if (!list(root_, "scenes").empty()) {
+    if (!member(root_, "scene").is_null()) item(root_, "scenes", root_["scene"]);
+    return;
+  }
+  std::vector<bool> is_child(root_["nodes"].size());
+  for (const Json& node : root_["nodes"]) {
+    for (const Json& child : list(node, "children")) {
+      item(root_, "nodes", child);
+      is_child[static_cast<std::size_t>(whole(child, "children"))] = true;
+    }
+  }
+  Json roots = Json::array();
+  for (std::size_t i = 0; i < is_child.size(); ++i)
+    if (!is_child[i]) roots.push_back(i);
+  root_["scenes"] = Json::array({{{"nodes", roots}}});
+  root_["scene"] = 0;
+}
+
+PlainGltf PlainWriter::write() {
+  check_gltf_support(file_.root());
+  PlainGltf plain{"", gltf_notes(file_)};
+  root_ = file_.root();
+  if (list(root_, "meshes").empty()) throw std::runtime_error("the file holds no mesh");
+  if (list(root_, "nodes").empty()) throw std::runtime_error("the file holds no nodes");
+  part_skins();
+  write_skins();
+  GltfMeshes(file_, glb_).copy(root_, scales_);
+  write_images();
+  write_nodes();
+  write_scenes();
+  for (std::string& note : name_joints(root_)) plain.notes.push_back(std::move(note));
+  for (const char* key : {"animations", "cameras"}) root_.erase(key);
+  plain.glb = std::move(glb_).finish(std::move(root_));
+  return plain;
 }
 
 }  // namespace
 
-std::uint64_t count_gltf_triangles(const std::string& file) {
-  const Json json = read_json(file);
-  std::uint64_t triangles = 0;
-  if (!json.contains("meshes")) return 0;
-  for (const Json& mesh : json.at("meshes")) {
-    for (const Json& primitive : mesh.at("primitives")) {
-      const Json& corners = primitive.contains("indices")
-                                ? primitive.at("indices")
-                                : primitive.at("attributes").at("POSITION");
-      const Json& accessor = json.at("accessors").at(whole(corners, "indices or POSITION"));
-      const std::uint64_t mode = primitive.contains("mode") ? whole(primitive["mode"], "mode") : 4;
-      triangles += triangles_of(mode, whole(accessor.at("count"), "count"));
-    }
+PlainGltf plain_gltf(const std::string& file) {
+  try {
+    return PlainWriter(file).write();
+  } catch (const Json::exception& error) {
+    throw std::runtime_error(std::string("its JSON is not glTF: ") + error.what());
   }
-  return triangles;
 }
 
 }  // namespace hypotrack::mesh_wire::internal
