@@ -14,11 +14,11 @@ namespace hypotrack {
 struct TimelineSettings {
   /// Frame of the second video that belongs to frame 0 of the first; negative: the second started
   /// later. Empty: the files' clocks say it.
-  std::optional<int> offset;
+  std::optional<int> offset{};
   /// Frames per second. If it is given, the files' times are ignored: frames pair by number.
-  std::optional<double> frame_rate;
+  std::optional<double> frame_rate{};
   /// Largest distance in time within a pair, seconds. Empty: half a frame.
-  std::optional<double> tolerance;
+  std::optional<double> tolerance{};
 };
 
 /// A moment of one video, or of two that pair by time.

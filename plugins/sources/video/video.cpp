@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -74,10 +75,12 @@ class Video : public Source {
     frame.problem = missing_picture(infos_, moment);
     if (!frame.problem.empty()) return frame;
     std::vector<cv::Mat> images(files_.size());
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-      std::string problem = files_[i]->read(*moment.pictures[i], images[i]);
-      if (!problem.empty()) frame.problem = std::move(problem);
-    }
+    std::vector<std::string> problems(files_.size());
+    tbb::parallel_for(std::size_t{0}, files_.size(), [&](std::size_t i) {
+      problems[i] = files_[i]->read(*moment.pictures[i], images[i]);
+    });
+    for (std::string& problem : problems)
+      if (frame.problem.empty()) frame.problem = std::move(problem);
     damaged_ += frame.problem.empty() ? 0 : 1;
     if (frame.problem.empty()) fill_views(frame, images);
     return frame;

@@ -29,6 +29,8 @@ Decoder::Decoder(Demuxer video)
   avcodec_parameters_to_context(codec_.get(), &coded);
   codec_->pkt_timebase = video_.pictures().time_base;
   codec_->max_pixels = kMostVideoPixels;
+  // Of these FFmpeg does not say which pictures it completes after errors.
+  if (coded.codec_id == AV_CODEC_ID_MJPEG) codec_->err_recognition |= AV_EF_EXPLODE;
   codec_->thread_count =
       static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, kMostThreads));
   if (avcodec_open2(codec_.get(), codec, nullptr) < 0)

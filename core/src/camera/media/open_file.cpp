@@ -13,6 +13,8 @@
 namespace hypotrack::internal {
 namespace {
 
+constexpr double kUsualRate = 25;  // frames per second, what players take
+
 /// Returns whether a container has a time for each frame, and not a rate for all.
 bool has_clock(const Demuxer& video) {
   constexpr std::string_view kWithout[] = {"avi", "h264", "hevc",         "m4v",  "mpegvideo",
@@ -63,7 +65,7 @@ class OpenedFile final : public VideoFile {
     const std::size_t wanted = first_ + index;
     while (decoded_ && *decoded_ < wanted) advance();
     const auto problem = [&](const char* what) {
-      return fmt::format("{}: the frame at {:.3f} s {}", info_.name, info_.times[index], what);
+      return fmt::format("{}: the frame at {:.3f} s {}", info_.name, info_.times[index] - info_.times[0], what);
     };
     if (decoded_ != wanted) return problem("cannot be decoded");
     if (packets_.shown[wanted].cut) return problem("is cut off: its data are not whole");
@@ -103,9 +105,11 @@ class OpenedFile final : public VideoFile {
   void take_times(const AVStream& stream) {
     info_.frame_rate = rate_of(stream);
     info_.tick = av_q2d(stream.time_base);
+    const double rate = info_.frame_rate > 0 ? info_.frame_rate : kUsualRate;
     for (std::size_t i = first_; i < packets_.shown.size(); ++i) {
       const auto ticks = static_cast<double>(packets_.shown[i].time);
-      info_.times.push_back(ticks * stream.time_base.num / stream.time_base.den);
+      info_.times.push_back(
+          packets_.numbered ? ticks / rate : ticks * stream.time_base.num / stream.time_base.den);
     }
   }
 

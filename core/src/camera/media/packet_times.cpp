@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 namespace hypotrack::internal {
@@ -17,37 +18,42 @@ bool is_hidden(const AVPacket& packet, AVCodecID codec) {
 
 /// What was read of the pictures' stream.
 struct Read {
-  std::size_t packets = 0;  ///< with data
-  std::int64_t end = 0;     ///< of the last picture, in units of the stream
-  bool failed = false;      ///< before the end of the file
+  std::size_t packets = 0;      ///< with data
+  std::int64_t end = 0;         ///< of the last picture, in units of the stream
+  std::int64_t last_start = 0;  ///< of decoding of the last one
+  bool failed = false;          ///< before the end of the file
 };
 
 std::string_view container_of(const Demuxer& video) { return video.format->iformat->name; }
 
 /// Returns the number of packets that the header promises; 0 if it does not say. The `nb_frames` of
-/// MP4 count frames that its edit list leaves out.
-std::size_t promised(const Demuxer& video) {
+/// MP4 count frames that its edit list leaves out; those of AVI are ticks, of which a frame may
+/// take several.
+std::size_t promised(const Demuxer& video, const Read& read) {
   const AVStream& stream = video.pictures();
-  if (container_of(video) == "avi")
-    return stream.nb_frames > 0 ? static_cast<std::size_t>(stream.nb_frames) : 0;
+  if (container_of(video) == "avi" && stream.nb_frames > 0) {
+    const double ticks = static_cast<double>(read.last_start + 1);
+    const double per_frame = std::max(1.0, std::round(ticks / static_cast<double>(read.packets)));
+    return static_cast<std::size_t>(static_cast<double>(stream.nb_frames) / per_frame);
+  }
   if (container_of(video).starts_with("mov"))
     return static_cast<std::size_t>(std::max(0, avformat_index_get_entries_count(&stream)));
   return 0;
 }
 
 std::string problem_of_end(const Demuxer& video, const Read& read, std::size_t shown) {
-  constexpr std::size_t kUsual = 1;  // frames too many in sound files
-  constexpr double kLeast = 2;       // seconds that sound is not longer than pictures
+  constexpr std::size_t kUsual = 1;                             // frames too many in sound files
+  const double least = video.format->nb_streams > 1 ? 2 : 0.2;  // seconds; sound may be longer
   constexpr const char* kAdvice = "the file may be cut off: copy or convert it again";
-  const std::size_t expected = promised(video);
-  if (read.packets + kUsual < expected)
+  const std::size_t expected = promised(video, read);
+  if (read.packets > 0 && read.packets + kUsual < expected)
     return fmt::format("ends after {} frames, its header says {}; {}", shown,
                        expected - (read.packets - shown), kAdvice);
   if (read.failed) return fmt::format("cannot be read after {} frames; {}", shown, kAdvice);
   if (!container_of(video).starts_with("matroska") || video.format->duration <= 0) return {};
   const double end = static_cast<double>(read.end) * av_q2d(video.pictures().time_base);
   const double duration = static_cast<double>(video.format->duration) / AV_TIME_BASE;
-  if (end + kLeast > duration) return {};
+  if (end + least > duration) return {};
   return fmt::format("ends at {:.3f} s, its header says {:.3f} s; {}", end, duration, kAdvice);
 }
 
@@ -78,10 +84,12 @@ PacketTimes read_packet_times(Demuxer& video) {
       out.shown.push_back({packet->pts, (packet->flags & AV_PKT_FLAG_CORRUPT) != 0});
       decoding_times.push_back(packet->dts);
       read.end = std::max(read.end, packet->pts + packet->duration);
+      read.last_start = std::max(read.last_start, packet->dts);
     }
     av_packet_unref(packet.get());
   }
   read.failed = result < 0 && result != AVERROR_EOF;
+  out.numbered = !out.presented && !decoded;
   for (std::size_t i = 0; i < out.shown.size() && !out.presented; ++i)
     out.shown[i].time = decoded ? decoding_times[i] : static_cast<std::int64_t>(i);
   order(out);

@@ -18,6 +18,7 @@ struct ShownPicture {
 /// The pictures of a video, read from its packets without decoding.
 struct PacketTimes {
   std::vector<ShownPicture> shown;  ///< by time, which grows
+  bool numbered = false;            ///< there are no times at all: these are numbers
   bool presented = true;            ///< the packets say when; false: frames keep their order only
   std::string problem_of_end;       ///< note for the user if data are missing at the end
 };

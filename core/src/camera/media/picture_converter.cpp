@@ -107,7 +107,7 @@ cv::Mat PictureConverter::convert(const AVFrame& frame) {
   constexpr int kRoom = 32;  // pixels
   bool full = frame.color_range == AVCOL_RANGE_JPEG;
   const AVPixelFormat format = without_range(static_cast<AVPixelFormat>(frame.format), full);
-  const int flags = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT;
+  const int flags = SWS_BILINEAR | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT;
   scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height, format,
                                      frame.width, frame.height, AV_PIX_FMT_BGR24, flags, nullptr,
                                      nullptr, nullptr));
