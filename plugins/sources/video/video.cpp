@@ -29,7 +29,9 @@ class Video : public Source {
     take_frames();
     const std::size_t views = split_ ? 2 : files_.size();
     const ImageSize first = view_size(0);
-    cameras_ = load_calibration(params.calibration, first, &notes_);
+    std::vector<std::string> of_calibration;
+    cameras_ = load_calibration(params.calibration, first, &of_calibration);
+    notes_.insert(notes_.begin(), of_calibration.begin(), of_calibration.end());
     if (cameras_.size() != views) {
       throw DataError(
           fmt::format("{}: holds {} cameras, the source has {} views; expected one "

@@ -5,6 +5,8 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "camera/media/picture_notes.hpp"
