@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "camera/timeline/pair_videos.hpp"
 
@@ -45,9 +46,9 @@ std::string note_of_pairs(const VideoPair& pair, const std::vector<TimelineFrame
   }
   std::string out = fmt::format(
       "{} has {} frames per second, {} {}; they are paired by time, and the two of a pair are at "
-      "most {:.3g} ms apart",
+      "most {:.4g} ms apart",
       pair.videos[0].name, rate_text(pair.left), pair.videos[1].name, rate_text(pair.right),
-      1e3 * farthest);
+      std::round(1e6 * farthest) / 1e3);
   if (alone > 0)
     out += fmt::format("; {} frame{} no partner and count{} as missing", alone,
                        alone == 1 ? " has" : "s have", alone == 1 ? "s" : "");
