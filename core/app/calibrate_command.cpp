@@ -95,7 +95,8 @@ FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
           out.without.push_back(pair.name);
         else
           out.pairs.push_back(std::move(board));
-      });
+      },
+      [](const std::string& note) { tell("note: {}\n", note); });
   return out;
 }
 

@@ -124,7 +124,8 @@ int print_judgement(const Judged& judged) {
 int check(const CalibrationOptions& options) {
   CalibrationSettings settings = settings_of(options);
   Judged judged;
-  calibrate::read_pairs(options.left, options.right, 30, [&](const calibrate::PicturePair& pair) {
+  const auto note = [](const std::string& line) { tell("note: {}\n", line); };
+  const auto judge = [&](const calibrate::PicturePair& pair) {
     std::vector<Camera> cameras = load_calibration(settings, {pair.left.cols, pair.left.rows});
     if (cameras.size() != 2) {
       throw DataError(fmt::format("{}: has {} cameras; expected two, which --cameras chooses",
@@ -134,7 +135,8 @@ int check(const CalibrationOptions& options) {
     fit_image_size(cameras[1], pair.right.cols, pair.right.rows, options.right);
     print_check(pair.name,
                 calibrate::check_matches({cameras[0], cameras[1]}, pair.left, pair.right), judged);
-  });
+  };
+  calibrate::read_pairs(options.left, options.right, 30, judge, note);
   return print_judgement(judged);
 }
 

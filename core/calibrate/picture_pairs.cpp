@@ -12,6 +12,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
+#include "hypotrack/video_timeline.hpp"
 
 namespace hypotrack::calibrate {
 namespace {
@@ -44,32 +45,41 @@ cv::Mat read_picture(const std::string& file) {
   return out;
 }
 
-std::unique_ptr<VideoFile> opened(const std::string& file) {
-  auto video = open_video(file);
-  if (!video) throw DataError(fmt::format("{}: cannot be opened as a video", file));
-  return video;
-}
-
 void read_videos(const std::string& left, const std::string& right, int step,
-                 const std::function<void(PicturePair)>& take) {
-  const auto first = opened(left), second = opened(right);
-  for (int i = 0; first->grab() && second->grab(); ++i) {
-    if (i % step != 0) continue;
-    PicturePair pair{fmt::format("frame {}", i), {}, {}};
-    if (first->retrieve(pair.left) && second->retrieve(pair.right)) take(std::move(pair));
+                 const std::function<void(PicturePair)>& take,
+                 const std::function<void(const std::string&)>& tell) {
+  const std::array files{open_video(left), open_video(right)};
+  const std::array infos{files[0]->info(), files[1]->info()};
+  const VideoTimeline line = make_timeline(infos, {});
+  for (const VideoInfo& info : infos) std::ranges::for_each(info.notes, tell);
+  std::ranges::for_each(line.notes, tell);
+  for (std::size_t i = 0; i < line.frames.size(); i += static_cast<std::size_t>(step)) {
+    const TimelineFrame& frame = line.frames[i];
+    if (!frame.complete()) continue;
+    PicturePair pair{fmt::format("frame {}", frame.number.value_or(static_cast<int>(i))), {}, {}};
+    std::string problem = files[0]->read(*frame.pictures[0], pair.left);
+    if (problem.empty()) problem = files[1]->read(*frame.pictures[1], pair.right);
+    if (problem.empty())
+      take(std::move(pair));
+    else
+      tell(problem);
   }
+  for (const VideoInfo& info : infos)
+    if (!info.problem_of_end.empty()) tell(info.problem_of_end);
 }
 
 }  // namespace
 
 void read_pairs(const std::string& left, const std::string& right, int step,
-                const std::function<void(PicturePair)>& take) {
+                const std::function<void(PicturePair)>& take,
+                const std::function<void(const std::string&)>& tell) {
   const std::vector<std::string> first = files_of(left), second = files_of(right);
   if (first.size() != second.size()) {
     throw DataError(fmt::format("{} matches {} files, {} matches {}; expected as many of each",
                                 left, first.size(), right, second.size()));
   }
-  if (first.size() == 1 && is_video(first[0])) return read_videos(first[0], second[0], step, take);
+  if (first.size() == 1 && is_video(first[0]))
+    return read_videos(first[0], second[0], step, take, tell);
   for (std::size_t i = 0; i < first.size(); ++i)
     take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i]),
           read_picture(second[i])});

@@ -30,20 +30,37 @@ HYPOTRACK_API std::vector<unsigned char> encode_image(const std::string& extensi
                                                       const cv::Mat& image,
                                                       const std::vector<int>& parameters = {});
 
-/// Reads the frames of a video file as cv::VideoCapture does, without turning them.
+/// Facts about a video file.
+struct VideoInfo {
+  std::string name;  ///< of the file
+  int width = 0;     ///< of pictures as players show them
+  int height = 0;
+  double frame_rate = 0;  ///< frames per second that the file says; 0 if it does not
+  /// When each frame is shown, in seconds on the file's own clock; they grow. Frames that an edit
+  /// list leaves out, and those before the first that can be decoded, are not among them.
+  std::vector<double> times;
+  double tick = 0;         ///< resolution of `times`, seconds
+  bool has_clock = false;  ///< times are of the frames themselves, not their number over a rate
+  std::vector<std::string> notes;  ///< lines for the user: what is assumed or not honoured
+  std::string problem_of_end;      ///< line for the user if data are missing at the end, or empty
+};
+
+/// Reads the frames of a local video file as players show them: turned as it asks, in its colours.
 class HYPOTRACK_API VideoFile {
  public:
   VideoFile() = default;
   virtual ~VideoFile() = default;
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
-  /// Goes to the next frame; false at the end.
-  virtual bool grab() = 0;
-  /// Decodes the current frame; false if that fails.
-  virtual bool retrieve(cv::Mat& frame) = 0;
+
+  virtual const VideoInfo& info() const = 0;
+  /// Decodes frame `index` of `info().times`, 8-bit BGR; indices of successive calls must grow.
+  /// Returns an empty text, or why there is no picture: it names file and time.
+  virtual std::string read(std::size_t index, cv::Mat& picture) = 0;
 };
 
-/// Opens a video file; returns null if it cannot be opened.
+/// Opens a video file. Throws DataError if it is missing, no video, larger than images may be, or
+/// if none of its frames can be decoded.
 HYPOTRACK_API std::unique_ptr<VideoFile> open_video(const std::string& file);
 
 }  // namespace hypotrack

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
+#include "hypotrack/pair_by_time.hpp"
 
 namespace hypotrack {
 namespace {
@@ -63,60 +63,36 @@ std::vector<NamedPicture> find_pictures(const fs::path& pattern, TimeUnit unit) 
   return pictures;
 }
 
-/// The pictures of one frame.
-struct StampedFrame {
-  Stamp stamp;
-  std::string text;             ///< of the picture that gave the stamp
-  std::vector<fs::path> files;  ///< by layer; empty: not there
-};
-
-/// Returns the index of the nearest in time, the earlier of two. `all` must ascend, and not be
-/// empty.
-template <class T>
-std::size_t nearest(const std::vector<T>& all, Stamp stamp) {
-  const auto after = std::ranges::lower_bound(all, stamp, {}, &T::stamp);
-  const auto index = static_cast<std::size_t>(after - all.begin());
-  if (index == 0) return 0;
-  if (index == all.size()) return index - 1;
-  return stamp - all[index - 1].stamp <= all[index].stamp - stamp ? index - 1 : index;
+std::vector<Stamp> stamps_of(const std::vector<NamedPicture>& pictures) {
+  std::vector<Stamp> stamps;
+  for (const NamedPicture& picture : pictures) stamps.push_back(picture.stamp);
+  return stamps;
 }
 
-/// Adds the pictures of a layer to the frames that they belong to, or as new frames.
-void add_layer(std::vector<StampedFrame>& frames, const std::vector<NamedPicture>& pictures,
-               std::size_t layer, std::size_t layers, Stamp tolerance) {
-  std::vector<StampedFrame> alone;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const NamedPicture& picture = pictures[i];
-    const std::size_t k = frames.empty() ? 0 : nearest(frames, picture.stamp);
-    if (!frames.empty() && std::abs(frames[k].stamp - picture.stamp) <= tolerance &&
-        nearest(pictures, frames[k].stamp) == i) {
-      frames[k].files[layer] = picture.file;
-      continue;
-    }
-    alone.push_back({picture.stamp, picture.text, std::vector<fs::path>(layers)});
-    alone.back().files[layer] = picture.file;
-  }
-  frames.insert(frames.end(), alone.begin(), alone.end());
-  std::ranges::sort(frames, {}, &StampedFrame::stamp);
+/// Returns the name's time of the picture that gave a frame its time.
+const std::string& text_of(const TimedFrame& frame,
+                           const std::vector<std::vector<NamedPicture>>& layers) {
+  std::size_t layer = 0;
+  while (!frame.pictures[layer]) ++layer;
+  return layers[layer][*frame.pictures[layer]].text;
 }
 
 /// Throws DataError if no frame has pictures of both layers.
 void require_partners(const std::vector<std::vector<NamedPicture>>& layers, std::size_t layer,
-                      const std::vector<StampedFrame>& frames,
-                      const std::vector<fs::path>& patterns, double tolerance) {
-  const bool some = std::ranges::any_of(frames, [&](const StampedFrame& frame) {
-    return !frame.files[0].empty() && !frame.files[layer].empty();
-  });
+                      const std::vector<TimedFrame>& frames, const std::vector<fs::path>& patterns,
+                      double tolerance) {
+  const bool some = std::ranges::any_of(
+      frames, [&](const TimedFrame& frame) { return frame.pictures[0] && frame.pictures[layer]; });
   if (some) return;
   const std::string pair = fmt::format("{} and {}", patterns[0].string(), patterns[layer].string());
   if (layers[0].empty() || layers[layer].empty())
     throw DataError(fmt::format("{} find {} and {} images; expected some of both", pair,
                                 layers[0].size(), layers[layer].size()));
   std::vector<double> apart;
-  for (const NamedPicture& p : layers[0]) {
-    const Stamp other = layers[layer][nearest(layers[layer], p.stamp)].stamp;
-    apart.push_back(1e3 * std::abs(seconds_between(p.stamp, other)));
-  }
+  const std::vector<Stamp> others = stamps_of(layers[layer]);
+  for (const NamedPicture& p : layers[0])
+    apart.push_back(1e3 *
+                    std::abs(seconds_between(p.stamp, others[nearest_in_time(others, p.stamp)])));
   throw DataError(
       fmt::format("{} have no two images within {:g} ms of each other; the nearest are {:.6g} ms "
                   "apart in the median. Expected times of one clock; if they are, give the largest "
@@ -130,10 +106,10 @@ TimedImages stamped_names(const std::vector<fs::path>& patterns, const Selection
   for (const fs::path& pattern : patterns) layers.push_back(find_pictures(pattern, *settings.unit));
   const auto none = [](const auto& layer) { return layer.empty(); };
   if (std::ranges::all_of(layers, none)) nothing_found(patterns);
-  std::vector<StampedFrame> frames;
-  const Stamp tolerance = std::llround(1e9 * settings.tolerance);
-  for (std::size_t i = 0; i < layers.size(); ++i)
-    add_layer(frames, layers[i], i, layers.size(), tolerance);
+  std::vector<std::vector<Stamp>> stamps;
+  for (const auto& layer : layers) stamps.push_back(stamps_of(layer));
+  const std::vector<TimedFrame> frames =
+      pair_by_time(stamps, std::llround(1e9 * settings.tolerance));
   for (std::size_t i = 1; i < layers.size(); ++i)
     require_partners(layers, i, frames, patterns, settings.tolerance);
 
@@ -141,11 +117,12 @@ TimedImages stamped_names(const std::vector<fs::path>& patterns, const Selection
   out.images = {std::vector<ImageList>(layers.size()), selection.start.value_or(0), 0,
                 static_cast<int>(frames.size()) - 1};
   for (const std::size_t k : positions(selection, frames.size(), patterns[0])) {
-    out.stamps.push_back(frames[k].stamp);
+    out.stamps.push_back(frames[k].time);
     for (std::size_t i = 0; i < layers.size(); ++i) {
-      const fs::path& file = frames[k].files[i];
-      out.images.views[i].push_back(file.empty() ? NamePattern(patterns[i]).with(frames[k].text)
-                                                 : file);
+      const std::optional<std::size_t> picture = frames[k].pictures[i];
+      out.images.views[i].push_back(
+          picture ? layers[i][*picture].file
+                  : NamePattern(patterns[i]).with(text_of(frames[k], layers)));
     }
   }
   return out;

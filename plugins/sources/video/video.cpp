@@ -1,72 +1,37 @@
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "hypotrack/calibration.hpp"
+#include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
-#include "hypotrack/truth.hpp"
-#include "reader.hpp"
+#include "hypotrack/video_timeline.hpp"
+#include "params.hpp"
 
 namespace hypotrack {
 
-struct VideoParams {
-  std::filesystem::path left;
-  std::filesystem::path right;
-  std::filesystem::path side_by_side;
-  CalibrationSettings calibration;
-  int offset = 0;
-  int start = 0;
-  int step = 1;
-  std::optional<int> count;
-  std::optional<double> frame_rate;
-  TruthSettings truth;
-
-  void visit(ParamVisitor& v) {
-    v("left", left, {.help = "video of the first camera"});
-    v("right", right, {.help = "video of the second camera; without it there is one view"});
-    v("side_by_side", side_by_side,
-      {.help = "one video with the first camera in the left half and the second in the right half, "
-               "instead of left and right"});
-    v("calibration", calibration, {.help = "the cameras", .required = true});
-    v("offset", offset,
-      {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
-               "later",
-       .min = -1000000,
-       .max = 1000000});
-    v("start", start, {.help = "frames of `left` to leave out first", .min = 0, .max = 1000000000});
-    v("step", step, {.help = "take every step-th frame", .min = 1, .max = 1000000});
-    v("count", count, {.help = "number of frames; default: all", .min = 1});
-    v("frame_rate", frame_rate,
-      {.help = "frames per second; default: what the file says, or 30",
-       .min = 1e-3,
-       .max = 1e5,
-       .unit = "1/s"});
-    truth.visit(v);
-  }
-};
-
-/// Tolerated difference of the two files' frame rates, which are rounded or means.
-constexpr double kSameRate = 0.01;
-
-/// Reads two synchronous videos, or one with both views side by side. Ends when either ends. Truth
-/// tables (`truth_states`, `truth_landmarks`) are CSV as described in hypotrack/tables.hpp. Their
-/// frames are those of the first video, unless `truth_offset` shifts them.
+/// Reads two videos, whose frames pair by their times, or one with both views in it. Begins and
+/// ends with a pair. Truth tables (`truth_states`, `truth_landmarks`) are CSV as described in
+/// hypotrack/tables.hpp. Their frames are those of the first video, gaps counted, unless
+/// `truth_offset` shifts them.
 class Video : public Source {
  public:
   using Params = VideoParams;
 
   Video(const Params& params, PluginContext& context) : params_(params) {
     open(context.config().where());
-    const std::size_t views = split_ ? 2 : readers_.size();
-    cameras_ = load_calibration(
-        params.calibration,
-        {split_ ? readers_[0].width() / 2 : readers_[0].width(), readers_[0].height()}, &notes_);
+    take_frames();
+    const std::size_t views = split_ ? 2 : files_.size();
+    const ImageSize first = view_size(0);
+    std::vector<std::string> of_calibration;
+    cameras_ = load_calibration(params.calibration, first, &of_calibration);
+    notes_.insert(notes_.begin(), of_calibration.begin(), of_calibration.end());
     if (cameras_.size() != views) {
       throw DataError(
           fmt::format("{}: holds {} cameras, the source has {} views; expected one "
@@ -74,73 +39,51 @@ class Video : public Source {
                       params.calibration.file.string(), cameras_.size(), views));
     }
     for (std::size_t v = 0; v < views; ++v) {
-      const VideoReader& reader = readers_[split_ ? 0 : v];
-      fit_image_size(cameras_[v], split_ ? reader.width() / 2 : reader.width(), reader.height(),
-                     files_[split_ ? 0 : v].string());
+      const ImageSize size = view_size(v);
+      fit_image_size(cameras_[v], size.width, size.height, infos_[split_ ? 0 : v].name);
     }
-    // Advance both videos to the first common frame that is wanted.
-    first_ = std::max(params.start, -params.offset);
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
       truth_ = TruthTables(params.truth, context.scene());
-      truth_.expect_some(first_, params.step, frame_count());
+      truth_.expect_some(*frames_.front().number, params.step, frame_count());
     }
-    skip(0, first_);
-    if (readers_.size() == 2) skip(1, first_ + params.offset);
   }
 
   const std::vector<Camera>& cameras() const override { return cameras_; }
   std::vector<std::string> notes() const override { return notes_; }
-
-  double frame_rate() const override {
-    const double recorded = readers_[0].frame_rate() > 0 ? readers_[0].frame_rate() : 30;
-    return params_.frame_rate.value_or(recorded) / params_.step;
-  }
-
-  std::optional<int> frame_count() const override {
-    std::optional<int> count = params_.count;
-    for (std::size_t i = 0; i < readers_.size(); ++i) {
-      if (readers_[i].frame_count() == 0) return std::nullopt;
-      const int skipped = first_ + (i == 1 ? params_.offset : 0);
-      const int rest = std::max(0, readers_[i].frame_count() - skipped);
-      const int frames = (rest + params_.step - 1) / params_.step;
-      count = std::min(count.value_or(frames), frames);
-    }
-    return count;
-  }
+  double frame_rate() const override { return rate_ / params_.step; }
+  std::optional<int> frame_count() const override { return static_cast<int>(frames_.size()); }
 
   std::vector<std::string> statistics() const override {
     std::vector<std::string> lines;
-    for (const VideoReader& reader : readers_) {
-      if (std::string problem = reader.problem_of_end(); !problem.empty())
-        lines.push_back(std::move(problem));
-    }
+    if (!ended_) return lines;
+    for (const VideoInfo& info : infos_)
+      if (!info.problem_of_end.empty()) lines.push_back(info.problem_of_end);
+    if (damaged_ > 0)
+      lines.push_back(
+          fmt::format("{} frames of the videos are damaged; pictures after them may be smeared "
+                      "until the next key frame",
+                      damaged_));
     return lines;
   }
 
   std::optional<Frame> next() override {
-    if (params_.count && index_ == *params_.count) return std::nullopt;
-    if (index_ > 0) {
-      for (std::size_t i = 0; i < readers_.size(); ++i) skip(i, params_.step - 1);
-    }
+    ended_ = next_ == frames_.size();
+    if (ended_) return std::nullopt;
+    const TimelineFrame& moment = frames_[next_];
     Frame frame;
-    std::vector<cv::Mat> images;
-    for (std::size_t i = 0; i < readers_.size(); ++i) {
-      cv::Mat image;
-      const VideoReader::Result result = readers_[i].next(image);
-      if (result == VideoReader::Result::end && index_ > 0) return std::nullopt;
-      if (result == VideoReader::Result::end) {
-        throw DataError(fmt::format("{}: ends before frame {}, the first that start{} for",
-                                    files_[i].string(), first_ + (i == 1 ? params_.offset : 0),
-                                    readers_.size() == 2 ? " and offset ask" : " asks"));
-      }
-      if (result == VideoReader::Result::damaged) {
-        frame.problem = fmt::format("{}: a frame cannot be decoded", files_[i].string());
-      }
-      images.push_back(image);
-    }
-    frame.index = index_++;
-    frame.time = frame.index / frame_rate();
-    frame.truth = truth_.at(first_ + frame.index * params_.step);
+    frame.index = static_cast<int>(next_++);
+    frame.time = moment.time - frames_.front().time;
+    if (moment.number) frame.truth = truth_.at(*moment.number);
+    frame.problem = missing_picture(infos_, moment);
+    if (!frame.problem.empty()) return frame;
+    std::vector<cv::Mat> images(files_.size());
+    std::vector<std::string> problems(files_.size());
+    tbb::parallel_for(std::size_t{0}, files_.size(), [&](std::size_t i) {
+      problems[i] = files_[i]->read(*moment.pictures[i], images[i]);
+    });
+    for (std::string& problem : problems)
+      if (frame.problem.empty()) frame.problem = std::move(problem);
+    damaged_ += frame.problem.empty() ? 0 : 1;
     if (frame.problem.empty()) fill_views(frame, images);
     return frame;
   }
@@ -151,53 +94,88 @@ class Video : public Source {
     if (split_ == !params_.left.empty() || (split_ && !params_.right.empty())) {
       throw ConfigError(fmt::format("{}: expected either left (and right) or side_by_side", where));
     }
-    if (split_) {
-      files_ = {params_.side_by_side};
-    } else {
-      files_ = {params_.left};
-      if (!params_.right.empty()) files_.push_back(params_.right);
+    std::vector<std::filesystem::path> names{split_ ? params_.side_by_side : params_.left};
+    if (!params_.right.empty()) names.push_back(params_.right);
+    const auto refuse = [&](bool given, const char* key, const char* of) {
+      if (given) throw ConfigError(fmt::format("{}: {} is for {}", where, key, of));
+    };
+    refuse(params_.offset.value_or(0) != 0 && names.size() != 2, "offset", "two videos");
+    refuse(params_.tolerance && names.size() != 2, "tolerance_ms", "two videos");
+    refuse(params_.layout == ViewLayout::top_bottom && !split_, "layout", "side_by_side");
+    for (const std::filesystem::path& name : names) {
+      files_.push_back(open_video(name.string()));
+      infos_.push_back(files_.back()->info());
+      notes_.insert(notes_.end(), infos_.back().notes.begin(), infos_.back().notes.end());
     }
-    if (params_.offset != 0 && files_.size() != 2) {
-      throw ConfigError(fmt::format("{}: offset is for two videos", where));
+    if (split_) check_halves();
+  }
+
+  void check_halves() const {
+    const bool above = params_.layout == ViewLayout::top_bottom;
+    const int size = above ? infos_[0].height : infos_[0].width;
+    if (size % 2 == 0) return;
+    throw DataError(fmt::format("{}: is {} pixels {}; expected an even number, half for each view",
+                                infos_[0].name, size, above ? "high" : "wide"));
+  }
+
+  /// Throws DataError if a video ends before the frame that belongs to frame `start` of the first.
+  void check_start(int start) const {
+    const int offset = params_.offset.value_or(0);
+    const int first = std::max(start, -offset);
+    for (std::size_t i = 0; i < infos_.size(); ++i) {
+      const int wanted = i == 0 ? first : first + offset;
+      if (static_cast<std::size_t>(wanted) < infos_[i].times.size()) continue;
+      throw DataError(fmt::format("{}: ends before frame {}, the first that start{} for",
+                                  infos_[i].name, wanted,
+                                  infos_.size() == 2 ? " and offset ask" : " asks"));
     }
-    for (const std::filesystem::path& file : files_) readers_.emplace_back(file);
-    if (files_.size() == 2 && !params_.frame_rate) check_rates();
-    if (split_ && readers_[0].width() % 2 != 0) {
+  }
+
+  /// Chooses the frames of the timeline that the source gives.
+  void take_frames() {
+    check_start(0);
+    VideoTimeline line =
+        make_timeline(infos_, {params_.offset, params_.frame_rate, params_.tolerance});
+    notes_.insert(notes_.end(), line.notes.begin(), line.notes.end());
+    rate_ = line.frame_rate;
+    const auto begin = std::ranges::find_if(line.frames, [&](const TimelineFrame& frame) {
+      return frame.number && *frame.number >= params_.start;
+    });
+    if (begin == line.frames.end()) {
+      check_start(params_.start);
       throw DataError(
-          fmt::format("{}: is {} pixels wide; expected an even number, half for each "
-                      "view",
-                      files_[0].string(), readers_[0].width()));
+          fmt::format("{}: no pair is left from frame {} on, the first that start asks for",
+                      infos_[0].name, params_.start));
+    }
+    const auto count = static_cast<std::size_t>(params_.count.value_or(1000000000));
+    for (auto frame = begin; frames_.size() < count; frame += params_.step) {
+      frames_.push_back(std::move(*frame));
+      if (line.frames.end() - frame <= params_.step) break;
     }
   }
 
-  void check_rates() const {
-    const double left = readers_[0].frame_rate();
-    const double right = readers_[1].frame_rate();
-    if (left <= 0 || right <= 0 || std::abs(left - right) <= kSameRate * left) return;
-    throw DataError(
-        fmt::format("{} has {:.4g} frames per second, {} {:.4g}; expected equal ones, since the "
-                    "videos are paired frame by frame. Convert one of them, or give `frame_rate` "
-                    "if what the files say is wrong",
-                    files_[0].string(), left, files_[1].string(), right));
-  }
-
-  void skip(std::size_t reader, int frames) {
-    cv::Mat ignored;
-    for (int i = 0; i < frames; ++i) {
-      if (readers_[reader].next(ignored) == VideoReader::Result::end) return;
-    }
+  /// Returns the size of a view's pictures.
+  ImageSize view_size(std::size_t view) const {
+    const VideoInfo& info = infos_[split_ ? 0 : view];
+    if (!split_) return {info.width, info.height};
+    if (params_.layout == ViewLayout::top_bottom) return {info.width, info.height / 2};
+    return {info.width / 2, info.height};
   }
 
   void fill_views(Frame& frame, std::vector<cv::Mat>& images) const {
     if (split_) {
-      const int half = images[0].cols / 2;
-      images = {images[0].colRange(0, half).clone(), images[0].colRange(half, 2 * half).clone()};
+      const cv::Mat whole = images[0];
+      const int columns = whole.cols / 2, rows = whole.rows / 2;
+      if (params_.layout == ViewLayout::top_bottom)
+        images = {whole.rowRange(0, rows).clone(), whole.rowRange(rows, 2 * rows).clone()};
+      else
+        images = {whole.colRange(0, columns).clone(), whole.colRange(columns, 2 * columns).clone()};
     }
     for (std::size_t v = 0; v < images.size(); ++v) {
       const cv::Mat& image = images[v];
       if (image.cols != cameras_[v].width || image.rows != cameras_[v].height) {
         frame.problem = fmt::format("{}: the frame is {}x{} pixels; expected {}x{} as its camera",
-                                    files_[split_ ? 0 : v].string(), image.cols, image.rows,
+                                    infos_[split_ ? 0 : v].name, image.cols, image.rows,
                                     cameras_[v].width, cameras_[v].height);
         frame.views.clear();
         return;
@@ -208,16 +186,18 @@ class Video : public Source {
 
   Params params_;
   bool split_ = false;
-  std::vector<std::filesystem::path> files_;
-  std::vector<VideoReader> readers_;
+  std::vector<std::unique_ptr<VideoFile>> files_;
+  std::vector<VideoInfo> infos_;
   std::vector<Camera> cameras_;
-  std::vector<std::string> notes_;  ///< on the calibration
+  std::vector<std::string> notes_;
   TruthTables truth_;
-  int first_ = 0;  ///< frame of the first video at which the source begins
-  int index_ = 0;
+  double rate_ = 0;                    ///< frames per second of the first video
+  std::vector<TimelineFrame> frames_;  ///< that the source gives
+  std::size_t next_ = 0;
+  int damaged_ = 0;  ///< frames so far
+  bool ended_ = false;
 };
 
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::Video, "One or two video files, or one with both views side by side",
-                 "")
+HYPOTRACK_PLUGIN(hypotrack::Video, "One or two video files, or one with both views in it", "")

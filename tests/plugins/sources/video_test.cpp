@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <opencv2/videoio.hpp>
@@ -8,6 +9,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/tables.hpp"
 #include "source_fixture.hpp"
+#include "video_writer.hpp"
 
 namespace hypotrack {
 namespace {
@@ -134,6 +136,73 @@ TEST_F(Video, CutsSideBySideInTwo) {
   EXPECT_EQ(frame->views[0].color.size(), cv::Size(64, 48));
   EXPECT_EQ(side(frame->views[0]), 0);
   EXPECT_EQ(side(frame->views[1]), 1);
+}
+
+TEST_F(Video, CutsViewsOneAboveTheOtherInTwo) {
+  cv::VideoWriter writer(file("both.avi").string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 12,
+                         {64, 96});
+  cv::Mat image(96, 64, CV_8UC3, cv::Scalar(20, 0, 30));
+  image.rowRange(48, 96) = cv::Scalar(20, 100, 30);
+  for (int i = 0; i < 3; ++i) writer.write(image);
+  writer.release();
+  const std::string yaml = "type: video\nlayout: top_bottom\ncalibration: {file: rig.yml}\n";
+  const auto frame = make(yaml + "side_by_side: both.avi\n")->next();
+  ASSERT_EQ(frame->views.size(), 2u);
+  EXPECT_EQ(frame->views[1].color.size(), cv::Size(64, 48));
+  EXPECT_EQ(side(frame->views[0]), 0);
+  EXPECT_EQ(side(frame->views[1]), 1);
+  EXPECT_THAT(making(yaml + "left: both.avi\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("layout is for side_by_side")));
+}
+
+/// A video of a recording of 12 frames, 30 per second, without some of them. Frame i has the
+/// brightness 20 + 10 i.
+test::VideoRecipe without(const std::vector<int>& gaps) {
+  test::VideoRecipe recipe{.codec = "mjpeg", .pixels = AV_PIX_FMT_YUVJ420P};
+  std::vector<int> numbers;
+  for (int i = 0; i < 12; ++i)
+    if (std::ranges::find(gaps, i) == gaps.end()) numbers.push_back(i);
+  for (const int i : numbers) recipe.times.push_back(20 * i);
+  recipe.paint = [numbers](AVFrame& frame, int i) {
+    test::fill_plane(frame, 0, 20 + 10 * numbers[static_cast<std::size_t>(i)]);
+    test::fill_plane(frame, 1, 128);
+    test::fill_plane(frame, 2, 128);
+  };
+  return recipe;
+}
+
+TEST_F(Video, GivesAFrameThatOneFileLacksAsMissing) {
+  test::write_video(file("left.mkv"), without({8}));
+  test::write_video(file("right.mkv"), without({3, 4}));
+  write_states(file("states.csv"), scene_, std::vector<StateRow>{{9, 0, scene_.rest_state()}});
+  const auto source = make(
+      "type: video\nleft: left.mkv\nright: right.mkv\ncalibration: {file: rig.yml}\n"
+      "truth_states: states.csv\n",
+      &scene_);
+  EXPECT_EQ(source->frame_count(), 12);
+  EXPECT_THAT(source->notes(), testing::Contains(HasSubstr("3 frames have no partner")));
+  for (int i = 0; i < 12; ++i) {
+    const auto frame = source->next();
+    ASSERT_TRUE(frame);
+    EXPECT_NEAR(frame->time, i / 30.0, 1e-9);
+    EXPECT_EQ(frame->truth.has_value(), i == 9);
+    const char* lacking = i == 8 ? "left.mkv" : i == 3 || i == 4 ? "right.mkv" : "";
+    EXPECT_THAT(frame->problem, HasSubstr(lacking));
+    ASSERT_EQ(frame->views.size(), *lacking ? 0 : 2) << i;
+    for (const View& view : frame->views) EXPECT_EQ(number(view), i);
+  }
+  EXPECT_FALSE(source->next());
+  EXPECT_THAT(source->statistics(), testing::IsEmpty());
+}
+
+TEST_F(Video, CountsTheFramesOfAGapForItsStart) {
+  test::write_video(file("left.mkv"), without({2}));
+  test::write_video(file("right.mkv"), without({5}));
+  const auto source = make(
+      "type: video\nleft: left.mkv\nright: right.mkv\nstart: 4\nstep: 3\n"
+      "calibration: {file: rig.yml}\n");
+  for (const int i : {4, 7, 10}) EXPECT_EQ(number(source->next()->views.at(1)), i);
+  EXPECT_FALSE(source->next());
 }
 
 TEST_F(Video, KeepsTheFramesItGave) {

@@ -13,7 +13,8 @@ struct MediaLibrary {
   cv::Mat (*decode)(const cv::Mat& bytes, int flags);
   std::vector<unsigned char> (*encode)(const std::string& extension, const cv::Mat& image,
                                        const std::vector<int>& parameters);
-  std::unique_ptr<VideoFile> (*open_video)(const std::string& file);
+  /// Returns null, and why, if the file is no video.
+  std::unique_ptr<VideoFile> (*open_video)(const std::string& file, std::string& problem);
 };
 
 /// Name of the module's function that returns its MediaLibrary.

@@ -21,7 +21,7 @@ const MediaLibrary& load() {
     const char* why = dlerror();
     throw DeviceError(
         fmt::format("images and videos need {}, which cannot be loaded: {}; install OpenCV's "
-                    "imgcodecs and videoio (libopencv-imgcodecs, libopencv-videoio)",
+                    "imgcodecs (libopencv-imgcodecs) and FFmpeg (libavformat, libswscale)",
                     file.string(), why ? why : "unknown reason"));
   }
   return reinterpret_cast<GetMediaLibrary>(function)();
@@ -49,7 +49,13 @@ std::vector<unsigned char> encode_image(const std::string& extension, const cv::
 }
 
 std::unique_ptr<VideoFile> open_video(const std::string& file) {
-  return library().open_video(file);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))
+    throw DataError(file + ": no such file; expected a video");
+  std::string problem;
+  std::unique_ptr<VideoFile> video = library().open_video(file, problem);
+  if (!video) throw DataError(fmt::format("{}: {}", file, problem));
+  return video;
 }
 
 }  // namespace hypotrack

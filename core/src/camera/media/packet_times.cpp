@@ -1,0 +1,100 @@
+#include "camera/media/packet_times.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr std::size_t kMostPictures = 20'000'000;
+
+/// Returns whether a packet is a VP8 frame that only others refer to (RFC 6386, section 9.1).
+bool is_hidden(const AVPacket& packet, AVCodecID codec) {
+  return codec == AV_CODEC_ID_VP8 && (packet.data[0] & 0x10) == 0;
+}
+
+/// What was read of the pictures' stream.
+struct Read {
+  std::size_t packets = 0;      ///< with data
+  std::int64_t end = 0;         ///< of the last picture, in units of the stream
+  std::int64_t last_start = 0;  ///< of decoding of the last one
+  bool failed = false;          ///< before the end of the file
+};
+
+std::string_view container_of(const Demuxer& video) { return video.format->iformat->name; }
+
+/// Returns the number of packets that the header promises; 0 if it does not say. The `nb_frames` of
+/// MP4 count frames that its edit list leaves out; those of AVI are ticks, of which a frame may
+/// take several.
+std::size_t promised(const Demuxer& video, const Read& read) {
+  const AVStream& stream = video.pictures();
+  if (container_of(video) == "avi" && stream.nb_frames > 0) {
+    const double ticks = static_cast<double>(read.last_start + 1);
+    const double per_frame = std::max(1.0, std::round(ticks / static_cast<double>(read.packets)));
+    return static_cast<std::size_t>(static_cast<double>(stream.nb_frames) / per_frame);
+  }
+  if (container_of(video).starts_with("mov"))
+    return static_cast<std::size_t>(std::max(0, avformat_index_get_entries_count(&stream)));
+  return 0;
+}
+
+std::string problem_of_end(const Demuxer& video, const Read& read, std::size_t shown) {
+  constexpr std::size_t kUsual = 1;                             // frames too many in sound files
+  const double least = video.format->nb_streams > 1 ? 2 : 0.2;  // seconds; sound may be longer
+  constexpr const char* kAdvice = "the file may be cut off: copy or convert it again";
+  const std::size_t expected = promised(video, read);
+  if (read.packets > 0 && read.packets + kUsual < expected)
+    return fmt::format("ends after {} frames, its header says {}; {}", shown,
+                       expected - (read.packets - shown), kAdvice);
+  if (read.failed) return fmt::format("cannot be read after {} frames; {}", shown, kAdvice);
+  if (!container_of(video).starts_with("matroska") || video.format->duration <= 0) return {};
+  const double end = static_cast<double>(read.end) * av_q2d(video.pictures().time_base);
+  const double duration = static_cast<double>(video.format->duration) / AV_TIME_BASE;
+  if (end + least > duration) return {};
+  return fmt::format("ends at {:.3f} s, its header says {:.3f} s; {}", end, duration, kAdvice);
+}
+
+/// Puts pictures in the order of their times, and one where several have the same.
+void order(PacketTimes& out) {
+  std::ranges::stable_sort(out.shown, {}, &ShownPicture::time);
+  const auto same = std::ranges::unique(out.shown, {}, &ShownPicture::time);
+  out.shown.erase(same.begin(), same.end());
+}
+
+}  // namespace
+
+PacketTimes read_packet_times(Demuxer& video) {
+  PacketTimes out;
+  Read read;
+  std::vector<std::int64_t> decoding_times;
+  bool decoded = true;
+  const Ffmpeg<AVPacket> packet(av_packet_alloc());
+  int result = 0;
+  while (out.shown.size() < kMostPictures &&
+         (result = av_read_frame(video.format.get(), packet.get())) >= 0) {
+    const AVCodecID codec = video.pictures().codecpar->codec_id;
+    const bool counts = packet->stream_index == video.stream && packet->size > 0;
+    read.packets += counts ? 1 : 0;
+    if (counts && !(packet->flags & AV_PKT_FLAG_DISCARD) && !is_hidden(*packet, codec)) {
+      out.presented = out.presented && packet->pts != AV_NOPTS_VALUE;
+      decoded = decoded && packet->dts != AV_NOPTS_VALUE;
+      out.shown.push_back({packet->pts, (packet->flags & AV_PKT_FLAG_CORRUPT) != 0});
+      decoding_times.push_back(packet->dts);
+      read.end = std::max(read.end, packet->pts + packet->duration);
+      read.last_start = std::max(read.last_start, packet->dts);
+    }
+    av_packet_unref(packet.get());
+  }
+  read.failed = result < 0 && result != AVERROR_EOF;
+  out.numbered = !out.presented && !decoded;
+  for (std::size_t i = 0; i < out.shown.size() && !out.presented; ++i)
+    out.shown[i].time = decoded ? decoding_times[i] : static_cast<std::int64_t>(i);
+  order(out);
+  out.problem_of_end = problem_of_end(video, read, out.shown.size());
+  return out;
+}
+
+}  // namespace hypotrack::internal

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "camera/media/ffmpeg.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// A picture that players show.
+struct ShownPicture {
+  std::int64_t time = 0;  ///< of its presentation, in units of the stream
+  bool cut = false;       ///< its data are not whole
+};
+
+/// The pictures of a video, read from its packets without decoding.
+struct PacketTimes {
+  std::vector<ShownPicture> shown;  ///< by time, which grows
+  bool numbered = false;            ///< there are no times at all: these are numbers
+  bool presented = true;            ///< the packets say when; false: frames keep their order only
+  std::string problem_of_end;       ///< note for the user if data are missing at the end
+};
+
+/// Reads all packets. Leaves out those that an edit list or the codec does not show.
+PacketTimes read_packet_times(Demuxer& video);
+
+}  // namespace internal
+}  // namespace hypotrack

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "camera/media/ffmpeg.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Right angles and mirrors that lead from stored to shown pictures.
+enum class Turn { none, clockwise, half, anticlockwise, mirror, flip, transpose, antitranspose };
+
+/// Returns the turn of a display matrix; nothing if it is none of these.
+std::optional<Turn> turn_of(const std::int32_t* matrix);
+/// Returns a turned copy.
+cv::Mat turned(const cv::Mat& picture, Turn turn);
+/// Returns whether width and height change places.
+inline bool on_its_side(Turn turn) {
+  return turn == Turn::clockwise || turn == Turn::anticlockwise || turn == Turn::transpose ||
+         turn == Turn::antitranspose;
+}
+
+/// Converts decoded pictures to 8-bit BGR as players show them: by their colour matrix, range and
+/// display matrix. Pixels that are not square stay as stored.
+class PictureConverter {
+ public:
+  /// Looks at the stream and its first picture. Adds lines for the user on what it assumes and on
+  /// what it does not honour.
+  PictureConverter(const Demuxer& video, const AVFrame& first, std::vector<std::string>& notes);
+  /// Returns an empty picture if the format of the pixels is not supported.
+  cv::Mat convert(const AVFrame& frame);
+  Turn turn() const { return turn_; }
+
+ private:
+  Turn turn_ = Turn::none;
+  Ffmpeg<SwsContext> scaler_;
+  cv::Mat padded_;  ///< rows have room for what SIMD writes beyond their end
+};
+
+}  // namespace internal
+}  // namespace hypotrack

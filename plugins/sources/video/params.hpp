@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "hypotrack/calibration.hpp"
+#include "hypotrack/params.hpp"
+#include "hypotrack/truth.hpp"
+
+namespace hypotrack {
+
+enum class ViewLayout { side_by_side, top_bottom };
+inline std::span<const std::string_view> enum_names(ViewLayout) {
+  static constexpr std::array<std::string_view, 2> kNames{"side_by_side", "top_bottom"};
+  return kNames;
+}
+
+struct VideoParams {
+  std::filesystem::path left;
+  std::filesystem::path right;
+  std::filesystem::path side_by_side;
+  ViewLayout layout = ViewLayout::side_by_side;
+  CalibrationSettings calibration;
+  std::optional<int> offset;
+  int start = 0;
+  int step = 1;
+  std::optional<int> count;
+  std::optional<double> frame_rate;
+  std::optional<double> tolerance;
+  TruthSettings truth;
+
+  void visit(ParamVisitor& v) {
+    v("left", left, {.help = "video of the first camera"});
+    v("right", right, {.help = "video of the second camera; without it there is one view"});
+    v("side_by_side", side_by_side,
+      {.help = "one video with the first camera in the left half and the second in the right half, "
+               "instead of left and right"});
+    v("layout", layout,
+      {.help = "where the two views of side_by_side are: top_bottom has the first camera in the "
+               "upper half"});
+    v("calibration", calibration,
+      {.help = "the cameras, of pictures as players show them", .required = true});
+    v("offset", offset,
+      {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
+               "later; default: what the times in the files say",
+       .min = -1000000,
+       .max = 1000000});
+    v("start", start,
+      {.help = "frames of `left` to leave out first, gaps counted", .min = 0, .max = 1000000000});
+    v("step", step, {.help = "take every step-th frame", .min = 1, .max = 1000000});
+    v("count", count, {.help = "number of frames; default: all", .min = 1});
+    v("frame_rate", frame_rate,
+      {.help = "frames per second, if the times in the files are wrong: frames are then paired by "
+               "number",
+       .min = 1e-3,
+       .max = 1e5,
+       .unit = "1/s"});
+    v("tolerance_ms", tolerance,
+      {.help = "frames of a pair differ in time by this at most; default: half a frame",
+       .min = 0,
+       .max = 10000,
+       .unit = "ms",
+       .to_si = 1e-3});
+    truth.visit(v);
+  }
+};
+
+}  // namespace hypotrack
