@@ -10,6 +10,7 @@
 
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/stereo_layout.hpp"
 #include "hypotrack/truth.hpp"
 #include "reader.hpp"
 
@@ -19,6 +20,7 @@ struct VideoParams {
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path side_by_side;
+  std::optional<StereoLayout> layout;
   CalibrationSettings calibration;
   int offset = 0;
   int start = 0;
@@ -33,6 +35,9 @@ struct VideoParams {
     v("side_by_side", side_by_side,
       {.help = "one video with the first camera in the left half and the second in the right half, "
                "instead of left and right"});
+    v("layout", layout,
+      {.help = "how `left` holds both views, instead of `right`: the first camera in its left half "
+               "(side_by_side) or its upper half (top_bottom)"});
     v("calibration", calibration, {.help = "the cameras", .required = true});
     v("offset", offset,
       {.help = "frame of `right` that belongs to frame 0 of `left`; negative: `right` started "
@@ -64,9 +69,7 @@ class Video : public Source {
   Video(const Params& params, PluginContext& context) : params_(params) {
     open(context.config().where());
     const std::size_t views = split_ ? 2 : readers_.size();
-    cameras_ = load_calibration(
-        params.calibration,
-        {split_ ? readers_[0].width() / 2 : readers_[0].width(), readers_[0].height()}, &notes_);
+    cameras_ = load_calibration(params.calibration, size_of_view(0), &notes_);
     if (cameras_.size() != views) {
       throw DataError(
           fmt::format("{}: holds {} cameras, the source has {} views; expected one "
@@ -74,9 +77,8 @@ class Video : public Source {
                       params.calibration.file.string(), cameras_.size(), views));
     }
     for (std::size_t v = 0; v < views; ++v) {
-      const VideoReader& reader = readers_[split_ ? 0 : v];
-      fit_image_size(cameras_[v], split_ ? reader.width() / 2 : reader.width(), reader.height(),
-                     files_[split_ ? 0 : v].string());
+      const ImageSize size = size_of_view(v);
+      fit_image_size(cameras_[v], size.width, size.height, files_[split_ ? 0 : v].string());
     }
     // Advance both videos to the first common frame that is wanted.
     first_ = std::max(params.start, -params.offset);
@@ -146,28 +148,34 @@ class Video : public Source {
   }
 
  private:
-  void open(const std::string& where) {
-    split_ = !params_.side_by_side.empty();
-    if (split_ == !params_.left.empty() || (split_ && !params_.right.empty())) {
+  ImageSize size_of_view(std::size_t view) const {
+    const VideoReader& reader = readers_[split_ ? 0 : view];
+    if (!split_) return {reader.width(), reader.height()};
+    return view_size(layout_, reader.width(), reader.height(), files_[0].string());
+  }
+
+  /// Names the files, and how a file of both views holds them.
+  void choose_files(const std::string& where) {
+    const bool one = !params_.side_by_side.empty();
+    if (one == !params_.left.empty() || (one && !params_.right.empty()))
       throw ConfigError(fmt::format("{}: expected either left (and right) or side_by_side", where));
-    }
-    if (split_) {
-      files_ = {params_.side_by_side};
-    } else {
-      files_ = {params_.left};
-      if (!params_.right.empty()) files_.push_back(params_.right);
-    }
+    if (params_.layout && !params_.right.empty())
+      throw ConfigError(fmt::format(
+          "{}: layout is given together with right; expected one video of both views with it",
+          where));
+    split_ = one || params_.layout;
+    layout_ = params_.layout.value_or(StereoLayout::side_by_side);
+    files_ = {one ? params_.side_by_side : params_.left};
+    if (!params_.right.empty()) files_.push_back(params_.right);
+  }
+
+  void open(const std::string& where) {
+    choose_files(where);
     if (params_.offset != 0 && files_.size() != 2) {
       throw ConfigError(fmt::format("{}: offset is for two videos", where));
     }
     for (const std::filesystem::path& file : files_) readers_.emplace_back(file);
     if (files_.size() == 2 && !params_.frame_rate) check_rates();
-    if (split_ && readers_[0].width() % 2 != 0) {
-      throw DataError(
-          fmt::format("{}: is {} pixels wide; expected an even number, half for each "
-                      "view",
-                      files_[0].string(), readers_[0].width()));
-    }
   }
 
   void check_rates() const {
@@ -190,8 +198,8 @@ class Video : public Source {
 
   void fill_views(Frame& frame, std::vector<cv::Mat>& images) const {
     if (split_) {
-      const int half = images[0].cols / 2;
-      images = {images[0].colRange(0, half).clone(), images[0].colRange(half, 2 * half).clone()};
+      const auto views = split_views(layout_, images[0]);
+      images.assign(views.begin(), views.end());
     }
     for (std::size_t v = 0; v < images.size(); ++v) {
       const cv::Mat& image = images[v];
@@ -207,7 +215,8 @@ class Video : public Source {
   }
 
   Params params_;
-  bool split_ = false;
+  bool split_ = false;  ///< one file holds both views
+  StereoLayout layout_ = StereoLayout::side_by_side;
   std::vector<std::filesystem::path> files_;
   std::vector<VideoReader> readers_;
   std::vector<Camera> cameras_;
@@ -219,5 +228,6 @@ class Video : public Source {
 
 }  // namespace hypotrack
 
-HYPOTRACK_PLUGIN(hypotrack::Video, "One or two video files, or one with both views side by side",
-                 "")
+HYPOTRACK_PLUGIN(
+    hypotrack::Video,
+    "One or two video files, or one with both views side by side or one above the other", "")
