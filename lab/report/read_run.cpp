@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
