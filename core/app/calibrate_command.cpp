@@ -36,6 +36,7 @@ struct CalibrateOptions {
   std::optional<std::string> marker;
   bool inverted = false, force = false;
   int step = 1;
+  std::optional<int> bits;
   std::optional<std::filesystem::path> lenses, coverage;
   std::vector<std::string> cameras;
   std::filesystem::path out = "calibration.yaml";
@@ -45,7 +46,7 @@ struct CalibrateOptions {
   /// Returns whether live cameras are given. Throws ConfigError if none and no pictures are.
   bool live() const {
     const bool found = names_cameras(views);
-    if (!found && (views.left.empty() || views.right.empty()))
+    if (!found && (views.left.empty() || (views.right.empty() && !views.layout)))
       throw ConfigError(
           "there is nothing to calibrate from; expected --left and --right, or --device");
     if (!found && (pairs || seconds))
@@ -78,25 +79,27 @@ struct FoundBoards {
 
 FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOptions& options) {
   FoundBoards out;
-  calibrate::read_pairs(
-      options.views.left, options.views.right, options.step,
-      [&](const calibrate::PicturePair& pair) {
-        for (const cv::Mat& picture : {pair.left, pair.right}) {
-          if (out.size.empty()) out.size = picture.size();
-          if (picture.size() == out.size) continue;
-          throw DataError(
-              fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected "
-                          "one size",
-                          pair.name, picture.cols, picture.rows, out.size.width, out.size.height));
-        }
-        calibrate::BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
-        if (finder.whole_only()) calibrate::number_alike(board.corners[0], board.corners[1]);
-        if (board.corners[0].ids.empty() || board.corners[1].ids.empty())
-          out.without.push_back(pair.name);
-        else
-          out.pairs.push_back(std::move(board));
-      },
-      [](const std::string& note) { tell("note: {}\n", note); });
+  const calibrate::PairFiles files{options.views.left, options.views.right, options.step,
+                                   layout_of(options.views), options.bits};
+  const auto note = [](const std::string& line) { tell("note: {}\n", line); };
+  std::ranges::for_each(calibrate::notes_on(files), note);
+  const auto take = [&](const calibrate::PicturePair& pair) {
+    for (const cv::Mat& picture : {pair.left, pair.right}) {
+      if (out.size.empty()) out.size = picture.size();
+      if (picture.size() == out.size) continue;
+      throw DataError(
+          fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected "
+                      "one size",
+                      pair.name, picture.cols, picture.rows, out.size.width, out.size.height));
+    }
+    calibrate::BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
+    if (finder.whole_only()) calibrate::number_alike(board.corners[0], board.corners[1]);
+    if (board.corners[0].ids.empty() || board.corners[1].ids.empty())
+      out.without.push_back(pair.name);
+    else
+      out.pairs.push_back(std::move(board));
+  };
+  calibrate::read_pairs(files, take, note);
   return out;
 }
 
@@ -247,6 +250,9 @@ void add_calibrate_command(const Command& root, CommonOptions& common, int& exit
   command.add("--inverted", &options->inverted, "White and black of the board are exchanged");
   command.add("--step", &options->step, "Use every n-th frame of videos",
               {.show_default = true, .check = whole_number(1)});
+  command.add("--bits", &options->bits,
+              "Significant bits of 16-bit pictures, such as 12 (default: 16)",
+              {.check = whole_number(8, 16)});
   command.add("--lenses", &options->lenses,
               "Calibration file with the lenses of both cameras: find only where they are");
   command.add("--cameras", &options->cameras, "Names of the two cameras in --lenses",

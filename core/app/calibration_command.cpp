@@ -8,6 +8,7 @@
 #include "calibrate/match_check.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibration_output.hpp"
+#include "camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
@@ -23,6 +24,8 @@ struct CalibrationOptions {
   std::filesystem::path out;
   bool force = false;
   std::string left, right;
+  std::optional<std::string> layout;
+  std::optional<int> bits;
 };
 
 /// Returns the settings with what the options say in words.
@@ -124,7 +127,12 @@ int print_judgement(const Judged& judged) {
 int check(const CalibrationOptions& options) {
   CalibrationSettings settings = settings_of(options);
   Judged judged;
+  const calibrate::PairFiles files{options.left, options.right, 30, layout_named(options.layout),
+                                   options.bits};
+  if (files.layout ? !files.right.empty() : files.right.empty())
+    throw ConfigError("expected --left and --right, or --left with --layout");
   const auto note = [](const std::string& line) { tell("note: {}\n", line); };
+  std::ranges::for_each(calibrate::notes_on(files), note);
   const auto judge = [&](const calibrate::PicturePair& pair) {
     std::vector<Camera> cameras = load_calibration(settings, {pair.left.cols, pair.left.rows});
     if (cameras.size() != 2) {
@@ -132,11 +140,12 @@ int check(const CalibrationOptions& options) {
                                   settings.file.string(), cameras.size()));
     }
     fit_image_size(cameras[0], pair.left.cols, pair.left.rows, options.left);
-    fit_image_size(cameras[1], pair.right.cols, pair.right.rows, options.right);
+    fit_image_size(cameras[1], pair.right.cols, pair.right.rows,
+                   files.layout ? options.left : options.right);
     print_check(pair.name,
                 calibrate::check_matches({cameras[0], cameras[1]}, pair.left, pair.right), judged);
   };
-  calibrate::read_pairs(options.left, options.right, 30, judge, note);
+  calibrate::read_pairs(files, judge, note);
   return print_judgement(judged);
 }
 
@@ -188,7 +197,11 @@ void add_calibration_command(const Command& root, int& exit_code) {
   check_command.add("--left", &of_check->left, "Pictures of the first camera, or a video",
                     {.required = true, .value_name = "'left*.jpg'"});
   check_command.add("--right", &of_check->right, "Pictures of the second camera",
-                    {.required = true, .value_name = "'right*.jpg'"});
+                    {.value_name = "'right*.jpg'"});
+  add_layout_option(check_command, of_check->layout);
+  check_command.add("--bits", &of_check->bits,
+                    "Significant bits of 16-bit pictures, such as 12 (default: 16)",
+                    {.check = whole_number(8, 16)});
   check_command.on_call([=, &exit_code] { exit_code = check(*of_check); });
 }
 

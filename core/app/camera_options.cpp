@@ -2,11 +2,20 @@
 
 namespace hypotrack::app {
 
+void add_layout_option(const Command& command, std::optional<std::string>& layout) {
+  const auto names = enum_names(StereoLayout());
+  command.add("--layout", &layout,
+              "How one picture holds both views: the first camera in its left half (side_by_side) "
+              "or its upper half (top_bottom)",
+              {.check = one_of({names.begin(), names.end()})});
+}
+
 void add_camera_options(const Command& command, CameraOptions& options) {
   command.add("--device", &options.device,
-              "Live camera with both views side by side: a number, /dev/..., a URL or a GStreamer "
-              "pipeline",
+              "Live camera with both views in its picture: a number, /dev/..., a URL or a "
+              "GStreamer pipeline",
               {.check = file_name(), .value_name = "DEVICE"});
+  add_layout_option(command, options.layout);
   command.add("--size", &options.size,
               "Picture size to set live cameras to (--device: of both views together)",
               {.value_name = "1280x720"});

@@ -35,10 +35,20 @@ void set_size(detail::YamlDocument& source, const std::string& text) {
 
 }  // namespace
 
+std::optional<StereoLayout> layout_named(const std::optional<std::string>& name) {
+  const auto names = enum_names(StereoLayout());
+  for (std::size_t i = 0; name && i < names.size(); ++i)
+    if (names[i] == *name) return static_cast<StereoLayout>(i);
+  return std::nullopt;
+}
+
 bool names_cameras(const CameraOptions& options) {
   if (!options.device.empty() && !(options.left.empty() && options.right.empty()))
     throw ConfigError(
         "--device has both views in its picture; expected it alone, or --left and --right");
+  if (options.layout && !options.left.empty() && !options.right.empty())
+    throw ConfigError(
+        "--layout says how one picture holds both views; expected --device, or --left alone");
   const bool left = is_device(options.left), right = is_device(options.right);
   if (!options.device.empty() || (left && right)) return true;
   if (left != right)
@@ -60,6 +70,7 @@ detail::YamlDocument camera_source(const CameraOptions& options) {
   if (!options.device.empty()) out.set_string("device", options.device);
   if (options.device.empty()) out.set_string("left", options.left);
   if (options.device.empty()) out.set_string("right", options.right);
+  if (options.layout) out.set_string("layout", *options.layout);
   if (options.size) set_size(out, *options.size);
   if (options.fps) out.set_plain("fps", *options.fps);
   if (!options.pixel_format.empty()) out.set_string("pixel_format", options.pixel_format);

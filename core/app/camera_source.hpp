@@ -4,16 +4,24 @@
 #include <string>
 
 #include "config/yaml.hpp"
+#include "hypotrack/stereo_layout.hpp"
 
 namespace hypotrack::app {
 
 /// Live cameras on a command line: parameters of the source `camera`.
 struct CameraOptions {
-  std::string device;       ///< both views side by side; otherwise left and right
+  std::string device;       ///< both views in its picture; otherwise left and right
   std::string left, right;  ///< devices, or files
   std::optional<std::string> size, fps;
   std::string pixel_format;
+  std::optional<std::string> layout;  ///< of pictures of both views
 };
+
+/// Returns the layout of this name, if one is given.
+std::optional<StereoLayout> layout_named(const std::optional<std::string>& name);
+inline std::optional<StereoLayout> layout_of(const CameraOptions& options) {
+  return layout_named(options.layout);
+}
 
 /// Returns whether the options name live cameras: numbers, /dev/..., URLs or GStreamer pipelines.
 /// Throws ConfigError if they name a camera and a file, or settings without a camera.

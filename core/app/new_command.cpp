@@ -89,7 +89,8 @@ RecordingFiles recording_at(const std::vector<std::filesystem::path>& paths) {
 RecordingFiles views_of(const NewSceneOptions& options) {
   const CameraOptions& views = options.views;
   RecordingFiles files;
-  if (views.left.empty() != views.right.empty())
+  const bool both = views.layout && !views.left.empty();  // in one picture
+  if (views.left.empty() != views.right.empty() && !both)
     throw ConfigError(fmt::format("{} is not given; expected --left and --right together",
                                   views.left.empty() ? "--left" : "--right"));
   if (names_cameras(views)) {
@@ -97,7 +98,7 @@ RecordingFiles views_of(const NewSceneOptions& options) {
       throw ConfigError("--recording and --device are given; expected one of them");
     files.live = views;
   } else if (!views.left.empty()) {
-    if (is_video(views.left) != is_video(views.right))
+    if (!both && is_video(views.left) != is_video(views.right))
       throw ConfigError("--left and --right: one is a video; expected both or none");
     files.left = views.left;
     files.right = views.right;
@@ -108,6 +109,11 @@ RecordingFiles views_of(const NewSceneOptions& options) {
          .text = "a folder with pictures or videos of both views, or a video of them side by side"},
         [&](const std::string& answer) { files = recording_at({typed_path(answer)}); });
   }
+  if (!files.live) files.layout = views.layout;
+  if (files.layout && !files.right.empty())
+    throw ConfigError(
+        "--layout says how one picture holds both views; expected it with one video of both, or "
+        "with --left alone");
   return files;
 }
 
@@ -277,8 +283,7 @@ int new_scene(const NewSceneOptions& options, const CommonOptions& common) {
 
 void add_recording_options(const Command& command, NewSceneOptions& options) {
   command.add("--recording", &options.recording,
-              "Folder of pictures or videos, or a video with both views side by side; twice: two "
-              "videos");
+              "Folder of pictures or videos, or a video of both views; twice: two videos");
   command.add(
       "--left", &options.views.left,
       "Pictures (left_%04d.png) or video of the left camera, instead of --recording; or the "

@@ -8,9 +8,11 @@
 #include <cctype>
 #include <filesystem>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/image_file.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/video_timeline.hpp"
 
@@ -38,11 +40,10 @@ bool is_video(const std::string& file) {
   return std::ranges::find(kVideos, extension) != kVideos.end();
 }
 
-cv::Mat read_picture(const std::string& file) {
-  cv::Mat out = read_image(file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-  if (out.empty())
-    throw DataError(fmt::format("{}: cannot be read as a picture; is it damaged?", file));
-  return out;
+cv::Mat read_picture(const std::string& file, const std::optional<int>& bits) {
+  ReadImage read = read_color(file, bits.value_or(16));
+  if (!read.problem.empty()) throw DataError(read.problem);
+  return read.image;
 }
 
 void read_videos(const std::string& left, const std::string& right, int step,
@@ -68,21 +69,52 @@ void read_videos(const std::string& left, const std::string& right, int step,
     if (!info.problem_of_end.empty()) tell(info.problem_of_end);
 }
 
-}  // namespace
-
-void read_pairs(const std::string& left, const std::string& right, int step,
-                const std::function<void(PicturePair)>& take,
-                const std::function<void(const std::string&)>& tell) {
-  const std::vector<std::string> first = files_of(left), second = files_of(right);
+/// Reads pairs of whole pictures.
+void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePair)>& take,
+                      const std::function<void(const std::string&)>& tell) {
+  const std::vector<std::string> first = files_of(files.left), second = files_of(files.right);
   if (first.size() != second.size()) {
     throw DataError(fmt::format("{} matches {} files, {} matches {}; expected as many of each",
-                                left, first.size(), right, second.size()));
+                                files.left, first.size(), files.right, second.size()));
   }
   if (first.size() == 1 && is_video(first[0]))
-    return read_videos(first[0], second[0], step, take, tell);
+    return read_videos(first[0], second[0], files.step, take, tell);
   for (std::size_t i = 0; i < first.size(); ++i)
-    take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i]),
-          read_picture(second[i])});
+    take({std::filesystem::path(first[i]).filename().string(), read_picture(first[i], files.bits),
+          read_picture(second[i], files.bits)});
+}
+
+}  // namespace
+
+void read_pairs(const PairFiles& files, const std::function<void(PicturePair)>& take,
+                const std::function<void(const std::string&)>& tell) {
+  if (!files.layout) return read_whole_pairs(files, take, tell);
+  PairFiles whole = files;
+  whole.right = files.left;
+  std::set<std::string> told;  // the file is read as both views, and each has its notes
+  const auto tell_once = [&](const std::string& note) {
+    if (told.insert(note).second) tell(note);
+  };
+  const auto split = [&](PicturePair pair) {
+    view_size(*files.layout, pair.left.cols, pair.left.rows, pair.name);
+    pair.left = split_views(*files.layout, pair.left)[0];
+    pair.right = split_views(*files.layout, pair.right)[1];
+    take(std::move(pair));
+  };
+  read_whole_pairs(whole, split, tell_once);
+}
+
+std::vector<std::string> notes_on(const PairFiles& files) {
+  std::vector<std::string> notes;
+  for (const std::string& pattern : {files.left, files.right}) {
+    if (pattern.empty()) continue;
+    const std::vector<std::string> names = files_of(pattern);
+    if (is_video(names[0])) continue;
+    const std::vector<std::filesystem::path> paths(names.begin(), names.end());
+    for (std::string note : {orientation_note(paths), bits_note(paths, files.bits, "--bits")})
+      if (!note.empty()) notes.push_back(std::move(note));
+  }
+  return notes;
 }
 
 }  // namespace hypotrack::calibrate

@@ -2,7 +2,11 @@
 
 #include <functional>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "hypotrack/stereo_layout.hpp"
 
 namespace hypotrack::calibrate {
 
@@ -12,13 +16,22 @@ struct PicturePair {
   cv::Mat left, right;
 };
 
-/// Reads pairs: of files with wildcards, each side sorted by name, or of two videos, which pair by
-/// time and of which every `step`-th frame counts. Calls `take` for each, and `tell` with lines for
-/// the user, such as on the rates of videos. Throws DataError if nothing matches, the numbers of
-/// files differ, or a file cannot be read.
+/// Where pairs are: files with wildcards, each side sorted by name, or videos.
+struct PairFiles {
+  std::string left, right;               ///< no right: with `layout`, left has both views
+  int step = 1;                          ///< every `step`-th frame of videos counts
+  std::optional<StereoLayout> layout{};  ///< of pictures of both views
+  std::optional<int> bits{};             ///< significant bits of 16-bit pictures; 16 unless given
+};
+
+/// Reads pairs and calls `take` for each, and `tell` with lines for the user, such as on the rates
+/// of videos, which pair by time. Throws DataError if nothing matches, the numbers of files differ,
+/// or a file cannot be read.
 void read_pairs(
-    const std::string& left, const std::string& right, int step,
-    const std::function<void(PicturePair)>& take,
+    const PairFiles& files, const std::function<void(PicturePair)>& take,
     const std::function<void(const std::string&)>& tell = [](const std::string&) {});
+
+/// Returns lines for the user on how the pictures are read. Throws DataError if nothing matches.
+std::vector<std::string> notes_on(const PairFiles& files);
 
 }  // namespace hypotrack::calibrate

@@ -28,6 +28,7 @@ struct LiveFrame {
   double error = std::nan("");  ///< mean distance from the ground truth, metres; NaN: unknown
   double fps = std::nan("");    ///< of the last frames, pauses left out; NaN: unknown
   std::shared_ptr<const ShownViews> views;  ///< of the last usable frame; null: none yet
+  std::optional<std::int64_t> stamp{};      ///< Frame::stamp
 };
 
 /// What a viewer's user has asked of a run.

@@ -84,7 +84,8 @@ void LiveRun::frame(const Frame& frame, const Solution& solution, double error) 
                        .sigmas = model_sigmas(run_->scene(), solution),
                        .error = error,
                        .fps = rate_.per_second(),
-                       .views = shown_};
+                       .views = shown_,
+                       .stamp = frame.stamp};
   for (const auto& viewer : viewers_) viewer->frame(live);
   if (controls_.recording_wanted() && !recorder_.add(frame, solution)) controls_.cancel_recording();
   do_what_is_asked();

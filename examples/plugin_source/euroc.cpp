@@ -107,6 +107,7 @@ class Euroc final : public hypotrack::Source {
     hypotrack::Frame frame;
     frame.index = index_++;
     frame.time = seconds_between(left_.begin()->first, next_->first);
+    frame.stamp = next_->first;
     const auto [time, left] = *next_++;
     // A pair that lacks a picture is a frame with a problem, not an exception.
     const auto right = nearest(time);

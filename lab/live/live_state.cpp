@@ -88,7 +88,7 @@ void LiveState::add(const Scene& scene, const LiveFrame& frame) {
   constexpr std::chrono::milliseconds kSampled{100};
   constexpr std::size_t kSamples = 3000;
   const Solution& solution = frame.solution;
-  solutions_.put(solution_json(scene, solution));
+  solutions_.put(solution_json(scene, solution, frame.stamp));
   Json models = models_of(scene, frame);
   const std::lock_guard lock(mutex_);
   const Clock::time_point now = Clock::now();

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "base/csv.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/json_file.hpp"
@@ -56,7 +58,8 @@ void read_track(const fs::path& file, StudyRun& run) {
   expect_row_per_frame(file, table.rows().size());
   study::Hash hash;
   for (std::size_t c = 0; c < table.columns().size(); ++c) {
-    if (table.columns()[c] == "milliseconds") continue;
+    const std::string_view name = table.columns()[c];
+    if (name == "milliseconds" || name == "stamp") continue;  // no results
     hash.add(table.columns()[c]);
     for (const CsvTable::Row& row : table.rows()) hash.add(row.cells[c]);
   }

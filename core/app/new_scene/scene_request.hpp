@@ -14,6 +14,7 @@ namespace hypotrack::app {
 struct RecordingFiles {
   std::filesystem::path left, right;   ///< patterns of pictures, single pictures, or videos
   std::filesystem::path side_by_side;  ///< one video of both views, instead of those
+  std::optional<std::string> layout;   ///< of both views in `side_by_side`, or in `left` alone
   std::optional<CameraOptions> live;   ///< live cameras, instead of all those
   std::filesystem::path calibration;   ///< empty: not found
   std::filesystem::path extrinsics;    ///< second file of the calibration; may be empty

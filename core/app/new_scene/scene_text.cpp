@@ -57,10 +57,11 @@ std::vector<YamlDocument> models(const SceneRequest& request) {
 YamlDocument file_source(const RecordingFiles& files, const std::filesystem::path& folder) {
   YamlDocument out;
   const bool one = !files.side_by_side.empty();
-  out.set_string("type", one || is_video(files.left) ? "video" : "image_sequence");
-  if (one) out.set_string("side_by_side", near_path(files.side_by_side, folder));
-  if (!one) out.set_string("left", near_path(files.left, folder));
-  if (!one) out.set_string("right", near_path(files.right, folder));
+  const std::filesystem::path& left = one ? files.side_by_side : files.left;
+  out.set_string("type", is_video(left) ? "video" : "image_sequence");
+  out.set_string(one && !files.layout ? "side_by_side" : "left", near_path(left, folder));
+  if (files.layout) out.set_string("layout", *files.layout);
+  if (!files.right.empty()) out.set_string("right", near_path(files.right, folder));
   return out;
 }
 

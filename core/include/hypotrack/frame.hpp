@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <chrono>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -41,6 +42,9 @@ struct Frame {
   std::optional<std::chrono::steady_clock::time_point> taken{};
   /// What was wrong with the time, which is corrected. A run sets it; sources leave it as it is.
   FrameFault fault = FrameFault::none;
+  /// When the pictures were taken, in nanoseconds on the recording's own clock; of a live source,
+  /// since 1970 (Unix time). Empty if unknown. A source sets it in all frames or in none.
+  std::optional<std::int64_t> stamp{};
 };
 
 }  // namespace hypotrack

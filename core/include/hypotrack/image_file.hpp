@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "hypotrack/camera.hpp"
 #include "hypotrack/export.hpp"
@@ -11,7 +14,8 @@ namespace hypotrack {
 
 // Readers of recorded images, for sources. They never throw: an unusable image is a problem of its
 // frame, not the end of the run. Missing, empty, truncated and undecodable files are always
-// problems. EXIF orientation is ignored, because cameras are calibrated for the stored pixels.
+// problems. Pictures are turned as EXIF says, as viewers show them: cameras are calibrated for
+// that.
 
 /// An image, or the reason why it is missing.
 struct ReadImage {
@@ -29,6 +33,16 @@ HYPOTRACK_API ReadImage read_mask(const std::filesystem::path& file);
 /// Reads a 16-bit depth image of one channel as View::depth: 32-bit float metres, 0 where not
 /// measured. A stored value of 1 is `unit` metres. Other formats are problems.
 HYPOTRACK_API ReadImage read_depth(const std::filesystem::path& file, double unit);
+
+/// Returns a note for the user if EXIF says how to turn some of these files, which are read turned.
+/// Looks at some of them; empty if none is turned. Missing files do not count.
+HYPOTRACK_API std::string orientation_note(std::span<const std::filesystem::path> files);
+
+/// Returns a note for the user if the first colour pictures are not of `bits` bits: their values
+/// need fewer (without `bits`, which means 16) or more, or they are 8-bit. `setting` precedes the
+/// number in the advice: `bits:`.
+HYPOTRACK_API std::string bits_note(std::span<const std::filesystem::path> files,
+                                    std::optional<int> bits, std::string_view setting = "bits:");
 
 /// Returns a message if the image of `file` does not have its camera's size, else an empty text.
 HYPOTRACK_API std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,

@@ -127,7 +127,7 @@ class HYPOTRACK_API PluginContext {
   std::string who_;
 };
 
-inline constexpr std::uint32_t kAbiVersion = 22;
+inline constexpr std::uint32_t kAbiVersion = 23;
 
 /// The C interface of a plugin library. The loader compares magic, size, version and tag before it
 /// reads anything else. So the struct must stay plain C and may only grow at the end.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "hypotrack/export.hpp"
@@ -16,6 +18,9 @@ namespace hypotrack {
 ///
 /// Metres, radians, world axes. Numbers read back bit for bit. NaN and infinity are null, and so
 /// are a status and a probability that the solution lacks. Bytes that are not UTF-8 are replaced.
-HYPOTRACK_API std::string solution_json(const Scene& scene, const Solution& solution);
+/// A `stamp` (Frame::stamp, nanoseconds) is written after the time, as stamp_text() does
+/// (hypotrack/tables.hpp).
+HYPOTRACK_API std::string solution_json(const Scene& scene, const Solution& solution,
+                                        std::optional<std::int64_t> stamp = {});
 
 }  // namespace hypotrack

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -69,6 +70,9 @@ HYPOTRACK_API std::string landmarks_header(std::span<const std::string> landmark
 /// Returns a line of a table: numbers with as many digits as repeat them exactly.
 HYPOTRACK_API std::string table_line(int frame, double time,
                                      const Eigen::Ref<const Eigen::VectorXd>& values);
+/// Returns nanoseconds (Frame::stamp) as seconds with nine decimals, which keep every digit:
+/// 1403636579.763555584.
+HYPOTRACK_API std::string stamp_text(std::int64_t nanoseconds);
 
 /// Write tables that read back bit for bit. The file appears only when it is complete. Throw
 /// OutputError if it cannot be written.

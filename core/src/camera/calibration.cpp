@@ -11,6 +11,7 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/orientation.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -177,8 +178,9 @@ void fit_image_size(Camera& camera, int width, int height, std::string_view wher
   if (camera.width == width && camera.height == height) return;
   throw DataError(
       fmt::format("{}: the image is {}x{} pixels, but its camera is calibrated for "
-                  "{}x{}; expected the calibration of this resolution",
-                  where, width, height, camera.width, camera.height));
+                  "{}x{}; expected the calibration of this resolution{}",
+                  where, width, height, camera.width, camera.height,
+                  advice_on_turn(width, height, camera.width, camera.height)));
 }
 
 }  // namespace hypotrack

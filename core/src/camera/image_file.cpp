@@ -2,57 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
-#include <string_view>
 #include <vector>
 
-#include "camera/picture_header.hpp"
-#include "hypotrack/media.hpp"
-#include "hypotrack/text_file.hpp"
+#include "camera/decoded_file.hpp"
+#include "camera/orientation.hpp"
 
 namespace hypotrack {
 namespace {
-
-constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
-
-/// Returns true if a JPEG or PNG lacks its end marker. Decoders fill truncated images with grey.
-bool is_truncated(std::string_view all) {
-  const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
-  if (all.starts_with("\xFF\xD8\xFF")) return tail.find("\xFF\xD9") == std::string_view::npos;
-  if (all.starts_with("\x89PNG\r\n")) return tail.find("IEND") == std::string_view::npos;
-  return false;
-}
-
-ReadImage decode(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::string name = file.string();
-  if (!std::filesystem::exists(file, error)) return {{}, name + ": is missing"};
-  if (!std::filesystem::is_regular_file(file, error)) return {{}, name + ": is no file"};
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > kLargestImageFile) return {{}, name + ": is larger than 512 MiB"};
-  std::optional<std::string> all = read_whole(file);
-  if (!all) return {{}, name + ": cannot be read; check its permissions"};
-  if (all->empty()) return {{}, name + ": is empty"};
-  if (is_truncated(*all)) return {{}, name + ": is cut off before its end"};
-  if (const std::string problem = problem_of_size(*all); !problem.empty())
-    return {{}, name + ": " + problem};
-  ReadImage read;
-  try {
-    const cv::Mat bytes(1, static_cast<int>(all->size()), CV_8UC1, all->data());
-    read.image = decode_image(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& e) {
-    if (e.code == cv::Error::StsNoMem) throw;
-    read.image.release();  // OpenCV's message for absurd sizes names its own source lines
-  }
-  if (read.image.empty()) read.problem = name + ": is damaged or no image";
-  return read;
-}
 
 /// Calls a function that reads a file. Lack of memory is a problem of the file, but no damage.
 template <class Read>
@@ -89,7 +50,7 @@ cv::Mat to_bgr(const cv::Mat& image) {
 
 ReadImage read_color(const std::filesystem::path& file, int bits) {
   return within_memory(file, [&]() -> ReadImage {
-    ReadImage read = decode(file);
+    ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.depth() != CV_8U && read.image.depth() != CV_16U) {
       return {{}, file.string() + ": has floating-point pixels; expected 8 or 16 bits"};
@@ -105,7 +66,7 @@ ReadImage read_color(const std::filesystem::path& file, int bits) {
 
 ReadImage read_mask(const std::filesystem::path& file) {
   return within_memory(file, [&]() -> ReadImage {
-    ReadImage read = decode(file);
+    ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
     std::vector<cv::Mat> channels;
     cv::split(to_bgr(read.image), channels);
@@ -119,7 +80,7 @@ ReadImage read_mask(const std::filesystem::path& file) {
 
 ReadImage read_depth(const std::filesystem::path& file, double unit) {
   return within_memory(file, [&]() -> ReadImage {
-    ReadImage read = decode(file);
+    ReadImage read = decode_upright(file);
     if (!read.problem.empty()) return read;
     if (read.image.type() != CV_16UC1) {
       constexpr std::array<const char*, 8> kPixels = {"8-bit",         "8-bit signed",   "16-bit",
@@ -138,8 +99,9 @@ ReadImage read_depth(const std::filesystem::path& file, double unit) {
 std::string size_problem(const std::filesystem::path& file, const cv::Mat& image,
                          const Camera& camera) {
   if (image.cols == camera.width && image.rows == camera.height) return {};
-  return fmt::format("{}: is {}x{} pixels; expected {}x{} as its camera", file.string(), image.cols,
-                     image.rows, camera.width, camera.height);
+  return fmt::format("{}: is {}x{} pixels; expected {}x{} as its camera{}", file.string(),
+                     image.cols, image.rows, camera.width, camera.height,
+                     advice_on_turn(image.cols, image.rows, camera.width, camera.height));
 }
 
 }  // namespace hypotrack

@@ -87,6 +87,7 @@ void RecordingWriter::drop_last() {
   std::erase_if(landmarks_, is_later);
   last_ = last_image_ = frames_.empty() ? -1 : frames_.back().first;
   times_.resize(static_cast<std::size_t>(frames_.empty() ? 0 : last_ - first_ + 1));
+  stamps_.resize(times_.size());
 }
 
 int RecordingWriter::finish_after_error() {
@@ -121,14 +122,20 @@ int RecordingWriter::finish_where_it_fits() {
 
 /// Spreads frames whose numbers are left out evenly.
 void RecordingWriter::note_time(const Frame& frame) {
+  const std::int64_t stamp = frame.stamp.value_or(0);
+  stamped_ = stamped_ && frame.stamp && (first_ < 0 || stamp > stamps_.back());
   if (first_ < 0) {
     first_ = frame.index;
     times_.push_back(frame.time);
+    stamps_.push_back(stamp);
   } else {
     const double before = times_.back();
+    const std::int64_t stamp_before = stamps_.back();
     const int steps = frame.index - last_;
-    for (int k = 1; k <= steps; ++k)
+    for (int k = 1; k <= steps; ++k) {
       times_.push_back(k == steps ? frame.time : before + (frame.time - before) * k / steps);
+      stamps_.push_back(k == steps ? stamp : stamp_before + (stamp - stamp_before) / steps * k);
+    }
   }
   last_ = frame.index;
 }
@@ -144,8 +151,11 @@ bool RecordingWriter::evenly_spaced() const {
 
 void RecordingWriter::write_times() const {
   std::string text = "frame,time\n";
-  for (int i = first_image_; i <= last_image_; ++i)
-    text += fmt::format("{},{:.9f}\n", i, times_[static_cast<std::size_t>(i - first_)]);
+  for (int i = first_image_; i <= last_image_; ++i) {
+    const auto at = static_cast<std::size_t>(i - first_);
+    text += fmt::format("{},{}\n", i,
+                        stamped_ ? stamp_text(stamps_[at]) : fmt::format("{:.9f}", times_[at]));
+  }
   TextFile(part_ / "times.csv").write(text);
 }
 
@@ -199,7 +209,7 @@ void RecordingWriter::write_scene() const {
   if (extensions_.contains("left_depth")) {
     source.set_plain("depth_units_mm", fmt::format("{}", kDepthUnitMm));
   }
-  if (evenly_spaced() || first_image_ < 0) {
+  if ((evenly_spaced() && !stamped_) || first_image_ < 0) {
     source.set_plain("start", std::to_string(first_));
     source.set_plain("count", std::to_string(last_ - first_ + 1));
     source.set_plain("frame_rate", fmt::format("{}", frame_rate_));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -25,10 +26,10 @@ enum class PictureFormat { png, jpeg };
 ///
 /// Images: left_000000.png, right_000000.png (or .jpg), masks (left_mask_000000.png) and depths
 /// (left_depth_000000.png, 16 bits, tenths of a millimetre, up to 6.5535 m) where there are some.
-/// Also times.csv if frames are not evenly spaced in time; calibration.yaml; scene.yaml, which
-/// tracks the recording; source.yaml, the recorded scene; start_NAME, files of its start. If the
-/// truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the speeds. The
-/// folder gets its name when it is complete.
+/// Also times.csv if frames have stamps or are not evenly spaced in time; calibration.yaml;
+/// scene.yaml, which tracks the recording; source.yaml, the recorded scene; start_NAME, files of
+/// its start. If the truth is known: truth_states.csv, truth_landmarks.csv and motion.json with the
+/// speeds. The folder gets its name when it is complete.
 class RecordingWriter {
  public:
   /// `scene_yaml` is the resolved scene (OpenedScene::resolved), whose source is replaced. Throws
@@ -89,7 +90,9 @@ class RecordingWriter {
   int last_ = -1;
   int first_image_ = -1;
   int last_image_ = -1;
-  std::vector<double> times_;  ///< of the frames from first_ to last_
+  std::vector<double> times_;         ///< of the frames from first_ to last_
+  std::vector<std::int64_t> stamps_;  ///< of the same frames
+  bool stamped_ = true;               ///< all have Frame::stamp, and it grows
   std::optional<ImageWriter> images_{std::in_place};
 };
 

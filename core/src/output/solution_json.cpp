@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hypotrack/tables.hpp"
+
 namespace hypotrack {
 namespace {
 
@@ -23,7 +25,8 @@ Json landmarks(const Model& model, const Eigen::Ref<const Eigen::Matrix3Xd>& poi
 
 }  // namespace
 
-std::string solution_json(const Scene& scene, const Solution& solution) {
+std::string solution_json(const Scene& scene, const Solution& solution,
+                          std::optional<std::int64_t> stamp) {
   Json json;
   json["frame"] = solution.frame;
   json["time"] = solution.time;
@@ -44,7 +47,10 @@ std::string solution_json(const Scene& scene, const Solution& solution) {
     model["landmarks"] = landmarks(*item.model, points.middleCols(first, count));
     first += count;
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  // A double would lose the last digits.
+  if (stamp) text.insert(text.find(",\"status\""), ",\"stamp\":" + stamp_text(*stamp));
+  return text;
 }
 
 }  // namespace hypotrack

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "hypotrack/tables.hpp"
 
 namespace hypotrack::internal {
@@ -26,6 +28,12 @@ std::string table_line(int frame, double time, const Eigen::Ref<const Eigen::Vec
   std::string line = fmt::format("{},{}", frame, time);
   for (const double value : values) line += fmt::format(",{}", value);
   return line + "\n";
+}
+
+std::string stamp_text(std::int64_t nanoseconds) {
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  return fmt::format("{}{}.{:09}", nanoseconds < 0 ? "-" : "", std::abs(nanoseconds / kSecond),
+                     std::abs(nanoseconds % kSecond));
 }
 
 }  // namespace hypotrack

@@ -69,6 +69,12 @@ void CheckedSource::check_order(const Frame& frame) {
         fmt::format("{}: frame {} at {} s follows frame {}, expected numbers from 0 on that grow, "
                     "and a time; this is a bug in the source",
                     plugin_, frame.index, frame.time, last_index_));
+  if (last_index_ >= 0 && frame.stamp.has_value() != stamped_)
+    throw DataError(fmt::format(
+        "{}: frame {} {} a stamp, the first {}; expected one in all frames or in none; "
+        "this is a bug in the source",
+        plugin_, frame.index, stamped_ ? "lacks" : "has", stamped_ ? "has one" : "none"));
+  stamped_ = frame.stamp.has_value();
   last_index_ = frame.index;
 }
 

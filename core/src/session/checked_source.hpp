@@ -47,8 +47,9 @@ class CheckedSource final : public Source {
   Eigen::Index parameters_, landmarks_;
   bool explains_;
   int last_index_ = -1;
-  int frames_ = 0;      ///< so far
-  bool ended_ = false;  ///< by itself
+  bool stamped_ = false;  ///< frames have Frame::stamp
+  int frames_ = 0;        ///< so far
+  bool ended_ = false;    ///< by itself
   FrameClock clock_;
 };
 

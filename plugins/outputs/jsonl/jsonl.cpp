@@ -23,15 +23,17 @@ class Jsonl final : public Output {
     scene_ = &run.scene();
     file_.emplace(run.file("track.jsonl"));
   }
-  void online(const Frame& /*frame*/, const Solution& solution) override {
-    if (params_.online) write(solution);
+  void online(const Frame& frame, const Solution& solution) override {
+    if (params_.online) write(frame, solution);
   }
-  void frame(const Frame& /*frame*/, const Solution& solution) override {
-    if (!params_.online) write(solution);
+  void frame(const Frame& frame, const Solution& solution) override {
+    if (!params_.online) write(frame, solution);
   }
 
  private:
-  void write(const Solution& solution) { file_->write(solution_json(*scene_, solution) + "\n"); }
+  void write(const Frame& frame, const Solution& solution) {
+    file_->write(solution_json(*scene_, solution, frame.stamp) + "\n");
+  }
 
   Params params_;
   const Scene* scene_ = nullptr;

@@ -87,7 +87,7 @@ Address Stream::checked(const Params& params, const ConfigNode& config) {
 }
 
 void Stream::send(const Frame& frame, const Solution& solution) {
-  std::string line = solution_json(*scene_, solution);
+  std::string line = solution_json(*scene_, solution, frame.stamp);
   if (frame.taken) {
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - *frame.taken;
     line.pop_back();  // the brace

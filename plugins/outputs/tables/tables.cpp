@@ -17,13 +17,14 @@ std::string track_header(const Scene& scene, const std::vector<std::string>& oth
     for (const Scene::Item& item : scene.items())
       line += fmt::format(",{0}.status,{0}.probability", item.name);
   for (const Parameter& p : scene.parameters()) line += "," + p.name;
-  line += ",fault";
+  line += ",stamp,fault";
   for (const std::string& name : others) line += "," + name;
   return line + "\n";
 }
 
 /// Returns a line of track.csv with values of other outputs.
-std::string track_line(const Solution& solution, const std::vector<double>& others) {
+std::string track_line(const Frame& frame, const Solution& solution,
+                       const std::vector<double>& others) {
   std::string line = fmt::format("{},{},{},{},{},{:.3f}", solution.frame, solution.time,
                                  to_string(solution.status), solution.cost, solution.evaluations,
                                  1000 * solution.seconds);
@@ -32,6 +33,8 @@ std::string track_line(const Solution& solution, const std::vector<double>& othe
     line += fmt::format(",{:.3f}", solution.probabilities[m]);
   }
   for (const double value : solution.state) line += fmt::format(",{}", value);
+  line += ',';
+  if (frame.stamp) line += stamp_text(*frame.stamp);
   line += ',';
   if (solution.fault != FrameFault::none) line += to_string(solution.fault);
   for (const double value : others) line += fmt::format(",{}", value);
@@ -47,8 +50,8 @@ class Pair {
     solutions_.write(track_header(*scene_, others));
     landmarks_.write(landmarks_header(scene_->landmark_names()));
   }
-  void add(const Solution& solution, const std::vector<double>& others) {
-    solutions_.write(track_line(solution, others));
+  void add(const Frame& frame, const Solution& solution, const std::vector<double>& others) {
+    solutions_.write(track_line(frame, solution, others));
     landmarks_.write(
         table_line(solution.frame, solution.time, scene_->landmarks(solution.state).reshaped()));
   }
@@ -74,11 +77,11 @@ class Tables final : public Output {
     if (run.fixed_lag())
       online_.emplace(run, "online.csv", "online_joints.csv", std::vector<std::string>());
   }
-  void online(const Frame& /*frame*/, const Solution& solution) override {
-    if (online_) online_->add(solution, {});
+  void online(const Frame& frame, const Solution& solution) override {
+    if (online_) online_->add(frame, solution, {});
   }
   void frame(const Frame& frame, const Solution& solution) override {
-    track_->add(solution, run_->values(frame, solution));
+    track_->add(frame, solution, run_->values(frame, solution));
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include "hypotrack/model_files.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/tables.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack {
@@ -9,7 +10,7 @@ namespace {
 
 /// Returns a line in the format of the TUM RGB-D benchmark (Sturm et al., IROS 2012). The state
 /// holds the quaternion as w x y z, the format has w last.
-std::string pose_line(double time, std::span<const double> pose) {
+std::string pose_line(const std::string& time, std::span<const double> pose) {
   return fmt::format("{} {} {} {} {} {} {} {}\n", time, pose[0], pose[1], pose[2], pose[4], pose[5],
                      pose[6], pose[3]);
 }
@@ -34,10 +35,12 @@ class Tum final : public Output {
                       scene_->items()[m].name));
     }
   }
-  void frame(const Frame& /*frame*/, const Solution& solution) override {
+  void frame(const Frame& frame, const Solution& solution) override {
+    const std::string time =
+        frame.stamp ? stamp_text(*frame.stamp) : fmt::format("{}", solution.time);
     for (std::size_t m = 0; m < files_.size(); ++m)
       if (pose_known(solution.models[m]))
-        files_[m].write(pose_line(solution.time, scene_->part(scene_->items()[m], solution.state)));
+        files_[m].write(pose_line(time, scene_->part(scene_->items()[m], solution.state)));
   }
 
  private:

@@ -19,18 +19,30 @@ namespace {
 
 std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
 
+/// Returns what to add to now() for Unix time.
+std::int64_t unix_from_now() {
+  const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::nanoseconds(wall).count() - now();
+}
+
 /// Returns the devices that the parameters name. Throws ConfigError.
 std::vector<DeviceSettings> devices_of(const Params& params, const ConfigNode& config) {
   const bool both = !params.left.empty() && !params.right.empty();
   const bool any = !params.left.empty() || !params.right.empty();
   if (params.device.empty() ? !both : any) {
-    throw ConfigError(fmt::format(
-        "{}: expected either device (both views side by side) or left and right", config.where()));
+    throw ConfigError(
+        fmt::format("{}: expected either device (one picture of both views) or left and right",
+                    config.where()));
   }
   std::vector<DeviceSettings> devices;
   if (!any) devices.push_back({"device", params.device, params.settings, params.timeout});
   if (any) devices.push_back({"left", params.left, params.settings, params.timeout});
   if (any) devices.push_back({"right", params.right, params.settings, params.timeout});
+  if (any && config.get("layout").defined())
+    throw ConfigError(
+        fmt::format("{}: layout is given, but left and right are two devices; "
+                    "expected it with `device`",
+                    config.where_key("layout")));
   if (any && params.left == params.right) {
     throw ConfigError(
         fmt::format("{}: left and right are the same device; expected two, or "
@@ -98,6 +110,7 @@ class LiveCamera final : public Source {
     if (!start_) start_ = time;
     last_stamp_ = time;
     frame.time = static_cast<double>(1e-9L * static_cast<long double>(time - *start_));
+    frame.stamp = time + unix_from_now_;
     if (pair.empty()) {
       frame.problem = pictures().problem(tolerance_);
     } else {
@@ -138,7 +151,9 @@ class LiveCamera final : public Source {
   ImageSize wanted_size() const {
     const live::DeviceParams& wanted = params_.settings;
     if (!wanted.width || !wanted.height) return {};
-    return {devices_.size() == 1 ? *wanted.width / 2 : *wanted.width, *wanted.height};
+    if (devices_.size() == 2) return {*wanted.width, *wanted.height};
+    return view_size(params_.layout, *wanted.width, *wanted.height,
+                     "the size that the scene asks for");
   }
 
   /// Waits for the first pictures, to know their rate.
@@ -175,14 +190,10 @@ class LiveCamera final : public Source {
   void take_image_sizes() {
     const cv::Size first = pictures().size(0);
     if (devices_.size() == 1) {
-      if (first.width % 2 != 0) {
-        throw DataError(
-            fmt::format("{}: its picture is {} pixels wide; expected an even number, half for each "
-                        "view",
-                        devices_[0].label(), first.width));
-      }
+      const ImageSize view =
+          view_size(params_.layout, first.width, first.height, devices_[0].label());
       for (Camera& camera : cameras_)
-        fit_image_size(camera, first.width / 2, first.height, devices_[0].label());
+        fit_image_size(camera, view.width, view.height, devices_[0].label());
       return;
     }
     const cv::Size second = pictures().size(1);
@@ -207,9 +218,8 @@ class LiveCamera final : public Source {
       offsets_.push_back(std::abs(pair[1].stamp - pair[0].stamp));
       images = {pair[0].image, pair[1].image};
     } else {
-      const int half = pair[0].image.cols / 2;
-      images = {pair[0].image.colRange(0, half).clone(),
-                pair[0].image.colRange(half, 2 * half).clone()};
+      const auto views = split_views(params_.layout, pair[0].image);
+      images.assign(views.begin(), views.end());
     }
     for (std::size_t v = 0; v < images.size(); ++v) {
       const Camera& camera = cameras_[v];
@@ -236,6 +246,8 @@ class LiveCamera final : public Source {
   double rate_ = 30;
   std::int64_t tolerance_ = 0;
   int index_ = 0;
+  /// Stays the same when the wall clock is set, so that stamps grow.
+  std::int64_t unix_from_now_ = unix_from_now();
   std::optional<std::int64_t> start_;  ///< of frame 0; this and all below: of now()
   std::int64_t last_stamp_ = 0;        ///< of the last frame, missing ones included
   std::int64_t last_pair_ = 0;         ///< when the last pair was taken

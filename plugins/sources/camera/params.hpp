@@ -5,6 +5,7 @@
 
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/stereo_layout.hpp"
 
 namespace hypotrack::live {
 
@@ -19,7 +20,7 @@ struct DeviceParams {
 
   void visit(ParamVisitor& v) {
     v("width", width,
-      {.help = "width of a device's picture; side by side: of both views together",
+      {.help = "width of a device's picture, of both views together if it has both",
        .min = 2,
        .max = 65536,
        .unit = "px"});
@@ -53,6 +54,7 @@ struct Params {
   std::string device;
   std::string left;
   std::string right;
+  StereoLayout layout = StereoLayout::side_by_side;
   DeviceParams settings;
   bool uncalibrated = false;
   CalibrationSettings calibration;
@@ -62,10 +64,13 @@ struct Params {
 
   void visit(ParamVisitor& v) {
     v("device", device,
-      {.help = "device whose picture has the first camera in its left half and the second in its "
-               "right half: a V4L2 number or path, the URL of a stream or a GStreamer pipeline"});
+      {.help = "device whose picture has both views: a V4L2 number or path, the URL of a stream or "
+               "a GStreamer pipeline"});
     v("left", left, {.help = "device of the first camera, instead of `device`"});
     v("right", right, {.help = "device of the second camera"});
+    v("layout", layout,
+      {.help = "how the picture of `device` holds the views: the first camera in its left half "
+               "(side_by_side) or its upper half (top_bottom)"});
     settings.visit(v);
     v("uncalibrated", uncalibrated,
       {.help = "give pictures without a calibration, from which nothing can be tracked; for "

@@ -165,4 +165,14 @@ TimedImages find_timed_images(const std::vector<fs::path>& patterns, const Selec
   return out;
 }
 
+std::string note_on_names(const ImageList& images) {
+  if (images.size() < 2) return {};
+  const auto unit = unit_of_name(images.front().stem().string());
+  if (!unit || unit != unit_of_name(images.back().stem().string())) return {};
+  return fmt::format(
+      "{}: the name looks like a time, which is not read: frames get times of a constant rate. Set "
+      "`timestamps: {{from: names, unit: {}}}` to use it",
+      images.front().string(), enum_names(*unit)[static_cast<std::size_t>(*unit)]);
+}
+
 }  // namespace hypotrack

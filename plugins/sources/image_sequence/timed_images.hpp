@@ -28,4 +28,8 @@ struct TimedImages {
 TimedImages find_timed_images(const std::vector<std::filesystem::path>& patterns,
                               const Selection& selection, const TimestampSettings& settings);
 
+/// Returns a note for the user if the names of images look like times, which are not read; else an
+/// empty text.
+std::string note_on_names(const ImageList& images);
+
 }  // namespace hypotrack

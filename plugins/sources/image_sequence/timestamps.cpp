@@ -185,6 +185,23 @@ Stamp parse_stamp(std::string_view text, TimeUnit unit, const std::string& where
   return std::llround(value);
 }
 
+std::optional<TimeUnit> unit_of_name(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  constexpr std::size_t kSeconds = 10;  // digits from 2001 to 2286
+  const auto digits_at_end = [&](std::string_view all) {
+    const std::size_t before = all.find_last_not_of(kDigits);
+    return before == std::string_view::npos ? all.size() : all.size() - before - 1;
+  };
+  const std::size_t last = digits_at_end(text);
+  const std::string_view rest = text.substr(0, text.size() - last);
+  if (last > 0 && rest.ends_with('.'))
+    return digits_at_end(rest.substr(0, rest.size() - 1)) == kSeconds ? std::optional(TimeUnit::s)
+                                                                      : std::nullopt;
+  for (const TimeUnit unit : {TimeUnit::ms, TimeUnit::us, TimeUnit::ns})
+    if (last == kSeconds + 3 * static_cast<std::size_t>(unit)) return unit;
+  return std::nullopt;
+}
+
 std::vector<Stamp> read_stamps(const TimestampSettings& settings) {
   const std::string text = read_text(settings.file);
   const std::vector<Line> lines = lines_of(text);

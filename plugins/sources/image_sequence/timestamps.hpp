@@ -61,6 +61,10 @@ double seconds_between(Stamp first, Stamp last);
 /// 146 years or more from 0.
 Stamp parse_stamp(std::string_view text, TimeUnit unit, const std::string& where);
 
+/// Returns the unit of a time since 1970 that ends a text, judged by its number of digits; nothing
+/// if there is none.
+std::optional<TimeUnit> unit_of_name(std::string_view text);
+
 /// Reads the times of `settings.file`, in its order. Skips empty lines and lines that begin with #;
 /// the column's name may be in such a line. Throws DataError, naming file and line, if there is no
 /// such file or column, a line has no time, or times do not grow.

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestList = std::uintmax_t{64} << 20;
 constexpr std::string_view kBlank = " \t\r,";
-constexpr double kLatest = 1e11;  // seconds; doubles still tell milliseconds apart
+constexpr long double kLatest = 4e9L;  // seconds; differences of nanoseconds do not overflow
 
 std::string read_text(const std::filesystem::path& file) {
   std::error_code error;
@@ -59,16 +59,19 @@ TimedImage read_line(std::string_view line, const std::filesystem::path& folder,
                      const std::string& where) {
   TimedImage image;
   const char* end = line.data() + line.size();
-  const auto [stop, failure] = std::from_chars(line.data(), end, image.time);
+  long double seconds = 0;  // holds all numbers of 19 digits
+  const auto [stop, failure] = std::from_chars(line.data(), end, seconds);
   const std::string_view rest(stop, static_cast<std::size_t>(end - stop));
   const std::string_view name = trimmed(rest);
   const bool apart = !rest.empty() && kBlank.find(rest.front()) != std::string_view::npos;
-  if (failure != std::errc{} || !(std::abs(image.time) <= kLatest) || !apart || name.empty()) {
+  if (failure != std::errc{} || !(std::abs(seconds) <= kLatest) || !apart || name.empty()) {
     throw DataError(fmt::format(
         "{}: '{}' is not understood; expected a time in seconds and a file name, such as "
         "1305031102.175304 rgb/1305031102.175304.png",
         where, shown(line)));
   }
+  image.time = static_cast<double>(seconds);
+  image.stamp = std::llround(1e9L * seconds);
   image.file = folder / std::string(name);
   return image;
 }
@@ -87,7 +90,7 @@ std::vector<TimedImage> read_image_list(const std::filesystem::path& list) {
     if (line.empty() || line.front() == '#') continue;
     const std::string where = fmt::format("{}:{}", list.string(), number);
     images.push_back(read_line(line, list.parent_path(), where));
-    if (images.size() > 1 && images.back().time <= images[images.size() - 2].time) {
+    if (images.size() > 1 && images.back().stamp <= images[images.size() - 2].stamp) {
       throw DataError(fmt::format("{}: the time {} follows {}; expected times that ascend", where,
                                   images.back().time, images[images.size() - 2].time));
     }

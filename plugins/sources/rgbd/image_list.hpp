@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -10,7 +11,8 @@ namespace hypotrack::rgbd {
 
 /// A picture and its time.
 struct TimedImage {
-  double time = 0;  ///< seconds since any epoch
+  double time = 0;         ///< seconds since any epoch
+  std::int64_t stamp = 0;  ///< the same in nanoseconds, which a double would round
   std::filesystem::path file;
 };
 

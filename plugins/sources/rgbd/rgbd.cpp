@@ -24,6 +24,7 @@ struct RgbdParams {
   std::string depth_list = "depth.txt";
   double max_difference = 0.02;
   double depth_factor = 5000;
+  std::optional<int> bits;
   CalibrationSettings calibration;
   int start = 0;
   std::optional<int> count;
@@ -47,6 +48,8 @@ struct RgbdParams {
        .min = 1,
        .max = 1e7,
        .unit = "1/m"});
+    v("bits", bits,
+      {.help = "significant bits of 16-bit colour images; default: 16", .min = 8, .max = 16});
     v("calibration", calibration,
       {.help = "the one camera that both images belong to", .required = true});
     v("start", start,
@@ -102,8 +105,9 @@ class Rgbd final : public Source {
                       "the depth is registered to",
                       params.calibration.file.string(), cameras_.size()));
     }
+    note_pictures();
     take_image_size([&](std::size_t i) { return color_[i].file; },
-                    [](const auto& file) { return read_color(file); });
+                    [&](const auto& file) { return read_color(file, bits()); });
     take_image_size([&](std::size_t i) { return depth_file(i); },
                     [&](const auto& file) { return read_depth(file, unit()); });
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
@@ -122,7 +126,9 @@ class Rgbd final : public Source {
     const std::size_t i = next_++;
     Frame frame;
     frame.index = static_cast<int>(i) - params_.start;
-    frame.time = color_[i].time - color_[static_cast<std::size_t>(params_.start)].time;
+    const std::int64_t first = color_[static_cast<std::size_t>(params_.start)].stamp;
+    frame.time = 1e-9 * static_cast<double>(color_[i].stamp - first);
+    frame.stamp = color_[i].stamp;
     frame.truth = truth_.at(static_cast<int>(i));
     View view;
     frame.problem = read(i, view);
@@ -132,15 +138,29 @@ class Rgbd final : public Source {
 
  private:
   std::string list_name(const std::string& list) const { return (params_.folder / list).string(); }
+  int bits() const { return params_.bits.value_or(16); }
   double unit() const { return 1 / params_.depth_factor; }
   const std::filesystem::path& depth_file(std::size_t i) const {
     return depth_[*partners_[i]].file;
   }
 
+  /// Notes how the pictures are read.
+  void note_pictures() {
+    std::vector<std::filesystem::path> colors, depths;
+    for (std::size_t i = next_; i < end_; ++i) {
+      if (!partners_[i]) continue;
+      colors.push_back(color_[i].file);
+      depths.push_back(depth_file(i));
+    }
+    for (std::string note :
+         {orientation_note(colors), orientation_note(depths), bits_note(colors, params_.bits)})
+      if (!note.empty()) notes_.push_back(std::move(note));
+  }
+
   /// Reads the view. Returns a description of the problem, if any.
   std::string read(std::size_t i, View& view) const {
     if (!partners_[i]) return unmatched(i);
-    ReadImage color = read_color(color_[i].file);
+    ReadImage color = read_color(color_[i].file, bits());
     if (color.problem.empty()) {
       color.problem = size_problem(color_[i].file, color.image, cameras_[0]);
     }

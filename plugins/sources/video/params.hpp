@@ -1,28 +1,20 @@
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
-#include <span>
-#include <string_view>
 
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/params.hpp"
+#include "hypotrack/stereo_layout.hpp"
 #include "hypotrack/truth.hpp"
 
 namespace hypotrack {
-
-enum class ViewLayout { side_by_side, top_bottom };
-inline std::span<const std::string_view> enum_names(ViewLayout) {
-  static constexpr std::array<std::string_view, 2> kNames{"side_by_side", "top_bottom"};
-  return kNames;
-}
 
 struct VideoParams {
   std::filesystem::path left;
   std::filesystem::path right;
   std::filesystem::path side_by_side;
-  ViewLayout layout = ViewLayout::side_by_side;
+  std::optional<StereoLayout> layout;
   CalibrationSettings calibration;
   std::optional<int> offset;
   int start = 0;
@@ -39,8 +31,8 @@ struct VideoParams {
       {.help = "one video with the first camera in the left half and the second in the right half, "
                "instead of left and right"});
     v("layout", layout,
-      {.help = "where the two views of side_by_side are: top_bottom has the first camera in the "
-               "upper half"});
+      {.help = "how `left` holds both views, instead of `right`: the first camera in its left half "
+               "(side_by_side) or its upper half (top_bottom)"});
     v("calibration", calibration,
       {.help = "the cameras, of pictures as players show them", .required = true});
     v("offset", offset,

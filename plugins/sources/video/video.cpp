@@ -11,6 +11,7 @@
 
 #include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
+#include "hypotrack/stereo_layout.hpp"
 #include "hypotrack/video_timeline.hpp"
 #include "params.hpp"
 
@@ -28,7 +29,7 @@ class Video : public Source {
     open(context.config().where());
     take_frames();
     const std::size_t views = split_ ? 2 : files_.size();
-    const ImageSize first = view_size(0);
+    const ImageSize first = size_of_view(0);
     std::vector<std::string> of_calibration;
     cameras_ = load_calibration(params.calibration, first, &of_calibration);
     notes_.insert(notes_.begin(), of_calibration.begin(), of_calibration.end());
@@ -39,7 +40,7 @@ class Video : public Source {
                       params.calibration.file.string(), cameras_.size(), views));
     }
     for (std::size_t v = 0; v < views; ++v) {
-      const ImageSize size = view_size(v);
+      const ImageSize size = size_of_view(v);
       fit_image_size(cameras_[v], size.width, size.height, infos_[split_ ? 0 : v].name);
     }
     if (!params.truth.states.empty() || !params.truth.landmarks.empty()) {
@@ -89,33 +90,35 @@ class Video : public Source {
   }
 
  private:
-  void open(const std::string& where) {
-    split_ = !params_.side_by_side.empty();
-    if (split_ == !params_.left.empty() || (split_ && !params_.right.empty())) {
+  /// Names the files, and how a file of both views holds them.
+  std::vector<std::filesystem::path> choose_files(const std::string& where) {
+    const bool one = !params_.side_by_side.empty();
+    if (one == !params_.left.empty() || (one && !params_.right.empty()))
       throw ConfigError(fmt::format("{}: expected either left (and right) or side_by_side", where));
-    }
-    std::vector<std::filesystem::path> names{split_ ? params_.side_by_side : params_.left};
+    if (params_.layout && !params_.right.empty())
+      throw ConfigError(fmt::format(
+          "{}: layout is given together with right; expected one video of both views with it",
+          where));
+    split_ = one || params_.layout;
+    layout_ = params_.layout.value_or(StereoLayout::side_by_side);
+    std::vector<std::filesystem::path> names{one ? params_.side_by_side : params_.left};
     if (!params_.right.empty()) names.push_back(params_.right);
-    const auto refuse = [&](bool given, const char* key, const char* of) {
-      if (given) throw ConfigError(fmt::format("{}: {} is for {}", where, key, of));
+    return names;
+  }
+
+  void open(const std::string& where) {
+    const std::vector<std::filesystem::path> names = choose_files(where);
+    const auto refuse = [&](bool given, const char* key) {
+      if (given && names.size() != 2)
+        throw ConfigError(fmt::format("{}: {} is for two videos", where, key));
     };
-    refuse(params_.offset.value_or(0) != 0 && names.size() != 2, "offset", "two videos");
-    refuse(params_.tolerance && names.size() != 2, "tolerance_ms", "two videos");
-    refuse(params_.layout == ViewLayout::top_bottom && !split_, "layout", "side_by_side");
+    refuse(params_.offset.value_or(0) != 0, "offset");
+    refuse(params_.tolerance.has_value(), "tolerance_ms");
     for (const std::filesystem::path& name : names) {
       files_.push_back(open_video(name.string()));
       infos_.push_back(files_.back()->info());
       notes_.insert(notes_.end(), infos_.back().notes.begin(), infos_.back().notes.end());
     }
-    if (split_) check_halves();
-  }
-
-  void check_halves() const {
-    const bool above = params_.layout == ViewLayout::top_bottom;
-    const int size = above ? infos_[0].height : infos_[0].width;
-    if (size % 2 == 0) return;
-    throw DataError(fmt::format("{}: is {} pixels {}; expected an even number, half for each view",
-                                infos_[0].name, size, above ? "high" : "wide"));
   }
 
   /// Throws DataError if a video ends before the frame that belongs to frame `start` of the first.
@@ -155,21 +158,16 @@ class Video : public Source {
   }
 
   /// Returns the size of a view's pictures.
-  ImageSize view_size(std::size_t view) const {
+  ImageSize size_of_view(std::size_t view) const {
     const VideoInfo& info = infos_[split_ ? 0 : view];
     if (!split_) return {info.width, info.height};
-    if (params_.layout == ViewLayout::top_bottom) return {info.width, info.height / 2};
-    return {info.width / 2, info.height};
+    return view_size(layout_, info.width, info.height, info.name);
   }
 
   void fill_views(Frame& frame, std::vector<cv::Mat>& images) const {
     if (split_) {
-      const cv::Mat whole = images[0];
-      const int columns = whole.cols / 2, rows = whole.rows / 2;
-      if (params_.layout == ViewLayout::top_bottom)
-        images = {whole.rowRange(0, rows).clone(), whole.rowRange(rows, 2 * rows).clone()};
-      else
-        images = {whole.colRange(0, columns).clone(), whole.colRange(columns, 2 * columns).clone()};
+      const auto views = split_views(layout_, images[0]);
+      images.assign(views.begin(), views.end());
     }
     for (std::size_t v = 0; v < images.size(); ++v) {
       const cv::Mat& image = images[v];
@@ -185,7 +183,8 @@ class Video : public Source {
   }
 
   Params params_;
-  bool split_ = false;
+  bool split_ = false;  ///< one file holds both views
+  StereoLayout layout_ = StereoLayout::side_by_side;
   std::vector<std::unique_ptr<VideoFile>> files_;
   std::vector<VideoInfo> infos_;
   std::vector<Camera> cameras_;

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/videoio.hpp>
 #include <vector>
 
+#include "hypotrack/error.hpp"
+#include "hypotrack/media.hpp"
+#include "oriented_pictures.hpp"
 #include "test_paths.hpp"
 #include "video_writer.hpp"
 
@@ -16,6 +20,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 /// A video of frames 0 to 8 of a recording, 30 per second, without one of them. Frame i has the
 /// brightness 20 + 20 i.
@@ -31,7 +36,7 @@ test::VideoRecipe without(int gap) {
   return recipe;
 }
 
-TEST(PicturePairs, OfVideosAreOfTheSameTime) {
+TEST(PicturePairsOfVideos, AreOfTheSameTime) {
   const test::TemporaryDirectory folder;
   const std::string left = folder.path() / "left.mkv", right = folder.path() / "right.mkv";
   test::write_video(left, without(2));
@@ -41,25 +46,94 @@ TEST(PicturePairs, OfVideosAreOfTheSameTime) {
     names.push_back(pair.name);
     EXPECT_NEAR(cv::mean(pair.left)[0], cv::mean(pair.right)[0], 1) << pair.name;
   };
-  read_pairs(left, right, 1, take, [&](const std::string& note) { notes.push_back(note); });
+  read_pairs({left, right}, take, [&](const std::string& note) { notes.push_back(note); });
   EXPECT_THAT(names, ElementsAre("frame 0", "frame 1", "frame 3", "frame 4", "frame 6", "frame 7",
                                  "frame 8"));
   EXPECT_THAT(notes, Contains(HasSubstr("2 frames have no partner")));
   names.clear();
-  read_pairs(left, right, 4, take);
+  read_pairs({left, right, 4}, take);
   EXPECT_THAT(names, ElementsAre("frame 0", "frame 4", "frame 8"));
 }
 
-TEST(PicturePairs, OfVideosAreTurnedAsPlayersDo) {
+TEST(PicturePairsOfVideos, AreTurnedAsPlayersDo) {
   const test::TemporaryDirectory folder;
   const std::string file = folder.path() / "portrait.mov";
   test::write_video(
       file, {.times = {0, 20, 40}, .display = {{0, 1 << 16, 0, -1 << 16, 0, 0, 0, 0, 1 << 30}}});
   std::vector<std::string> notes;
   read_pairs(
-      file, file, 1, [](const PicturePair& pair) { EXPECT_EQ(pair.left.size(), cv::Size(48, 64)); },
+      {file, file}, [](const PicturePair& pair) { EXPECT_EQ(pair.left.size(), cv::Size(48, 64)); },
       [&](const std::string& note) { notes.push_back(note); });
   EXPECT_THAT(notes, Contains(HasSubstr("turned by 90 degrees clockwise")));
+}
+
+/// A picture of one brightness.
+cv::Mat plain(int brightness, int type = CV_8UC3) {
+  return {24, 32, type, cv::Scalar::all(brightness)};
+}
+
+class PicturePairs : public testing::Test {
+ protected:
+  std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
+  static std::vector<PicturePair> read(const PairFiles& files) {
+    std::vector<PicturePair> out;
+    read_pairs(files, [&](PicturePair pair) { out.push_back(std::move(pair)); });
+    return out;
+  }
+  static double brightness(const cv::Mat& image) { return cv::mean(image)[1]; }
+
+  test::TemporaryDirectory folder_;
+};
+
+TEST_F(PicturePairs, AreSplitFromPicturesOfBothViews) {
+  cv::Mat beside, above;
+  cv::hconcat(plain(20), plain(200), beside);
+  cv::vconcat(plain(20), plain(200), above);
+  write_image(file("beside.png"), beside);
+  write_image(file("above.png"), above);
+  cv::VideoWriter video(file("above.avi"), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10,
+                        above.size());
+  for (int i = 0; i < 3; ++i) video.write(above);
+  video.release();
+  const auto expect_pairs = [&](const char* name, StereoLayout layout, std::size_t count) {
+    const auto pairs = read({.left = file(name), .right = "", .layout = layout});
+    ASSERT_EQ(pairs.size(), count) << name;
+    for (const PicturePair& pair : pairs) {
+      EXPECT_EQ(pair.left.size(), cv::Size(32, 24));
+      EXPECT_NEAR(brightness(pair.left), 20, 3);
+      EXPECT_NEAR(brightness(pair.right), 200, 3);
+    }
+  };
+  expect_pairs("beside.png", StereoLayout::side_by_side, 1);
+  expect_pairs("above.png", StereoLayout::top_bottom, 1);
+  expect_pairs("above.avi", StereoLayout::top_bottom, 3);
+  write_image(file("odd.png"), cv::Mat(25, 32, CV_8UC3));
+  EXPECT_THAT(
+      [&] { read({.left = file("odd.png"), .right = "", .layout = StereoLayout::top_bottom}); },
+      ThrowsMessage<DataError>(HasSubstr("its picture is 25 pixels high")));
+}
+
+TEST_F(PicturePairs, AreTurnedAsViewersDoAndSaySo) {
+  for (const char* name : {"left.png", "right.png"})
+    test::write_bytes(file(name), test::png_with(test::exif(6), test::encoded(".png", plain(7))));
+  const PairFiles files{.left = file("left.png"), .right = file("right.png")};
+  const auto pairs = read(files);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(pairs[0].left.size(), cv::Size(24, 32));
+  EXPECT_EQ(pairs[0].right.size(), cv::Size(24, 32));
+  EXPECT_THAT(notes_on(files),
+              testing::ElementsAre(HasSubstr("left.png: its EXIF orientation is 6"),
+                                   HasSubstr("right.png: its EXIF orientation is 6")));
+}
+
+TEST_F(PicturePairs, OfFewerThanSixteenBitsNameTheOption) {
+  for (const char* name : {"left.png", "right.png"}) write_image(file(name), plain(4095, CV_16UC1));
+  PairFiles files{.left = file("left.png"), .right = file("right.png")};
+  EXPECT_THAT(notes_on(files), testing::Each(HasSubstr("set `--bits 12`")));
+  EXPECT_NEAR(brightness(read(files)[0].left), 16, 1);
+  files.bits = 12;
+  EXPECT_THAT(notes_on(files), testing::IsEmpty());
+  EXPECT_EQ(brightness(read(files)[0].right), 255);
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST(RealChessboards, AreCalibratedAsWellAsByOpenCv) {
   const BoardFinder finder(parse_board("9x6", "25mm"));
   const std::string folder = (test::shared_data() / "calib/chessboard").string();
   std::vector<BoardPair> pairs;
-  read_pairs(folder + "/left*.jpg", folder + "/right*.jpg", 1, [&](const PicturePair& pair) {
+  read_pairs({folder + "/left*.jpg", folder + "/right*.jpg"}, [&](const PicturePair& pair) {
     BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
     number_alike(board.corners[0], board.corners[1]);
     pairs.push_back(std::move(board));

@@ -38,11 +38,11 @@ class StoppedClock final : public Source {
   int next_ = 0;
 };
 
-/// A source of frames without views, with these numbers and times.
+/// A source of frames without views, with these numbers and times. The first ones have stamps.
 class ListedFrames final : public Source {
  public:
-  explicit ListedFrames(std::vector<std::pair<int, double>> frames)
-      : frames_(std::move(frames)), cameras_(1) {
+  explicit ListedFrames(std::vector<std::pair<int, double>> frames, std::size_t stamped = 0)
+      : frames_(std::move(frames)), stamped_(stamped), cameras_(1) {
     cameras_[0].fx = cameras_[0].fy = 100;
   }
   const std::vector<Camera>& cameras() const override { return cameras_; }
@@ -50,12 +50,14 @@ class ListedFrames final : public Source {
   std::optional<Frame> next() override {
     if (next_ == frames_.size()) return std::nullopt;
     Frame frame;
+    if (next_ < stamped_) frame.stamp = 1;
     std::tie(frame.index, frame.time) = frames_[next_++];
     return frame;
   }
 
  private:
   std::vector<std::pair<int, double>> frames_;
+  std::size_t stamped_;  ///< number of frames with a stamp, from the first on
   std::vector<Camera> cameras_;
   std::size_t next_ = 0;
 };
@@ -100,6 +102,20 @@ TEST_F(CheckedSourceTest, RefusesNumbersThatDoNotGrowAndTimesThatAreNone) {
   EXPECT_THAT(refusal({{2, 0}, {1, 0.1}}), HasSubstr("frame 1 at 0.1 s follows frame 2"));
   EXPECT_THAT(refusal({{-1, 0}}), HasSubstr("frame -1 at 0 s"));
   EXPECT_THAT(refusal({{0, std::nan("")}}), HasSubstr("frame 0 at nan s"));
+}
+
+TEST_F(CheckedSourceTest, RefusesFramesOfWhichSomeHaveAStamp) {
+  const auto read = [&](std::size_t stamped) {
+    CheckedSource source(std::make_unique<ListedFrames>(
+                             std::vector<std::pair<int, double>>{{0, 0}, {1, 1}}, stamped),
+                         scene_, "listed");
+    while (source.next()) {
+    }
+  };
+  EXPECT_NO_THROW(read(0));
+  EXPECT_NO_THROW(read(2));
+  EXPECT_THAT(test::message_of<DataError>([&] { read(1); }),
+              testing::HasSubstr("listed: frame 1 lacks a stamp, the first has one"));
 }
 
 }  // namespace

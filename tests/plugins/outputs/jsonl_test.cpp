@@ -51,6 +51,21 @@ TEST_F(JsonlTest, EveryFrameIsALineWithParametersAndLandmarksByName) {
   }
 }
 
+TEST_F(JsonlTest, StampsOfTheRecordingKeepAllDigits) {
+  const std::vector<Solution> solutions = test::random_solutions(scene_, 2);
+  run_.play("type: jsonl", solutions);
+  EXPECT_FALSE(read().at(0).contains("stamp"));
+  run_.stamp = -5;
+  run_.play("type: jsonl", solutions);
+  EXPECT_THAT(run_.lines("track.jsonl").at(0), ::testing::HasSubstr("\"stamp\":-0.000000005,"));
+  run_.stamp = 1403636579763555584;
+  run_.play("type: jsonl", solutions);
+  EXPECT_THAT(run_.lines("track.jsonl").at(1),
+              ::testing::HasSubstr("\"stamp\":1403636579.763555585,\"status\""));
+  EXPECT_EQ(read().at(1)["time"], solutions[1].time);
+  EXPECT_DOUBLE_EQ(read().at(1)["stamp"], 1403636579.763555585);
+}
+
 TEST_F(JsonlTest, UnknownNumbersAreNull) {
   Solution solution = test::random_solutions(scene_, 1).front();
   solution.cost = std::numeric_limits<double>::infinity();

@@ -67,6 +67,7 @@ std::unique_ptr<Output> OutputRun::begin(const std::string& yaml,
     Frame frame;
     frame.index = solution.frame;
     frame.time = solution.time;
+    if (stamp) frame.stamp = *stamp + solution.frame;
     output->online(frame, solution);
     output->frame(frame, solution);
   }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +49,8 @@ class OutputRun final : public OutputContext {
   /// Returns the lines of a file without those that begin with a #.
   std::vector<std::string> lines(const std::string& name) const;
 
-  bool full_disk = false;  ///< files cannot be written
+  bool full_disk = false;                  ///< files cannot be written
+  std::optional<std::int64_t> stamp = {};  ///< of frame 0 and, a nanosecond later each, the rest
 
  private:
   std::unique_ptr<Output> begin(const std::string& yaml, const std::vector<Solution>& solutions);

@@ -54,6 +54,13 @@ TEST_F(TumTest, FramesInWhichAModelIsNotSeenAreLeftOutOfItsFileOnly) {
               ElementsAre(::testing::StartsWith("0 "), ::testing::StartsWith("0.13333")));
 }
 
+TEST_F(TumTest, TimesAreTheStampsOfTheRecordingToTheLastDigit) {
+  run_.stamp = 1403636579763555584;
+  run_.play("type: tum", test::random_solutions(scene_, 2));
+  EXPECT_THAT(run_.lines("hand.tum"), ElementsAre(::testing::StartsWith("1403636579.763555584 "),
+                                                  ::testing::StartsWith("1403636579.763555585 ")));
+}
+
 TEST_F(TumTest, ModelsWhoseNamesAreNoFileNamesAreRefused) {
   for (const std::string name : {"left/hand", "hand#1", "", ".hand", "a\nb"}) {
     const Scene scene{{{name, box()}}};

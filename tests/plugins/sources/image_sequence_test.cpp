@@ -6,6 +6,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/tables.hpp"
+#include "oriented_pictures.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {
@@ -433,6 +434,80 @@ TEST_F(ImageSequence, SaysThatTheCalibrationDoesNotFit) {
   calibrate(64, 48, 2);
   write("right_0005.png", "no picture");
   EXPECT_THAT(making(numbered()), ThrowsMessage<DataError>(HasSubstr("no image can be read: ")));
+}
+
+TEST_F(ImageSequence, TurnsPicturesAsViewersDoAndSaysSo) {
+  for (int i = 0; i < 2; ++i) {
+    write_pair(i);
+    const std::string stored = test::encoded(".png", picture(i, 1));
+    test::write_bytes(file(cv::format("right_%04d.png", i)), test::png_with(test::exif(3), stored));
+  }
+  const auto source = make(numbered());
+  EXPECT_THAT(source->notes(),
+              testing::ElementsAre(AllOf(HasSubstr("right_0000.png: its EXIF orientation is 3"),
+                                         HasSubstr("turned by 180 degrees"))));
+  const auto frame = source->next();
+  cv::Mat upright;
+  cv::rotate(picture(0, 1), upright, cv::ROTATE_180);
+  EXPECT_EQ(cv::norm(frame->views[1].color, upright, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(frame->views[0].color, picture(0, 0), cv::NORM_INF), 0);
+}
+
+TEST_F(ImageSequence, SaysThatACalibrationIsOfPicturesNotTurned) {
+  for (const char* side : {"left", "right"})
+    test::write_bytes(file(std::string(side) + "_0000.png"),
+                      test::png_with(test::exif(6), test::encoded(".png", picture(0, 0))));
+  EXPECT_THAT(making(numbered()),
+              ThrowsMessage<DataError>(AllOf(HasSubstr("48x64"), HasSubstr("turned by 90 degrees "
+                                                                           "it fits"))));
+}
+
+TEST_F(ImageSequence, NamesTheBitsThatPicturesSeemToHave) {
+  for (const char* side : {"left", "right"})
+    write_image(file(std::string(side) + "_0000.png").string(),
+                cv::Mat(48, 64, CV_16U, cv::Scalar(4000)));
+  EXPECT_THAT(make(numbered())->notes(),
+              testing::ElementsAre(AllOf(HasSubstr("left_0000.png"), HasSubstr("`bits: 12`")),
+                                   HasSubstr("right_0000.png")));
+  const auto source = make(numbered("bits: 12\n"));
+  EXPECT_THAT(source->notes(), testing::IsEmpty());
+  EXPECT_EQ(source->next()->views[0].color.at<cv::Vec3b>(3, 3)[1], 249);
+}
+
+TEST_F(ImageSequence, SplitsPicturesOfBothViews) {
+  cv::Mat beside, above, depths, masks;
+  cv::hconcat(picture(0, 0), picture(0, 1), beside);
+  cv::vconcat(picture(0, 0), picture(0, 1), above);
+  cv::vconcat(cv::Mat(48, 64, CV_16U, cv::Scalar(500)), cv::Mat(48, 64, CV_16U, cv::Scalar(900)),
+              depths);
+  cv::vconcat(cv::Mat(48, 64, CV_8U, cv::Scalar(0)), cv::Mat(48, 64, CV_8U, cv::Scalar(1)), masks);
+  write_image(file("beside.png").string(), beside);
+  write_image(file("above.png").string(), above);
+  write_image(file("depth.png").string(), depths);
+  write_image(file("mask.png").string(), masks);
+  const std::string rig = "type: image_sequence\ncalibration: {file: rig.yml}\n";
+  for (const std::string yaml :
+       {"left: beside.png\nlayout: side_by_side\n",
+        "left: above.png\nlayout: top_bottom\nleft_depth: depth.png\nleft_mask: mask.png\n"}) {
+    const auto source = make(rig + yaml);
+    ASSERT_EQ(source->cameras().size(), 2u);
+    const auto frame = source->next();
+    ASSERT_EQ(frame->problem, "");
+    for (int v = 0; v < 2; ++v)
+      EXPECT_EQ(cv::norm(frame->views[v].color, picture(0, v), cv::NORM_INF), 0) << yaml << v;
+    if (frame->views[0].depth.empty()) continue;
+    EXPECT_FLOAT_EQ(frame->views[0].depth.at<float>(0, 0), 0.5f);
+    EXPECT_FLOAT_EQ(frame->views[1].depth.at<float>(0, 0), 0.9f);
+    EXPECT_EQ(cv::countNonZero(frame->views[0].mask), 0);
+    EXPECT_EQ(cv::countNonZero(frame->views[1].mask), 64 * 48);
+  }
+  EXPECT_THAT(making(rig + "left: above.png\nright: above.png\nlayout: top_bottom\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("layout is given together with images of the "
+                                                   "second camera")));
+  write_image(file("odd.png").string(), cv::Mat(95, 64, CV_8U));
+  EXPECT_THAT(making(rig + "left: odd.png\nlayout: top_bottom\n"),
+              ThrowsMessage<DataError>(HasSubstr("odd.png: its picture is 95 pixels high; expected "
+                                                 "an even number")));
 }
 
 }  // namespace

@@ -240,5 +240,42 @@ TEST_F(ImageTimestamps, InNamesMustBeThere) {
                                    AllOf(HasSubstr("left_%04d.png"), HasSubstr("expected one *"))));
 }
 
+TEST_F(ImageTimestamps, StayWithTheirFramesToTheLastNanosecond) {
+  const std::vector<std::string> names{"1403636579763555584", "1403636579813555457"};
+  write_pictures("cam0", names, 0);
+  write_pictures("cam1", names, 1);
+  auto source = make(named());
+  for (const std::string& name : names) EXPECT_EQ(source->next()->stamp, std::stoll(name));
+  write_pairs(2);
+  write("times.txt", "1403636579.763555584\n1403636579.813555457\n");
+  source = make(numbered("file: times.txt, unit: s"));
+  for (const std::string& name : names) EXPECT_EQ(source->next()->stamp, std::stoll(name));
+  source = make(
+      "type: image_sequence\nleft: left_%04d.png\nright: right_%04d.png\n"
+      "calibration: {file: rig.yml}\n");
+  EXPECT_FALSE(source->next()->stamp);
+}
+
+TEST_F(ImageTimestamps, InNamesThatAreNotReadAreTold) {
+  const auto notes = [&](const std::vector<std::string>& names) {
+    std::filesystem::remove_all(file("cam0"));
+    write_pictures("cam0", names, 0);
+    calibrate(64, 48, 1);
+    return make("type: image_sequence\nleft: cam0/*.png\ncalibration: {file: rig.yml}\n")->notes();
+  };
+  EXPECT_THAT(notes({"1403636579763555584", "1403636579813555584"}),
+              testing::ElementsAre(AllOf(HasSubstr("1403636579763555584.png: the name looks like a "
+                                                   "time"),
+                                         HasSubstr("`timestamps: {from: names, unit: ns}`"))));
+  EXPECT_THAT(notes({"left_1403636579763555", "left_1403636579813555"}),
+              testing::ElementsAre(HasSubstr("unit: us}")));
+  EXPECT_THAT(notes({"1403636579763", "1403636579813"}),
+              testing::ElementsAre(HasSubstr("unit: ms}")));
+  EXPECT_THAT(notes({"1305031102.175304", "1305031102.211214"}),
+              testing::ElementsAre(HasSubstr("unit: s}")));
+  EXPECT_THAT(notes({"000001", "000002"}), testing::IsEmpty());
+  EXPECT_THAT(notes({"0000000001", "0000000002"}), testing::IsEmpty());
+}
+
 }  // namespace
 }  // namespace hypotrack

@@ -5,6 +5,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/tables.hpp"
+#include "oriented_pictures.hpp"
 #include "source_fixture.hpp"
 
 namespace hypotrack {
@@ -235,6 +236,40 @@ TEST_F(Rgbd, ADamagedListIsRefusedOrReadButNothingElse) {
   }
   EXPECT_GT(read, 20);
   EXPECT_GT(refused, 20);
+}
+
+TEST_F(Rgbd, FramesHaveTheStampsOfTheColourList) {
+  add(0, 0, 0);
+  add(1, 1, 1);
+  write("rgb.txt", "1305031102.175304 rgb/0.png\n1403636579.763555584 rgb/1.png\n");
+  write("depth.txt", "1305031102.160407 depth/0.png\n1403636579.763555584 depth/1.png\n");
+  const auto source = make(yaml());
+  EXPECT_EQ(source->next()->stamp, 1305031102175304000);
+  EXPECT_EQ(source->next()->stamp, 1403636579763555584);
+}
+
+TEST_F(Rgbd, TurnsColourAndDepthAsViewersDoAndSaysSo) {
+  add(0, 1, 1);
+  for (const char* name : {"rgb/0.png", "depth/0.png"}) {
+    const cv::Mat stored = read_image(file(name).string(), cv::IMREAD_UNCHANGED);
+    test::write_bytes(file(name), test::png_with(test::exif(8), test::encoded(".png", stored)));
+  }
+  calibrate(48, 64, 1);
+  const auto source = make(yaml());
+  EXPECT_THAT(source->notes(), testing::ElementsAre(HasSubstr("rgb/0.png: its EXIF orientation"),
+                                                    HasSubstr("depth/0.png: its EXIF")));
+  const auto frame = source->next();
+  EXPECT_EQ(frame->problem, "");
+  EXPECT_EQ(frame->views[0].color.size(), frame->views[0].depth.size());
+}
+
+TEST_F(Rgbd, NamesTheBitsThatColourSeemsToHave) {
+  add(0, 1, 1);
+  write_image(file("rgb/0.png").string(), cv::Mat(48, 64, CV_16UC3, cv::Scalar::all(1000)));
+  EXPECT_THAT(make(yaml())->notes(), testing::ElementsAre(HasSubstr("`bits: 10`")));
+  const auto source = make(yaml("bits: 10\n"));
+  EXPECT_THAT(source->notes(), testing::IsEmpty());
+  EXPECT_EQ(source->next()->views[0].color.at<cv::Vec3b>(0, 0)[0], 249);
 }
 
 }  // namespace

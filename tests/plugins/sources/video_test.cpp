@@ -138,21 +138,23 @@ TEST_F(Video, CutsSideBySideInTwo) {
   EXPECT_EQ(side(frame->views[1]), 1);
 }
 
-TEST_F(Video, CutsViewsOneAboveTheOtherInTwo) {
+TEST_F(Video, SplitsViewsOneAboveTheOther) {
   cv::VideoWriter writer(file("both.avi").string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 12,
                          {64, 96});
   cv::Mat image(96, 64, CV_8UC3, cv::Scalar(20, 0, 30));
   image.rowRange(48, 96) = cv::Scalar(20, 100, 30);
-  for (int i = 0; i < 3; ++i) writer.write(image);
+  for (int i = 0; i < 2; ++i) writer.write(image);
   writer.release();
-  const std::string yaml = "type: video\nlayout: top_bottom\ncalibration: {file: rig.yml}\n";
-  const auto frame = make(yaml + "side_by_side: both.avi\n")->next();
-  ASSERT_EQ(frame->views.size(), 2u);
-  EXPECT_EQ(frame->views[1].color.size(), cv::Size(64, 48));
-  EXPECT_EQ(side(frame->views[0]), 0);
-  EXPECT_EQ(side(frame->views[1]), 1);
-  EXPECT_THAT(making(yaml + "left: both.avi\n"),
-              ThrowsMessage<ConfigError>(HasSubstr("layout is for side_by_side")));
+  const std::string rig = "type: video\ncalibration: {file: rig.yml}\nlayout: top_bottom\n";
+  for (const char* key : {"left", "side_by_side"}) {
+    const auto frame = make(rig + key + ": both.avi\n")->next();
+    ASSERT_EQ(frame->views.size(), 2u);
+    EXPECT_EQ(frame->views[1].color.size(), cv::Size(64, 48));
+    EXPECT_EQ(side(frame->views[0]), 0);
+    EXPECT_EQ(side(frame->views[1]), 1);
+  }
+  EXPECT_THAT(making(rig + "left: both.avi\nright: both.avi\n"),
+              ThrowsMessage<ConfigError>(HasSubstr("layout is given together with right")));
 }
 
 /// A video of a recording of 12 frames, 30 per second, without some of them. Frame i has the

@@ -38,15 +38,20 @@ class NewSceneTest : public AppTest {
     EXPECT_THAT(names_in(folder()), testing::ElementsAre("recording", "scene.yaml"));
   }
 
-  /// Writes the recording's pictures as a video, of one view or of both side by side.
-  std::string video(const std::string& name, const std::vector<std::string>& views) const {
+  /// Writes the recording's pictures as a video, of one view or of both side by side, or of both
+  /// one above the other.
+  std::string video(const std::string& name, const std::vector<std::string>& views,
+                    bool above = false) const {
     cv::VideoWriter writer;
     for (const std::string frame : {"_000000.png", "_000001.png"}) {
       std::vector<cv::Mat> pictures;
       for (const std::string& view : views)
         pictures.push_back(read_image(path("recording/" + view + frame).string()));
       cv::Mat all;
-      cv::hconcat(pictures, all);
+      if (above)
+        cv::vconcat(pictures, all);
+      else
+        cv::hconcat(pictures, all);
       if (!writer.isOpened())
         writer.open(path(name).string(), cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 30,
                     all.size());
@@ -135,6 +140,13 @@ TEST_F(NewSceneTest, VideosAreTakenAsTwoOrSideBySide) {
   EXPECT_THAT(made_from({"--left", left, "--right", right}), is_pair);
   EXPECT_THAT(made_from({"--recording", video("both.avi", {"left", "right"})}),
               HasSubstr("side_by_side: both.avi"));
+  const std::string above = video("above.avi", {"left", "right"}, true);
+  for (const char* option : {"--recording", "--left"})
+    EXPECT_THAT(made_from({option, above, "--layout", "top_bottom"}),
+                AllOf(HasSubstr("left: above.avi"), HasSubstr("layout: top_bottom"),
+                      testing::Not(HasSubstr("right:"))));
+  expect_refusal(new_scene({"--left", left, "--right", right, "--layout", "top_bottom", "--force"}),
+                 {"--layout says how one picture holds both views"});
 }
 
 TEST_F(NewSceneTest, PicturesOfAnotherSizeThanTheCalibrationsAreRefused) {

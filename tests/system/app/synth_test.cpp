@@ -89,6 +89,27 @@ TEST_F(SynthTest, ARecordingKeepsTheTimesOfFramesAroundAGap) {
             0);
 }
 
+TEST_F(SynthTest, ARecordingAndARunKeepTheStampsOfTheirSource) {
+  ASSERT_EQ(record(replaced(box_scene(), "type: synthetic",
+                            "type: synthetic\n  faults: [{frames: [2, 3], kind: missing}]"))
+                .exit_code,
+            0);
+  const std::string times =
+      "frame,time\n0,1403636579.763555584\n1,1403636579.813555457\n2,1403636579.913555328\n";
+  write_text(path("out/times.csv"), times);
+  const Outcome again =
+      run_program({"synth", path("out/scene.yaml").string(), "--out", path("again").string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(read_text(path("again/times.csv")), times);
+  const Outcome run = run_program({"run", path("again/scene.yaml").string(), "--out",
+                                   path("run").string(), "--set", "output.also=[{type: tum}]"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = lines_of(read_text(path("run/track.csv")));
+  EXPECT_THAT(rows[2], testing::AllOf(testing::StartsWith("1,0.049999873,"),
+                                      testing::HasSubstr(",1403636579.813555457,")));
+  EXPECT_THAT(read_text(path("run/box.tum")), testing::HasSubstr("1403636579.813555457 "));
+}
+
 TEST_F(SynthTest, ARecordingCanBeMoved) {
   ASSERT_EQ(record(box_scene(), {"--frames", "2"}).exit_code, 0);
   std::filesystem::rename(path("out"), path("moved"));

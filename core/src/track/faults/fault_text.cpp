@@ -58,7 +58,8 @@ std::string describe(FrameFault fault, int view) {
           kSkipped);
     case FrameFault::black:
       return fmt::format(
-          "{} is black or without depth; {}. Check this camera, its lens and its exposure",
+          "{} is black or without depth; {}. Check this camera, its lens and its exposure, and for "
+          "16-bit pictures `bits` (source)",
           name_of_view(view), kSkipped);
     case FrameFault::saturated:
       return fmt::format("{} is white; {}. Shorten the exposure, or lower the gain",

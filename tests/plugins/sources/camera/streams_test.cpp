@@ -241,6 +241,22 @@ TEST_F(Streams, PicturesHaveTheSizeOfTheCalibration) {
                                              HasSubstr("64x48"), HasSubstr("32x48"))));
 }
 
+TEST_F(Streams, OnePictureHasItsViewsOneAboveTheOtherWhereTheSceneSaysSo) {
+  cv::Mat image(96, 64, CV_8UC3, cv::Scalar(20, 20, 20));
+  image.rowRange(48, 96) = cv::Scalar(200, 200, 200);
+  save("above", 0, image);
+  const MjpegServer above(pictures("above"));
+  const auto source = open(above, "layout: top_bottom\n");
+  const auto before = std::chrono::system_clock::now().time_since_epoch();
+  const auto frame = source->next();
+  ASSERT_EQ(frame->views.size(), 2u) << frame->problem;
+  EXPECT_NEAR(cv::mean(frame->views[0].color)[0], 20, 5);
+  EXPECT_NEAR(cv::mean(frame->views[1].color)[0], 200, 5);
+  ASSERT_TRUE(frame->stamp);  // of the wall clock
+  EXPECT_NEAR(1e-9 * static_cast<double>(*frame->stamp),
+              std::chrono::duration<double>(before).count(), 60);
+}
+
 TEST_F(Streams, AnOddWidthHasNoHalves) {
   save("odd", 0, cv::Mat(48, 63, CV_8UC3, cv::Scalar(1, 2, 3)));
   const MjpegServer odd(pictures("odd"));

@@ -1,0 +1,68 @@
+#include "camera/decoded_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string_view>
+
+#include "camera/orientation.hpp"
+#include "camera/picture_header.hpp"
+#include "hypotrack/media.hpp"
+#include "hypotrack/text_file.hpp"
+
+namespace hypotrack::internal {
+namespace {
+
+constexpr std::uintmax_t kLargestImageFile = std::uintmax_t{512} << 20;
+
+/// Returns true if a JPEG or PNG lacks its end marker. Decoders fill truncated images with grey.
+bool is_truncated(std::string_view all) {
+  const std::string_view tail = all.substr(all.size() - std::min<std::size_t>(all.size(), 4096));
+  if (all.starts_with("\xFF\xD8\xFF")) return tail.find("\xFF\xD9") == std::string_view::npos;
+  if (all.starts_with("\x89PNG\r\n")) return tail.find("IEND") == std::string_view::npos;
+  return false;
+}
+
+/// Reads the bytes of a file. Returns a problem if they are none of a whole picture.
+std::string read_bytes(const std::filesystem::path& file, std::string& bytes) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return "is missing";
+  if (!std::filesystem::is_regular_file(file, error)) return "is no file";
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error || size > kLargestImageFile) return "is larger than 512 MiB";
+  std::optional<std::string> all = read_whole(file);
+  if (!all) return "cannot be read; check its permissions";
+  if (all->empty()) return "is empty";
+  if (is_truncated(*all)) return "is cut off before its end";
+  bytes = std::move(*all);
+  return problem_of_size(bytes);
+}
+
+}  // namespace
+
+ReadImage decode_upright(const std::filesystem::path& file) {
+  std::string all;
+  if (const std::string problem = read_bytes(file, all); !problem.empty())
+    return {{}, fmt::format("{}: {}", file.string(), problem)};
+  ReadImage read;
+  try {
+    const cv::Mat bytes(1, static_cast<int>(all.size()), CV_8UC1, all.data());
+    read.image = decode_image(bytes, cv::IMREAD_UNCHANGED);
+    if (!read.image.empty()) turn_upright(read.image, all);
+  } catch (const cv::Exception& e) {
+    if (e.code == cv::Error::StsNoMem) throw;
+    read.image.release();  // OpenCV's message for absurd sizes names its own source lines
+  }
+  if (read.image.empty()) read.problem = file.string() + ": is damaged or no image";
+  return read;
+}
+
+int file_orientation(const std::filesystem::path& file) {
+  std::string bytes;
+  return read_bytes(file, bytes).empty() ? orientation_of(bytes) : 0;
+}
+
+}  // namespace hypotrack::internal

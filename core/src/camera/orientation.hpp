@@ -1,0 +1,26 @@
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <string_view>
+
+#include "base/exported.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Returns the orientation, 1 to 8, that a JPEG, PNG, WebP or TIFF file asks viewers for (Exif 2.3,
+/// tag 274); 1, upright, if it asks for none or is damaged.
+int orientation_of(std::string_view bytes);
+
+/// Describes how viewers turn a picture of this orientation: `turned by 90 degrees clockwise`.
+std::string_view turn_of(int orientation);
+
+/// Turns a decoded file as viewers do. Decoders turn TIFF files themselves, others not.
+void turn_upright(cv::Mat& image, std::string_view bytes);
+
+/// Returns what to add to a message on a picture's size if a turn by 90 degrees explains it.
+std::string advice_on_turn(int width, int height, int expected_width, int expected_height);
+
+}  // namespace internal
+}  // namespace hypotrack
