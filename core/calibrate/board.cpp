@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "calibrate/charuco.hpp"
+#include "calibrate/chessboard.hpp"
+#include "calibrate/corner_noise.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::calibrate {
@@ -50,20 +52,6 @@ cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
   if (!inverted) return gray;
   cv::bitwise_not(gray, inverse);
   return inverse;
-}
-
-/// Returns the corners of a whole chessboard.
-std::vector<cv::Point2f> chessboard_corners(const cv::Mat& gray, cv::Size size) {
-  constexpr int kWindow = 5, kIterations = 40;
-  constexpr double kAccuracy = 0.001;  // pixels
-  std::vector<cv::Point2f> corners;
-  if (!cv::findChessboardCorners(
-          gray, size, corners,
-          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
-    return {};
-  cv::cornerSubPix(gray, corners, {kWindow, kWindow}, {-1, -1},
-                   {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kIterations, kAccuracy});
-  return corners;
 }
 
 }  // namespace
@@ -110,6 +98,25 @@ void number_alike(const BoardCorners& left, BoardCorners& right) {
   if (reversed < same) std::ranges::reverse(right.at);
 }
 
+std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures) {
+  std::array<int, 2> explained{};  // by marker_first
+  bool both = false;
+  for (const BoardCorners* picture : pictures) {
+    for (const PatternCorners& pattern : picture->patterns)
+      explained[pattern.marker_first] += pattern.explained;
+    both = both || !picture->patterns.empty();
+  }
+  if (!both) return std::nullopt;
+  const bool marker_first = explained[1] > explained[0];
+  for (BoardCorners* picture : pictures) {
+    const auto used =
+        std::ranges::find(picture->patterns, marker_first, &PatternCorners::marker_first);
+    picture->ids = used == picture->patterns.end() ? std::vector<int>() : used->ids;
+    picture->at = used == picture->patterns.end() ? std::vector<cv::Point2f>() : used->at;
+  }
+  return marker_first;
+}
+
 BoardFinder::BoardFinder(const Board& board) : board_(board) {
   if (board.kind == Board::Kind::charuco) markers_ = std::make_unique<CharucoFinder>(board);
 }
@@ -117,25 +124,31 @@ BoardFinder::~BoardFinder() = default;
 
 BoardCorners BoardFinder::find(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
-  if (markers_) return markers_->find(gray);
+  return markers_ ? with_sigma(gray, markers_->find(gray)) : chessboard(gray, false);
+}
+
+BoardCorners BoardFinder::with_sigma(const cv::Mat& gray, BoardCorners corners) const {
+  const int columns = markers_ ? board_.size.width - 1 : board_.size.width;
+  if (!corners.at.empty()) corners.sigma = corner_sigma(edge_look(gray, corners, columns));
+  return corners;
+}
+
+BoardCorners BoardFinder::chessboard(const cv::Mat& gray, bool quickly) const {
+  ChessboardCorners found = find_chessboard(gray, board_.size, quickly);
   BoardCorners out;
-  out.at = chessboard_corners(gray, board_.size);
+  out.at = std::move(found.at);
+  out.seen = found.seen;
   for (int i = 0; i < static_cast<int>(out.at.size()); ++i) out.ids.push_back(i);
-  return out;
+  return with_sigma(gray, std::move(out));
 }
 
 BoardCorners BoardFinder::find_quickly(const cv::Mat& picture) const {
-  constexpr int kWidth = 640;
-  if (markers_ || picture.cols <= kWidth) return find(picture);
-  cv::Mat small;
-  const double scale = static_cast<double>(kWidth) / picture.cols;
-  cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
-  return find(small).ids.empty() ? BoardCorners() : find(picture);
+  return markers_ ? find(picture) : chessboard(gray_of(picture, board_.inverted), true);
 }
 
 bool BoardFinder::sees_part(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
-  return markers_ ? markers_->sees_marker(gray) : cv::checkChessboard(gray, board_.size);
+  return markers_ ? markers_->markers(gray) > 0 : cv::checkChessboard(gray, board_.size);
 }
 
 double BoardFinder::edge_width(const cv::Mat& picture, const BoardCorners& found) const {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "calibrate/missing_board.hpp"
+#include "calibrate/wrong_board.hpp"
 
 namespace hypotrack::calibrate {
 namespace {
@@ -64,7 +65,8 @@ void PairCollector::find(std::size_t view, double time, const cv::Mat& picture, 
   BoardCorners& found = pair.corners[view];
   found = finder_->find_quickly(picture);
   if (found.ids.empty() || !rough_pose(*finder_, found, picture_)) {
-    problem = why_missing(view, time, picture);
+    problem = other_size(finder_->board(), found.seen);
+    if (problem.empty()) problem = why_missing(view, time, picture);
     return;
   }
   if (finder_->edge_width(picture, found) > blurred) problem = "the board is blurred";
@@ -109,6 +111,7 @@ PairLook PairCollector::look(double time, const cv::Mat& left, const cv::Mat& ri
   out.board = PairLook::Board::known;
   if (std::ranges::any_of(poses_, same)) return out;
   out.board = PairLook::Board::taken;
+  pair.corners[0].seen = finder_->find(left).seen;
   pairs_.push_back(std::move(pair));
   poses_.push_back(pose);
   return out;

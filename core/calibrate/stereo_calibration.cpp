@@ -185,15 +185,36 @@ bool drop_outliers(std::vector<CommonCorners>& views, const cv::Mat& residuals,
   return true;
 }
 
+/// Sets what the residuals are worth: `spread` and `expected`.
+void weigh_residuals(const std::vector<BoardPair>& pairs, const std::vector<CommonCorners>& views,
+                     bool lenses_given, StereoCalibration& out) {
+  constexpr double kPose = 6, kLens = 9, kLeastFree = 1;
+  double squares = 0, corners = 0;
+  bool known = true;
+  for (const CommonCorners& view : views) {
+    const auto count = static_cast<double>(view.board.size());
+    const double expected = expected_distance(pairs[view.pair]);
+    out.pairs[view.pair].expected = expected;
+    known = known && expected > 0;
+    squares += count * expected * expected;
+    corners += count;
+  }
+  const double numbers = 4 * corners;  // two coordinates in two pictures
+  const double parameters =
+      kPose * (1 + static_cast<double>(views.size())) + (lenses_given ? 0 : 2 * kLens);
+  out.spread = out.rms * std::sqrt(numbers / std::max(kLeastFree, numbers - parameters));
+  out.expected = known ? std::sqrt(squares / corners) : 0;
+}
+
 StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
                              const std::vector<BoardPair>& pairs,
                              const std::optional<std::array<Camera, 2>>& given) {
   std::vector<CommonCorners> views = common_corners(board, pairs);
   if (views.size() < kLeastPairs) {
     throw DataError(fmt::format(
-        "{} of {} pairs show the board in both pictures; expected at least {}. Are --board and its "
-        "kind right, and is the whole board in view?",
-        views.size(), pairs.size(), kLeastPairs));
+        "{} of {} pairs show {} corners of the board in both pictures; expected at least {}. Are "
+        "--board and its kind right, and is the whole board in view?",
+        views.size(), pairs.size(), kLeastCorners, kLeastPairs));
   }
   StereoCalibration out;
   for (const BoardPair& pair : pairs) out.pairs.push_back({.name = pair.name});
@@ -217,6 +238,7 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
     }
   } while (drop_outliers(views, found.residuals, out.pairs));
   out.rms = found.rms;
+  weigh_residuals(pairs, views, given.has_value(), out);
   for (std::size_t i = 0; i < 2; ++i) out.cameras[i] = camera_of(lenses[i], pictures);
   Eigen::Isometry3d& pose = out.cameras[1].camera_from_world;
   for (int row = 0; row < 3; ++row) {
@@ -229,6 +251,11 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
 }
 
 }  // namespace
+
+double expected_distance(const BoardPair& pair) {
+  const double left = pair.corners[0].sigma, right = pair.corners[1].sigma;
+  return left > 0 && right > 0 ? std::hypot(left, right) : 0;
+}
 
 StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
                                    const std::vector<BoardPair>& pairs,
