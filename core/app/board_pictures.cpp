@@ -41,7 +41,8 @@ FoundBoards find_boards(const calibrate::BoardFinder& finder, const std::string&
     expect_size(pair, out.size);
     calibrate::BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
     for (const calibrate::BoardCorners& corners : board.corners) seen.add(corners);
-    if (finder.whole_only()) calibrate::number_alike(board.corners[0], board.corners[1]);
+    if (finder.whole_only())
+      calibrate::number_alike(board.corners[0], board.corners[1], finder.board().size);
     if (complete(board)) {
       out.pairs.push_back(std::move(board));
     } else {

@@ -160,9 +160,10 @@ int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common)
     return kInterruptedExitCode;
   }
   const std::string pattern = settle_pattern(finder.board(), boards);
+  const auto lenses = lenses_of(options, boards.size);
   expect_board(finder.board(), boards);
-  const calibrate::StereoCalibration found = calibrate::calibrate_stereo(
-      finder, boards.size, boards.pairs, lenses_of(options, boards.size));
+  const calibrate::StereoCalibration found =
+      calibrate::calibrate_stereo(finder, boards.size, boards.pairs, lenses);
   print_pairs(found);
   print_without(boards.without);
   if (!pattern.empty()) fmt::print("{}\n", pattern);

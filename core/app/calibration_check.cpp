@@ -173,7 +173,8 @@ int check_calibration(CalibrationSettings settings, const std::string& left,
     print_check(pair.name, calibrate::check_matches(*cameras, pair.left, pair.right), judged);
     if (!finder) return;
     calibrate::BoardPair found{pair.name, {finder->find(pair.left), finder->find(pair.right)}};
-    if (finder->whole_only()) calibrate::number_alike(found.corners[0], found.corners[1]);
+    if (finder->whole_only())
+      calibrate::number_alike(found.corners[0], found.corners[1], finder->board().size);
     measure_board(*finder, *cameras, found, judged);
   });
   if (finder && judged.boards.empty())

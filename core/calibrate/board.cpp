@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -54,6 +55,15 @@ cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
   return inverse;
 }
 
+/// Returns corners of as many rows as columns in the order after a turn by 90 degrees.
+std::vector<cv::Point2f> quarter_turn(const std::vector<cv::Point2f>& at, int columns) {
+  std::vector<cv::Point2f> out;
+  for (int row = 0; row < columns; ++row)
+    for (int column = 0; column < columns; ++column)
+      out.push_back(at[static_cast<std::size_t>(column * columns + columns - 1 - row)]);
+  return out;
+}
+
 }  // namespace
 
 double parse_length(std::string_view text, std::string_view what) {
@@ -82,7 +92,7 @@ Board parse_board(std::string_view size, std::string_view square) {
   return out;
 }
 
-void number_alike(const BoardCorners& left, BoardCorners& right) {
+void number_alike(const BoardCorners& left, BoardCorners& right, cv::Size board) {
   if (left.ids != right.ids || left.ids.empty()) return;
   const auto mean = [](const std::vector<cv::Point2f>& points) {
     cv::Point2f sum;
@@ -90,12 +100,22 @@ void number_alike(const BoardCorners& left, BoardCorners& right) {
     return sum / static_cast<float>(points.size());
   };
   const cv::Point2f shift = mean(right.at) - mean(left.at);
-  double same = 0, reversed = 0;
-  for (std::size_t i = 0; i < left.at.size(); ++i) {
-    same += cv::norm(left.at[i] + shift - right.at[i]);
-    reversed += cv::norm(left.at[i] + shift - right.at[right.at.size() - 1 - i]);
+  const bool quarters = board.width == board.height && right.at.size() == std::size_t(board.area());
+  std::vector<cv::Point2f> turned = right.at;
+  double best = std::numeric_limits<double>::infinity();
+  for (int turns = 0; turns < 4; ++turns) {
+    double apart = 0;
+    for (std::size_t i = 0; i < left.at.size(); ++i)
+      apart += cv::norm(left.at[i] + shift - turned[i]);
+    if ((quarters || turns % 2 == 0) && apart < best) {
+      best = apart;
+      right.at = turned;
+    }
+    if (quarters)
+      turned = quarter_turn(turned, board.width);
+    else if (turns == 1)
+      std::ranges::reverse(turned);
   }
-  if (reversed < same) std::ranges::reverse(right.at);
 }
 
 std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures) {

@@ -51,8 +51,9 @@ Board parse_board(std::string_view size, std::string_view square);
 double parse_length(std::string_view text, std::string_view what);
 
 /// Numbers the corners of a whole chessboard in the right picture from the same end as in the left
-/// one: most boards look the same upside down.
-void number_alike(const BoardCorners& left, BoardCorners& right);
+/// one: most boards look the same upside down, and those of as many rows as columns (`board`) after
+/// each quarter of a turn.
+void number_alike(const BoardCorners& left, BoardCorners& right, cv::Size board = {});
 
 /// Chooses the pattern that explains most markers of all pictures, and takes the corners of that.
 /// One picture may not tell. Returns whether the top left square has a marker; nothing for boards

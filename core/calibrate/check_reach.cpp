@@ -46,12 +46,16 @@ std::vector<std::string> CheckReach::blind_spots(const std::array<Camera, 2>& ca
   for (std::size_t view = 0; view < 2; ++view) {
     const std::array<const BoardCorners*, 1> all = {&pixels_[view]};
     const Coverage coverage = coverage_of(all, {cameras[view].width, cameras[view].height});
-    if (!coverage.empty.empty())
-      out.push_back(fmt::format("the lens at the {} of the {} picture, where no points are",
-                                fmt::join(coverage.empty, " and the "),
-                                view == 0 ? "left" : "right"));
+    if (coverage.share >= kEnoughCoverage && coverage.empty.empty()) continue;
+    out.push_back(
+        fmt::format("the lens in {:.0f} % of the {} picture, where no points are{}",
+                    100 * (1 - coverage.share), view == 0 ? "left" : "right",
+                    coverage.empty.empty()
+                        ? ""
+                        : fmt::format(", as at the {}", fmt::join(coverage.empty, " and the "))));
   }
-  if (flat_ == pairs_)
+  constexpr double kMostly = 0.7;
+  if (flat_ > kMostly * pairs_)
     out.emplace_back(
         "focal lengths and distortion well: all points of a picture lie on one plane, as on a "
         "board or a wall; take pictures of a room");

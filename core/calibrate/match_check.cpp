@@ -82,7 +82,7 @@ Matches without_chance(const std::array<Camera, 2>& cameras, const Matches& matc
 bool lie_on_a_plane(const std::array<Camera, 2>& cameras,
                     const std::array<std::vector<cv::Point2f>, 2>& pixels) {
   constexpr std::size_t kLeast = 8;
-  constexpr double kApart = 3, kNearlyAll = 0.9;  // pixels, share
+  constexpr double kApart = 3, kNearlyAll = 0.8;  // pixels, share
   if (pixels[0].size() < kLeast) return false;
   std::array<std::vector<cv::Point2d>, 2> points;
   for (std::size_t view = 0; view < 2; ++view) {

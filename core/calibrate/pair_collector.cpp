@@ -78,7 +78,7 @@ bool PairCollector::holds_still(double time, BoardPair pair) {
   constexpr int kLooks = 4;
   const double most = 0.003 * picture_.width;  // pixels
   for (std::size_t view = 0; view < 2 && still_ && finder_->whole_only(); ++view)
-    number_alike(still_->corners[view], pair.corners[view]);
+    number_alike(still_->corners[view], pair.corners[view], finder_->board().size);
   const bool moved = !still_ || std::max(largest_move(still_->corners[0], pair.corners[0]),
                                          largest_move(still_->corners[1], pair.corners[1])) > most;
   if (moved) {
@@ -103,7 +103,7 @@ PairLook PairCollector::look(double time, const cv::Mat& left, const cv::Mat& ri
     still_.reset();
     return out;
   }
-  if (finder_->whole_only()) number_alike(pair.corners[0], pair.corners[1]);
+  if (finder_->whole_only()) number_alike(pair.corners[0], pair.corners[1], finder_->board().size);
   out.board = PairLook::Board::moving;
   if (!holds_still(time, pair)) return out;
   const RoughPose pose = *rough_pose(*finder_, pair.corners[0], picture_);
