@@ -79,6 +79,16 @@ std::vector<cv::Point2f> as_size(const SeenChessboard& seen, cv::Size size) {
   return turned({seen.size, seen.at}).at;
 }
 
+/// Returns as_size(), but nothing of pictures that are too blurred for refine():
+/// largest_chessboard() sees boards in them.
+std::vector<cv::Point2f> sharp_of_size(const cv::Mat& gray, const SeenChessboard& seen,
+                                       cv::Size size) {
+  constexpr double kWidest = 8;  // pixels, of edges
+  std::vector<cv::Point2f> at = as_size(seen, size);
+  if (!at.empty() && cv::estimateChessboardSharpness(gray, size, at)[0] > kWidest) at.clear();
+  return at;
+}
+
 /// Returns whether a board may be a part of one of the other size.
 bool is_part(cv::Size part, cv::Size whole) {
   const auto [least, most] = std::minmax(part.width, part.height);
@@ -122,16 +132,17 @@ SeenChessboard largest_chessboard(const cv::Mat& gray) {
 ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quickly) {
   double scale = std::min(1.0, static_cast<double>(kSmallWidth) / gray.cols);
   const cv::Mat small = resized(gray, scale);
-  ChessboardCorners out{corners_of_size(small, size, kFast), {}};
+  ChessboardCorners out;
+  if (quickly) out.at = corners_of_size(small, size, kFast);
   SeenChessboard seen;
-  if (out.at.empty() || !quickly) seen = largest_chessboard(small);
-  if (out.at.empty()) out.at = as_size(seen, size);
+  if (out.at.empty()) seen = largest_chessboard(small);
   const bool other = seen.whole && !is_part(seen.size, size);
-  if (out.at.empty() && !quickly && !other) out.at = corners_of_size(small, size, kSlow);
+  if (!quickly && !other) out.at = corners_of_size(small, size, kSlow);
+  if (out.at.empty()) out.at = sharp_of_size(small, seen, size);
   if (out.at.empty() && !quickly && !other && scale < 1) {
     scale = 1;
     seen = largest_chessboard(gray);
-    out.at = as_size(seen, size);
+    out.at = sharp_of_size(gray, seen, size);
   }
   if (seen.whole) out.seen = seen.size;
   if (!out.at.empty()) refine(gray, size, scale, out.at);

@@ -242,9 +242,9 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
   std::vector<CommonCorners> views = common_corners(board, pairs);
   if (views.size() < kLeastPairs) {
     throw DataError(fmt::format(
-        "{} of {} pairs show {} corners of the board in both pictures; expected at least {}. Are "
-        "--board and its kind right, and is the whole board in view?",
-        views.size(), pairs.size(), kLeastCorners, kLeastPairs));
+        "{} of {} pairs show the board in both pictures; expected at least {}. Are --board and its "
+        "kind right, and is the whole board in view?",
+        views.size(), pairs.size(), kLeastPairs));
   }
   StereoCalibration out;
   for (const BoardPair& pair : pairs) out.pairs.push_back({.name = pair.name});

@@ -106,6 +106,9 @@ std::string SeenBoards::problem(int least) const {
 
 std::string better_options(const Board& given, const cv::Mat& picture) {
   constexpr std::size_t kLeastMarkers = 4;
+  if (is_charuco(given) &&
+      CharucoFinder(given).markers(small_gray_of(picture, given.inverted)) >= kLeastMarkers)
+    return {};
   for (const bool inverted : {given.inverted, !given.inverted}) {
     const cv::Mat gray = small_gray_of(picture, inverted);
     const std::string invert = inverted == given.inverted ? ""
@@ -117,7 +120,6 @@ std::string better_options(const Board& given, const cv::Mat& picture) {
                          chess.size.width, chess.size.height, chess.size.width, chess.size.height,
                          invert);
     for (const std::string& name : dictionary_names()) {
-      if (is_charuco(given) && name == given.dictionary && invert.empty()) continue;
       Board board = given;
       board.dictionary = name;
       const std::size_t markers = CharucoFinder(board).markers(gray);
