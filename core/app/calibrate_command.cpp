@@ -11,9 +11,10 @@
 #include <vector>
 
 #include "base/text_file.hpp"
+#include "board_options.hpp"
+#include "board_pictures.hpp"
 #include "calibrate/board.hpp"
 #include "calibrate/coverage.hpp"
-#include "calibrate/picture_pairs.hpp"
 #include "calibrate/stereo_calibration.hpp"
 #include "calibrate/verdict.hpp"
 #include "calibration_output.hpp"
@@ -32,9 +33,8 @@ namespace {
 
 struct CalibrateOptions {
   CameraOptions views;
-  std::string board, square, dictionary = "4X4_50";
-  std::optional<std::string> marker;
-  bool inverted = false, force = false;
+  BoardOptions board;
+  bool force = false;
   int step = 1;
   std::optional<int> bits;
   std::optional<std::filesystem::path> lenses, coverage;
@@ -57,52 +57,6 @@ struct CalibrateOptions {
   }
 };
 
-calibrate::Board board_of(const CalibrateOptions& options) {
-  calibrate::Board out = calibrate::parse_board(options.board, options.square);
-  out.dictionary = options.dictionary;
-  out.inverted = options.inverted;
-  if (options.marker) out.marker = calibrate::parse_length(*options.marker, "--marker");
-  if (out.marker >= out.square) {
-    throw ConfigError(fmt::format("--marker is {}; expected less than --square, {}",
-                                  *options.marker, options.square));
-  }
-  return out;
-}
-
-/// Pairs of pictures with the board, and names of those without.
-struct FoundBoards {
-  std::vector<calibrate::BoardPair> pairs;
-  std::vector<std::string> without;
-  cv::Size size;             ///< of the pictures
-  bool interrupted = false;  ///< before there were enough pairs
-};
-
-FoundBoards find_boards(const calibrate::BoardFinder& finder, const CalibrateOptions& options) {
-  FoundBoards out;
-  const calibrate::PairFiles files{options.views.left, options.views.right, options.step,
-                                   layout_of(options.views), options.bits};
-  const auto note = [](const std::string& line) { tell("note: {}\n", line); };
-  std::ranges::for_each(calibrate::notes_on(files), note);
-  const auto take = [&](const calibrate::PicturePair& pair) {
-    for (const cv::Mat& picture : {pair.left, pair.right}) {
-      if (out.size.empty()) out.size = picture.size();
-      if (picture.size() == out.size) continue;
-      throw DataError(
-          fmt::format("{}: a picture has {} x {} pixels, others {} x {}; expected "
-                      "one size",
-                      pair.name, picture.cols, picture.rows, out.size.width, out.size.height));
-    }
-    calibrate::BoardPair board{pair.name, {finder.find(pair.left), finder.find(pair.right)}};
-    if (finder.whole_only()) calibrate::number_alike(board.corners[0], board.corners[1]);
-    if (board.corners[0].ids.empty() || board.corners[1].ids.empty())
-      out.without.push_back(pair.name);
-    else
-      out.pairs.push_back(std::move(board));
-  };
-  calibrate::read_pairs(files, take, note);
-  return out;
-}
-
 /// Returns the folder for pairs of live cameras: calibration_pairs beside calibration.yaml.
 std::filesystem::path pairs_folder(const CalibrateOptions& options) {
   if (options.pairs) return *options.pairs;
@@ -111,13 +65,8 @@ std::filesystem::path pairs_folder(const CalibrateOptions& options) {
 
 /// Returns the command that calibrates again from pairs that were taken.
 std::string repeating_command(const CalibrateOptions& options, const PairFolder& folder) {
-  std::string out =
-      fmt::format("hypotrack calibrate --left '{}' --right '{}' --board {} --square {}",
-                  folder.pattern("left"), folder.pattern("right"), options.board, options.square);
-  if (options.board.starts_with("charuco")) out += " --dictionary " + options.dictionary;
-  if (options.marker) out += " --marker " + *options.marker;
-  if (options.inverted) out += " --inverted";
-  return out;
+  return fmt::format("hypotrack calibrate --left '{}' --right '{}' {}", folder.pattern("left"),
+                     folder.pattern("right"), words_of(options.board));
 }
 
 /// Takes pairs of live cameras.
@@ -147,7 +96,7 @@ FoundBoards take_boards(const calibrate::BoardFinder& finder, const CalibrateOpt
     throw;
   }
   say_where();
-  return {std::move(taken.pairs), {}, taken.picture, taken.interrupted && folder.empty()};
+  return {std::move(taken.pairs), {}, taken.picture, taken.interrupted && folder.empty(), {}};
 }
 
 /// Reads the lenses of both cameras.
@@ -157,7 +106,9 @@ std::optional<std::array<Camera, 2>> lenses_of(const CalibrateOptions& options, 
   settings.file = *options.lenses;
   settings.cameras = options.cameras;
   settings.any_baseline = true;
-  std::vector<Camera> cameras = load_calibration(settings, {size.width, size.height});
+  std::vector<std::string> notes;
+  std::vector<Camera> cameras = load_calibration(settings, {size.width, size.height}, &notes);
+  for (const std::string& note : notes) tell("note: {}\n", note);
   if (cameras.size() != 2) {
     throw DataError(
         fmt::format("{}: has {} cameras; expected the two of the pictures, which --cameras chooses",
@@ -175,14 +126,17 @@ std::optional<std::array<Camera, 2>> lenses_of(const CalibrateOptions& options, 
 void print_pairs(const calibrate::StereoCalibration& found) {
   std::size_t width = 4;
   for (const auto& pair : found.pairs) width = std::max(width, pair.name.size());
-  fmt::print("{:{}}   left px  right px   (root mean square distance of the corners)\n", "pair",
-             width);
+  fmt::print(
+      "{:{}}   left px  right px  sharp px   (root mean square distance of the corners; of corners "
+      "as sharp as these)\n",
+      "pair", width);
   for (const auto& pair : found.pairs)
     if (pair.too_few)
-      fmt::print("{:{}}         -         -   too few corners that both show\n", pair.name, width);
+      fmt::print("{:{}}         -         -         -   too few corners that both show\n",
+                 pair.name, width);
     else
-      fmt::print("{:{}}  {:8.3f}  {:8.3f}{}\n", pair.name, width, pair.rms[0], pair.rms[1],
-                 pair.dropped ? "   dropped: far worse than the others" : "");
+      fmt::print("{:{}}  {:8.3f}  {:8.3f}  {:8.3f}{}\n", pair.name, width, pair.rms[0], pair.rms[1],
+                 pair.expected, pair.dropped ? "   dropped: far worse than the others" : "");
 }
 
 void print_without(const std::vector<std::string>& names) {
@@ -198,17 +152,23 @@ int calibrate_pair(const CalibrateOptions& options, const CommonOptions& common)
   check_new_file(options.out, options.force);
   expect_writable(options.out);
   const bool live = options.live();
-  const calibrate::BoardFinder finder(board_of(options));
-  const FoundBoards boards =
-      live ? take_boards(finder, options, common) : find_boards(finder, options);
+  const calibrate::BoardFinder finder(board_of(options.board));
+  FoundBoards boards =
+      live ? take_boards(finder, options, common)
+           : find_boards(finder, {options.views.left, options.views.right, options.step,
+                                  layout_of(options.views), options.bits});
   if (boards.interrupted) {
     tell("hypotrack: interrupted before there were enough pairs; nothing was written\n");
     return kInterruptedExitCode;
   }
-  const calibrate::StereoCalibration found = calibrate::calibrate_stereo(
-      finder, boards.size, boards.pairs, lenses_of(options, boards.size));
+  const std::string pattern = settle_pattern(finder.board(), boards);
+  const auto lenses = lenses_of(options, boards.size);
+  expect_board(finder.board(), boards);
+  const calibrate::StereoCalibration found =
+      calibrate::calibrate_stereo(finder, boards.size, boards.pairs, lenses);
   print_pairs(found);
   print_without(boards.without);
+  if (!pattern.empty()) fmt::print("{}\n", pattern);
   print_cameras({{"left", found.cameras[0]}, {"right", found.cameras[1]}});
   const calibrate::Verdict verdict = calibrate::verdict_of(boards.pairs, found);
   fmt::print("{}\n", verdict.summary);
@@ -238,16 +198,7 @@ void add_calibrate_command(const Command& root, CommonOptions& common, int& exit
               "Pictures of the right camera, in the same order, or the live camera",
               {.value_name = "'right*.jpg'"});
   add_camera_options(command, options->views);
-  command.add("--board", &options->board,
-              "Inner corners of a chessboard (9x6) or squares of a ChArUco board (charuco:5x7)",
-              {.required = true, .value_name = "9x6"});
-  command.add("--square", &options->square, "Side of a square, with its unit",
-              {.required = true, .value_name = "25mm"});
-  command.add("--marker", &options->marker, "Side of a marker (default: 0.75 of a square)",
-              {.value_name = "18mm"});
-  command.add("--dictionary", &options->dictionary, "Markers of a ChArUco board",
-              {.show_default = true, .check = one_of(calibrate::dictionary_names())});
-  command.add("--inverted", &options->inverted, "White and black of the board are exchanged");
+  add_board_options(command, options->board, true);
   command.add("--step", &options->step, "Use every n-th frame of videos",
               {.show_default = true, .check = whole_number(1)});
   command.add("--bits", &options->bits,

@@ -5,13 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/match_check.hpp"
-#include "calibrate/picture_pairs.hpp"
+#include "calibration_check.hpp"
 #include "calibration_output.hpp"
 #include "camera_options.hpp"
 #include "commands.hpp"
 #include "hypotrack/error.hpp"
-#include "hypotrack/median.hpp"
 #include "tell.hpp"
 
 namespace hypotrack::app {
@@ -26,6 +24,7 @@ struct CalibrationOptions {
   std::string left, right;
   std::optional<std::string> layout;
   std::optional<int> bits;
+  BoardOptions board;
 };
 
 /// Returns the settings with what the options say in words.
@@ -78,75 +77,13 @@ int convert(const CalibrationOptions& options) {
   return 0;
 }
 
-/// The checks of all pairs that can be judged.
-struct Judged {
-  std::vector<double> distances;  ///< medians, pixels
-  std::ptrdiff_t exchanged = 0;
-};
-
-/// Prints the check of one pair.
-void print_check(const std::string& name, const calibrate::MatchCheck& check, Judged& judged) {
-  constexpr int kFew = 20;
-  if (check.matches < kFew) {
-    fmt::print("{}: {} matches, too few to tell\n", name, check.matches);
-    return;
-  }
-  fmt::print(
-      "{}: {} matches, median {:.2f} px from the epipolar line ({:+.2f} px with its sign), {:.0f} "
-      "% "
-      "consistent\n",
-      name, check.matches, check.distance, check.offset, 100 * check.consistent);
-  judged.distances.push_back(check.distance);
-  if (!check.looks_exchanged()) return;
-  fmt::print("  left and right seem exchanged: {:.0f} % are consistent the other way round\n",
-             100 * check.consistent_exchanged);
-  ++judged.exchanged;
-}
-
-/// Prints what the checks say together. Returns the exit code.
-int print_judgement(const Judged& judged) {
-  constexpr double kFar = 1.5;  // pixels
-  if (judged.distances.empty())
-    throw DataError("no pair has enough matches; expected pictures of a scene with much texture");
-  const double distance = upper_median(judged.distances);
-  if (2 * judged.exchanged > std::ssize(judged.distances)) {
-    fmt::print("left and right are exchanged, in the pictures or in the calibration\n");
-    return 1;
-  }
-  if (distance >= kFar) {
-    fmt::print(
-        "calibration and pictures do not agree: {:.1f} px from the epipolar lines; calibrate "
-        "again\n",
-        distance);
-    return 1;
-  }
-  fmt::print("calibration and pictures agree: {:.2f} px from the epipolar lines\n", distance);
-  return 0;
-}
-
 int check(const CalibrationOptions& options) {
-  CalibrationSettings settings = settings_of(options);
-  Judged judged;
-  const calibrate::PairFiles files{options.left, options.right, 30, layout_named(options.layout),
+  constexpr int kStep = 30;  // frames of a video
+  const calibrate::PairFiles files{options.left, options.right, kStep, layout_named(options.layout),
                                    options.bits};
   if (files.layout ? !files.right.empty() : files.right.empty())
     throw ConfigError("expected --left and --right, or --left with --layout");
-  const auto note = [](const std::string& line) { tell("note: {}\n", line); };
-  std::ranges::for_each(calibrate::notes_on(files), note);
-  const auto judge = [&](const calibrate::PicturePair& pair) {
-    std::vector<Camera> cameras = load_calibration(settings, {pair.left.cols, pair.left.rows});
-    if (cameras.size() != 2) {
-      throw DataError(fmt::format("{}: has {} cameras; expected two, which --cameras chooses",
-                                  settings.file.string(), cameras.size()));
-    }
-    fit_image_size(cameras[0], pair.left.cols, pair.left.rows, options.left);
-    fit_image_size(cameras[1], pair.right.cols, pair.right.rows,
-                   files.layout ? options.left : options.right);
-    print_check(pair.name,
-                calibrate::check_matches({cameras[0], cameras[1]}, pair.left, pair.right), judged);
-  };
-  calibrate::read_pairs(files, judge, note);
-  return print_judgement(judged);
+  return check_calibration(settings_of(options), files, options.board);
 }
 
 void add_file_options(const Command& command, CalibrationOptions& options) {
@@ -192,7 +129,7 @@ void add_calibration_command(const Command& root, int& exit_code) {
 
   auto of_check = std::make_shared<CalibrationOptions>();
   const Command check_command = command.add_command(
-      "check", "Compare pictures with a file: distances from epipolar lines, exchanged views");
+      "check", "Compare pictures with a file: epipolar lines, exchanged views, a board's size");
   add_file_options(check_command, *of_check);
   check_command.add("--left", &of_check->left, "Pictures of the first camera, or a video",
                     {.required = true, .value_name = "'left*.jpg'"});
@@ -202,6 +139,7 @@ void add_calibration_command(const Command& root, int& exit_code) {
   check_command.add("--bits", &of_check->bits,
                     "Significant bits of 16-bit pictures, such as 12 (default: 16)",
                     {.check = whole_number(8, 16)});
+  add_board_options(check_command, of_check->board, false);
   check_command.on_call([=, &exit_code] { exit_code = check(*of_check); });
 }
 

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 
 #include "calibrate/charuco.hpp"
+#include "calibrate/chessboard.hpp"
+#include "calibrate/corner_noise.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::calibrate {
@@ -52,18 +55,13 @@ cv::Mat gray_of(const cv::Mat& picture, bool inverted) {
   return inverse;
 }
 
-/// Returns the corners of a whole chessboard.
-std::vector<cv::Point2f> chessboard_corners(const cv::Mat& gray, cv::Size size) {
-  constexpr int kWindow = 5, kIterations = 40;
-  constexpr double kAccuracy = 0.001;  // pixels
-  std::vector<cv::Point2f> corners;
-  if (!cv::findChessboardCorners(
-          gray, size, corners,
-          cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_FAST_CHECK))
-    return {};
-  cv::cornerSubPix(gray, corners, {kWindow, kWindow}, {-1, -1},
-                   {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, kIterations, kAccuracy});
-  return corners;
+/// Returns corners of as many rows as columns in the order after a turn by 90 degrees.
+std::vector<cv::Point2f> quarter_turn(const std::vector<cv::Point2f>& at, int columns) {
+  std::vector<cv::Point2f> out;
+  for (int row = 0; row < columns; ++row)
+    for (int column = 0; column < columns; ++column)
+      out.push_back(at[static_cast<std::size_t>(column * columns + columns - 1 - row)]);
+  return out;
 }
 
 }  // namespace
@@ -94,7 +92,7 @@ Board parse_board(std::string_view size, std::string_view square) {
   return out;
 }
 
-void number_alike(const BoardCorners& left, BoardCorners& right) {
+void number_alike(const BoardCorners& left, BoardCorners& right, cv::Size board) {
   if (left.ids != right.ids || left.ids.empty()) return;
   const auto mean = [](const std::vector<cv::Point2f>& points) {
     cv::Point2f sum;
@@ -102,12 +100,41 @@ void number_alike(const BoardCorners& left, BoardCorners& right) {
     return sum / static_cast<float>(points.size());
   };
   const cv::Point2f shift = mean(right.at) - mean(left.at);
-  double same = 0, reversed = 0;
-  for (std::size_t i = 0; i < left.at.size(); ++i) {
-    same += cv::norm(left.at[i] + shift - right.at[i]);
-    reversed += cv::norm(left.at[i] + shift - right.at[right.at.size() - 1 - i]);
+  const bool quarters = board.width == board.height && right.at.size() == std::size_t(board.area());
+  std::vector<cv::Point2f> turned = right.at;
+  double best = std::numeric_limits<double>::infinity();
+  for (int turns = 0; turns < 4; ++turns) {
+    double apart = 0;
+    for (std::size_t i = 0; i < left.at.size(); ++i)
+      apart += cv::norm(left.at[i] + shift - turned[i]);
+    if ((quarters || turns % 2 == 0) && apart < best) {
+      best = apart;
+      right.at = turned;
+    }
+    if (quarters)
+      turned = quarter_turn(turned, board.width);
+    else if (turns == 1)
+      std::ranges::reverse(turned);
   }
-  if (reversed < same) std::ranges::reverse(right.at);
+}
+
+std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures) {
+  std::array<int, 2> explained{};  // by marker_first
+  bool both = false;
+  for (const BoardCorners* picture : pictures) {
+    for (const PatternCorners& pattern : picture->patterns)
+      explained[pattern.marker_first] += pattern.explained;
+    both = both || !picture->patterns.empty();
+  }
+  if (!both) return std::nullopt;
+  const bool marker_first = explained[1] > explained[0];
+  for (BoardCorners* picture : pictures) {
+    const auto used =
+        std::ranges::find(picture->patterns, marker_first, &PatternCorners::marker_first);
+    picture->ids = used == picture->patterns.end() ? std::vector<int>() : used->ids;
+    picture->at = used == picture->patterns.end() ? std::vector<cv::Point2f>() : used->at;
+  }
+  return marker_first;
 }
 
 BoardFinder::BoardFinder(const Board& board) : board_(board) {
@@ -117,25 +144,31 @@ BoardFinder::~BoardFinder() = default;
 
 BoardCorners BoardFinder::find(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
-  if (markers_) return markers_->find(gray);
+  return markers_ ? with_sigma(gray, markers_->find(gray)) : chessboard(gray, false);
+}
+
+BoardCorners BoardFinder::with_sigma(const cv::Mat& gray, BoardCorners corners) const {
+  const int columns = markers_ ? board_.size.width - 1 : board_.size.width;
+  if (!corners.at.empty()) corners.sigma = corner_sigma(edge_look(gray, corners, columns));
+  return corners;
+}
+
+BoardCorners BoardFinder::chessboard(const cv::Mat& gray, bool quickly) const {
+  ChessboardCorners found = find_chessboard(gray, board_.size, quickly);
   BoardCorners out;
-  out.at = chessboard_corners(gray, board_.size);
+  out.at = std::move(found.at);
+  out.seen = found.seen;
   for (int i = 0; i < static_cast<int>(out.at.size()); ++i) out.ids.push_back(i);
-  return out;
+  return with_sigma(gray, std::move(out));
 }
 
 BoardCorners BoardFinder::find_quickly(const cv::Mat& picture) const {
-  constexpr int kWidth = 640;
-  if (markers_ || picture.cols <= kWidth) return find(picture);
-  cv::Mat small;
-  const double scale = static_cast<double>(kWidth) / picture.cols;
-  cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
-  return find(small).ids.empty() ? BoardCorners() : find(picture);
+  return markers_ ? find(picture) : chessboard(gray_of(picture, board_.inverted), true);
 }
 
 bool BoardFinder::sees_part(const cv::Mat& picture) const {
   const cv::Mat gray = gray_of(picture, board_.inverted);
-  return markers_ ? markers_->sees_marker(gray) : cv::checkChessboard(gray, board_.size);
+  return markers_ ? markers_->markers(gray) > 0 : cv::checkChessboard(gray, board_.size);
 }
 
 double BoardFinder::edge_width(const cv::Mat& picture, const BoardCorners& found) const {

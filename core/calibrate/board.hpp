@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,12 +19,26 @@ struct Board {
   double marker = 0;  ///< side of a marker, of ChArUco
   std::string dictionary = "4X4_50";
   bool inverted = false;  ///< white and black are exchanged
+  /// Whether the top left square of a ChArUco board has a marker, as OpenCV before 4.6 prints it if
+  /// the number of rows is even. Nothing: the pictures tell.
+  std::optional<bool> marker_first;
+};
+
+/// Corners of a ChArUco board, if its markers lie in one of the two patterns.
+struct PatternCorners {
+  bool marker_first = false;
+  int explained = 0;  ///< neighbouring markers that lie as in this pattern
+  std::vector<int> ids;
+  std::vector<cv::Point2f> at;
 };
 
 /// Corners of a board in a picture.
 struct BoardCorners {
   std::vector<int> ids;  ///< row by row over the inner corners, ascending
   std::vector<cv::Point2f> at;
+  double sigma = 0;  ///< expected standard deviation of a coordinate, in pixels; 0: unknown
+  cv::Size seen;     ///< of the board in the picture, as Board has it; empty: unknown
+  std::vector<PatternCorners> patterns;  ///< that are possible, of ChArUco; the first one is used
 };
 
 /// Returns the names of the marker dictionaries.
@@ -35,8 +51,14 @@ Board parse_board(std::string_view size, std::string_view square);
 double parse_length(std::string_view text, std::string_view what);
 
 /// Numbers the corners of a whole chessboard in the right picture from the same end as in the left
-/// one: most boards look the same upside down.
-void number_alike(const BoardCorners& left, BoardCorners& right);
+/// one: most boards look the same upside down, and those of as many rows as columns (`board`) after
+/// each quarter of a turn.
+void number_alike(const BoardCorners& left, BoardCorners& right, cv::Size board = {});
+
+/// Chooses the pattern that explains most markers of all pictures, and takes the corners of that.
+/// One picture may not tell. Returns whether the top left square has a marker; nothing for boards
+/// without markers.
+std::optional<bool> settle_pattern(std::span<BoardCorners* const> pictures);
 
 class CharucoFinder;
 
@@ -48,20 +70,23 @@ class BoardFinder {
   /// Returns the corners in an 8-bit colour or grey picture; none if the board is not
   /// seen.
   BoardCorners find(const cv::Mat& picture) const;
-  /// Returns find(), but no chessboard that cannot be found at 640 pixels of width. Large pictures
-  /// without a board then take a fraction of the time.
+  /// Returns find(), but only of a chessboard that is found fast, at 640 pixels of width.
   BoardCorners find_quickly(const cv::Mat& picture) const;
   /// Returns whether a picture has a part of a board in it, or something like it.
   bool sees_part(const cv::Mat& picture) const;
   /// Returns how many pixels the edges of a found chessboard are wide (OpenCV's
   /// estimateChessboardSharpness); 0 for ChArUco.
   double edge_width(const cv::Mat& picture, const BoardCorners& found) const;
+  const Board& board() const { return board_; }
   /// Returns whether the board is found only as a whole.
   bool whole_only() const { return board_.kind == Board::Kind::chessboard; }
   /// Returns where a corner is on the board, in metres.
   cv::Point3f place(int id) const;
 
  private:
+  BoardCorners chessboard(const cv::Mat& gray, bool quickly) const;
+  BoardCorners with_sigma(const cv::Mat& gray, BoardCorners corners) const;
+
   Board board_;
   std::unique_ptr<CharucoFinder> markers_;  ///< of ChArUco
 };

@@ -13,14 +13,14 @@ class CharucoFinder {
  public:
   explicit CharucoFinder(const Board& board);
   ~CharucoFinder();
-  /// Returns the corners between two markers each in a grey picture.
+  /// Returns the corners between two markers each in a grey picture, in all patterns that fit.
   BoardCorners find(const cv::Mat& gray) const;
-  /// Returns whether a grey picture has a marker of the dictionary in it.
-  bool sees_marker(const cv::Mat& gray) const;
+  /// Returns how many markers of the dictionary a grey picture has.
+  std::size_t markers(const cv::Mat& gray) const;
   /// Returns where a corner is on the board, in metres.
   cv::Point3f place(int id) const;
-  /// Draws the board on white, for tests.
-  cv::Mat drawn(cv::Size size, int margin) const;
+  /// Draws the board with squares of some pixels on white, for tests.
+  cv::Mat drawn(int square, int margin) const;
 
  private:
   struct Impl;

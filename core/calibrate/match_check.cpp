@@ -46,6 +46,14 @@ Matches matches_of(const cv::Mat& left, const cv::Mat& right) {
   return out;
 }
 
+/// Returns pixels as a lens without distortion shows them.
+std::vector<cv::Point2d> as_pinhole(const Camera& camera, const Eigen::Matrix2Xd& pixels) {
+  const Eigen::Matrix3Xd rays = back_project(camera, pixels);
+  std::vector<cv::Point2d> out;
+  for (const auto& ray : rays.colwise()) out.emplace_back(camera.fy * ray.x(), camera.fy * ray.y());
+  return out;
+}
+
 /// Returns the matches that agree with one fundamental matrix (RANSAC): chance ones do not.
 Matches without_chance(const std::array<Camera, 2>& cameras, const Matches& matches) {
   constexpr int kLeast = 15;      // for a fundamental matrix that means something
@@ -53,12 +61,8 @@ Matches without_chance(const std::array<Camera, 2>& cameras, const Matches& matc
   constexpr double kSure = 0.999;
   const Eigen::Index count = matches[0].cols();
   if (count < kLeast) return matches;
-  std::array<std::vector<cv::Point2d>, 2> points;  // as a lens without distortion shows them
-  for (std::size_t view = 0; view < 2; ++view) {
-    const Eigen::Matrix3Xd rays = back_project(cameras[view], matches[view]);
-    for (const auto& ray : rays.colwise())
-      points[view].emplace_back(cameras[view].fy * ray.x(), cameras[view].fy * ray.y());
-  }
+  const std::array points = {as_pinhole(cameras[0], matches[0]),
+                             as_pinhole(cameras[1], matches[1])};
   cv::Mat agrees;
   cv::theRNG().state = 1;
   cv::findFundamentalMat(points[0], points[1], cv::FM_RANSAC, kApart, kSure, agrees);
@@ -74,11 +78,33 @@ Matches without_chance(const std::array<Camera, 2>& cameras, const Matches& matc
   return out;
 }
 
+/// Returns whether a homography explains nearly all matches: those of a plane.
+bool lie_on_a_plane(const std::array<Camera, 2>& cameras,
+                    const std::array<std::vector<cv::Point2f>, 2>& pixels) {
+  constexpr std::size_t kLeast = 8;
+  constexpr double kApart = 3, kNearlyAll = 0.8;  // pixels, share
+  if (pixels[0].size() < kLeast) return false;
+  std::array<std::vector<cv::Point2d>, 2> points;
+  for (std::size_t view = 0; view < 2; ++view) {
+    Eigen::Matrix2Xd at(2, std::ssize(pixels[view]));
+    for (Eigen::Index i = 0; i < at.cols(); ++i) {
+      const cv::Point2f& p = pixels[view][static_cast<std::size_t>(i)];
+      at.col(i) << p.x, p.y;
+    }
+    points[view] = as_pinhole(cameras[view], at);
+  }
+  cv::Mat agrees;
+  cv::theRNG().state = 1;
+  cv::findHomography(points[0], points[1], cv::RANSAC, kApart, agrees);
+  return cv::countNonZero(agrees) > kNearlyAll * static_cast<double>(pixels[0].size());
+}
+
 /// Distances of matches from their epipolar lines, and whether they may be points before both
 /// cameras.
 struct Distances {
   std::vector<double> signed_pixels;
   double consistent = 0;
+  MatchedPoints points;
 };
 
 /// Returns the distances in the second picture. A point is before both cameras if the rays meet
@@ -100,7 +126,12 @@ Distances distances(const std::array<Camera, 2>& cameras, const Matches& matches
     Eigen::Matrix<double, 3, 2> rays;
     rays << p, -q;
     const Eigen::Vector2d depths = rays.colPivHouseholderQr().solve(-t);
-    out.consistent += std::abs(pixels) < kNear && depths.minCoeff() > 0;
+    if (!(std::abs(pixels) < kNear && depths.minCoeff() > 0)) continue;
+    ++out.consistent;
+    out.points.depths.push_back(depths[0]);
+    for (std::size_t view = 0; view < 2; ++view)
+      out.points.pixels[view].emplace_back(static_cast<float>(matches[view](0, i)),
+                                           static_cast<float>(matches[view](1, i)));
   }
   if (!out.signed_pixels.empty()) out.consistent /= static_cast<double>(out.signed_pixels.size());
   return out;
@@ -121,6 +152,8 @@ MatchCheck check_matches(const std::array<Camera, 2>& cameras, const cv::Mat& le
   out.matches = static_cast<int>(given.signed_pixels.size());
   if (out.matches == 0) return out;
   out.consistent = given.consistent;
+  out.points = given.points;
+  out.points.flat = lie_on_a_plane(cameras, out.points.pixels);
   out.offset = upper_median(given.signed_pixels);
   std::vector<double> lengths;
   for (const double pixels : given.signed_pixels) lengths.push_back(std::abs(pixels));

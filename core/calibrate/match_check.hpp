@@ -2,10 +2,18 @@
 
 #include <array>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack::calibrate {
+
+/// Points that agree with a calibration.
+struct MatchedPoints {
+  std::array<std::vector<cv::Point2f>, 2> pixels;  ///< in both pictures
+  std::vector<double> depths;                      ///< before the left camera, metres
+  bool flat = false;                               ///< nearly all lie on one plane
+};
 
 /// How well matches between pictures of two cameras agree with their calibration.
 struct MatchCheck {
@@ -15,6 +23,7 @@ struct MatchCheck {
   double consistent = 0;  ///< share of the matches that lie in front of both cameras, near the line
   /// The same share with left and right exchanged.
   double consistent_exchanged = 0;
+  MatchedPoints points;  ///< the consistent ones
 
   /// Returns whether the pictures seem to be exchanged.
   bool looks_exchanged() const;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "calibrate/missing_board.hpp"
+#include "calibrate/wrong_board.hpp"
 
 namespace hypotrack::calibrate {
 namespace {
@@ -64,7 +65,8 @@ void PairCollector::find(std::size_t view, double time, const cv::Mat& picture, 
   BoardCorners& found = pair.corners[view];
   found = finder_->find_quickly(picture);
   if (found.ids.empty() || !rough_pose(*finder_, found, picture_)) {
-    problem = why_missing(view, time, picture);
+    problem = other_size(finder_->board(), found.seen);
+    if (problem.empty()) problem = why_missing(view, time, picture);
     return;
   }
   if (finder_->edge_width(picture, found) > blurred) problem = "the board is blurred";
@@ -76,7 +78,7 @@ bool PairCollector::holds_still(double time, BoardPair pair) {
   constexpr int kLooks = 4;
   const double most = 0.003 * picture_.width;  // pixels
   for (std::size_t view = 0; view < 2 && still_ && finder_->whole_only(); ++view)
-    number_alike(still_->corners[view], pair.corners[view]);
+    number_alike(still_->corners[view], pair.corners[view], finder_->board().size);
   const bool moved = !still_ || std::max(largest_move(still_->corners[0], pair.corners[0]),
                                          largest_move(still_->corners[1], pair.corners[1])) > most;
   if (moved) {
@@ -101,7 +103,7 @@ PairLook PairCollector::look(double time, const cv::Mat& left, const cv::Mat& ri
     still_.reset();
     return out;
   }
-  if (finder_->whole_only()) number_alike(pair.corners[0], pair.corners[1]);
+  if (finder_->whole_only()) number_alike(pair.corners[0], pair.corners[1], finder_->board().size);
   out.board = PairLook::Board::moving;
   if (!holds_still(time, pair)) return out;
   const RoughPose pose = *rough_pose(*finder_, pair.corners[0], picture_);
@@ -109,6 +111,7 @@ PairLook PairCollector::look(double time, const cv::Mat& left, const cv::Mat& ri
   out.board = PairLook::Board::known;
   if (std::ranges::any_of(poses_, same)) return out;
   out.board = PairLook::Board::taken;
+  pair.corners[0].seen = finder_->find(left).seen;
   pairs_.push_back(std::move(pair));
   poses_.push_back(pose);
   return out;

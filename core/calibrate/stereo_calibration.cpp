@@ -51,20 +51,51 @@ Lens lens_of(const Camera& camera) {
           cv::Mat(camera.distortion, true).reshape(1, 1)};
 }
 
-/// Calibrates one camera. Returns the standard deviation of its focal length as a share of it.
-double calibrate_one(const std::vector<CommonCorners>& views, std::size_t view, cv::Size pictures,
-                     Lens& lens) {
+/// A calibrated camera.
+struct OneCamera {
+  Lens lens;
+  double focal_sigma = 0;   ///< standard deviation of the focal length as a share of it
+  bool tangential = false;  ///< the tangential distortion differs from 0
+};
+
+OneCamera calibrate_one(const std::vector<CommonCorners>& views, std::size_t view,
+                        cv::Size pictures, int flags) {
+  constexpr double kSignificant = 3;  // standard deviations
   std::vector<std::vector<cv::Point3f>> board;
   std::vector<std::vector<cv::Point2f>> at;
   for (const CommonCorners& one : views) {
     board.push_back(one.board);
     at.push_back(one.at[view]);
   }
+  OneCamera out;
   std::vector<cv::Mat> turns, places;
   cv::Mat sigmas, pose_sigmas, errors;
-  cv::calibrateCamera(board, at, pictures, lens.matrix, lens.distortion, turns, places, sigmas,
-                      pose_sigmas, errors);
-  return sigmas.at<double>(0) / lens.matrix.at<double>(0, 0);
+  cv::calibrateCamera(board, at, pictures, out.lens.matrix, out.lens.distortion, turns, places,
+                      sigmas, pose_sigmas, errors, flags);
+  out.focal_sigma = sigmas.at<double>(0) / out.lens.matrix.at<double>(0, 0);
+  for (int i = 2; i < 4; ++i)  // after four of the matrix and two radial ones
+    out.tangential = out.tangential || std::abs(out.lens.distortion.at<double>(i)) >
+                                           kSignificant * sigmas.at<double>(4 + i);
+  return out;
+}
+
+/// Calibrates both cameras. Where neither shows tangential distortion, none is assumed: it trades
+/// off against the centre, which is known twice as well without it. Returns OpenCV's flag of that.
+int calibrate_lenses(const std::vector<CommonCorners>& views, cv::Size pictures,
+                     std::array<Lens, 2>& lenses, std::array<double, 2>& focal_sigma) {
+  const auto calibrate = [&](int flags) {
+    bool tangential = false;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const OneCamera one = calibrate_one(views, i, pictures, flags);
+      lenses[i] = one.lens;
+      focal_sigma[i] = one.focal_sigma;
+      tangential = tangential || one.tangential;
+    }
+    return tangential;
+  };
+  if (calibrate(0)) return 0;
+  calibrate(cv::CALIB_ZERO_TANGENT_DIST);
+  return cv::CALIB_ZERO_TANGENT_DIST;
 }
 
 /// The right camera's pose and the residuals of each view.
@@ -74,7 +105,7 @@ struct Pair {
 };
 
 Pair calibrate_both(const std::vector<CommonCorners>& views, cv::Size pictures,
-                    std::array<Lens, 2>& lenses, bool lenses_given) {
+                    std::array<Lens, 2>& lenses, int flags) {
   std::vector<std::vector<cv::Point3f>> board;
   std::array<std::vector<std::vector<cv::Point2f>>, 2> at;
   for (const CommonCorners& one : views) {
@@ -83,11 +114,10 @@ Pair calibrate_both(const std::vector<CommonCorners>& views, cv::Size pictures,
   }
   Pair out;
   cv::Mat essential, fundamental;
-  out.rms = cv::stereoCalibrate(
-      board, at[0], at[1], lenses[0].matrix, lenses[0].distortion, lenses[1].matrix,
-      lenses[1].distortion, pictures, out.rotation, out.translation, essential, fundamental,
-      out.residuals, lenses_given ? cv::CALIB_FIX_INTRINSIC : cv::CALIB_USE_INTRINSIC_GUESS,
-      {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-7});
+  out.rms = cv::stereoCalibrate(board, at[0], at[1], lenses[0].matrix, lenses[0].distortion,
+                                lenses[1].matrix, lenses[1].distortion, pictures, out.rotation,
+                                out.translation, essential, fundamental, out.residuals, flags,
+                                {cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 100, 1e-7});
   return out;
 }
 
@@ -185,6 +215,27 @@ bool drop_outliers(std::vector<CommonCorners>& views, const cv::Mat& residuals,
   return true;
 }
 
+/// Sets what the residuals are worth: `spread` and `expected`.
+void weigh_residuals(const std::vector<BoardPair>& pairs, const std::vector<CommonCorners>& views,
+                     bool lenses_given, StereoCalibration& out) {
+  constexpr double kPose = 6, kLens = 9, kLeastFree = 1;
+  double squares = 0, corners = 0;
+  bool known = true;
+  for (const CommonCorners& view : views) {
+    const auto count = static_cast<double>(view.board.size());
+    const double expected = expected_distance(pairs[view.pair]);
+    out.pairs[view.pair].expected = expected;
+    known = known && expected > 0;
+    squares += count * expected * expected;
+    corners += count;
+  }
+  const double numbers = 4 * corners;  // two coordinates in two pictures
+  const double parameters =
+      kPose * (1 + static_cast<double>(views.size())) + (lenses_given ? 0 : 2 * kLens);
+  out.spread = out.rms * std::sqrt(numbers / std::max(kLeastFree, numbers - parameters));
+  out.expected = known ? std::sqrt(squares / corners) : 0;
+}
+
 StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
                              const std::vector<BoardPair>& pairs,
                              const std::optional<std::array<Camera, 2>>& given) {
@@ -200,14 +251,13 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
   std::array<Lens, 2> lenses;
   Pair found;
   do {
-    for (std::size_t i = 0; i < 2; ++i) {
-      if (given)
-        lenses[i] = lens_of((*given)[i]);
-      else
-        out.focal_sigma[i] = calibrate_one(views, i, pictures, lenses[i]);
-    }
+    int flags = cv::CALIB_FIX_INTRINSIC;
+    for (std::size_t i = 0; i < 2 && given; ++i) lenses[i] = lens_of((*given)[i]);
+    if (!given)
+      flags = cv::CALIB_USE_INTRINSIC_GUESS |
+              calibrate_lenses(views, pictures, lenses, out.focal_sigma);
     if (found.rotation.empty()) drop_mismatched(views, lenses, out.pairs);
-    found = calibrate_both(views, pictures, lenses, given.has_value());
+    found = calibrate_both(views, pictures, lenses, flags);
     for (std::size_t i = 0; i < views.size(); ++i) {
       PairResidual& pair = out.pairs[views[i].pair];
       for (int k = 0; k < 2; ++k)
@@ -217,6 +267,7 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
     }
   } while (drop_outliers(views, found.residuals, out.pairs));
   out.rms = found.rms;
+  weigh_residuals(pairs, views, given.has_value(), out);
   for (std::size_t i = 0; i < 2; ++i) out.cameras[i] = camera_of(lenses[i], pictures);
   Eigen::Isometry3d& pose = out.cameras[1].camera_from_world;
   for (int row = 0; row < 3; ++row) {
@@ -229,6 +280,11 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
 }
 
 }  // namespace
+
+double expected_distance(const BoardPair& pair) {
+  const double left = pair.corners[0].sigma, right = pair.corners[1].sigma;
+  return left > 0 && right > 0 ? std::hypot(left, right) : 0;
+}
 
 StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
                                    const std::vector<BoardPair>& pairs,

@@ -16,10 +16,19 @@ struct BoardPair {
   std::array<BoardCorners, 2> corners;
 };
 
+/// Returns the root mean square distance of corners as sharp as a pair's from their places, in
+/// pixels; 0: unknown.
+double expected_distance(const BoardPair& pair);
+
+/// Residuals up to this multiple of the expected ones are those of flat boards and lenses that the
+/// model describes; good ones are below 4 times.
+constexpr double kFittingResidual = 5;
+
 /// How well a pair agrees with a calibration.
 struct PairResidual {
   std::string name;
   std::array<double, 2> rms{};  ///< pixels, left and right
+  double expected = 0;          ///< that corners as sharp as these have, pixels; 0: unknown
   double tilt = 0;              ///< of the board to the left picture, radians
   bool too_few = true;          ///< corners that both pictures show
   bool dropped = false;         ///< an outlier
@@ -31,6 +40,10 @@ struct PairResidual {
 struct StereoCalibration {
   std::array<Camera, 2> cameras;  ///< the left one is the world
   double rms = 0;                 ///< pixels, over all corners of the pairs that count
+  /// What `rms` would be with more pairs than parameters can follow, pixels: few corners fit
+  /// anything.
+  double spread = 0;
+  double expected = 0;  ///< of corners as sharp as these, pixels; 0: unknown
   std::vector<PairResidual> pairs;
   /// Standard deviations of the focal lengths, as shares of them; 0 if lenses were given.
   std::array<double, 2> focal_sigma{};

@@ -12,11 +12,35 @@ namespace hypotrack::calibrate {
 namespace {
 
 constexpr double kGood = 0.35, kUsable = 1.0;  // pixels
-constexpr double kSureFocal = 0.01;            // standard deviation, share of the focal length
+constexpr double kSharp = 0.15;      // pixels that corners of sharp pictures are off by at most
+constexpr double kSureFocal = 0.01;  // standard deviation, share of the focal length
 constexpr double kUnsureFocal = 0.03;
 constexpr std::ptrdiff_t kFewPairs = 10;
 constexpr double kTilted = 15 * std::numbers::pi / 180;
 constexpr double kTiltedShare = 0.3;
+
+/// Returns whether the residuals are as small as corners of this sharpness give.
+bool fits(const StereoCalibration& calibration) {
+  return calibration.expected <= 0 || calibration.spread < kFittingResidual * calibration.expected;
+}
+
+/// Returns the advice on residuals.
+std::vector<std::string> advice_on_residuals(const StereoCalibration& calibration) {
+  std::vector<std::string> out;
+  if (calibration.expected > kSharp)
+    out.emplace_back("edges are blurred or noisy: hold the board still, with more light and focus");
+  else if (calibration.rms >= kGood && calibration.expected <= 0)
+    out.emplace_back(
+        "corners are off: hold the board still and flat, with more light; are both pictures of a "
+        "pair taken at the same time?");
+  if (!fits(calibration))
+    out.push_back(fmt::format(
+        "corners as sharp as these are some {:.2f} px off, not {:.2f}: is the board flat, is it "
+        "the one that the options describe, and are both pictures of a pair taken at the same "
+        "time?",
+        calibration.expected, calibration.spread));
+  return out;
+}
 
 }  // namespace
 
@@ -29,17 +53,14 @@ Verdict verdict_of(const std::vector<BoardPair>& pairs, const StereoCalibration&
   const double focal = std::max(calibration.focal_sigma[0], calibration.focal_sigma[1]);
   const bool lenses_found = focal > 0;
   out.usable = calibration.rms < kUsable && focal < kUnsureFocal;
-  const bool good = calibration.rms < kGood && focal < kSureFocal;
+  const bool good = calibration.spread < kGood && fits(calibration) && focal < kSureFocal;
   out.summary = fmt::format("{}: {:.3f} px RMS over {} pairs",
                             good         ? "good"
                             : out.usable ? "usable"
                                          : "not usable",
                             calibration.rms, counted);
   if (lenses_found) out.summary += fmt::format(", focal lengths known to {:.1f} %", 100 * focal);
-  if (calibration.rms >= kGood)
-    out.advice.push_back(
-        "corners are off: hold the board still and flat, with more light; are both pictures of a "
-        "pair taken at the same time?");
+  out.advice = advice_on_residuals(calibration);
   if (counted < kFewPairs)
     out.advice.push_back(fmt::format("take more pairs: {} count, 15 to 30 are usual", counted));
   if (!lenses_found) return out;

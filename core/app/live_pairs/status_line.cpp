@@ -17,16 +17,19 @@ std::string fitting(const std::string& text) {
 
 }  // namespace
 
-StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
+// A first line may come after a second, like one that followed another.
+StatusLine::StatusLine(std::chrono::seconds period)
+    : terminal_(isatty(STDERR_FILENO) == 1),
+      period_(period),
+      shown_at_(std::chrono::steady_clock::now() - std::chrono::seconds(1)) {}
 
 StatusLine::~StatusLine() {
   if (terminal_ && !shown_.empty()) tell("\r\x1b[K");
 }
 
 void StatusLine::show(const std::string& text) {
-  constexpr std::chrono::seconds kPeriod{1};
   const auto now = std::chrono::steady_clock::now();
-  if (text == shown_ || (!terminal_ && now - shown_at_ < kPeriod)) return;
+  if (text == shown_ || (!terminal_ && now - shown_at_ < period_)) return;
   shown_ = text;
   shown_at_ = now;
   if (terminal_)

@@ -6,10 +6,10 @@
 namespace hypotrack::app {
 
 /// Shows on stderr what goes on: on a terminal one line that changes, otherwise a new line at most
-/// every second.
+/// once in a period.
 class StatusLine {
  public:
-  StatusLine();
+  explicit StatusLine(std::chrono::seconds period = std::chrono::seconds(1));
   /// Ends the line.
   ~StatusLine();
   StatusLine(const StatusLine&) = delete;
@@ -22,7 +22,8 @@ class StatusLine {
  private:
   bool terminal_;
   std::string shown_;
-  std::chrono::steady_clock::time_point shown_at_{};
+  std::chrono::seconds period_;
+  std::chrono::steady_clock::time_point shown_at_;
 };
 
 }  // namespace hypotrack::app

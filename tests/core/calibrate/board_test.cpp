@@ -6,6 +6,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calibrate/charuco.hpp"
+#include "calibrate/chessboard.hpp"
+#include "calibrate/marker_layout.hpp"
+#include "calibrate/wrong_board.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::calibrate {
@@ -61,7 +64,7 @@ TEST(Board, LargePicturesAreSearchedQuicklyWithTheSameResult) {
 TEST(Board, MarkersAreFoundInHalfAPictureAndInverted) {
   Board board = parse_board("charuco:5x7", "30mm");
   board.dictionary = "5X5_100";
-  const cv::Mat picture = CharucoFinder(board).drawn({500, 700}, 20);
+  const cv::Mat picture = CharucoFinder(board).drawn(92, 20);
   EXPECT_EQ(BoardFinder(board).find(picture).ids.size(), 24u);
   const BoardCorners half = BoardFinder(board).find(picture(cv::Rect(0, 0, 500, 400)));
   EXPECT_GE(half.ids.size(), 8u);
@@ -79,7 +82,7 @@ TEST(Board, MarkersAreFoundInHalfAPictureAndInverted) {
 TEST(Board, CornersBetweenMarkersAreNumberedAndPlacedRowByRow) {
   const Board board = parse_board("charuco:5x7", "30mm");
   const BoardFinder finder(board);
-  const cv::Mat picture = CharucoFinder(board).drawn({540, 740}, 20);  // 100 pixels a square
+  const cv::Mat picture = CharucoFinder(board).drawn(100, 20);
   const BoardCorners found = finder.find(picture);
   ASSERT_EQ(found.at.size(), 24u);
   for (int id = 0; id < 24; ++id) {
@@ -108,6 +111,161 @@ TEST(Board, CornersThatWereCountedFromTheOtherEndAreTurned) {
   std::ranges::reverse(right.at);
   number_alike(left, right);
   EXPECT_EQ(right.at, expected.at);
+}
+
+TEST(Board, SquareBoardsAreNumberedAlikeAfterAQuarterOfATurn) {
+  BoardCorners left, right;
+  for (int i = 0; i < 25; ++i) {
+    left.ids.push_back(i);
+    left.at.emplace_back(static_cast<float>(i % 5 * 20), static_cast<float>(i / 5 * 20));
+    right.at.emplace_back(static_cast<float>(i / 5 * 20 - 60), static_cast<float>(80 - i % 5 * 20));
+  }
+  right.ids = left.ids;
+  number_alike(left, right, {5, 5});
+  for (std::size_t i = 0; i < 25; ++i) EXPECT_EQ(right.at[i], left.at[i] - cv::Point2f(60, 0)) << i;
+}
+
+/// A ChArUco board in one of both patterns, drawn with 60 pixels a square.
+struct DrawnBoard {
+  DrawnBoard(const char* size, bool marker_first) : board(parse_board(size, "30mm")) {
+    Board of = board;
+    of.marker_first = marker_first;
+    cv::GaussianBlur(CharucoFinder(of).drawn(kSquare, kMargin), picture, {}, 0.8);
+  }
+  /// Returns how far corners are from their places at most, in pixels.
+  double largest_distance(const BoardCorners& corners) const {
+    const int columns = board.size.width - 1;
+    double out = 0;
+    for (std::size_t i = 0; i < corners.ids.size(); ++i) {
+      const int id = corners.ids[i];
+      const cv::Point2d place(kMargin + kSquare * (1 + id % columns) - 0.5,
+                              kMargin + kSquare * (1 + id / columns) - 0.5);
+      out = std::max(out, cv::norm(cv::Point2d(corners.at[i]) - place));
+    }
+    return out;
+  }
+
+  static constexpr int kSquare = 60, kMargin = 30;
+  Board board;
+  cv::Mat picture;
+};
+
+TEST(Board, MarkersAreFoundInBothPatternsAndCornersAtTheirPlaces) {
+  for (const char* size : {"charuco:6x4", "charuco:5x4", "charuco:5x5", "charuco:6x5"})
+    for (const bool marker_first : {false, true}) {
+      const DrawnBoard drawn(size, marker_first);
+      BoardCorners found = BoardFinder(drawn.board).find(drawn.picture);
+      BoardCorners* const all[] = {&found};
+      EXPECT_EQ(settle_pattern(all), marker_first) << size;
+      EXPECT_EQ(found.ids.size(), (drawn.board.size - cv::Size(1, 1)).area()) << size;
+      EXPECT_LT(drawn.largest_distance(found), 0.1) << size << marker_first;
+    }
+}
+
+TEST(Board, APatternThatIsGivenIsTheOnlyOne) {
+  DrawnBoard drawn("charuco:6x4", true);
+  drawn.board.marker_first = true;
+  EXPECT_EQ(BoardFinder(drawn.board).find(drawn.picture).ids.size(), 15u);
+  drawn.board.marker_first = false;
+  EXPECT_TRUE(BoardFinder(drawn.board).find(drawn.picture).ids.empty());
+}
+
+TEST(Board, PicturesThatLeaveThePatternOpenFollowTheOthers) {
+  const DrawnBoard drawn("charuco:7x4", true);
+  const cv::Mat part = drawn.picture(cv::Rect(30 + 60, 0, 5 * 60, drawn.picture.rows));
+  const BoardFinder finder(drawn.board);
+  BoardCorners open = finder.find(part), clear = finder.find(drawn.picture);
+  ASSERT_EQ(open.patterns.size(), 2u);
+  BoardCorners* const pictures[] = {&open, &clear};
+  EXPECT_EQ(settle_pattern(pictures), true);
+  for (cv::Point2f& at : open.at) at.x += 90;
+  EXPECT_LT(drawn.largest_distance(open), 0.1);
+}
+
+TEST(Board, MarkersOfOtherColumnsTellTheBoard) {
+  const DrawnBoard drawn("charuco:6x4", true);
+  const Board given = parse_board("charuco:4x6", "30mm");
+  const BoardCorners found = BoardFinder(given).find(drawn.picture);
+  EXPECT_TRUE(found.ids.empty());
+  SeenBoards seen(given);
+  for (int i = 0; i < 6; ++i) seen.add(found);
+  EXPECT_THAT(seen.early_problem(), HasSubstr("--board is charuco:4x6, but 6 of 6 pictures show"));
+  EXPECT_THAT(seen.early_problem(), HasSubstr("give --board charuco:6x4, columns first"));
+}
+
+/// Returns what pictures of a board say about a size that is given.
+std::string problem_of(const char* given, cv::Size real) {
+  const Board board = parse_board(given, "25mm");
+  const BoardCorners found = BoardFinder(board).find(chessboard(real, 30));
+  SeenBoards seen(board);
+  for (int i = 0; i < 6; ++i) seen.add(found);
+  return seen.problem();
+}
+
+TEST(Board, ChessboardsOfAnotherSizeAreNamed) {
+  EXPECT_EQ(problem_of("9x6", {9, 6}), "");
+  EXPECT_EQ(problem_of("6x9", {9, 6}), "");
+  EXPECT_EQ(problem_of("10x7", {9, 6}),
+            "--board is 10x7, but 6 of 6 pictures show a chessboard of 9x6 inner corners: give "
+            "--board 9x6 (inner corners are counted, not squares)");
+  EXPECT_THAT(problem_of("8x6", {9, 6}), HasSubstr("give --board 9x6"));
+  EXPECT_THAT(problem_of("5x8", {9, 6}), HasSubstr("give --board 6x9"));
+  EXPECT_THAT(problem_of("9x6", {7, 7}), HasSubstr("give --board 7x7"));
+}
+
+TEST(Board, ATurnedBoardIsFoundInTheGivenOrder) {
+  for (const char* size : {"9x6", "6x9"}) {
+    const Board board = parse_board(size, "25mm");
+    cv::Mat turned;
+    cv::rotate(chessboard({9, 6}, 30), turned, cv::ROTATE_90_CLOCKWISE);
+    const BoardCorners found = BoardFinder(board).find(turned);
+    ASSERT_EQ(found.at.size(), 54u);
+    const auto columns = static_cast<std::size_t>(board.size.width);
+    const cv::Point2f x = found.at[1] - found.at[0], y = found.at[columns] - found.at[0];
+    EXPECT_NEAR(cv::norm(x), 30, 0.2);
+    EXPECT_NEAR(cv::norm(y), 30, 0.2);
+    EXPECT_GT(x.cross(y), 0) << "seen from behind";
+  }
+}
+
+TEST(Board, TheLargestChessboardIsSeenFromTheFront) {
+  const SeenChessboard seen = largest_chessboard(chessboard({7, 5}, 30));
+  EXPECT_EQ(seen.size.area(), 35);
+  EXPECT_TRUE(seen.whole);
+  const cv::Point2f x = seen.at[1] - seen.at[0],
+                    y = seen.at[static_cast<std::size_t>(seen.size.width)] - seen.at[0];
+  EXPECT_GT(x.cross(y), 0);
+  EXPECT_TRUE(largest_chessboard(cv::Mat1b(240, 320, uchar{200})).size.empty());
+}
+
+TEST(Board, OptionsThatWouldFindABoardAreNamed) {
+  const cv::Mat markers = DrawnBoard("charuco:6x4", false).picture;
+  cv::Mat inverse;
+  cv::bitwise_not(markers, inverse);
+  Board given = parse_board("charuco:6x4", "30mm");
+  EXPECT_EQ(better_options(given, markers), "");
+  EXPECT_THAT(better_options(given, inverse), HasSubstr("with --inverted"));
+  given.dictionary = "6X6_50";
+  EXPECT_THAT(better_options(given, markers), HasSubstr("give --dictionary 4X4_50"));
+  EXPECT_THAT(better_options(given, chessboard({9, 6}, 30)), HasSubstr("a chessboard of "));
+  EXPECT_THAT(better_options(parse_board("9x6", "25mm"), markers),
+              HasSubstr("give --board charuco:COLUMNSxROWS --dictionary 4X4_50"));
+}
+
+TEST(Board, BlurredCornersAreExpectedToBeLessCertain) {
+  const BoardFinder finder(parse_board("9x6", "25mm"));
+  const auto sigma = [&](double blur, double noise) {
+    cv::Mat picture = chessboard({9, 6}, 30), grain(picture.size(), CV_16S);
+    cv::GaussianBlur(picture, picture, {}, blur);
+    cv::theRNG().state = 7;
+    cv::randn(grain, 0, noise);
+    cv::add(0.5 * picture, grain, picture, cv::noArray(), CV_8U);
+    return finder.find(picture).sigma;
+  };
+  EXPECT_GT(sigma(0.7, 1), 0.02);
+  EXPECT_LT(sigma(0.7, 1), 0.06);
+  EXPECT_GT(sigma(3, 1), 2 * sigma(0.7, 1));
+  EXPECT_GT(sigma(0.7, 12), 1.2 * sigma(0.7, 1));
 }
 
 }  // namespace

@@ -35,6 +35,17 @@ TEST_F(MatchCheckTest, ARightCalibrationHasItsMatchesOnTheEpipolarLines) {
   EXPECT_LT(check.distance, 0.2);
   EXPECT_GT(check.consistent, 0.8);
   EXPECT_FALSE(check.looks_exchanged());
+  EXPECT_TRUE(check.points.flat);
+  ASSERT_FALSE(check.points.depths.empty());
+  EXPECT_NEAR(check.points.depths[0], 0.5, 0.02);
+  EXPECT_EQ(check.points.pixels[1].size(), check.points.depths.size());
+}
+
+TEST_F(MatchCheckTest, PointsAtTwoDepthsAreNotFlat) {
+  cv::Mat wall;
+  cv::warpAffine(right_, wall, cv::Matx23d(1, 0, 30, 0, 1, 0), right_.size());
+  wall.rowRange(0, 240).copyTo(right_.rowRange(0, 240));
+  EXPECT_FALSE(check_matches(cameras_, left_, right_).points.flat);
 }
 
 TEST_F(MatchCheckTest, AShiftOfRowsIsMeasured) {

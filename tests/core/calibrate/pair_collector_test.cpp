@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "calibrate/charuco.hpp"
 #include "rendered_board.hpp"
 
 namespace hypotrack::calibrate {
@@ -103,17 +103,21 @@ TEST_F(PairCollectorTest, ABoardThatLeavesThePictureIsCutAtThatEdge) {
 TEST_F(PairCollectorTest, PicturesOfDifferentPartsOfABoardAreNoPair) {
   const Board board = parse_board("charuco:7x5", "30mm");
   const BoardFinder finder(board);
-  PairCollector collector(finder, {700, 500});
-  cv::Mat whole;
-  cv::aruco::CharucoBoard::create(7, 5, 0.03f, 0.0225f,
-                                  cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50))
-      ->draw({700, 500}, whole, 20);
+  const cv::Mat whole = CharucoFinder(board).drawn(94, 21);
+  PairCollector collector(finder, whole.size());
   cv::Mat first = whole.clone(), second = whole.clone();
-  first.colRange(360, 700) = 255;
+  first.colRange(360, whole.cols) = 255;
   second.colRange(0, 320) = 255;
   EXPECT_EQ(collector.look(0, whole, first).board, Board_::moving);
   EXPECT_EQ(collector.look(1, first, second).problems[0],
             "the other picture shows another part of the board");
+}
+
+TEST_F(PairCollectorTest, ABoardOfAnotherSizeIsSaid) {
+  const BoardFinder finder(parse_board("10x7", "25mm"));
+  PairCollector collector(finder, {320, 240});
+  const PairLook seen = collector.look(0, board_.picture(0, pose_), board_.picture(1, pose_));
+  EXPECT_THAT(seen.problems[0], testing::HasSubstr("a chessboard of 9x6 inner corners"));
 }
 
 TEST_F(PairCollectorTest, WhatPairsLackIsWantedUntilTheyHaveIt) {

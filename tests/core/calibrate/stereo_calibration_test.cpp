@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "calibrate/board_fit.hpp"
+#include "calibrate/check_reach.hpp"
 #include "calibrate/coverage.hpp"
 #include "calibrate/picture_pairs.hpp"
 #include "calibrate/verdict.hpp"
@@ -47,6 +49,7 @@ class StereoCalibrationTest : public testing::Test {
           const Eigen::Vector2d at =
               project(cameras_[view], pose * Eigen::Vector3d(place.x, place.y, place.z));
           visible = visible && at.x() > 0 && at.y() > 0 && at.x() < 640 && at.y() < 480;
+          pair.corners[view].sigma = sharpness_;
           pair.corners[view].ids.push_back(id);
           pair.corners[view].at.emplace_back(static_cast<float>(at.x() + sigma * normal_(random_)),
                                              static_cast<float>(at.y() + sigma * normal_(random_)));
@@ -62,6 +65,7 @@ class StereoCalibrationTest : public testing::Test {
 
   BoardFinder finder_{parse_board("9x6", "25mm")};
   std::array<Camera, 2> cameras_;
+  double sharpness_ = 0;  ///< expected standard deviation of corners; 0: unknown
   std::mt19937 random_{7};
   std::normal_distribution<double> normal_;
 };
@@ -139,6 +143,88 @@ TEST_F(StereoCalibrationTest, TheVerdictAsksForTiltWhereTheBoardFacedTheCameras)
   };
   EXPECT_THAT(advice(flat), HasSubstr("tilt the board more"));
   EXPECT_THAT(advice(tilted), testing::Not(HasSubstr("tilt the board more")));
+}
+
+TEST_F(StereoCalibrationTest, SharpCornersThatDoNotFitAreNotCalledGood) {
+  const auto verdict = [&](double sharpness) {
+    sharpness_ = sharpness;
+    const std::vector<BoardPair> given = pairs(20, 0.2);
+    return verdict_of(given, calibrated(given));
+  };
+  EXPECT_THAT(verdict(0).summary, testing::StartsWith("good: 0.2"));
+  EXPECT_THAT(verdict(0.08).summary, testing::StartsWith("good: 0.2"));
+  const Verdict sharp = verdict(0.03);
+  EXPECT_THAT(sharp.summary, testing::StartsWith("usable: 0.2"));
+  EXPECT_THAT(sharp.advice[0], HasSubstr("corners as sharp as these are some 0.04 px off"));
+}
+
+TEST_F(StereoCalibrationTest, ResidualsOfFewCornersAreWeighedUp) {
+  std::vector<BoardPair> few = pairs(12, 0.2);
+  const StereoCalibration many = calibrated(few);
+  EXPECT_NEAR(many.spread, 0.2 * std::sqrt(2), 0.01);
+  for (BoardPair& pair : few)
+    for (BoardCorners& corners : pair.corners) {
+      BoardCorners kept;
+      for (std::size_t i : {0, 4, 8, 20, 26, 45, 49, 53}) {
+        kept.ids.push_back(corners.ids[i]);
+        kept.at.push_back(corners.at[i]);
+      }
+      corners = kept;
+    }
+  const StereoCalibration found = calibrated(few);
+  EXPECT_LT(found.rms, many.rms);
+  EXPECT_NEAR(found.spread, 0.2 * std::sqrt(2), 0.04);
+}
+
+TEST_F(StereoCalibrationTest, TangentialDistortionIsZeroUnlessItIsSeen) {
+  EXPECT_NE(calibrated(pairs(12, 0.02)).cameras[0].distortion[2], 0);
+  for (Camera& camera : cameras_) camera.distortion = {-0.25, 0.1, 0, 0, 0};
+  const StereoCalibration found = calibrated(pairs(12, 0.02));
+  EXPECT_EQ(found.cameras[0].distortion[2], 0);
+  EXPECT_EQ(found.cameras[1].distortion[3], 0);
+}
+
+TEST_F(StereoCalibrationTest, ABoardIsMeasuredByTheCameras) {
+  sharpness_ = 0.05;
+  const BoardPair pair = pairs(1, 0.05)[0];
+  const BoardFit right = *fit_board(finder_, cameras_, pair);
+  EXPECT_NEAR(right.scale, 1, 0.003);
+  EXPECT_NEAR(right.rms, 0.05 * std::sqrt(2), 0.02);
+  EXPECT_NEAR(right.expected, 0.05 * std::sqrt(2), 1e-9);
+  EXPECT_NEAR(right.depth, 0.45, 0.2);
+  std::array<Camera, 2> wide = cameras_;
+  wide[1].camera_from_world.translation() *= 1.1;
+  EXPECT_NEAR(fit_board(finder_, wide, pair)->scale, 1.1, 0.005);
+  std::array<Camera, 2> long_lens = cameras_;
+  for (Camera& camera : long_lens) camera.fx = camera.fy *= 1.1;
+  EXPECT_GT(fit_board(finder_, long_lens, pair)->rms, 3 * right.rms);
+  BoardPair few = pair;
+  for (BoardCorners& corners : few.corners) corners.ids.resize(5), corners.at.resize(5);
+  EXPECT_FALSE(fit_board(finder_, cameras_, few));
+}
+
+TEST_F(StereoCalibrationTest, WhatNoPointTellsIsSaid) {
+  MatchedPoints points;
+  for (int i = 0; i < 200; ++i) {
+    points.depths.push_back(0.4 + 0.001 * i);
+    for (auto& pixels : points.pixels)
+      pixels.emplace_back(static_cast<float>(i % 20 * 16), static_cast<float>(i / 20 * 48));
+  }
+  CheckReach reach;
+  reach.add(points);
+  const std::vector<std::string> spots = reach.blind_spots(cameras_, false);
+  ASSERT_EQ(spots.size(), 4u);
+  EXPECT_THAT(spots[0], HasSubstr("errors along the epipolar lines"));
+  EXPECT_THAT(spots[0], HasSubstr("the baseline of 90.0 mm"));
+  EXPECT_EQ(spots[1], "anything nearer than 0.41 m or farther than 0.59 m");
+  EXPECT_THAT(spots[2], HasSubstr("the lens in 50 % of the left picture"));
+  EXPECT_THAT(spots[3], HasSubstr("right and the bottom right"));
+  points.flat = true;
+  CheckReach flat;
+  flat.add(points);
+  EXPECT_THAT(flat.blind_spots(cameras_, true), testing::Contains(HasSubstr("lie on one plane")));
+  EXPECT_THAT(flat.blind_spots(cameras_, true),
+              testing::Not(testing::Contains(HasSubstr("epipolar"))));
 }
 
 TEST_F(StereoCalibrationTest, TheVerdictSaysWhichPartsOfPicturesSawNoBoard) {

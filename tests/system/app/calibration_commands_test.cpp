@@ -2,6 +2,7 @@
 
 #include "app_test.hpp"
 #include "hypotrack/media.hpp"
+#include "rendered_board.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -125,13 +126,69 @@ TEST_F(CalibrationCommandsTest, CalibrateRefusesWhatShowsNoBoard) {
     return run_program(more);
   };
   expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25mm"}),
-                 {"0 of 0 pairs show the board"});
+                 {"0 of 1 pairs show the board"});
   expect_refusal(calibrate(left, {"--board", "9", "--square", "25mm"}), {"--board is '9'"});
   expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25"}), {"--square is '25'"});
   expect_refusal(calibrate(path("none*.jpg").string(), {"--board", "9x6", "--square", "25mm"}),
                  {"none*.jpg: no such picture"});
   write_image(left, cv::Mat3b(240, 320, cv::Vec3b(90, 90, 90)));
   expect_refusal(calibrate(left, {"--board", "9x6", "--square", "25mm"}), {"320 x 240", "640"});
+}
+
+/// Pictures of a rendered board of 9 x 6 inner corners.
+class RenderedCalibrationTest : public CalibrationCommandsTest {
+ protected:
+  RenderedCalibrationTest() {
+    const std::vector<Eigen::Isometry3d> poses = RenderedBoard::poses();
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      for (std::size_t view = 0; view < 2; ++view)
+        write_image(path(cv::format("%s_%02zu.png", view == 0 ? "left" : "right", i)).string(),
+                    board_.picture(view, poses[i]));
+  }
+  Outcome run_on_pictures(std::vector<std::string> command) const {
+    command.insert(command.end(), {"--left", path("left_*.png").string(), "--right",
+                                   path("right_*.png").string()});
+    return run_program(command);
+  }
+
+  RenderedBoard board_;
+};
+
+TEST_F(RenderedCalibrationTest, SquaresInPlaceOfCornersAreNamedSoon) {
+  expect_refusal(run_on_pictures({"calibrate", "--board", "10x7", "--square", "25mm", "--out",
+                                  path("rig.yaml").string()}),
+                 {"6 of 6 pictures show a chessboard of 9x6 inner corners", "give --board 9x6"});
+}
+
+TEST_F(RenderedCalibrationTest, CheckMeasuresABoardAndSaysWhatItCannotTell) {
+  const std::string rig = path("rig.yaml").string();
+  const Outcome made =
+      run_on_pictures({"calibrate", "--board", "9x6", "--square", "25mm", "--out", rig});
+  EXPECT_THAT(made.out, HasSubstr("good: 0."));
+  const Outcome right =
+      run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "25mm"});
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  EXPECT_THAT(right.out, HasSubstr("the board agrees: its squares measure 25.0"));
+  EXPECT_THAT(right.out, HasSubstr("these pictures do not tell:\n- anything nearer than"));
+  const Outcome wrong =
+      run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "30mm"});
+  EXPECT_EQ(wrong.exit_code, 1);
+  EXPECT_THAT(wrong.out, HasSubstr("the board does not agree: its squares measure 25.0"));
+  expect_refusal(run_on_pictures({"calibration", "check", rig, "--board", "9x6"}),
+                 {"--board and --square belong together"});
+}
+
+TEST_F(CalibrationCommandsTest, NotesOnTheLensesAndOnACheckedFileAreShown) {
+  write_text(path("SN1.conf"), kZedFile);
+  const std::string file = path("SN1.conf").string(), picture = path("picture.png").string();
+  write_image(picture, cv::Mat3b(720, 1280, cv::Vec3b(90, 90, 90)));
+  const Outcome checked =
+      run_program({"calibration", "check", file, "--left", picture, "--right", picture});
+  EXPECT_THAT(checked.err, HasSubstr("note: " + file + ": not used: [NEWS] (not understood)\n"));
+  const Outcome lenses =
+      run_program({"calibrate", "--left", picture, "--right", picture, "--board", "9x6", "--square",
+                   "25mm", "--lenses", file, "--out", path("rig.yaml").string()});
+  EXPECT_THAT(lenses.err, HasSubstr("note: " + file + ": not used: [NEWS] (not understood)\n"));
 }
 
 TEST_F(CalibrationCommandsTest, RealPicturesAreCalibrated) {
