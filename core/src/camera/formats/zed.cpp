@@ -154,16 +154,17 @@ Camera read_zed_camera(const ConfigNode& file, std::string_view side, const Reso
   return camera;
 }
 
-/// Returns the pose of the right camera: a turn about (RX, CV, RZ) by that vector's length, as
-/// Rodrigues' formula takes it, and the place (Baseline, TY, TZ) in the right camera's axes.
+/// Returns the pose of the right camera, p_right = R p_left + T. R is a turn about (RX, CV, RZ) by
+/// that vector's length, as Rodrigues' formula takes it. T is (-Baseline, TY, TZ): the maker's
+/// calibration tool writes the first component without its sign, and the others as they are.
 Eigen::Isometry3d right_from_left(const ConfigNode& pair, const Resolution& size, double metres) {
   const Eigen::Vector3d turn(number_for(pair, "RX", size), number_for(pair, "CV", size),
                              number_for(pair, "RZ", size));
-  const Eigen::Vector3d place(number_of(pair, "Baseline"), number_for(pair, "TY", size),
-                              number_for(pair, "TZ", size));
+  const Eigen::Vector3d t(-number_of(pair, "Baseline"), number_for(pair, "TY", size),
+                          number_for(pair, "TZ", size));
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   if (turn.norm() > 0) out.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-  out.translation() = -metres * place;
+  out.translation() = metres * t;
   return out;
 }
 
