@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibrate/match_check.hpp"
@@ -124,8 +125,13 @@ int print_judgement(const Judged& judged) {
 int check(const CalibrationOptions& options) {
   CalibrationSettings settings = settings_of(options);
   Judged judged;
+  bool told = false;
   calibrate::read_pairs(options.left, options.right, 30, [&](const calibrate::PicturePair& pair) {
-    std::vector<Camera> cameras = load_calibration(settings, {pair.left.cols, pair.left.rows});
+    std::vector<std::string> notes;
+    std::vector<Camera> cameras =
+        load_calibration(settings, {pair.left.cols, pair.left.rows}, &notes);
+    if (std::exchange(told, true)) notes.clear();
+    for (const std::string& note : notes) tell("note: {}\n", note);
     if (cameras.size() != 2) {
       throw DataError(fmt::format("{}: has {} cameras; expected two, which --cameras chooses",
                                   settings.file.string(), cameras.size()));
@@ -139,9 +145,11 @@ int check(const CalibrationOptions& options) {
 }
 
 void add_file_options(const Command& command, CalibrationOptions& options) {
-  command.add("file", &options.settings.file,
-              "Calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, caliscope or anipose",
-              {.required = true});
+  command.add(
+      "file", &options.settings.file,
+      "Calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, depthai, ORB-SLAM, EuRoC, caliscope or "
+      "anipose",
+      {.required = true});
   command.add("--second", &options.settings.second, "File of the second camera, as ROS has");
   command.add("--extrinsics", &options.settings.extrinsics,
               "File with R and T, as OpenCV's stereo_calib writes");
