@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration_check.hpp"
@@ -87,9 +88,11 @@ int check(const CalibrationOptions& options) {
 }
 
 void add_file_options(const Command& command, CalibrationOptions& options) {
-  command.add("file", &options.settings.file,
-              "Calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, caliscope or anipose",
-              {.required = true});
+  command.add(
+      "file", &options.settings.file,
+      "Calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, depthai, ORB-SLAM, EuRoC, caliscope or "
+      "anipose",
+      {.required = true});
   command.add("--second", &options.settings.second, "File of the second camera, as ROS has");
   command.add("--extrinsics", &options.settings.extrinsics,
               "File with R and T, as OpenCV's stereo_calib writes");

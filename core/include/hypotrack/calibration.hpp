@@ -28,6 +28,9 @@ HYPOTRACK_API std::span<const std::string_view> enum_names(DistortionModel);
 /// - Kalibr's camchain.
 /// - a ZED's factory calibration, SN*.conf, which has cameras for several sizes of pictures.
 /// - camera_info of ROS, a file for each camera.
+/// - depthai's export of the memory of an OAK camera.
+/// - settings of ORB-SLAM 2 or 3.
+/// - sensor.yaml of EuRoC, a file for each camera.
 /// - TOML of caliscope or anipose.
 struct CalibrationSettings {
   std::filesystem::path file;
@@ -42,7 +45,9 @@ struct CalibrationSettings {
 
   void visit(ParamVisitor& v) {
     v("file", file,
-      {.help = "calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, caliscope or anipose",
+      {.help = "calibration of hypotrack, OpenCV, Kalibr, ROS, ZED, depthai, ORB-SLAM, EuRoC, "
+               "caliscope "
+               "or anipose",
        .required = true});
     v("second", second, {.help = "file of the second camera, where each has its own, as in ROS"});
     v("extrinsics", extrinsics, {.help = "second file with R and T, as stereo_calib writes it"});
@@ -50,7 +55,7 @@ struct CalibrationSettings {
       {.help = "which cameras of the file, by name, first and second view (default: all)"});
     v("units", units,
       {.help = "unit of the translations in the file: m, cm or mm (default: what the file says "
-               "under `units`, otherwise m, for a ZED mm)"});
+               "under `units`, otherwise m, for a ZED mm, for depthai cm)"});
     v("scale", scale,
       {.help = "further factor on the translations: the side of a checkerboard square, in `units`, "
                "where the calibration was made in squares",

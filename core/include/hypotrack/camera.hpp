@@ -12,7 +12,7 @@ namespace hypotrack {
 /// Lens distortion model, with OpenCV's equations and coefficient order.
 enum class DistortionModel {
   none,     ///< pinhole
-  brown,    ///< k1 k2 p1 p2 [k3 [k4 k5 k6]]: 4, 5 or 8 coefficients
+  brown,    ///< k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]]: 4, 5, 8, 12 or 14
   fisheye,  ///< k1 k2 k3 k4: cv::fisheye
 };
 

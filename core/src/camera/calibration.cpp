@@ -80,35 +80,94 @@ void apply_size(std::vector<NamedCamera>& cameras, const ConfigNode& file,
   }
 }
 
+/// Throws DataError on a file of very many keys: a look at each would take hours.
+void check_size(const ConfigNode& file, const CalibrationSettings& settings) {
+  constexpr std::size_t kMostKeys = 10'000;
+  for (const ConfigNode& node : {file, file.get("cameras")}) {
+    if (node.size() <= kMostKeys) continue;
+    throw DataError(
+        fmt::format("{}: is no calibration: it has {} keys or cameras; expected {} at "
+                    "most",
+                    settings.file.string(), node.size(), kMostKeys));
+  }
+}
+
+/// Notes the settings that name files which this format has no use for.
+void note_unused_files(const CalibrationSettings& settings, Calibration& out) {
+  const bool each_alone =
+      out.format == "ROS camera_info" || out.format == "OpenCV camera" || out.format == "EuRoC";
+  const bool apart =
+      out.format == "OpenCV stereo" || (out.format == "OpenCV camera" && !settings.second.empty());
+  const auto note = [&](const char* key, const std::filesystem::path& file, bool used) {
+    if (used || file.empty()) return;
+    out.notes.push_back(fmt::format("{}: not read: `{}` is of no use with a file of {}",
+                                    file.string(), key, out.format));
+  };
+  note("second", settings.second, each_alone);
+  note("extrinsics", settings.extrinsics, apart);
+}
+
 Calibration read_any(const ConfigNode& file, const CalibrationSettings& settings,
                      const ImageSize& pictures) {
   using namespace calibration;
+  check_size(file, settings);
+  Calibration out;
+  const auto is = [&](const char* format, bool found) {
+    if (found) out.format = format;
+    return found;
+  };
+  const ConfigNode list = file.get("cameras");
   const ImageSize given = size_in(settings);
-  std::vector<std::string> notes;
-  if (is_zed(file)) {
-    std::vector<NamedCamera> cameras =
-        read_zed(file, settings, given.width != 0 ? given : pictures, notes);
-    return {"ZED", std::move(cameras), std::move(notes)};
+  if (is("ZED", is_zed(file))) {
+    out.cameras = read_zed(file, settings, given.width != 0 ? given : pictures, out.notes);
+  } else if (is("hypotrack", list.defined() && !list.is_map())) {
+    out.cameras = read_camera_list(file, settings, out.notes);
+  } else if (is("OpenCV stereo",
+                first_of(file, {"M1", "K1", "cameraMatrix1", "M2", "K2", "cameraMatrix2"})
+                    .defined())) {
+    out.cameras = read_opencv_stereo(file, settings, out.notes);
+  } else if (is("ROS camera_info", is_ros(file))) {
+    out.cameras = read_ros(file, settings, out.notes);
+  } else if (is("OpenCV camera", file.get("camera_matrix").defined())) {
+    out.cameras = read_opencv_single(file, settings, out.notes);
+  } else if (is("depthai (OAK)", is_depthai(file))) {
+    out.cameras = read_depthai(file, settings, out.notes);
+  } else if (is("ORB-SLAM", is_orb_slam(file))) {
+    out.cameras = read_orb_slam(file, settings, out.notes);
+  } else if (is("EuRoC", is_euroc(file))) {
+    out.cameras = read_euroc(file, settings, out.notes);
+  } else if (is("Kalibr", file.get("cam0").get("intrinsics").defined())) {
+    out.cameras = read_kalibr(file, settings, out.notes);
+  } else {
+    out.format = "caliscope or anipose";
+    out.cameras = read_camera_tables(file, settings, out.notes);
   }
-  if (const ConfigNode list = file.get("cameras"); list.defined() && !list.is_map())
-    return {"hypotrack", read_camera_list(file, settings)};
-  if (first_of(file, {"M1", "K1", "cameraMatrix1", "M2", "K2", "cameraMatrix2"}).defined())
-    return {"OpenCV stereo", read_opencv_stereo(file, settings)};
-  if (is_ros(file)) {
-    std::vector<NamedCamera> cameras = read_ros(file, settings, notes);
-    return {"ROS camera_info", std::move(cameras), std::move(notes)};
+  if (out.cameras.empty()) {
+    const std::vector<std::string> keys = file.keys();
+    throw DataError(fmt::format(
+        "{}: is no calibration; expected `cameras`, M1 and M2 as stereo_calib writes them, "
+        "camera_matrix, a camchain of Kalibr, a camera_info of ROS, a ZED's .conf, a sensor.yaml "
+        "of "
+        "EuRoC, settings of ORB-SLAM, a calibration of depthai or the TOML of caliscope. Found: {}",
+        settings.file.string(),
+        keys.empty() ? "no key" : fmt::format("{}", fmt::join(keys, ", "))));
   }
-  if (file.get("camera_matrix").defined())
-    return {"OpenCV camera", read_opencv_single(file, settings)};
-  if (file.get("cam0").get("intrinsics").defined()) return {"Kalibr", read_kalibr(file, settings)};
-  Calibration tables{"caliscope or anipose", read_camera_tables(file, settings)};
-  if (!tables.cameras.empty()) return tables;
-  const std::vector<std::string> keys = file.keys();
-  throw DataError(fmt::format(
-      "{}: is no calibration; expected `cameras`, M1 and M2 as stereo_calib writes them, "
-      "camera_matrix, a camchain of Kalibr, a camera_info of ROS, a ZED's .conf or the TOML of "
-      "caliscope. Found: {}",
-      settings.file.string(), keys.empty() ? "no key" : fmt::format("{}", fmt::join(keys, ", "))));
+  note_unused_files(settings, out);
+  return out;
+}
+
+/// Notes cameras whose file names another lens model than the settings.
+void note_unused_model(const CalibrationSettings& settings, Calibration& out) {
+  if (!settings.model) return;
+  const auto name_of = [](DistortionModel model) {
+    return kModelNames[static_cast<std::size_t>(model)];
+  };
+  for (const auto& [name, camera] : out.cameras) {
+    if (camera.distortion_model == *settings.model) continue;
+    out.notes.push_back(fmt::format(
+        "{}: `model: {}` is not used for camera {}: the file's lens is {}", settings.file.string(),
+        name_of(*settings.model), name, name_of(camera.distortion_model)));
+  }
 }
 
 /// Keeps the cameras that the settings name, in that order.
@@ -150,6 +209,7 @@ Calibration read_calibration(const CalibrationSettings& settings, const ImageSiz
   const ConfigNode file = read_calibration_text(settings.file);
   Calibration out = read_any(file, settings, pictures);
   choose(out.cameras, settings);
+  note_unused_model(settings, out);
   apply_size(out.cameras, file, settings);
   std::vector<Camera> cameras;
   for (std::size_t i = 0; i < out.cameras.size(); ++i) {

@@ -55,9 +55,33 @@ Language language_of(std::string_view text) {
   return equals < colon ? Language::toml : Language::yaml;
 }
 
-/// Blanks OpenCV's deviations from YAML 1.2 and keeps all positions.
+/// Puts the space after the colon of a key that OpenCV lets out: `data:[1, 2]`. Lines stay where
+/// they are.
+std::string separate_keys(std::string_view text) {
+  std::string out;
+  while (!text.empty()) {
+    const std::size_t newline = std::min(text.find('\n'), text.size() - 1);
+    const std::string_view line = text.substr(0, newline + 1);
+    text.remove_prefix(line.size());
+    const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+    std::size_t end = begin;
+    while (end < line.size() && (std::isalnum(static_cast<unsigned char>(line[end])) ||
+                                 line[end] == '_' || line[end] == '.'))
+      ++end;
+    const bool is_key = end > begin && !std::isdigit(static_cast<unsigned char>(line[begin])) &&
+                        end + 1 < line.size() && line[end] == ':' &&
+                        !std::isspace(static_cast<unsigned char>(line[end + 1]));
+    out += is_key ? line.substr(0, end + 1) : line;
+    if (is_key) out += ' ';
+    if (is_key) out += line.substr(end + 1);
+  }
+  return out;
+}
+
+/// Blanks OpenCV's deviations from YAML 1.2 and keeps all lines.
 void blank_opencv_marks(std::string& text) {
   const std::size_t start = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  if (text.compare(start, 8, "%YAML:1.") == 0) text = separate_keys(text);
   if (text.compare(start, 5, "%YAML") == 0) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::fill(text.begin() + static_cast<std::ptrdiff_t>(start),
@@ -260,6 +284,11 @@ void expect_shape(const YamlMatrix& matrix, int rows, int cols) {
   if (same || turned || listed) return;
   throw DataError(fmt::format("{} is {} x {}; expected {} x {}", matrix.where, matrix.rows,
                               matrix.cols, rows, cols));
+}
+
+bool is_unknown_matrix(const ConfigNode& node, std::string_view name) {
+  if (!node.defined() || node.is_null() || (node.is_list() && node.size() == 0)) return true;
+  return std::ranges::all_of(read_matrix(node, name).values, [](double v) { return v == 0; });
 }
 
 int read_count(const ConfigNode& node, std::string_view name) {

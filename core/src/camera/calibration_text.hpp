@@ -34,6 +34,9 @@ YamlMatrix read_matrix(const ConfigNode& node, std::string_view name);
 /// a plain list of the right length may replace a matrix.
 void expect_shape(const YamlMatrix& matrix, int rows, int cols);
 
+/// Returns whether a matrix is absent, empty or full of zeros, as of cameras without a calibration.
+bool is_unknown_matrix(const ConfigNode& node, std::string_view name);
+
 /// Reads a finite number. Throws DataError.
 double read_number(const ConfigNode& node, std::string_view name);
 

@@ -41,7 +41,9 @@ void check_distortion(const Camera& camera, std::string_view where) {
       if (n != 0) expected = "none at all";
       break;
     case DistortionModel::brown:
-      if (n != 4 && n != 5 && n != 8) expected = "4, 5 or 8 (k1 k2 p1 p2 [k3 [k4 k5 k6]])";
+      if (n != 4 && n != 5 && n != 8 && n != 12 && n != 14) {
+        expected = "4, 5, 8, 12 or 14 (k1 k2 p1 p2 [k3 [k4 k5 k6 [s1 s2 s3 s4 [tau_x tau_y]]]])";
+      }
       break;
     case DistortionModel::fisheye:
       if (n != 4) expected = "4 (k1 k2 k3 k4)";
@@ -153,11 +155,37 @@ void check_scale(const Camera& camera, std::string_view where) {
   }
 }
 
+/// Returns what a sensor that is turned by two angles makes of a point on z = 1: a matrix, and a
+/// division by z. Source: "Camera Calibration and 3D Reconstruction" in OpenCV's documentation.
+Eigen::Matrix3d tilt_of_sensor(double tau_x, double tau_y) {
+  if (tau_x == 0 && tau_y == 0) return Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d turn = (Eigen::AngleAxisd(-tau_y, Eigen::Vector3d::UnitY()) *
+                                Eigen::AngleAxisd(-tau_x, Eigen::Vector3d::UnitX()))
+                                   .toRotationMatrix();
+  Eigen::Matrix3d to_sensor;
+  to_sensor << turn(2, 2), 0, -turn(0, 2), 0, turn(2, 2), -turn(1, 2), 0, 0, 1;
+  return to_sensor * turn;
+}
+
 }  // namespace
 
+bool has_prisms_or_tilt(const Camera& camera) {
+  constexpr std::size_t kPlain = 8;
+  return camera.distortion_model == DistortionModel::brown && camera.distortion.size() > kPlain;
+}
+
 DistortionCoefficients distortion_coefficients(const Camera& camera) {
+  constexpr std::size_t kTilt = 12;
   DistortionCoefficients k{};
-  std::copy_n(camera.distortion.begin(), std::min(camera.distortion.size(), k.size()), k.begin());
+  std::copy_n(camera.distortion.begin(), std::min(camera.distortion.size(), kTilt), k.begin());
+  const auto tau = [&](std::size_t i) {
+    return i < camera.distortion.size() ? camera.distortion[i] : 0;
+  };
+  const Eigen::Matrix3d tilt = tilt_of_sensor(tau(kTilt), tau(kTilt + 1));
+  std::size_t at = kTilt;
+  for (const auto& [row, column] :
+       {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}, {2, 0}, {2, 1}, {2, 2}})
+    k[at++] = tilt(row, column);
   return k;
 }
 
@@ -197,7 +225,10 @@ Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& p_world) {
     if (camera.distortion_model == DistortionModel::brown) {
       double xd = 0;
       double yd = 0;
-      distort_brown(k.data(), x, y, xd, yd);
+      if (has_prisms_or_tilt(camera))
+        distort_full(k.data(), x, y, xd, yd);
+      else
+        distort_brown(k.data(), x, y, xd, yd);
       x = xd;
       y = yd;
     } else {

@@ -10,6 +10,23 @@ namespace {
 
 constexpr std::array<std::string_view, 3> kUnits = {"m", "cm", "mm"};
 
+/// Reads where the first camera is from a projection matrix.
+Eigen::Vector3d read_offset(const ConfigNode& node, double metres) {
+  const YamlMatrix matrix = read_matrix(node, "projection_matrix");
+  expect_shape(matrix, 3, 4);
+  const std::vector<double>& p = matrix.values;
+  for (const double focal : {p[0], p[5]}) {
+    if (focal > 0) continue;
+    throw DataError(
+        fmt::format("{} has the focal length {}; expected a positive one", matrix.where, focal));
+  }
+  if (p[8] != 0 || p[9] != 0 || p[10] != 1 || p[11] != 0) {
+    throw DataError(fmt::format("{} has the last row {} {} {} {}; expected 0 0 1 0", matrix.where,
+                                p[8], p[9], p[10], p[11]));
+  }
+  return metres * Eigen::Vector3d(p[3] / p[0], p[7] / p[5], 0);
+}
+
 }  // namespace
 
 ConfigNode first_of(const ConfigNode& node, std::initializer_list<std::string_view> names) {
@@ -73,15 +90,14 @@ void read_lens(const ConfigNode& node, std::optional<DistortionModel> model, Cam
     }
     camera.distortion = d.values;
     // OpenCV pads with zeros: 12 or 14 coefficients equal 8 if thin prism and tilt are unused.
-    while (camera.distortion.size() > 8 && camera.distortion.back() == 0) {
-      camera.distortion.pop_back();
+    constexpr std::size_t kPlain = 8, kPrisms = 12, kTilt = 14;
+    std::vector<double>& k = camera.distortion;
+    while (k.size() > kPlain && k.back() == 0) k.pop_back();
+    if (k.size() > kTilt) {
+      throw DataError(fmt::format("{} has {} coefficients; expected 4, 5, 8, 12 or 14", d.where,
+                                  d.values.size()));
     }
-    if (camera.distortion.size() > 8) {
-      throw DataError(
-          fmt::format("{} has {} coefficients: thin-prism and tilted-sensor models are "
-                      "not supported; calibrate with 5 or 8",
-                      d.where, d.values.size()));
-    }
+    if (k.size() > kPlain) k.resize(k.size() > kPrisms ? kTilt : kPrisms);
   }
   const bool flat = std::all_of(camera.distortion.begin(), camera.distortion.end(),
                                 [](double k) { return k == 0; });
@@ -114,6 +130,41 @@ void set_pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translatio
   // Files have few digits; orthonormalise the rotation.
   camera.camera_from_world.linear() = Eigen::Quaterniond(rotation).normalized().toRotationMatrix();
   camera.camera_from_world.translation() = translation;
+}
+
+Eigen::Isometry3d rigid_transform(const YamlMatrix& matrix, double metres_per_unit) {
+  expect_shape(matrix, 4, 4);
+  const Eigen::Matrix4d values =
+      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix.values.data());
+  if (values.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw DataError(fmt::format("{} has another last row than 0 0 0 1", matrix.where));
+  Camera holder;
+  set_pose(values.topLeftCorner<3, 3>(), metres_per_unit * values.topRightCorner<3, 1>(),
+           matrix.where, holder);
+  return holder.camera_from_world;
+}
+
+Rectified read_rectified(const ConfigNode& rotation, const ConfigNode& projection,
+                         double metres_per_unit) {
+  Rectified out;
+  if (rotation.defined()) {
+    const YamlMatrix matrix = read_matrix(rotation, "rectification_matrix");
+    expect_shape(matrix, 3, 3);
+    Camera holder;
+    set_pose(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(matrix.values.data()),
+             Eigen::Vector3d::Zero(), matrix.where, holder);
+    out.rectified_from_camera = holder.camera_from_world.linear();
+  }
+  if (projection.defined()) out.offset = read_offset(projection, metres_per_unit);
+  return out;
+}
+
+Eigen::Isometry3d second_from_first(const Rectified& first, const Rectified& second) {
+  const Eigen::Matrix3d camera_from_rectified = second.rectified_from_camera.transpose();
+  Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
+  out.linear() = camera_from_rectified * first.rectified_from_camera;
+  out.translation() = camera_from_rectified * (second.offset - first.offset);
+  return out;
 }
 
 double metres_per_unit(const ConfigNode& file, const CalibrationSettings& settings,

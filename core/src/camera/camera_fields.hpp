@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "base/exported.hpp"
+#include "camera/calibration_text.hpp"
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/config.hpp"
 #include "hypotrack/error.hpp"
@@ -54,6 +55,24 @@ void read_pose(const ConfigNode& r, const ConfigNode& t, double metres_per_unit,
 /// it is none.
 void set_pose(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation,
               std::string_view where, Camera& camera);
+
+/// Returns a 4x4 rigid transform. Throws DataError if it is none.
+Eigen::Isometry3d rigid_transform(const YamlMatrix& matrix, double metres_per_unit);
+
+/// How pictures of a camera are rectified.
+struct Rectified {
+  Eigen::Matrix3d rectified_from_camera = Eigen::Matrix3d::Identity();
+  /// Metres from this to the first camera, in the rectified frame.
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+};
+
+/// Reads the matrices of a rectification, of which either may be undefined: a rotation, and a
+/// projection with fx' Tx and fy' Ty in its last column, for cameras beside and above each other.
+Rectified read_rectified(const ConfigNode& rotation, const ConfigNode& projection,
+                         double metres_per_unit);
+
+/// Returns the pose of the second camera of a rectified pair; the first is the world.
+Eigen::Isometry3d second_from_first(const Rectified& first, const Rectified& second);
 
 /// Returns metres per unit of a file's translations: what the file says under `units`, else the
 /// settings, else `usual`; times `scale`.

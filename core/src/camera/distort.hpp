@@ -24,6 +24,19 @@ HYPOTRACK_PIXEL void distort_brown(const Scalar* k, const T& x, const T& y, T& x
   yd = y * radial + k[2] * (r2 + two * y * y) + k[3] * xy2;
 }
 
+/// Applies distort_brown(), then thin prisms and the tilt of the sensor: `k` goes on with s1 s2 s3
+/// s4 and h00 h01 h10 h11 h20 h21 h22, a matrix whose h02 and h12 are 0.
+template <class T, class Scalar>
+HYPOTRACK_PIXEL void distort_full(const Scalar* k, const T& x, const T& y, T& xd, T& yd) {
+  distort_brown(k, x, y, xd, yd);
+  const T r2 = x * x + y * y;
+  const T xp = xd + r2 * (k[8] + k[9] * r2);
+  const T yp = yd + r2 * (k[10] + k[11] * r2);
+  const T z = k[16] * xp + k[17] * yp + k[18];
+  xd = (k[12] * xp + k[13] * yp) / z;
+  yd = (k[14] * xp + k[15] * yp) / z;
+}
+
 /// Returns the distorted angle from the axis divided by the angle t, given t^2. T is a scalar or an
 /// interval.
 template <class T, class Scalar>

@@ -12,14 +12,14 @@
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-enum class Lens : std::int32_t { none, brown, fisheye };
+enum class Lens : std::int32_t { none, brown, fisheye, full };
 
 /// A camera's lens and its rotation against the ideal camera of its tiles.
 struct LensMap {
   float camera_from_ideal[9];  ///< rotation, row by row
   float fx, fy, cx, cy;        ///< pixels
-  float distortion[8];
-  float largest_r2;  ///< squared largest visible distance from the axis, on z = 1
+  float distortion[19];        ///< as DistortionCoefficients
+  float largest_r2;            ///< squared largest visible distance from the axis, on z = 1
   Lens lens;
 };
 
@@ -47,6 +47,8 @@ HYPOTRACK_PIXEL ImagePoint image_point_along(const LensMap& map, float u, float 
   float yd = y;
   if (map.lens == Lens::brown) {
     distort_brown(map.distortion, x, y, xd, yd);
+  } else if (map.lens == Lens::full) {
+    distort_full(map.distortion, x, y, xd, yd);
   } else if (map.lens == Lens::fisheye) {
     const float factor = fisheye_factor(map.distortion, std::sqrt(r2));
     xd = x * factor;

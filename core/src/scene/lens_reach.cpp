@@ -62,7 +62,10 @@ Rectangle distorted(const Camera& camera, const Rectangle& ideal) {
       break;
     case DistortionModel::brown: {
       Rectangle out = ideal;
-      distort_brown(k.data(), ideal.x, ideal.y, out.x, out.y);
+      if (has_prisms_or_tilt(camera))
+        distort_full(k.data(), ideal.x, ideal.y, out.x, out.y);
+      else
+        distort_brown(k.data(), ideal.x, ideal.y, out.x, out.y);
       return out;
     }
     case DistortionModel::fisheye: {

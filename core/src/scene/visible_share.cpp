@@ -11,12 +11,15 @@
 namespace hypotrack::internal {
 namespace {
 
-void distort(DistortionModel model, const float* k, BlockArray& x, BlockArray& y) {
-  if (model == DistortionModel::none) return;
-  if (model == DistortionModel::brown) {
+void distort(const Camera& camera, const float* k, BlockArray& x, BlockArray& y) {
+  if (camera.distortion_model == DistortionModel::none) return;
+  if (camera.distortion_model == DistortionModel::brown) {
     BlockArray xd;
     BlockArray yd;
-    distort_brown(k, x, y, xd, yd);
+    if (has_prisms_or_tilt(camera))
+      distort_full(k, x, y, xd, yd);
+    else
+      distort_brown(k, x, y, xd, yd);
     x = xd;
     y = yd;
     return;
@@ -57,7 +60,7 @@ bool VisibleShare::keep_shown(const SeenBy& view, const ScenePoser& vertices, st
   if (!(points.z > 0.0f).all()) return false;
   BlockArray x = points.x / points.z;
   BlockArray y = points.y / points.z;
-  distort(view.camera.distortion_model, view.distortion.data(), x, y);
+  distort(view.camera, view.distortion.data(), x, y);
   x = x * view.fx + view.cx;
   y = y * view.fy + view.cy;
   if (!(x + y).allFinite()) return false;

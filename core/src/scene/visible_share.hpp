@@ -30,7 +30,7 @@ class VisibleShare {
     Camera camera;
     Eigen::Matrix3d camera_from_ideal;  ///< from its own ideal camera
     Eigen::Matrix<float, 3, 4> camera_from_first;
-    std::array<float, 8> distortion;
+    std::array<float, 19> distortion;
     float fx, fy, cx, cy;
     float right, bottom;  ///< upper bounds of the image's coordinates
   };

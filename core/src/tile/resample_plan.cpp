@@ -12,12 +12,12 @@ namespace {
 
 constexpr int kGrid = 9;  // sample positions along one side of a tile
 
-Lens lens_of(DistortionModel model) {
-  switch (model) {
+Lens lens_of(const Camera& camera) {
+  switch (camera.distortion_model) {
     case DistortionModel::none:
       return Lens::none;
     case DistortionModel::brown:
-      return Lens::brown;
+      return has_prisms_or_tilt(camera) ? Lens::full : Lens::brown;
     case DistortionModel::fisheye:
       return Lens::fisheye;
   }
@@ -106,7 +106,7 @@ LensMap make_lens_map(const Camera& camera, const Eigen::Matrix3d& camera_from_i
                  [](double v) { return static_cast<float>(v); });
   const double r = std::min(monotonic_radius(camera), 1e6);
   map.largest_r2 = static_cast<float>(r * r);
-  map.lens = lens_of(camera.distortion_model);
+  map.lens = lens_of(camera);
   return map;
 }
 

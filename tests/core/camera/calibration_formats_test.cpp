@@ -154,7 +154,7 @@ TEST_F(CalibrationFormats, ZedHasCamerasForTheSizeOfThePictures) {
   EXPECT_EQ(cameras[0].fx, 700);
   EXPECT_EQ(cameras[1].distortion, (std::vector<double>{-0.18, 0.03, 0.001, 0.002, 0.003}));
   EXPECT_TRUE(cameras[1].camera_from_world.translation().isApprox(
-      Eigen::Vector3d(-0.12, -0.0005, 0.00025)));
+      Eigen::Vector3d(-0.12, 0.0005, -0.00025)));
   const Eigen::AngleAxisd turn(cameras[1].camera_from_world.linear());
   EXPECT_TRUE((turn.angle() * turn.axis()).isApprox(Eigen::Vector3d(0.002, 0.01, -0.003)));
   EXPECT_EQ(load_calibration(settings, {672, 376})[0].fx, 350);

@@ -13,6 +13,7 @@ namespace hypotrack {
 namespace {
 
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -175,6 +176,18 @@ TEST_F(Calibration, TakesTwelveCoefficientsWhoseLastAreZero) {
   EXPECT_EQ(load_calibration(rig(twelve)).at(2).distortion.size(), 8u);
 }
 
+TEST_F(Calibration, TakesThinPrismsAndTiltedSensors) {
+  const auto lens_of = [&](const std::string& more) {
+    return load_calibration(
+               rig(replaced(kRig, "0, 0, 0, 0.1, 0.2, 0.3]", "0, 0, 0, 0.1, 0.2, 0.3, " + more)))
+        .at(2)
+        .distortion;
+  };
+  EXPECT_THAT(lens_of("0.001]"), ElementsAre(0.01, 0.02, 0, 0, 0, 0.1, 0.2, 0.3, 0.001, 0, 0, 0));
+  EXPECT_THAT(lens_of("0, 0, 0, 0, 0.02, 0]"),
+              ElementsAre(0.01, 0.02, 0, 0, 0, 0.1, 0.2, 0.3, 0, 0, 0, 0, 0.02, 0));
+}
+
 TEST_F(Calibration, SaysThatMillimetresWereReadAsMetres) {
   CalibrationSettings settings = stereo();
   settings.units.reset();
@@ -235,9 +248,10 @@ TEST_F(Calibration, SaysWhichMatrixIsBadAndWhere) {
   EXPECT_THAT(loading(rig(replaced(kRig, "D: [0.01, 0.02, 0.03, 0.04]", "D: [0.01, 0.02, 0.03]"))),
               ThrowsMessage<DataError>(
                   HasSubstr("3 distortion coefficients for the lens model 'fisheye'")));
-  EXPECT_THAT(loading(rig(replaced(kRig, "0, 0, 0, 0.1, 0.2, 0.3]",
-                                   "0, 0, 0, 0.1, 0.2, 0.3, 0.4, 0, 0, 0]"))),
-              ThrowsMessage<DataError>(HasSubstr("has 12 coefficients: thin-prism")));
+  EXPECT_THAT(
+      loading(rig(replaced(kRig, "0, 0, 0, 0.1, 0.2, 0.3]",
+                           "0, 0, 0, 0.1, 0.2, 0.3, 0, 0, 0, 0, 0, 0, 0, 0.4]"))),
+      ThrowsMessage<DataError>(HasSubstr("has 16 coefficients; expected 4, 5, 8, 12 or 14")));
   EXPECT_THAT(loading(rig(replaced(kRig, "model: fisheye", "model: fisheyes"))),
               ThrowsMessage<DataError>(HasSubstr("expected one of none, brown, fisheye")));
   EXPECT_THAT(loading(rig(replaced(kRig, "    T: [-12, 0, 0]\n", ""))),

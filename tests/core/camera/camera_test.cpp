@@ -19,7 +19,7 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 class CameraLens : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(AllModels, CameraLens, testing::Values(0, 4, 5, 8, -4));
+INSTANTIATE_TEST_SUITE_P(AllModels, CameraLens, testing::Values(0, 4, 5, 8, 12, 14, -4));
 
 TEST_P(CameraLens, ProjectsAsOpenCvDoes) {
   Camera camera = test::lens_camera(GetParam());
@@ -63,7 +63,7 @@ TEST_P(CameraLens, BackProjectsToTheRayOfAPixel) {
 }
 
 TEST(Camera, PutsAPointOnTheAxisAtThePrincipalPoint) {
-  for (const int lens : {0, 4, 5, 8, -4}) {
+  for (const int lens : {0, 4, 5, 8, 12, 14, -4}) {
     const Camera camera = test::lens_camera(lens);
     const Eigen::Vector2d pixel = project(camera, {0, 0, 0.7});
     EXPECT_DOUBLE_EQ(pixel.x(), camera.cx);
@@ -91,7 +91,8 @@ TEST(Camera, KnowsWhereItsLensFoldsBack) {
 }
 
 TEST(Camera, IsValidWithEveryLens) {
-  for (const int lens : {0, 4, 5, 8, -4}) EXPECT_NO_THROW(validate(test::lens_camera(lens), "c"));
+  for (const int lens : {0, 4, 5, 8, 12, 14, -4})
+    EXPECT_NO_THROW(validate(test::lens_camera(lens), "c"));
 }
 
 TEST(Camera, SaysWhatIsWrongWithIt) {

@@ -32,7 +32,7 @@ TEST(LensReach, NeverClaimsWhatAnImageDoesNotShow) {
   std::uniform_real_distribution<double> share(-1, 1);
   std::uniform_real_distribution<double> size(0.01, 0.5);
   int claimed = 0, shown = 0, hidden = 0;
-  for (const int lens : {0, 4, 5, 8, -4}) {
+  for (const int lens : {0, 4, 5, 8, 12, 14, -4}) {
     for (int i = 0; i < 4000; ++i) {
       Camera camera = test::lens_camera(lens);
       // From weak to absurd: some lenses fold back within the image, or divide by zero.

@@ -44,7 +44,7 @@ cv::Rect2d needed(const Resampler& resampler, const TileCamera& tile, double rea
 }
 
 class ResamplePlans : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Lenses, ResamplePlans, testing::Values(0, 4, 5, 8, -4));
+INSTANTIATE_TEST_SUITE_P(Lenses, ResamplePlans, testing::Values(0, 4, 5, 8, 12, 14, -4));
 
 TEST_P(ResamplePlans, TouchWhatTheLookupsReadAndLittleMore) {
   const Resampler resampler(test::lens_camera(GetParam()),

@@ -18,7 +18,7 @@ TEST(Resampler, MapsAsOpenCvsUndistortionDoes) {
   tile.fx = tile.fy = 180;
   tile.cx = 90;
   tile.cy = 20;
-  for (const int lens : {0, 4, 5, 8, -4}) {
+  for (const int lens : {0, 4, 5, 8, 12, 14, -4}) {
     const Camera camera = test::lens_camera(lens);
     const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
     const cv::Matx33d k_tile(tile.fx, 0, tile.cx, 0, tile.fy, tile.cy, 0, 0, 1);

@@ -8,7 +8,8 @@
 
 namespace hypotrack::test {
 
-/// A plausible camera with a lens of each kind: 0 pinhole, 4, 5, 8 coefficients, -4 fisheye.
+/// A plausible camera with a lens of each kind: 0 pinhole, 4, 5, 8, 12, 14 coefficients, -4
+/// fisheye.
 inline Camera lens_camera(int coefficients) {
   Camera camera;
   camera.width = 1280;
@@ -17,7 +18,8 @@ inline Camera lens_camera(int coefficients) {
   camera.fy = 701.5;
   camera.cx = 644.3;
   camera.cy = 352.8;
-  const std::vector<double> brown = {-0.28, 0.09, 0.0012, -0.0007, -0.012, 0.02, 0.011, -0.004};
+  const std::vector<double> brown = {-0.28,  0.09,   0.0012,  -0.0007, -0.012, 0.02,  0.011,
+                                     -0.004, 0.0006, -0.0002, -0.0004, 0.0001, 0.012, -0.02};
   if (coefficients > 0) {
     camera.distortion_model = DistortionModel::brown;
     camera.distortion.assign(brown.begin(), brown.begin() + coefficients);

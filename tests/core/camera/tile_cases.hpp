@@ -68,7 +68,7 @@ inline std::vector<TileCase> tile_cases() {
     cases.push_back({name, camera, turn, tile_towards(turn, {x, 0.05, 1}, scale, size),
                      noise_view(camera, has & 1, has & 2, has & 4)});
   };
-  for (const int lens : {0, 5, 8, -4}) {
+  for (const int lens : {0, 5, 8, 14, -4}) {
     for (const bool turned : {false, true}) {
       for (const double scale : {0.5, 1.0, 2.5, 3.05, 4.0}) {
         const std::string name = "lens " + std::to_string(lens) + (turned ? ", turned" : "") +

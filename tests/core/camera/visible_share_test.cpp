@@ -10,7 +10,7 @@
 namespace hypotrack {
 namespace {
 
-/// A camera with a lens: 0 pinhole, 8 Brown's, -4 fisheye.
+/// A camera with a lens: 0 pinhole, 8 Brown's, 14 with thin prisms and a tilted sensor, -4 fisheye.
 Camera lens_camera(int coefficients, double x, double turn) {
   Camera camera{640, 480, 500, 505, 321.5, 237.5, DistortionModel::none, {}, {}};
   camera.camera_from_world.setIdentity();
@@ -19,6 +19,9 @@ Camera lens_camera(int coefficients, double x, double turn) {
   if (coefficients > 0) {
     camera.distortion_model = DistortionModel::brown;
     camera.distortion = {-0.28, 0.09, 0.0012, -0.0007, -0.012, 0.02, 0.011, -0.004};
+    const std::vector<double> more = {0.03, -0.01, -0.02, 0.01, 0.08, -0.1};
+    if (coefficients > 8)
+      camera.distortion.insert(camera.distortion.end(), more.begin(), more.end());
   } else if (coefficients < 0) {
     camera.distortion_model = DistortionModel::fisheye;
     camera.distortion = {-0.02, 0.011, -0.006, 0.0013};
@@ -52,7 +55,7 @@ TEST(VisibleShare, CountsTheVerticesThatEveryImageShows) {
   const Scene scene = test::make_hand_and_box();
   std::mt19937_64 random(4);
   int partly = 0;
-  for (const int lens : {0, 8, -4}) {
+  for (const int lens : {0, 8, 14, -4}) {
     const std::vector<Camera> cameras = {lens_camera(lens, 0, 0.02), lens_camera(lens, 0.1, -0.1)};
     const TileMaker tiles(scene, cameras, {});
     for (int i = 0; i < 100; ++i) {

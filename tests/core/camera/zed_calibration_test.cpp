@@ -152,20 +152,44 @@ TEST_F(ZedCalibration, HalfALensIsAnError) {
               ThrowsMessage<DataError>(HasSubstr("SN1.conf:")));
 }
 
-TEST_F(ZedCalibration, ThinPrismsAreRefusedUnlessTheyAreZero) {
+TEST_F(ZedCalibration, ThinPrismsAreReadUnlessTheyAreZero) {
+  const auto lens_with = [&](const std::string& prisms) {
+    const std::string text = with(kZedX, "[LEFT_DISTO]\n", "[LEFT_DISTO]\n" + prisms);
+    return load_calibration(file("SN1.conf", text), kSvga)[0].distortion;
+  };
   EXPECT_THAT(
-      loading(file("SN1.conf", with(kZedX, "[LEFT_DISTO]\n", "[LEFT_DISTO]\ns1 = 0.1\n")), kSvga),
-      ThrowsMessage<DataError>(AllOf(HasSubstr("[LEFT_DISTO]"), HasSubstr("thin-prism"))));
-  EXPECT_NO_THROW(
-      loading(file("SN1.conf", with(kZedX, "[LEFT_DISTO]\n", "[LEFT_DISTO]\ns1 = 0\n")), kSvga)());
+      lens_with("s1 = 0.1\ns2 = 0.2\ns3 = 0.3\ns4 = 0.4\n"),
+      ElementsAre(0.3, -0.05, 0.0004, -0.0003, -0.002, 0.6, -0.02, -0.01, 0.1, 0.2, 0.3, 0.4));
+  EXPECT_EQ(lens_with("s1 = 0\n").size(), 8u);
+  EXPECT_THAT([&] { lens_with("s1 = 0.1\n"); }, ThrowsMessage<DataError>(HasSubstr("has no s2")));
 }
 
-TEST_F(ZedCalibration, FourCoefficientsAreOfAFisheyeLensThatTheUserNames) {
+TEST_F(ZedCalibration, TheTranslationIsThatOfTheMakersCalibrationTool) {
+  // The tool writes Baseline = -T.x, TY = T.y and TZ = T.z of p_right = R p_left + T.
+  const std::string text = with(with(kZedX, "TY = 0", "TY = 1.5"), "TZ = 0", "TZ = -2.5");
+  const Camera right = load_calibration(file("SN1.conf", text), kSvga)[1];
+  EXPECT_TRUE(right.camera_from_world.translation().isApprox(
+      Eigen::Vector3d(-0.1198, 0.0015, -0.0025), 1e-12));
+}
+
+TEST_F(ZedCalibration, AnglesOfOtherSizesCountWhereThoseOfThePicturesAreMissing) {
+  const std::string text = with(kZedX, "CV_FHD1200 = 0\nCV_SVGA = 0", "CV_FHD1200 = 0.01");
+  const Eigen::AngleAxisd turn(
+      load_calibration(file("SN1.conf", text), kSvga)[1].camera_from_world.linear());
+  EXPECT_NEAR(turn.angle(), 0.01, 1e-12);
+  EXPECT_THAT(notes_on(with(kZedX, "RX_SVGA = 0\n", "")),
+              testing::Contains(HasSubstr("has no RX_SVGA; 0 is taken for it")));
+}
+
+TEST_F(ZedCalibration, FourCoefficientsAreOfAFisheyeLens) {
   const std::string four = "k1 = 0.02\nk2 = -0.01\nk3 = 0.003\nk4 = -0.0005\n";
   std::string text = with_left_lens(four);
   const std::size_t begin = text.find("[RIGHT_DISTO]\n") + 14, end = text.find("\n[STEREO]");
   text.replace(begin, end - begin, four);
   CalibrationSettings settings = file("SN1.conf", text);
+  // As the maker's calibration tool writes them.
+  EXPECT_EQ(load_calibration(settings, kSvga)[1].distortion_model, DistortionModel::fisheye);
+  settings.model = DistortionModel::brown;
   EXPECT_THAT(loading(settings, kSvga),
               ThrowsMessage<DataError>(HasSubstr("k1, k2, k3, k4 with `model: fisheye`")));
   settings.model = DistortionModel::fisheye;

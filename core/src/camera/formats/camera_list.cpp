@@ -1,6 +1,7 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/formats/unused_keys.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {
@@ -43,7 +44,8 @@ Camera read_listed(const ConfigNode& node, const CalibrationSettings& settings, 
 }  // namespace
 
 std::vector<NamedCamera> read_camera_list(const ConfigNode& file,
-                                          const CalibrationSettings& settings) {
+                                          const CalibrationSettings& settings,
+                                          std::vector<std::string>& notes) {
   const ConfigNode list = file.get("cameras");
   if (!list.is_list() || list.size() == 0) {
     throw DataError(fmt::format("{}: cameras is no list of cameras", list.where()));
@@ -55,6 +57,11 @@ std::vector<NamedCamera> read_camera_list(const ConfigNode& file,
     cameras.push_back({name.is_scalar() ? name.scalar() : std::to_string(i),
                        read_listed(list.at(i), settings, metres)});
   }
+  KeyPaths used = size_keys("");
+  append_below({"cameras/*"}, {"name", "model", "K", "D", "R", "T"}, used);
+  append(size_keys("cameras/*/"), used);
+  used.push_back("units");
+  note_unused_keys(file, settings.file.string(), used, {}, notes);
   return cameras;
 }
 

@@ -4,6 +4,7 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/formats/unused_keys.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {
@@ -40,20 +41,41 @@ Camera read_table(const ConfigNode& table, const CalibrationSettings& settings, 
   return camera;
 }
 
+/// Adds the keys of a table that are used, those that say nothing of the camera, and those of the
+/// recording that would change something.
+void add_keys(const std::string& path, const ConfigNode& table, KeyPaths& used,
+              KnownButUnused& unused) {
+  append_below({path},
+               {"name", "matrix", "fisheye", "distortions", "rotation", "translation", "cam_id",
+                "port", "error", "grid_count", "exposure", "verified_resolutions"},
+               used);
+  append(size_keys(path + "/"), used);
+  const auto is = [&](std::string_view key, std::string_view value) {
+    return !table.get(key).defined() || table.get(key).scalar() == value;
+  };
+  for (const auto& [key, harmless] : {std::pair{"ignore", "false"}, {"rotation_count", "0"}})
+    (is(key, harmless) ? used : unused.paths).push_back(fmt::format("{}/{}", path, key));
+}
+
 }  // namespace
 
 std::vector<NamedCamera> read_camera_tables(const ConfigNode& file,
-                                            const CalibrationSettings& settings) {
+                                            const CalibrationSettings& settings,
+                                            std::vector<std::string>& notes) {
   const double metres = metres_per_unit(file, settings);
   const ConfigNode nested = file.get("cameras");
   const ConfigNode& tables = nested.is_map() ? nested : file;
   std::vector<NamedCamera> out;
+  KeyPaths used{"units", "metadata/error", "metadata/adjusted"};
+  KnownButUnused unused{"of the recording program", {}};
   for (const std::string& key : tables.keys()) {
     const ConfigNode table = tables.get(key);
     if (!table.get("matrix").defined()) continue;  // says something else, as [metadata] does
     const ConfigNode name = table.get("name");
     out.push_back({name.is_scalar() ? name.scalar() : key, read_table(table, settings, metres)});
+    add_keys(nested.is_map() ? "cameras/" + key : key, table, used, unused);
   }
+  if (!out.empty()) note_unused_keys(file, settings.file.string(), used, {unused}, notes);
   return out;
 }
 

@@ -5,20 +5,14 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/formats/unused_keys.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {
 
 /// Reads a 4x4 rigid transform.
 Eigen::Isometry3d read_transform(const ConfigNode& node, std::string_view name, double metres) {
-  const YamlMatrix matrix = read_matrix(node, name);
-  expect_shape(matrix, 4, 4);
-  const Eigen::Matrix4d values =
-      Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(matrix.values.data());
-  Camera holder;
-  set_pose(values.topLeftCorner<3, 3>(), metres * values.topRightCorner<3, 1>(), matrix.where,
-           holder);
-  return holder.camera_from_world;
+  return rigid_transform(read_matrix(node, name), metres);
 }
 
 Camera read_kalibr_camera(const ConfigNode& node) {
@@ -71,16 +65,41 @@ Eigen::Isometry3d from_camera_before(const ConfigNode& node, const ConfigNode& b
                   node.where()));
 }
 
+/// Adds one note on what a camchain has beside the cameras that were read.
+void note_unused(const ConfigNode& file, const std::string& file_name, std::size_t cameras,
+                 std::vector<std::string>& notes) {
+  const auto chain_of = [&](std::size_t i) {
+    return file.get(fmt::format("cam{}", i)).get("T_cn_cnm1").defined();
+  };
+  KeyPaths used{"units"};
+  KnownButUnused imu{"of the IMU", {}},
+      of_none{"no camera is before the first", {"cam0/T_cn_cnm1"}};
+  for (std::size_t i = 0; i < cameras; ++i) {
+    const std::string name = fmt::format("cam{}", i);
+    append_below({name},
+                 {"camera_model", "intrinsics", "distortion_model", "distortion_coeffs", "rostopic",
+                  "cam_overlaps"},
+                 used);
+    append(size_keys(name + "/"), used);
+    if (i > 0) used.push_back(name + "/T_cn_cnm1");
+    const bool needs_imu = (i > 0 && !chain_of(i)) || (i + 1 < cameras && !chain_of(i + 1));
+    append_below({name}, {"T_imu_cam", "T_cam_imu"}, needs_imu ? used : imu.paths);
+    imu.paths.push_back(name + "/timeshift_cam_imu");
+  }
+  note_unused_keys(file, file_name, used, {imu, of_none}, notes);
+}
+
 }  // namespace
 
-std::vector<NamedCamera> read_kalibr(const ConfigNode& file, const CalibrationSettings& settings) {
+std::vector<NamedCamera> read_kalibr(const ConfigNode& file, const CalibrationSettings& settings,
+                                     std::vector<std::string>& notes) {
   const double metres = metres_per_unit(file, settings);
   std::vector<NamedCamera> cameras;
   ConfigNode before;
   while (true) {
     const std::string name = fmt::format("cam{}", cameras.size());
     const ConfigNode node = file.get(name);
-    if (!node.defined()) return cameras;
+    if (!node.defined()) break;
     NamedCamera next{name, read_kalibr_camera(node)};
     if (!cameras.empty())
       next.camera.camera_from_world =
@@ -88,6 +107,8 @@ std::vector<NamedCamera> read_kalibr(const ConfigNode& file, const CalibrationSe
     cameras.push_back(std::move(next));
     before = node;
   }
+  note_unused(file, settings.file.string(), cameras.size(), notes);
+  return cameras;
 }
 
 }  // namespace hypotrack::calibration::internal

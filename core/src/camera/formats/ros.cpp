@@ -4,6 +4,7 @@
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/formats/unused_keys.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {
@@ -18,9 +19,7 @@ const Names kProjection = {"projection_matrix", "P", "p"};
 /// A camera of ROS, and how its pictures are rectified.
 struct RosCamera {
   NamedCamera named;
-  Eigen::Matrix3d rectified_from_camera = Eigen::Matrix3d::Identity();
-  /// Metres from this to the first camera, in the rectified frame.
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  Rectified rectified;
 };
 
 /// Returns whether a node is a list or a matrix without numbers.
@@ -91,24 +90,6 @@ void expect_whole_pictures(const ConfigNode& file, const ImageSize& size) {
                   roi.where(), size.width, size.height));
 }
 
-/// Reads where the first camera is from a projection matrix: fx' Tx and fy' Ty in its last column,
-/// for cameras beside and above each other.
-Eigen::Vector3d read_offset(const ConfigNode& node, double metres) {
-  const YamlMatrix matrix = read_matrix(node, "projection_matrix");
-  expect_shape(matrix, 3, 4);
-  const std::vector<double>& p = matrix.values;
-  for (const double focal : {p[0], p[5]}) {
-    if (focal > 0) continue;
-    throw DataError(
-        fmt::format("{} has the focal length {}; expected a positive one", matrix.where, focal));
-  }
-  if (p[8] != 0 || p[9] != 0 || p[10] != 1 || p[11] != 0) {
-    throw DataError(fmt::format("{} has the last row {} {} {} {}; expected 0 0 1 0", matrix.where,
-                                p[8], p[9], p[10], p[11]));
-  }
-  return metres * Eigen::Vector3d(p[3] / p[0], p[7] / p[5], 0);
-}
-
 RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& settings,
                           std::string_view usual_name) {
   RosCamera out;
@@ -121,55 +102,21 @@ RosCamera read_ros_camera(const ConfigNode& file, const CalibrationSettings& set
   camera.height = size.height;
   read_intrinsics(first_of(file, kMatrix), camera);
   read_ros_lens(file, camera);
-  if (const ConfigNode r = first_of(file, kRectification); r.defined()) {
-    const YamlMatrix matrix = read_matrix(r, "rectification_matrix");
-    expect_shape(matrix, 3, 3);
-    Camera holder;
-    set_pose(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(matrix.values.data()),
-             Eigen::Vector3d::Zero(), matrix.where, holder);
-    out.rectified_from_camera = holder.camera_from_world.linear();
-  }
-  if (const ConfigNode p = first_of(file, kProjection); p.defined())
-    out.offset = read_offset(p, metres_per_unit(file, settings));
+  out.rectified = read_rectified(first_of(file, kRectification), first_of(file, kProjection),
+                                 metres_per_unit(file, settings));
   return out;
 }
 
 /// Adds one note on all keys of a file that are not used.
-void note_unused_keys(const ConfigNode& file, const std::string& file_name,
-                      std::vector<std::string>& notes) {
-  constexpr std::array<std::string_view, 27> kKeys = {"header",
-                                                      "camera_matrix",
-                                                      "K",
-                                                      "k",
-                                                      "distortion_coefficients",
-                                                      "D",
-                                                      "d",
-                                                      "rectification_matrix",
-                                                      "R",
-                                                      "r",
-                                                      "projection_matrix",
-                                                      "P",
-                                                      "p",
-                                                      "distortion_model",
-                                                      "camera_name",
-                                                      "image_width",
-                                                      "image_height",
-                                                      "imageSize",
-                                                      "image_size",
-                                                      "resolution",
-                                                      "size",
-                                                      "width",
-                                                      "height",
-                                                      "units",
-                                                      "binning_x",
-                                                      "binning_y",
-                                                      "roi"};
-  std::vector<std::string> unknown;
-  for (const std::string& key : file.keys())
-    if (std::ranges::find(kKeys, key) == kKeys.end()) unknown.push_back(key);
-  if (unknown.empty()) return;
-  notes.push_back(
-      fmt::format("{}: not used: {} (not understood)", file_name, fmt::join(unknown, ", ")));
+void note_unused(const ConfigNode& file, const std::string& file_name,
+                 std::vector<std::string>& notes) {
+  KeyPaths used{"header/**", "camera_name", "distortion_model", "width",        "height",
+                "units",     "binning_x",   "binning_y",        "roi/x_offset", "roi/y_offset",
+                "roi/width", "roi/height",  "roi/do_rectify"};
+  for (const Names& names : {kMatrix, kDistortion, kRectification, kProjection})
+    used.insert(used.end(), names.begin(), names.end());
+  append(size_keys(""), used);
+  note_unused_keys(file, file_name, used, {}, notes);
 }
 
 }  // namespace
@@ -181,7 +128,7 @@ bool is_ros(const ConfigNode& file) {
 std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSettings& settings,
                                   std::vector<std::string>& notes) {
   const RosCamera first = read_ros_camera(file, settings, "left");
-  note_unused_keys(file, settings.file.string(), notes);
+  note_unused(file, settings.file.string(), notes);
   if (settings.second.empty()) return {first.named};
   const ConfigNode other = read_calibration_text(settings.second);
   if (!is_ros(other)) {
@@ -191,8 +138,8 @@ std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSetti
                     settings.second.string(), settings.file.string()));
   }
   const RosCamera second = read_ros_camera(other, settings, "right");
-  note_unused_keys(other, settings.second.string(), notes);
-  const Eigen::Vector3d offset = second.offset - first.offset;
+  note_unused(other, settings.second.string(), notes);
+  const Eigen::Vector3d offset = second.rectified.offset - first.rectified.offset;
   if (offset == Eigen::Vector3d::Zero()) {
     throw DataError(
         fmt::format("{}: the projection matrices of both cameras say that they are at one place "
@@ -200,10 +147,7 @@ std::vector<NamedCamera> read_ros(const ConfigNode& file, const CalibrationSetti
                     settings.second.string()));
   }
   std::vector<NamedCamera> out{first.named, second.named};
-  const Eigen::Matrix3d camera_from_rectified = second.rectified_from_camera.transpose();
-  Eigen::Isometry3d& pose = out[1].camera.camera_from_world;
-  pose.linear() = camera_from_rectified * first.rectified_from_camera;
-  pose.translation() = camera_from_rectified * offset;
+  out[1].camera.camera_from_world = second_from_first(first.rectified, second.rectified);
   return out;
 }
 

@@ -1,50 +1,17 @@
 #include <Eigen/Geometry>
-#include <iterator>
-#include <span>
 #include <string>
 
 #include "camera/calibration_text.hpp"
 #include "camera/camera_fields.hpp"
 #include "camera/formats/formats.hpp"
+#include "camera/formats/zed_sections.hpp"
 
 namespace hypotrack::calibration::internal {
 namespace {
 
-/// A resolution of a ZED's pictures.
-struct Resolution {
-  std::string_view name;
-  int width, height;
-};
-constexpr std::array<Resolution, 8> kResolutions = {{{"2K", 2208, 1242},
-                                                     {"FHD", 1920, 1080},
-                                                     {"FHD1200", 1920, 1200},
-                                                     {"HD", 1280, 720},
-                                                     {"SVGA", 960, 600},
-                                                     {"VGA", 672, 376},
-                                                     {"4k", 3840, 2160},
-                                                     {"QHDPLUS", 3200, 1800}}};
-
-using Keys = std::span<const std::string_view>;
-constexpr std::array<std::string_view, 4> kPinhole = {"fx", "fy", "cx", "cy"};
-/// In OpenCV's order. The last three are those of the rational model.
-constexpr std::array<std::string_view, 8> kCoefficients = {"k1", "k2", "p1", "p2",
-                                                           "k3", "k4", "k5", "k6"};
 constexpr std::size_t kPlainCoefficients = 5;
-constexpr std::array<std::string_view, 4> kThinPrism = {"s1", "s2", "s3", "s4"};
 constexpr std::array<std::string_view, 4> kFisheye = {"k1", "k2", "k3", "k4"};
 constexpr std::array<std::string_view, 4> kNotFisheye = {"p1", "p2", "k5", "k6"};
-
-bool is_one_of(std::string_view key, Keys keys) {
-  return std::ranges::find(keys, key) != keys.end();
-}
-
-/// Returns those of some keys that a section has.
-std::vector<std::string_view> found_in(const ConfigNode& section, Keys keys) {
-  std::vector<std::string_view> out;
-  std::ranges::copy_if(keys, std::back_inserter(out),
-                       [&](std::string_view key) { return section.get(key).defined(); });
-  return out;
-}
 
 double number_of(const ConfigNode& section, std::string_view key) {
   const ConfigNode node = section.get(key);
@@ -62,6 +29,21 @@ double number_for(const ConfigNode& section, std::string_view key, const Resolut
   return section.get(key).defined() ? number_of(section, key) : 0;
 }
 
+/// Returns the angle of a key for one resolution. Where only other resolutions have it, it is
+/// theirs: the cameras stand to each other as they do.
+double angle_for(const ConfigNode& section, std::string_view key, const Resolution& size,
+                 std::vector<std::string>& notes) {
+  if (section.get(fmt::format("{}_{}", key, size.name)).defined() || section.get(key).defined())
+    return number_for(section, key, size);
+  for (const Resolution& other : kResolutions) {
+    const std::string name = fmt::format("{}_{}", key, other.name);
+    if (section.get(name).defined()) return number_of(section, name);
+  }
+  notes.push_back(
+      fmt::format("{}: has no {}_{}; 0 is taken for it", section.where(), key, size.name));
+  return 0;
+}
+
 /// Returns whether all of some keys that a section has are 0.
 bool are_zero(const ConfigNode& section, Keys keys) {
   return std::ranges::all_of(found_in(section, keys), [&](std::string_view key) {
@@ -76,7 +58,7 @@ struct LensSection {
   bool of_all_sizes = false;  ///< as newer files have it
 };
 
-/// Reads OpenCV's 5 or 8 coefficients. Sections for one size may leave out p1, p2 and k3.
+/// Reads OpenCV's 5, 8 or 12 coefficients. Sections for one size may leave out p1, p2 and k3.
 void read_brown(const LensSection& section, Camera& camera) {
   const ConfigNode& node = section.node;
   const bool rational = !found_in(node, Keys(kCoefficients).subspan(kPlainCoefficients)).empty();
@@ -94,10 +76,8 @@ void read_brown(const LensSection& section, Camera& camera) {
     camera.distortion.push_back(node.get(key).defined() ? number_of(node, key) : 0);
   }
   if (are_zero(node, kThinPrism)) return;
-  throw DataError(
-      fmt::format("{}: [{}] has s1 to s4 that are not 0: the thin-prism model is not supported; "
-                  "calibrate with `hypotrack calibrate`, or with 5 or 8 coefficients",
-                  node.where(), section.name));
+  camera.distortion.resize(kCoefficients.size());
+  for (const std::string_view key : kThinPrism) camera.distortion.push_back(number_of(node, key));
 }
 
 void read_fisheye(const LensSection& section, Camera& camera) {
@@ -117,8 +97,11 @@ void read_fisheye(const LensSection& section, Camera& camera) {
 void read_zed_lens(const LensSection& of_all, const LensSection& of_one,
                    const CalibrationSettings& settings, Camera& camera,
                    std::vector<std::string>& notes) {
-  if (!found_in(of_all.node, kCoefficients).empty()) {
-    if (settings.model == DistortionModel::fisheye) return read_fisheye(of_all, camera);
+  if (const auto found = found_in(of_all.node, kCoefficients); !found.empty()) {
+    const bool only_fisheye =
+        std::ranges::is_permutation(found, kFisheye) && found_in(of_all.node, kThinPrism).empty();
+    if (settings.model == DistortionModel::fisheye || (!settings.model && only_fisheye))
+      return read_fisheye(of_all, camera);
     read_brown(of_all, camera);
     const bool has_k4 = of_all.node.get("k4").defined() && number_of(of_all.node, "k4") != 0;
     if (!settings.model && has_k4 && are_zero(of_all.node, kNotFisheye)) {
@@ -154,84 +137,19 @@ Camera read_zed_camera(const ConfigNode& file, std::string_view side, const Reso
   return camera;
 }
 
-/// Returns the pose of the right camera: a turn about (RX, CV, RZ) by that vector's length, as
-/// Rodrigues' formula takes it, and the place (Baseline, TY, TZ) in the right camera's axes.
-Eigen::Isometry3d right_from_left(const ConfigNode& pair, const Resolution& size, double metres) {
-  const Eigen::Vector3d turn(number_for(pair, "RX", size), number_for(pair, "CV", size),
-                             number_for(pair, "RZ", size));
-  const Eigen::Vector3d place(number_of(pair, "Baseline"), number_for(pair, "TY", size),
-                              number_for(pair, "TZ", size));
+/// Returns the pose of the right camera, p_right = R p_left + T. R is a turn about (RX, CV, RZ) by
+/// that vector's length, as Rodrigues' formula takes it. T is (-Baseline, TY, TZ): the maker's
+/// calibration tool writes the first component without its sign, and the others as they are.
+Eigen::Isometry3d right_from_left(const ConfigNode& pair, const Resolution& size, double metres,
+                                  std::vector<std::string>& notes) {
+  const Eigen::Vector3d turn(angle_for(pair, "RX", size, notes), angle_for(pair, "CV", size, notes),
+                             angle_for(pair, "RZ", size, notes));
+  const Eigen::Vector3d t(-number_of(pair, "Baseline"), number_for(pair, "TY", size),
+                          number_for(pair, "TZ", size));
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   if (turn.norm() > 0) out.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-  out.translation() = -metres * place;
+  out.translation() = metres * t;
   return out;
-}
-
-/// What of a file is not used: names of sections, and of keys as `[SECTION] key`.
-struct Unused {
-  std::vector<std::string> other_sizes, older_lenses, unknown;
-};
-
-bool is_resolution(std::string_view name) {
-  return std::ranges::any_of(kResolutions, [&](const auto& size) { return size.name == name; });
-}
-
-/// Returns whether a key is of the pose, for all resolutions or for one: RX, RX_HD.
-bool is_of_the_pose(std::string_view key) {
-  constexpr std::array<std::string_view, 5> kPose = {"TY", "TZ", "CV", "RX", "RZ"};
-  const std::size_t mark = key.find('_');
-  return key == "Baseline" ||
-         (is_one_of(key.substr(0, mark), kPose) &&
-          (mark == std::string_view::npos || is_resolution(key.substr(mark + 1))));
-}
-
-/// Returns the resolution of LEFT_CAM_HD; empty for other names.
-std::string_view resolution_in(std::string_view name) {
-  for (const std::string_view before : {"LEFT_CAM_", "RIGHT_CAM_"})
-    if (name.starts_with(before) && is_resolution(name.substr(before.size())))
-      return name.substr(before.size());
-  return {};
-}
-
-void look_for_unused(const ConfigNode& file, const std::string& name, const Resolution& size,
-                     Unused& unused) {
-  const ConfigNode section = file.get(name);
-  const std::string_view resolution = resolution_in(name);
-  const bool of_all_sizes = name == "LEFT_DISTO" || name == "RIGHT_DISTO";
-  if (name == "units") return;
-  if (!section.is_map() ||
-      (resolution.empty() && !of_all_sizes && name != "STEREO" && name != "MISC"))
-    return unused.unknown.push_back(fmt::format("[{}]", name));
-  if (!resolution.empty() && resolution != size.name)
-    return unused.other_sizes.push_back(fmt::format("[{}]", name));
-  const auto is_known = [&](std::string_view key) {
-    if (of_all_sizes) return is_one_of(key, kCoefficients) || is_one_of(key, kThinPrism);
-    if (name == "STEREO") return is_of_the_pose(key);
-    if (name == "MISC") return key == "Sensor_ID";  // says nothing of the pictures
-    return is_one_of(key, kPinhole) || is_one_of(key, kCoefficients);
-  };
-  for (const std::string& key : section.keys())
-    if (!is_known(key)) unused.unknown.push_back(fmt::format("[{}] {}", name, key));
-  const std::string all_sizes = fmt::format("{}_DISTO", name.substr(0, name.find('_')));
-  if (!resolution.empty() && !found_in(section, kCoefficients).empty() &&
-      !found_in(file.get(all_sizes), kCoefficients).empty())
-    unused.older_lenses.push_back(fmt::format("[{}]", name));
-}
-
-/// Adds one note on everything in a file that is not used.
-void note_unused_sections(const ConfigNode& file, const Resolution& size,
-                          const std::string& file_name, std::vector<std::string>& notes) {
-  Unused unused;
-  for (const std::string& name : file.keys()) look_for_unused(file, name, size, unused);
-  std::vector<std::string> parts;
-  const auto add = [&](const std::vector<std::string>& names, std::string_view why) {
-    if (!names.empty()) parts.push_back(fmt::format("{} ({})", fmt::join(names, ", "), why));
-  };
-  add(unused.unknown, "not understood");
-  add(unused.other_sizes, "for pictures of other sizes");
-  add(unused.older_lenses, "the coefficients there: those for all sizes are newer");
-  if (!parts.empty())
-    notes.push_back(fmt::format("{}: not used: {}", file_name, fmt::join(parts, "; ")));
 }
 
 }  // namespace
@@ -253,8 +171,8 @@ std::vector<NamedCamera> read_zed(const ConfigNode& file, const CalibrationSetti
     if (size.width != pictures.width || size.height != pictures.height) continue;
     std::vector<NamedCamera> out{{"left", read_zed_camera(file, "LEFT", size, settings, notes)},
                                  {"right", read_zed_camera(file, "RIGHT", size, settings, notes)}};
-    out[1].camera.camera_from_world =
-        right_from_left(file.get("STEREO"), size, metres_per_unit(file, settings, LengthUnit::mm));
+    out[1].camera.camera_from_world = right_from_left(
+        file.get("STEREO"), size, metres_per_unit(file, settings, LengthUnit::mm), notes);
     note_unused_sections(file, size, settings.file.string(), notes);
     return out;
   }
