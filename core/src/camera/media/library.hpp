@@ -17,6 +17,9 @@ struct MediaLibrary {
   std::unique_ptr<VideoFile> (*open_video)(const std::string& file, std::string& problem);
 };
 
+/// Opens a video file with FFmpeg. Returns null, and why in `problem`, if that fails.
+std::unique_ptr<VideoFile> open_file(const std::string& file, std::string& problem);
+
 /// Name of the module's function that returns its MediaLibrary.
 inline constexpr const char* kMediaLibrary = "hypotrack_media_library";
 using GetMediaLibrary = const MediaLibrary& (*)();

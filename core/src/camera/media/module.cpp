@@ -1,7 +1,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "camera/media/library.hpp"
-#include "camera/media/open_file.hpp"
 
 namespace hypotrack::internal {
 namespace {

@@ -1,13 +1,11 @@
-#include "camera/media/open_file.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "camera/media/decoder.hpp"
+#include "camera/media/library.hpp"
 #include "camera/media/packet_times.hpp"
 #include "camera/media/picture_converter.hpp"
 
@@ -15,14 +13,6 @@ namespace hypotrack::internal {
 namespace {
 
 constexpr double kUsualRate = 25;  // frames per second, what players take
-
-/// Returns whether a container has a time for each frame, and not a rate for all.
-bool has_clock(const Demuxer& video) {
-  constexpr std::string_view kWithout[] = {"avi", "h264", "hevc",         "m4v",  "mpegvideo",
-                                           "obu", "dv",   "yuv4mpegpipe", "mjpeg"};
-  return std::ranges::find(kWithout, std::string_view(video.format->iformat->name)) ==
-         std::end(kWithout);
-}
 
 double rate_of(const AVStream& stream) {
   for (const AVRational rate : {stream.avg_frame_rate, stream.r_frame_rate}) {
@@ -66,7 +56,8 @@ class OpenedFile final : public VideoFile {
     const std::size_t wanted = first_ + index;
     while (decoded_ && *decoded_ < wanted) advance();
     const auto problem = [&](const char* what) {
-      return fmt::format("{}: the frame at {:.3f} s {}", info_.name, info_.times[index] - info_.times[0], what);
+      return fmt::format("{}: the frame at {:.3f} s {}", info_.name,
+                         info_.times[index] - info_.times[0], what);
     };
     if (decoded_ != wanted) return problem("cannot be decoded");
     if (packets_.shown[wanted].cut) return problem("is cut off: its data are not whole");
@@ -77,30 +68,27 @@ class OpenedFile final : public VideoFile {
   }
 
  private:
-  /// Goes to the next decoded frame. Returns false at the end.
+  /// Goes to the next decoded frame that is shown. Returns false at the end.
   bool advance() {
-    frame_ = decoder_.next();
-    if (frame_)
-      decoded_ = position(*frame_);
-    else
-      decoded_.reset();
-    return frame_ != nullptr;
+    std::optional<std::size_t> found;
+    while (!found && (frame_ = decoder_.next())) found = position(*frame_);
+    decoded_ = found;
+    return found.has_value();
   }
 
-  /// Returns which of the shown frames a decoded one is. Without times, frames that were not
-  /// decoded count, too.
-  std::size_t position(const AVFrame& frame) {
+  /// Returns which of the shown frames a decoded one is; nothing if it has the time of an earlier
+  /// one. Without times, frames that were not decoded count, too.
+  std::optional<std::size_t> position(const AVFrame& frame) {
     const std::size_t next = decoded_ ? *decoded_ + 1 : 0;
     if (!packets_.presented) {
-      const std::size_t failed =
-          decoder_.failures() - std::exchange(failures_, decoder_.failures());
-      return next + failed;
+      const std::size_t before = std::exchange(failures_, decoder_.failures());
+      return next + decoder_.failures() - before;
     }
     const std::int64_t time = frame.pts != AV_NOPTS_VALUE ? frame.pts : frame.best_effort_timestamp;
     const auto found = std::ranges::lower_bound(packets_.shown, time, {}, &ShownPicture::time);
+    if (found == packets_.shown.end() || found->time != time) return next;
     const auto index = static_cast<std::size_t>(found - packets_.shown.begin());
-    const bool known = found != packets_.shown.end() && found->time == time;
-    return known && index >= next ? index : next;
+    return index >= next ? std::optional(index) : std::nullopt;
   }
 
   void take_times(const AVStream& stream) {

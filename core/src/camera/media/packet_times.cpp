@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace hypotrack::internal {
 namespace {
@@ -58,19 +60,56 @@ std::string problem_of_end(const Demuxer& video, const Read& read, std::size_t s
 }
 
 /// Puts pictures in the order of their times, and one where several have the same.
-void order(PacketTimes& out) {
-  std::ranges::stable_sort(out.shown, {}, &ShownPicture::time);
-  const auto same = std::ranges::unique(out.shown, {}, &ShownPicture::time);
-  out.shown.erase(same.begin(), same.end());
+void order(std::vector<ShownPicture>& shown) {
+  std::ranges::stable_sort(shown, {}, &ShownPicture::time);
+  const auto same = std::ranges::unique(shown, {}, &ShownPicture::time);
+  shown.erase(same.begin(), same.end());
+}
+
+bool is_timed(const ShownPicture& picture) { return picture.time != AV_NOPTS_VALUE; }
+
+/// Leaves out pictures without a time between others: second fields, and those before a cut that
+/// nothing can decode. The last ones follow the others.
+void leave_out_untimed(std::vector<ShownPicture>& shown) {
+  const auto last = std::ranges::find_if(shown.rbegin(), shown.rend(), is_timed).base();
+  std::vector<ShownPicture> kept, after(last, shown.end());
+  std::copy_if(shown.begin(), last, std::back_inserter(kept), is_timed);
+  order(kept);
+  const std::int64_t step = kept.size() > 1 ? kept.back().time - kept[kept.size() - 2].time : 1;
+  for (ShownPicture picture : after) {
+    picture.time = kept.back().time + step;
+    kept.push_back(picture);
+  }
+  shown = std::move(kept);
+}
+
+/// Gives the pictures times, where not all packets have one.
+void complete_times(PacketTimes& out, const std::vector<std::int64_t>& decoding_times,
+                    const Demuxer& video) {
+  const auto timed = std::ranges::count_if(out.shown, is_timed);
+  out.presented = timed == std::ssize(out.shown);
+  if (!out.presented && has_clock(video) && 5 * timed > 2 * std::ssize(out.shown)) {
+    leave_out_untimed(out.shown);
+    out.presented = true;
+  }
+  if (out.presented) return;
+  out.numbered = std::ranges::find(decoding_times, AV_NOPTS_VALUE) != decoding_times.end();
+  for (std::size_t i = 0; i < out.shown.size(); ++i)
+    out.shown[i].time = out.numbered ? static_cast<std::int64_t>(i) : decoding_times[i];
 }
 
 }  // namespace
+
+bool has_clock(const Demuxer& video) {
+  constexpr std::string_view kWithout[] = {"avi", "h264", "hevc",         "m4v",  "mpegvideo",
+                                           "obu", "dv",   "yuv4mpegpipe", "mjpeg"};
+  return std::ranges::find(kWithout, container_of(video)) == std::end(kWithout);
+}
 
 PacketTimes read_packet_times(Demuxer& video) {
   PacketTimes out;
   Read read;
   std::vector<std::int64_t> decoding_times;
-  bool decoded = true;
   const Ffmpeg<AVPacket> packet(av_packet_alloc());
   int result = 0;
   while (out.shown.size() < kMostPictures &&
@@ -79,8 +118,6 @@ PacketTimes read_packet_times(Demuxer& video) {
     const bool counts = packet->stream_index == video.stream && packet->size > 0;
     read.packets += counts ? 1 : 0;
     if (counts && !(packet->flags & AV_PKT_FLAG_DISCARD) && !is_hidden(*packet, codec)) {
-      out.presented = out.presented && packet->pts != AV_NOPTS_VALUE;
-      decoded = decoded && packet->dts != AV_NOPTS_VALUE;
       out.shown.push_back({packet->pts, (packet->flags & AV_PKT_FLAG_CORRUPT) != 0});
       decoding_times.push_back(packet->dts);
       read.end = std::max(read.end, packet->pts + packet->duration);
@@ -89,10 +126,8 @@ PacketTimes read_packet_times(Demuxer& video) {
     av_packet_unref(packet.get());
   }
   read.failed = result < 0 && result != AVERROR_EOF;
-  out.numbered = !out.presented && !decoded;
-  for (std::size_t i = 0; i < out.shown.size() && !out.presented; ++i)
-    out.shown[i].time = decoded ? decoding_times[i] : static_cast<std::int64_t>(i);
-  order(out);
+  complete_times(out, decoding_times, video);
+  order(out.shown);
   out.problem_of_end = problem_of_end(video, read, out.shown.size());
   return out;
 }

@@ -23,6 +23,9 @@ struct PacketTimes {
   std::string problem_of_end;       ///< note for the user if data are missing at the end
 };
 
+/// Returns whether a container has a time for each frame, and not a rate for all.
+bool has_clock(const Demuxer& video);
+
 /// Reads all packets. Leaves out those that an edit list or the codec does not show.
 PacketTimes read_packet_times(Demuxer& video);
 

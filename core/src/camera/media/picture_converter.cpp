@@ -9,8 +9,6 @@ extern "C" {
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "camera/media/picture_notes.hpp"
-
 namespace hypotrack::internal {
 namespace {
 

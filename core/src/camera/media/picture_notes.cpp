@@ -1,4 +1,4 @@
-#include "camera/media/picture_notes.hpp"
+#include "camera/media/picture_converter.hpp"
 
 extern "C" {
 #include <libavutil/pixdesc.h>
@@ -6,6 +6,8 @@ extern "C" {
 }
 
 #include <fmt/format.h>
+
+#include <utility>
 
 namespace hypotrack::internal {
 namespace {
