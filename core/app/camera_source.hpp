@@ -14,7 +14,7 @@ struct CameraOptions {
   std::string left, right;  ///< devices, or files
   std::optional<std::string> size, fps;
   std::string pixel_format;
-  std::optional<std::string> layout;  ///< of pictures of both views
+  std::optional<std::string> layout = {};  ///< of pictures of both views
 };
 
 /// Returns the layout of this name, if one is given.

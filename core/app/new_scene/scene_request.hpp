@@ -12,12 +12,12 @@ namespace hypotrack::app {
 
 /// Pictures, videos or live pictures of a pair of cameras, and their calibration.
 struct RecordingFiles {
-  std::filesystem::path left, right;   ///< patterns of pictures, single pictures, or videos
-  std::filesystem::path side_by_side;  ///< one video of both views, instead of those
-  std::optional<std::string> layout;   ///< of both views in `side_by_side`, or in `left` alone
-  std::optional<CameraOptions> live;   ///< live cameras, instead of all those
-  std::filesystem::path calibration;   ///< empty: not found
-  std::filesystem::path extrinsics;    ///< second file of the calibration; may be empty
+  std::filesystem::path left, right;       ///< patterns of pictures, single pictures, or videos
+  std::filesystem::path side_by_side;      ///< one video of both views, instead of those
+  std::optional<std::string> layout = {};  ///< of both views in `side_by_side`, or in `left` alone
+  std::optional<CameraOptions> live;       ///< live cameras, instead of all those
+  std::filesystem::path calibration;       ///< empty: not found
+  std::filesystem::path extrinsics;        ///< second file of the calibration; may be empty
 };
 
 /// Everything that a new scene is made of.
