@@ -136,7 +136,8 @@ ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quick
   if (quickly) out.at = corners_of_size(small, size, kFast);
   SeenChessboard seen;
   if (out.at.empty()) seen = largest_chessboard(small);
-  const bool other = seen.whole && !is_part(seen.size, size);
+  // A larger one may have a row too many: edges around a board look like corners at times.
+  const bool other = seen.whole && !is_part(seen.size, size) && !is_part(size, seen.size);
   if (!quickly && !other) out.at = corners_of_size(small, size, kSlow);
   if (out.at.empty()) out.at = sharp_of_size(small, seen, size);
   if (out.at.empty() && !quickly && !other && scale < 1) {

@@ -148,7 +148,7 @@ TEST_F(StereoCalibrationTest, TheVerdictAsksForTiltWhereTheBoardFacedTheCameras)
 TEST_F(StereoCalibrationTest, SharpCornersThatDoNotFitAreNotCalledGood) {
   const auto verdict = [&](double sharpness) {
     sharpness_ = sharpness;
-    const std::vector<BoardPair> given = pairs(20, 0.2);
+    const std::vector<BoardPair> given = pairs(12, 0.2);
     return verdict_of(given, calibrated(given));
   };
   EXPECT_THAT(verdict(0).summary, testing::StartsWith("good: 0.2"));

@@ -145,9 +145,11 @@ class RenderedCalibrationTest : public CalibrationCommandsTest {
         write_image(path(cv::format("%s_%02zu.png", view == 0 ? "left" : "right", i)).string(),
                     board_.picture(view, poses[i]));
   }
-  Outcome run_on_pictures(std::vector<std::string> command) const {
-    command.insert(command.end(), {"--left", path("left_*.png").string(), "--right",
-                                   path("right_*.png").string()});
+  Outcome run_on_pictures(std::vector<std::string> command, const char* which = "*") const {
+    for (const std::string side : {"left", "right"}) {
+      command.push_back("--" + side);
+      command.push_back(path(side + "_" + which + ".png").string());
+    }
     return run_program(command);
   }
 
@@ -155,9 +157,10 @@ class RenderedCalibrationTest : public CalibrationCommandsTest {
 };
 
 TEST_F(RenderedCalibrationTest, SquaresInPlaceOfCornersAreNamedSoon) {
-  expect_refusal(run_on_pictures({"calibrate", "--board", "10x7", "--square", "25mm", "--out",
-                                  path("rig.yaml").string()}),
-                 {"6 of 6 pictures show a chessboard of 9x6 inner corners", "give --board 9x6"});
+  expect_refusal(
+      run_on_pictures(
+          {"calibrate", "--board", "10x7", "--square", "25mm", "--out", path("rig.yaml").string()}),
+      {"--board is 10x7", "pictures show a chessboard of 9x6 inner corners: give --board 9x6"});
 }
 
 TEST_F(RenderedCalibrationTest, CheckMeasuresABoardAndSaysWhatItCannotTell) {
@@ -165,13 +168,13 @@ TEST_F(RenderedCalibrationTest, CheckMeasuresABoardAndSaysWhatItCannotTell) {
   const Outcome made =
       run_on_pictures({"calibrate", "--board", "9x6", "--square", "25mm", "--out", rig});
   EXPECT_THAT(made.out, HasSubstr("good: 0."));
-  const Outcome right =
-      run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "25mm"});
+  const Outcome right = run_on_pictures(
+      {"calibration", "check", rig, "--board", "9x6", "--square", "25mm"}, "0[0-2]");
   EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
   EXPECT_THAT(right.out, HasSubstr("the board agrees: its squares measure 25.0"));
   EXPECT_THAT(right.out, HasSubstr("these pictures do not tell:\n- anything nearer than"));
   const Outcome wrong =
-      run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "30mm"});
+      run_on_pictures({"calibration", "check", rig, "--board", "9x6", "--square", "30mm"}, "00");
   EXPECT_EQ(wrong.exit_code, 1);
   EXPECT_THAT(wrong.out, HasSubstr("the board does not agree: its squares measure 25.0"));
   expect_refusal(run_on_pictures({"calibration", "check", rig, "--board", "9x6"}),
