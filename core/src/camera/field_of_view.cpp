@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "camera/distortion.hpp"
 
 namespace hypotrack::internal {
 namespace {
 
-/// Finds rays to edges of a picture by bisection, up to where the lens folds.
+/// Finds rays to edges of a picture, up to where the lens folds.
 class Edges {
  public:
   explicit Edges(const Camera& camera)
@@ -27,13 +28,19 @@ class Edges {
       return side * (project(camera_, ray)[axis] - centre);
     };
     const double wanted = side * (edge - centre);
-    double low = 0, high = farthest_;
-    if (shown_at(high) < wanted) {
+    double low = 0, high = 0;
+    // Step by step: far outside the picture the terms of a lens may turn rays back.
+    for (double angle = kStep; shown_at(high) < wanted; angle += kStep) {
+      low = std::exchange(high, std::min(std::tan(angle), farthest_));
+      if (high < farthest_ && shown_at(high) > shown_at(low)) continue;
+      if (shown_at(high) >= wanted) break;
       reached_ = false;
-      low = high;
+      if (shown_at(high) > shown_at(low)) low = high;
+      high = low;
+      break;
     }
-    constexpr int kSteps = 60;
-    for (int i = 0; i < kSteps; ++i) {
+    constexpr int kHalvings = 60;
+    for (int i = 0; i < kHalvings && low < high; ++i) {
       const double middle = std::midpoint(low, high);
       (shown_at(middle) < wanted ? low : high) = middle;
     }
@@ -43,7 +50,8 @@ class Edges {
   bool reached() const { return reached_; }
 
  private:
-  static constexpr double kFarthest = 256;  // 89.8 degrees
+  static constexpr double kFarthest = 256;    // 89.8 degrees
+  static constexpr double kStep = 1.0 / 256;  // radians
 
   Camera camera_;
   double farthest_;

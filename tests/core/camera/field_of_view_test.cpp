@@ -49,6 +49,15 @@ TEST(FieldOfViewOfCameras, FollowsTheLens) {
   EXPECT_NEAR(field_of_view(fisheye).horizontal, 2 * 320 / 500.0, 1e-9);
 }
 
+TEST(FieldOfViewOfCameras, IsThatInsideThePictureWhereALensTurnsRaysBackFarOutside) {
+  // Of an OAK camera: the tangential terms win at 89 degrees.
+  const Camera oak = seeing_camera(DistortionModel::brown, {15.6827, -81.9808, 0.001852, -0.0025135,
+                                                            135.1396, 15.1328, -79.1491, 130.745});
+  const FieldOfView seen = field_of_view(oak);
+  EXPECT_TRUE(seen.reaches_edges);
+  EXPECT_NEAR(in_degrees(seen.horizontal), in_degrees(2 * std::atan(320 / 500.0)), 1);
+}
+
 TEST(FieldOfViewOfCameras, EndsWhereTheLensFolds) {
   const FieldOfView seen = field_of_view(seeing_camera(DistortionModel::brown, {-1.2, 0, 0, 0}));
   EXPECT_FALSE(seen.reaches_edges);
