@@ -28,7 +28,7 @@ class RecordingFolder {
   template <class Function>
   decltype(auto) write_with(const Function& function) const {
     part_->expect_exists();
-    return part_->write_with(function);
+    return parent_->write_with([&]() -> decltype(auto) { return part_->write_with(function); });
   }
   /// Gives the folder its name. Throws OutputError.
   void finish();
