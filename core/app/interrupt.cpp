@@ -19,6 +19,7 @@ constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 std::atomic<bool> g_interrupted = false;
 std::atomic<unsigned> g_patience_s = 0;
 std::atomic<bool> g_said_that_it_waits = false;
+bool g_in_background = false;  // SIGINT was ignored when the guard began
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<unsigned>::is_always_lock_free,
               "a signal handler may not wait for a lock");
 
@@ -27,6 +28,30 @@ void on_signal(int signal) {
   // A closed terminal may send SIGHUP twice, from its shell and the kernel: keep ignoring it.
   if (signal != SIGHUP) std::signal(signal, SIG_DFL);
   alarm(std::min(kSilence_s, g_patience_s.load()));
+}
+
+/// Handles SIGINT of a program that was started with SIGINT ignored, as shells without job control
+/// start those in the background: Ctrl-C, which the kernel sends to all programs of a terminal, is
+/// for others. Who sends the signal to this program means it.
+void on_interrupt_in_background(int signal, siginfo_t* info, void* /*unused*/) {
+  if (info->si_code != SI_KERNEL) on_signal(signal);
+}
+
+/// Sets the handler of a signal; one that was ignored stays so.
+void handle(int signal) {
+  if (std::signal(signal, on_signal) != SIG_IGN) return;
+  std::signal(signal, SIG_IGN);
+  if (signal != SIGINT) return;
+  struct sigaction wanted {};
+  wanted.sa_sigaction = on_interrupt_in_background;
+  wanted.sa_flags = SA_SIGINFO | SA_RESTART;
+  g_in_background = sigaction(SIGINT, &wanted, nullptr) == 0;
+}
+
+/// Undoes handle().
+void stop_handling(int signal) {
+  const bool ignored = std::signal(signal, SIG_DFL) == SIG_IGN;
+  if (ignored || (signal == SIGINT && g_in_background)) std::signal(signal, SIG_IGN);
 }
 
 void on_alarm(int /*signal*/) {
@@ -45,9 +70,9 @@ InterruptGuard::InterruptGuard(unsigned patience_s) {
   g_interrupted = g_said_that_it_waits = false;
   g_patience_s = patience_s;
   of_alarm_ = std::signal(SIGALRM, on_alarm);
-  // A shell's background jobs and nohup ignore Ctrl-C: keep it ignored then.
-  for (const int signal : kSignals)
-    if (std::signal(signal, on_signal) == SIG_IGN) std::signal(signal, SIG_IGN);
+  g_in_background = false;
+  // nohup ignores a closed terminal: keep it ignored then.
+  for (const int signal : kSignals) handle(signal);
   // Ctrl-C also ends the reader of `| tee log`, before the files are finished.
   of_broken_pipe_ = std::signal(SIGPIPE, SIG_IGN);
 }
@@ -56,8 +81,7 @@ InterruptGuard::~InterruptGuard() {
   alarm(0);
   std::signal(SIGALRM, of_alarm_);
   std::signal(SIGPIPE, of_broken_pipe_);
-  for (const int signal : kSignals)
-    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  for (const int signal : kSignals) stop_handling(signal);
 }
 
 bool InterruptGuard::signalled() { return g_interrupted; }

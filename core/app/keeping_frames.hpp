@@ -1,7 +1,5 @@
 #pragma once
 
-#include <filesystem>
-
 #include "hypotrack/error.hpp"
 #include "output/recording_writer.hpp"
 #include "tell.hpp"
@@ -11,14 +9,14 @@ namespace hypotrack::app {
 /// Calls a function that writes a recording. If that fails, completes the recording with the frames
 /// that are whole, says how many, and throws the error again.
 template <class Function>
-void keeping_frames(RecordingWriter& writer, const std::filesystem::path& folder,
-                    const Function& function) {
+void keeping_frames(RecordingWriter& writer, const Function& function) {
   try {
     function();
   } catch (const OutputError&) {
     try {
       if (const int frames = writer.finish_after_error(); frames > 0)
-        tell("the recording ends early; {} holds its first {} frames\n", folder.string(), frames);
+        tell("the recording ends early; {} holds its first {} frames\n", writer.place().string(),
+             frames);
     } catch (const OutputError& error) {
       tell("{}\n", error.what());
     }

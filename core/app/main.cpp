@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/standard_streams.hpp"
+#include "base/system_problem.hpp"
 #include "commands.hpp"
 #include "hypotrack/build_tag.hpp"
 #include "hypotrack/error.hpp"
@@ -79,13 +80,13 @@ int main(int argc, char** argv) {
     if (const int mistake = line.run(argc, argv); mistake != 0) return mistake;
     return close_output() ? exit_code : 1;
   } catch (const hypotrack::Error& e) {
-    tell("hypotrack: {}\n", e.what());
+    tell("hypotrack: {}\n", hypotrack::with_advice(e.what()));
   } catch (const std::bad_alloc&) {
     tell("hypotrack: out of memory\n");
   } catch (const std::system_error& e) {  // a full disk behind stdout
-    tell("hypotrack: {}\n", e.what());
+    tell("hypotrack: {}\n", hypotrack::described(e));
   } catch (const std::exception& e) {
-    tell("hypotrack: unexpected error: {}\n", e.what());
+    tell("hypotrack: unexpected error: {}\n", hypotrack::with_advice(e.what()));
   } catch (...) {
     tell(
         "hypotrack: unexpected error: a plugin threw something that is no "

@@ -64,11 +64,11 @@ void record_frames(Source& source, const RecordOptions& options, const Interrupt
   }
 }
 
-void finish(RecordingWriter& writer, const FrameCounts& counts, const Source& source,
-            const std::filesystem::path& out) {
-  keeping_frames(writer, out, [&] { writer.finish(); });
+void finish(RecordingWriter& writer, const FrameCounts& counts, const Source& source) {
+  keeping_frames(writer, [&] { writer.finish(); });
   for (const std::string& line : source.statistics()) fmt::print("{}\n", line);
-  fmt::print("{} frames ({} missing); recording in {}\n", counts.all, counts.missing, out.string());
+  fmt::print("{} frames ({} missing); recording in {}\n", counts.all, counts.missing,
+             writer.place().string());
 }
 
 int record(const RecordOptions& options, const CommonOptions& common) {
@@ -84,10 +84,9 @@ int record(const RecordOptions& options, const CommonOptions& common) {
   const InterruptGuard interrupt;
   FrameCounts counts;
   try {
-    keeping_frames(writer, options.out,
-                   [&] { record_frames(source, options, interrupt, writer, counts); });
+    keeping_frames(writer, [&] { record_frames(source, options, interrupt, writer, counts); });
   } catch (const DataError&) {  // the camera is gone
-    if (counts.all > counts.missing) finish(writer, counts, source, options.out);
+    if (counts.all > counts.missing) finish(writer, counts, source);
     throw;
   }
   if (counts.all == counts.missing) {
@@ -96,7 +95,7 @@ int record(const RecordOptions& options, const CommonOptions& common) {
     tell("hypotrack: interrupted before the first usable frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  finish(writer, counts, source, options.out);
+  finish(writer, counts, source);
   // Ctrl-C is the usual end of a camera's recording.
   const bool early = interrupt.interrupted() && (options.limited() || source.frame_count());
   if (!early) return 0;

@@ -120,7 +120,7 @@ int run(const RunCommand& command, const CommonOptions& common) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  print_summary(*result.summary, command.options.out);
+  print_summary(*result.summary, result.folder);
   if (result.complete) return 0;
   tell("hypotrack: interrupted; the files hold the frames so far\n");
   return kInterruptedExitCode;

@@ -40,7 +40,7 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     for (int done = 0; !options.frames || done < *options.frames; ++done) {
       const auto frame = session.source->next();
       if (!frame || interrupt.interrupted()) break;
-      keeping_frames(writer, options.out, [&] { writer.add(*frame); });
+      keeping_frames(writer, [&] { writer.add(*frame); });
       progress.advance({});
     }
   }
@@ -48,9 +48,9 @@ int synth(const SynthOptions& options, const CommonOptions& common) {
     tell("hypotrack: interrupted before the first frame; nothing was written\n");
     return kInterruptedExitCode;
   }
-  keeping_frames(writer, options.out, [&] { writer.finish(); });
+  keeping_frames(writer, [&] { writer.finish(); });
   fmt::print("{}", motion_text(writer.motion()));
-  fmt::print("recording in {}\n", options.out.string());
+  fmt::print("recording in {}\n", writer.place().string());
   if (!interrupt.interrupted()) return 0;
   tell("hypotrack: interrupted; the recording ends early\n");
   return kInterruptedExitCode;

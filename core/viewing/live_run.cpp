@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include "base/text_file.hpp"
@@ -39,7 +40,8 @@ class LiveRun::SnapshotOutput final : public Output {
 
 LiveRun::LiveRun(std::filesystem::path folder, std::function<void(const std::string&)> tell)
     : tell_(std::move(tell)),
-      recorder_(std::move(folder), [this](const std::string& text) { say(text); }) {}
+      place_(std::move(folder)),
+      recorder_([this](const std::string& text) { say(text); }) {}
 
 LiveRun::~LiveRun() = default;
 
@@ -54,6 +56,9 @@ RunAdditions LiveRun::additions() {
 
 void LiveRun::open(OutputContext& run) {
   run_ = &run;
+  folder_.emplace(place_);
+  recorder_.set_folder(*folder_);
+  // Here an error still may end the run: nothing is lost.
   for (const auto& viewer : viewers_) viewer->open(run.scene(), run.cameras());
 }
 
@@ -66,7 +71,7 @@ void LiveRun::close() {
 
 void LiveRun::begin(std::optional<int> frames) {
   tracking_ = true;
-  for (const auto& viewer : viewers_) viewer->begin(frames);
+  show([&](Viewer& viewer) { viewer.begin(frames); });
 }
 
 void LiveRun::end() {
@@ -86,7 +91,7 @@ void LiveRun::frame(const Frame& frame, const Solution& solution, double error) 
                        .fps = rate_.per_second(),
                        .views = shown_,
                        .stamp = frame.stamp};
-  for (const auto& viewer : viewers_) viewer->frame(live);
+  show([&](Viewer& viewer) { viewer.frame(live); });
   if (controls_.recording_wanted() && !recorder_.add(frame, solution)) controls_.cancel_recording();
   do_what_is_asked();
 }
@@ -106,13 +111,18 @@ bool LiveRun::wait_while_paused(const std::function<bool()>& interrupted) {
 void LiveRun::do_what_is_asked() {
   if (!controls_.recording_wanted()) recorder_.stop();
   set_status();
-  if (shown_ && controls_.take_snapshot()) write_snapshot();
+  if (!shown_ || !controls_.take_snapshot()) return;
+  try {
+    folder_->write_with([this] { write_snapshot(); });
+  } catch (const std::exception& e) {  // the run goes on
+    say(fmt::format("there is no snapshot: {}", e.what()));
+  }
 }
 
 void LiveRun::set_status() {
   const LiveStatus now{.paused = controls_.paused(), .recorded = recorder_.recorded()};
   if (now == std::exchange(status_, now)) return;
-  for (const auto& viewer : viewers_) viewer->set_status(now);
+  show([&](Viewer& viewer) { viewer.set_status(now); });
 }
 
 void LiveRun::write_snapshot() {
@@ -120,7 +130,8 @@ void LiveRun::write_snapshot() {
   if (!renderer_) renderer_ = std::make_unique<Renderer>(run_->scene());
   const std::vector<cv::Mat> views =
       draw_views(*renderer_, run_->scene(), *shown_, run_->cameras());
-  TextFile(run_->file(name + ".png")).write(png(joined(views, ViewLayout::row)));
+  const std::string picture = png(joined(views, ViewLayout::row));
+  TextFile(run_->file(name + ".png")).write(picture);
   std::vector<bool> known = shown_->hidden;
   known.flip();
   if (std::ranges::find(known, true) != known.end())
@@ -130,7 +141,20 @@ void LiveRun::write_snapshot() {
 
 void LiveRun::say(const std::string& text) {
   tell_(text);
-  for (const auto& viewer : viewers_) viewer->say(text);
+  show([&](Viewer& viewer) { viewer.say(text); });
+}
+
+/// Calls a function with every viewer. The run goes on without what one of them cannot show.
+template <class Function>
+void LiveRun::show(const Function& function) {
+  for (const auto& viewer : viewers_) {
+    try {
+      function(*viewer);
+    } catch (const std::exception& e) {
+      if (!std::exchange(told_of_error_, true))
+        tell_(fmt::format("note: the live view misses something: {}; the run goes on", e.what()));
+    }
+  }
 }
 
 }  // namespace hypotrack

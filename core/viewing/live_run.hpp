@@ -52,16 +52,21 @@ class LiveRun {
   void write_snapshot();
   void set_status();
   void say(const std::string& text);
+  template <class Function>
+  void show(const Function& function);
 
   RunControls controls_;
   std::function<void(const std::string&)> tell_;
+  std::filesystem::path place_;       ///< name of the folder of the results
+  std::optional<OpenFolder> folder_;  ///< the same, while there is a run
   Recorder recorder_;
   OutputContext* run_ = nullptr;        ///< while there is one
   std::unique_ptr<Renderer> renderer_;  ///< of snapshots; the run's draws in another thread
   std::shared_ptr<const ShownViews> shown_;
   FrameRate rate_;
   LiveStatus status_;
-  bool tracking_ = false;  ///< between begin() and end()
+  bool tracking_ = false;       ///< between begin() and end()
+  bool told_of_error_ = false;  ///< of a viewer
   std::vector<std::unique_ptr<Viewer>> viewers_;
 };
 

@@ -42,11 +42,11 @@ void Recorder::open(const OpenedScene& opened) {
 }
 
 void Recorder::start(const Solution& solution) {
-  recording_ = new_folder(folder_, solution.frame);
   writer_ = std::make_unique<RecordingWriter>(*scene_, cameras_, frame_rate_,
-                                              started_at(resolved_, *scene_, solution), recording_);
+                                              started_at(resolved_, *scene_, solution),
+                                              new_folder(folder_->path(), solution.frame));
   frames_ = 0;
-  say_(fmt::format("recording into {}", recording_.string()));
+  say_(folder_->shown(fmt::format("recording into {}", writer_->place().string())));
 }
 
 bool Recorder::add(const Frame& frame, const Solution& solution) {
@@ -66,8 +66,9 @@ void Recorder::stop() {
   if (!writer_) return;
   try {
     writer_->finish();
+    const std::string place = folder_->shown(writer_->place().string());
     writer_.reset();
-    say_(fmt::format("{} frames are recorded in {}", frames_, recording_.string()));
+    say_(fmt::format("{} frames are recorded in {}", frames_, place));
   } catch (const std::exception& e) {
     fail(e.what());
   }
@@ -75,7 +76,7 @@ void Recorder::stop() {
 
 void Recorder::fail(const std::string& why) {
   writer_.reset();
-  say_(fmt::format("nothing is recorded: {}", why));
+  say_(folder_->shown(fmt::format("nothing is recorded: {}", why)));
 }
 
 std::optional<int> Recorder::recorded() const {

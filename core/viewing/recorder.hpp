@@ -1,12 +1,12 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/open_folder.hpp"
 #include "hypotrack/frame.hpp"
 #include "hypotrack/solution.hpp"
 #include "output/recording_writer.hpp"
@@ -21,11 +21,13 @@ namespace hypotrack {
 class Recorder {
  public:
   /// `say` receives lines for the user.
-  Recorder(std::filesystem::path folder, std::function<void(const std::string&)> say)
-      : folder_(std::move(folder)), say_(std::move(say)) {}
+  explicit Recorder(std::function<void(const std::string&)> say) : say_(std::move(say)) {}
 
   /// Is called before the first frame. The scene must live until the last recording has ended.
   void open(const OpenedScene& opened);
+
+  /// Names the folder of the results, which must outlive the recordings.
+  void set_folder(const OpenFolder& folder) { folder_ = &folder; }
 
   /// Adds a frame; the first usable one starts a recording. Returns false if that failed.
   bool add(const Frame& frame, const Solution& solution);
@@ -38,14 +40,13 @@ class Recorder {
   void start(const Solution& solution);
   void fail(const std::string& why);
 
-  std::filesystem::path folder_;
+  const OpenFolder* folder_ = nullptr;
   std::function<void(const std::string&)> say_;
   const Scene* scene_ = nullptr;
   std::vector<Camera> cameras_;
   double frame_rate_ = 0;
   std::string resolved_;  ///< YAML of the scene
   std::unique_ptr<RecordingWriter> writer_;
-  std::filesystem::path recording_;  ///< folder of `writer_`
   int frames_ = 0;
 };
 

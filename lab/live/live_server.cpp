@@ -11,9 +11,11 @@
 #include <system_error>
 #include <thread>
 
+#include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
 #include "lab/live/http_server.hpp"
 #include "lab/live/page_files.hpp"
+#include "lab/live/request_queue.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -24,6 +26,7 @@ using httplib::Response;
 
 constexpr int kMostStreams = 16;  // that are open at once
 constexpr std::size_t kThreads = kMostStreams + 8;
+constexpr std::size_t kMostWaiting = 24;             // connections
 constexpr std::chrono::milliseconds kPatience{250};  // of one wait
 constexpr int kWaits = 16;                           // for a reader that takes nothing
 constexpr int kSendBuffer = 1 << 17;
@@ -112,6 +115,7 @@ struct LiveServer::Impl {
   Impl(AccessRules access, Parts served) : rules(std::move(access)), parts(served) {}
 
   void listen(int wanted);
+  void start_threads();
   void route();
   void route_streams();
   void route_commands();
@@ -124,11 +128,11 @@ struct LiveServer::Impl {
   int port = 0;
   std::atomic<int> streams = 0;
   HttpServer server;
+  std::unique_ptr<RequestQueue> queue;  ///< the server's first
   std::thread thread;
 };
 
 void LiveServer::Impl::listen(int wanted) {
-  server.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
   server.set_default_headers(safe_headers());
   // A port has one server: no SO_REUSEPORT, which httplib sets otherwise.
   server.set_socket_options([](socket_t socket) {
@@ -147,6 +151,20 @@ void LiveServer::Impl::listen(int wanted) {
         "--web {}: cannot listen on {} port {}: {}; give another port, or 0 for any that is free",
         wanted, rules.host, wanted,
         errno == 0 ? "no such host" : std::generic_category().message(errno)));
+}
+
+void LiveServer::Impl::start_threads() {
+  try {
+    queue = std::make_unique<RequestQueue>(kThreads, kMostWaiting);
+    server.new_task_queue = [this] {
+      return queue ? queue.release() : new RequestQueue(kThreads, kMostWaiting);
+    };
+    thread = std::thread(
+        [this] { server.serve([this] { return server.bind_to_port(rules.host, port); }); });
+  } catch (const std::system_error& error) {
+    throw ConfigError(fmt::format("--web: the page needs {} threads: {}; or run without --web",
+                                  kThreads + 1, described(error)));
+  }
 }
 
 bool LiveServer::Impl::refuse(const Request& request, Response& response) const {
@@ -256,7 +274,7 @@ LiveServer::LiveServer(const AccessRules& rules, int port, Parts parts)
   impl_->route_streams();
   impl_->route_commands();
   impl_->listen(port);
-  impl_->thread = std::thread([this] { impl_->server.listen_after_bind(); });
+  impl_->start_threads();
   while (!impl_->server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 

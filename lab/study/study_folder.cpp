@@ -82,12 +82,23 @@ bool StudyFolder::begun() const { return read_text(folder_ / kPlanFile) == plan_
 void StudyFolder::begin() const {
   make_folder(working());
   make_folder(folder_ / "runs");
+  open_ = std::make_shared<const OpenFolder>(folder_);
   const FileLock guard = lock();
   // Another study may have begun since the constructor looked.
   if (std::filesystem::exists(folder_ / kPlanFile)) check_same_study();
   write_whole(folder_ / kStudyFile, to_yaml(plan_->study));
   write_whole(folder_ / kPlanFile, plan_text(*plan_));
   remove_leftovers();
+}
+
+// Processes that make the runs open files by their paths, which another study may have now.
+void StudyFolder::expect_in_place() const {
+  if (!open_ || !open_->moved()) return;
+  open_->expect_exists();
+  throw OutputError(fmt::format(
+      "{0}: this folder was renamed to {1} while its study was made; start the study again with "
+      "--out {1}, and it goes on there",
+      folder_.string(), open_->place().string()));
 }
 
 /// Removes everything in the working folder that is not locked: its process has ended.
@@ -117,6 +128,7 @@ RunState StudyFolder::state(const PlannedRun& run) const {
 
 std::optional<RunFolder> StudyFolder::claim(const std::string& id,
                                             const std::filesystem::path& final) const {
+  expect_in_place();
   auto lock = FileLock::try_take(working() / (id + kLockSuffix));
   if (!lock) return std::nullopt;
   return std::optional<RunFolder>(std::in_place, *std::move(lock), working() / id, final);
@@ -136,6 +148,7 @@ std::optional<RunFolder> StudyFolder::claim_recording(const std::string& id) con
 }
 
 FileLock StudyFolder::lock() const {
+  expect_in_place();
   return FileLock::wait_for(working() / fmt::format("tables{}", kLockSuffix));
 }
 

@@ -2,11 +2,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/exported.hpp"
+#include "base/open_folder.hpp"
 #include "lab/study/plan.hpp"
 #include "lab/study/run_folder.hpp"
 
@@ -50,12 +52,15 @@ class StudyFolder {
 
  private:
   void check_same_study() const;
+  /// Throws OutputError if the folder was renamed or removed after begin().
+  void expect_in_place() const;
   std::optional<RunFolder> claim(const std::string& id, const std::filesystem::path& final) const;
   void remove_leftovers() const;
   std::filesystem::path working() const { return folder_ / ".working"; }
 
   std::filesystem::path folder_;
   const Plan* plan_;
+  mutable std::shared_ptr<const OpenFolder> open_;  ///< after begin()
 };
 
 }  // namespace internal

@@ -23,27 +23,30 @@ PairFolder::PairFolder(std::filesystem::path folder) : folder_(std::move(folder)
         fmt::format("{}: is not empty; name another folder for the pairs with --pairs, or remove "
                     "this one. Pairs in it are calibrated with --left '{}' --right '{}'",
                     folder_.string(), pattern("left"), pattern("right")));
+  open_.emplace(folder_);
 }
 
 PairFolder::~PairFolder() {
   std::error_code ignored;
-  if (pairs_ == 0) std::filesystem::remove(folder_, ignored);
+  if (pairs_ == 0 && open_ && open_->exists()) std::filesystem::remove(path(), ignored);
 }
 
 std::filesystem::path PairFolder::file(const std::string& side, int number) const {
-  return folder_ / fmt::format("{}_{:02}.png", side, number);
+  return open_->path() / fmt::format("{}_{:02}.png", side, number);
 }
 
 std::string PairFolder::write(const cv::Mat& left, const cv::Mat& right) {
   const std::filesystem::path first = file("left", pairs_ + 1);
-  write_picture(first, left);
-  try {
-    write_picture(file("right", pairs_ + 1), right);
-  } catch (const OutputError&) {
-    std::error_code ignored;
-    std::filesystem::remove(first, ignored);
-    throw;
-  }
+  open_->write_with([&] {
+    write_picture(first, left);
+    try {
+      write_picture(file("right", pairs_ + 1), right);
+    } catch (const OutputError&) {
+      std::error_code ignored;
+      std::filesystem::remove(first, ignored);
+      throw;
+    }
+  });
   ++pairs_;
   return first.filename().string();
 }
@@ -55,7 +58,7 @@ void PairFolder::discard() {
 }
 
 std::string PairFolder::pattern(const std::string& side) const {
-  return (folder_ / (side + "_*.png")).string();
+  return (path() / (side + "_*.png")).string();
 }
 
 }  // namespace hypotrack::app

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
+
+#include "base/open_folder.hpp"
 
 namespace hypotrack::app {
 
@@ -23,12 +26,14 @@ class PairFolder {
   /// Returns the pattern of the `left` or `right` pictures.
   std::string pattern(const std::string& side) const;
   bool empty() const { return pairs_ == 0; }
-  const std::filesystem::path& path() const { return folder_; }
+  /// Returns where the folder is, also after somebody has renamed it.
+  std::filesystem::path path() const { return open_ ? open_->place() : folder_; }
 
  private:
   std::filesystem::path file(const std::string& side, int number) const;
 
   std::filesystem::path folder_;
+  std::optional<OpenFolder> open_;
   int pairs_ = 0;
 };
 

@@ -24,7 +24,7 @@ class Descriptor {
  public:
   /// Takes over a descriptor and changes its number. Throws std::system_error.
   explicit Descriptor(int opened) : value_(fcntl(opened, F_DUPFD_CLOEXEC, 16)) {
-    const int error = errno;
+    const int error = errno == EINVAL ? EMFILE : errno;  // 16 is beyond the limit
     ::close(opened);
     if (value_ < 0) throw_system_error(error, "cannot duplicate a file descriptor");
   }

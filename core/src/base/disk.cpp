@@ -1,11 +1,15 @@
 #include "hypotrack/disk.hpp"
 
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+
+#include "base/system_problem.hpp"
 
 namespace hypotrack {
 
@@ -21,7 +25,11 @@ std::string why_not_written(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   const bool too_large = !error && getrlimit(RLIMIT_FSIZE, &limit) == 0 && size >= limit.rlim_cur;
-  return too_large ? std::strerror(EFBIG) : "";
+  if (too_large) return std::strerror(EFBIG);
+  const int opened = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+  if (opened < 0 && is_shortage(errno)) return described(errno);
+  if (opened >= 0) ::close(opened);
+  return {};
 }
 
 }  // namespace hypotrack

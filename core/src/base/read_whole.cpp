@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -9,7 +10,13 @@ namespace hypotrack {
 std::optional<std::string> read_whole(const std::filesystem::path& file) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> in(std::fopen(file.c_str(), "rb"),
                                                            &std::fclose);
-  if (!in) return std::nullopt;
+  if (!in) {
+    const int problem = errno;
+    if (problem == EMFILE || problem == ENFILE || problem == ENOMEM)
+      throw std::system_error(problem, std::generic_category(),
+                              file.string() + ": cannot be opened");
+    return std::nullopt;
+  }
   std::string bytes;
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack {
@@ -45,9 +46,10 @@ TextFile::TextFile(std::filesystem::path path) : path_(std::move(path)) {
   constexpr mode_t kMode = 0666;  // less what umask takes
   descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, kMode);
   if (descriptor_ < 0)
-    throw OutputError(
-        fmt::format("{}: cannot be opened for writing: {}; name another folder with --out",
-                    path_.string(), std::strerror(errno)));
+    throw OutputError(fmt::format("{}: cannot be opened for writing: {}", path_.string(),
+                                  is_shortage(errno) ? described(errno)
+                                                     : std::string(std::strerror(errno)) +
+                                                           "; name another folder with --out"));
 }
 
 TextFile::TextFile(TextFile&& other) noexcept
@@ -99,8 +101,9 @@ void write_whole(const std::filesystem::path& file, std::string_view text) {
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (is_character_file(status) || is_fifo(status)) return write_into(file, text);
   // Keeps a link: the file that it names is replaced.
-  std::filesystem::path target = std::filesystem::canonical(file, error);
-  if (error) target = file;
+  const bool is_link = std::filesystem::is_symlink(std::filesystem::symlink_status(file, error));
+  std::filesystem::path target = is_link ? std::filesystem::canonical(file, error) : file;
+  if (target.empty()) target = file;
   const std::filesystem::path partial = target.string() + fmt::format(".{}.partial", ::getpid());
   errno = 0;
   std::ofstream out(partial, std::ios::binary);

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gl/driver_threads.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::gl::internal {
@@ -190,6 +191,7 @@ Context::Context() {
   if (!epoxy_has_egl()) {
     throw DeviceError("no OpenGL context: libEGL.so.1 cannot be opened; " + advice);
   }
+  expect_driver_threads();
   const KeepCurrent keep;
   std::string tried;
   for (const Candidate& candidate : find_candidates()) {

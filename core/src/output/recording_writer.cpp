@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <system_error>
 #include <utility>
 
 #include "base/text_file.hpp"
@@ -39,30 +38,11 @@ RecordingWriter::RecordingWriter(const Scene& scene, std::vector<Camera> cameras
       cameras_(std::move(cameras)),
       frame_rate_(frame_rate),
       scene_yaml_(std::move(scene_yaml)),
-      directory_(std::filesystem::absolute(std::move(directory)).lexically_normal()),
-      format_(format) {
-  if (!directory_.has_filename()) directory_ = directory_.parent_path();
+      format_(format),
+      folder_(std::move(directory)) {
   if (cameras_.empty() || cameras_.size() > 2)
     throw DataError(
         fmt::format("a recording has one or two cameras, this source has {}", cameras_.size()));
-  std::error_code error;
-  if (std::filesystem::exists(directory_, error) &&
-      !(std::filesystem::is_directory(directory_) && std::filesystem::is_empty(directory_)))
-    throw OutputError(
-        fmt::format("{}: exists already; name a new folder with --out, or remove this one",
-                    directory_.string()));
-  part_ = directory_.parent_path() / (".part." + directory_.filename().string());
-  std::filesystem::remove_all(part_, error);
-  std::filesystem::create_directories(part_, error);
-  if (error)
-    throw OutputError(fmt::format("{}: the folder cannot be made: {}; name another with --out",
-                                  directory_.string(), error.message()));
-}
-
-RecordingWriter::~RecordingWriter() {
-  images_.reset();  // writes into the folder
-  std::error_code ignored;
-  if (!part_.empty()) std::filesystem::remove_all(part_, ignored);
 }
 
 void RecordingWriter::write_image(const std::string& name, int index, cv::Mat image,
@@ -72,7 +52,7 @@ void RecordingWriter::write_image(const std::string& name, int index, cv::Mat im
   last_image_ = index;
   if (frames_.empty() || frames_.back().first != index) frames_.push_back({index, {}});
   std::vector<std::filesystem::path>& files = frames_.back().second;
-  files.push_back(part_ / fmt::format("{}_{:06}{}", name, index, extension));
+  files.push_back(folder_.file(fmt::format("{}_{:06}{}", name, index, extension)));
   images_->write(files.back(), std::move(image));
 }
 
@@ -109,11 +89,11 @@ int RecordingWriter::finish_where_it_fits() {
       break;
     } catch (const OutputError&) {
       // Tables and scene need room, too.
-      if (frames_.size() > 1 && !why_not_written(part_ / "scene.yaml").empty()) {
+      if (frames_.size() > 1 && !why_not_written(folder_.file("scene.yaml")).empty()) {
         for (std::size_t drop = frames_.size() / 10 + 1; drop > 0; --drop) drop_last();
         continue;
       }
-      part_.clear();  // leaves the images where they are
+      folder_.keep();
       throw;
     }
   }
@@ -156,14 +136,14 @@ void RecordingWriter::write_times() const {
     text += fmt::format("{},{}\n", i,
                         stamped_ ? stamp_text(stamps_[at]) : fmt::format("{:.9f}", times_[at]));
   }
-  TextFile(part_ / "times.csv").write(text);
+  TextFile(folder_.file("times.csv")).write(text);
 }
 
 void RecordingWriter::copy_start(const InitSettings& init) {
-  init_yaml_ = copy_start_files(init, part_);
+  folder_.write_with([&] { init_yaml_ = copy_start_files(init, folder_.file()); });
 }
 
-void RecordingWriter::add(const Frame& frame) {
+void RecordingWriter::add_pictures(const Frame& frame) {
   note_time(frame);
   for (std::size_t i = 0; i < frame.views.size(); ++i) {
     const View& view = frame.views[i];
@@ -175,6 +155,10 @@ void RecordingWriter::add(const Frame& frame) {
       write_image(side + "_depth", frame.index, stored_depth(view.depth));
     }
   }
+}
+
+void RecordingWriter::add(const Frame& frame) {
+  folder_.write_with([&] { add_pictures(frame); });
   if (!frame.truth) return;
   if (frame.truth->state.size() > 0) {
     states_.push_back({frame.index, frame.time, frame.truth->state});
@@ -192,11 +176,11 @@ std::vector<ModelSpeeds> RecordingWriter::motion() const {
 
 void RecordingWriter::write_truth() const {
   if (!states_.empty()) {
-    write_states(part_ / "truth_states.csv", *scene_, states_);
-    write_whole(part_ / "motion.json", motion_json(motion()));
+    write_states(folder_.file("truth_states.csv"), *scene_, states_);
+    write_whole(folder_.file("motion.json"), motion_json(motion()));
   }
   if (!landmarks_.empty())
-    write_landmarks(part_ / "truth_landmarks.csv", scene_->landmark_names(), landmarks_);
+    write_landmarks(folder_.file("truth_landmarks.csv"), scene_->landmark_names(), landmarks_);
 }
 
 void RecordingWriter::write_scene() const {
@@ -227,23 +211,19 @@ void RecordingWriter::write_scene() const {
   detail::YamlDocument scene(scene_yaml_);
   scene.set("source", source);
   if (!init_yaml_.empty()) scene.set("init", detail::YamlDocument(init_yaml_));
-  TextFile(part_ / "scene.yaml").write(scene.text());
+  TextFile(folder_.file("scene.yaml")).write(scene.text());
 }
 
 void RecordingWriter::finish() {
   if (first_ < 0) throw OutputError("the source gave no frame; there is nothing to record");
-  images_->wait();
-  TextFile(part_ / "calibration.yaml").write(calibration_yaml(cameras_));
-  TextFile(part_ / "source.yaml").write(scene_yaml_);
-  write_truth();
-  write_scene();
-  std::error_code error;
-  std::filesystem::remove(directory_, error);  // an empty folder of that name
-  std::filesystem::rename(part_, directory_, error);
-  if (error)
-    throw OutputError(
-        fmt::format("{}: the folder cannot be made: {}", directory_.string(), error.message()));
-  part_.clear();
+  folder_.write_with([this] {
+    images_->wait();
+    TextFile(folder_.file("calibration.yaml")).write(calibration_yaml(cameras_));
+    TextFile(folder_.file("source.yaml")).write(scene_yaml_);
+    write_truth();
+    write_scene();
+  });
+  folder_.finish();
 }
 
 }  // namespace hypotrack::internal

@@ -14,6 +14,7 @@
 #include "hypotrack/tables.hpp"
 #include "output/image_writer.hpp"
 #include "output/metrics/motion_speeds.hpp"
+#include "output/recording_folder.hpp"
 #include "session/scene_file.hpp"
 
 namespace hypotrack {
@@ -38,7 +39,6 @@ class RecordingWriter {
   RecordingWriter(const Scene& scene, std::vector<Camera> cameras, double frame_rate,
                   std::string scene_yaml, std::filesystem::path directory,
                   PictureFormat format = PictureFormat::png);
-  ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
@@ -56,6 +56,9 @@ class RecordingWriter {
   /// OutputError, and leaves the images in the unfinished folder then.
   int finish_after_error();
   bool empty() const { return first_ < 0; }
+  /// Returns where the complete folder is or will be: another place than wanted if the folder above
+  /// it was renamed.
+  std::filesystem::path place() const { return folder_.place(); }
   /// Returns the true speeds so far (motion.json), over frames with all models; empty if unknown.
   std::vector<ModelSpeeds> motion() const;
 
@@ -66,6 +69,7 @@ class RecordingWriter {
   void drop_last();
   void write_image(const std::string& name, int index, cv::Mat image,
                    const char* extension = ".png");
+  void add_pictures(const Frame& frame);
   void note_time(const Frame& frame);
   bool evenly_spaced() const;
   void write_times() const;
@@ -77,9 +81,8 @@ class RecordingWriter {
   double frame_rate_;
   std::string scene_yaml_;
   std::string init_yaml_;  ///< start of scene.yaml; empty: as in `scene_yaml_`
-  std::filesystem::path directory_;
   PictureFormat format_;
-  std::filesystem::path part_;  ///< folder under construction; removed if never finished
+  RecordingFolder folder_;
   /// Frames with images, and the files of each.
   std::vector<std::pair<int, std::vector<std::filesystem::path>>> frames_;
   std::vector<StateRow> states_;
@@ -90,10 +93,10 @@ class RecordingWriter {
   int last_ = -1;
   int first_image_ = -1;
   int last_image_ = -1;
-  std::vector<double> times_;         ///< of the frames from first_ to last_
-  std::vector<std::int64_t> stamps_;  ///< of the same frames
-  bool stamped_ = true;               ///< all have Frame::stamp, and it grows
-  std::optional<ImageWriter> images_{std::in_place};
+  std::vector<double> times_;                         ///< of the frames from first_ to last_
+  std::vector<std::int64_t> stamps_;                  ///< of the same frames
+  bool stamped_ = true;                               ///< all have Frame::stamp, and it grows
+  std::optional<ImageWriter> images_{std::in_place};  ///< ends before the folder
 };
 
 /// Returns a calibration in the project's own form (calibration.hpp, form 3). load_calibration()

@@ -1,12 +1,9 @@
 #include "output/run_directory.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <system_error>
 
 #include "hypotrack/error.hpp"
@@ -47,36 +44,38 @@ bool is_result(std::string_view name, std::string_view result) {
 }
 
 RunDirectory::RunDirectory(std::filesystem::path directory, std::vector<std::string> results)
-    : directory_(std::move(directory)),
-      previous_(directory_ / ".previous"),
-      moving_(directory_ / ".previous.moving"),
-      results_(std::move(results)) {
+    : given_(std::move(directory)), results_(std::move(results)) {
+  open();
+  folder_->write_with([&] {
+    // Check this now: found at the end, it would cost the whole run.
+    for (const std::string& name : results_in(directory_))
+      if (std::filesystem::is_directory(directory_ / name))
+        throw OutputError(fmt::format(
+            "{}: is a folder, and a result of the run has this name; move it away or name "
+            "another output folder with --out",
+            (directory_ / name).string()));
+    spare_foreign_files();
+    lock();
+    set_aside();
+  });
+}
+
+void RunDirectory::open() {
   std::error_code error;
-  made_ = std::filesystem::create_directories(directory_, error);
-  if (error || !std::filesystem::is_directory(directory_))
+  made_ = std::filesystem::create_directories(given_, error);
+  if (error || !std::filesystem::is_directory(given_))
     throw OutputError(
         fmt::format("{}: the output folder cannot be made ({}); name another with --out",
-                    directory_.string(), error ? error.message() : "there is a file of that name"));
-  if (access(directory_.c_str(), W_OK | X_OK) != 0)
+                    given_.string(), error ? error.message() : "there is a file of that name"));
+  if (access(given_.c_str(), W_OK | X_OK) != 0)
     throw OutputError(fmt::format(
         "{}: the output folder cannot be written; change its permissions or name another with "
         "--out",
-        directory_.string()));
-  // Check this now: found at the end, it would cost the whole run.
-  for (const std::string& name : results_in(directory_))
-    if (std::filesystem::is_directory(directory_ / name))
-      throw OutputError(fmt::format(
-          "{}: is a folder, and a result of the run has this name; move it away or name "
-          "another output folder with --out",
-          (directory_ / name).string()));
-  spare_foreign_files();
-  lock();
-  try {
-    set_aside();
-  } catch (...) {
-    if (descriptor_ >= 0) close(descriptor_);
-    throw;
-  }
+        given_.string()));
+  folder_.emplace(given_);
+  directory_ = folder_->path();
+  previous_ = directory_ / ".previous";
+  moving_ = directory_ / ".previous.moving";
 }
 
 void RunDirectory::spare_foreign_files() const {
@@ -98,9 +97,9 @@ RunDirectory::~RunDirectory() {
       put_back();
     } catch (const OutputError&) {  // the next run does it
     }
-    if (made_) std::filesystem::remove(directory_, ignored);  // succeeds only if it is empty
+    // Succeeds only if it is empty.
+    if (made_ && folder_->exists()) std::filesystem::remove(folder_->place(), ignored);
   }
-  if (descriptor_ >= 0) close(descriptor_);
 }
 
 void RunDirectory::move_all(const std::filesystem::path& from, const std::filesystem::path& to,
@@ -157,11 +156,8 @@ void RunDirectory::put_back_moved() {
   std::filesystem::remove(moving_, ignored);
 }
 
-void RunDirectory::lock() {
-  descriptor_ = open(directory_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  // Without support for locks, go on.
-  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(descriptor_);
+void RunDirectory::lock() const {
+  if (folder_->lock()) return;
   throw OutputError(fmt::format(
       "{}: another run is writing its results there; name another folder with --out, or wait for "
       "its end",
@@ -192,6 +188,7 @@ std::filesystem::path RunDirectory::file(const std::string& name) {
 
 void RunDirectory::finish() {
   keep_ = true;
+  folder_->expect_exists();
   for (const std::string& name : names_)
     if (!std::filesystem::exists(path_of(name)))
       throw OutputError(fmt::format("{}: was never written, so the run counts as unfinished",

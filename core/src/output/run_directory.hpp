@@ -3,11 +3,13 @@
 #include <atomic>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/exported.hpp"
+#include "base/open_folder.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
@@ -24,7 +26,8 @@ void expect_finished_run(const std::filesystem::path& folder);
 
 /// The folder of a run's results. Files have their names from the start and may be read while they
 /// grow. The last result appears when all others are complete: with it, a run is finished. Results
-/// of an earlier run are kept in the folder `.previous` until then.
+/// of an earlier run are kept in the folder `.previous` until then. The folder may be renamed while
+/// the run goes on.
 class RunDirectory {
  public:
   /// Makes the folder if needed, sets the results of an earlier run aside, and removes those of a
@@ -39,19 +42,22 @@ class RunDirectory {
   RunDirectory(const RunDirectory&) = delete;
   RunDirectory& operator=(const RunDirectory&) = delete;
 
-  const std::filesystem::path& path() const { return directory_; }
+  const OpenFolder& folder() const { return *folder_; }
 
-  /// Returns the path at which to write the file `name`, the same for every call. May be called
-  /// from several threads.
+  /// Returns the path at which to write the file `name`, the same for every call. It is for this
+  /// process; messages show OpenFolder::shown() of it. May be called from several threads.
   std::filesystem::path file(const std::string& name);
 
   /// Keeps the files from now on, whatever happens.
   void keep() { keep_ = true; }
 
-  /// Gives the last result its name and removes the results of the earlier run. Throws OutputError.
+  /// Gives the last result its name and removes the results of the earlier run. Throws OutputError,
+  /// also if the folder was removed.
   void finish();
 
  private:
+  /// Makes and opens the folder. Throws OutputError.
+  void open();
   std::filesystem::path path_of(const std::string& name) const;
   /// Returns the names of results in a folder.
   std::vector<std::string> results_in(const std::filesystem::path& folder) const;
@@ -59,7 +65,7 @@ class RunDirectory {
   /// the truth of a recording.
   void spare_foreign_files() const;
   /// Locks the folder for the life of the object. Throws OutputError if another run holds the lock.
-  void lock();
+  void lock() const;
   /// Moves the results in the folder to `.previous`.
   void set_aside();
   /// Moves what set_aside() moved back.
@@ -69,15 +75,16 @@ class RunDirectory {
   static void move_all(const std::filesystem::path& from, const std::filesystem::path& to,
                        const std::vector<std::string>& names);
 
-  std::filesystem::path directory_;
-  std::filesystem::path previous_;  ///< results of the earlier run
-  std::filesystem::path moving_;    ///< the same, while they are moved
+  std::filesystem::path given_;       ///< name of the folder
+  std::optional<OpenFolder> folder_;  ///< is there after open()
+  std::filesystem::path directory_;   ///< path of the open folder
+  std::filesystem::path previous_;    ///< results of the earlier run
+  std::filesystem::path moving_;      ///< the same, while they are moved
   std::vector<std::string> results_;
   std::mutex mutex_;                ///< guards the names
   std::vector<std::string> names_;  ///< of the files of this run
   bool made_ = false;
   std::atomic<bool> keep_ = false;
-  int descriptor_ = -1;  ///< file descriptor of the locked folder
 };
 
 }  // namespace internal

@@ -197,6 +197,10 @@ RunOutput::RunOutput(const Scene& scene, std::vector<Camera> cameras, Options op
       outputs_(with_metrics(metrics_, std::move(outputs))),
       columns_(own_columns(outputs_)),
       directory_(options_.directory, result_names(outputs_)) {
+  directory_.folder().write_with([&] { begin(); });
+}
+
+void RunOutput::begin() {
   TextFile(directory_.file(kProtocol)).write(options_.resolved);
   try {
     for (const NamedOutput& output : outputs_) {
@@ -232,31 +236,40 @@ bool RunOutput::want_search(const Frame& frame) const {
   });
 }
 
+template <class Function>
+void RunOutput::for_outputs(Outputs which, const Function& function) {
+  directory_.keep();
+  const OpenFolder& folder = directory_.folder();
+  folder.expect_exists();  // rather than track on for nothing
+  folder.write_with([&] {
+    for (std::size_t i = 0; i < outputs_.size(); ++i)
+      if (is_meant(i, which)) function(*outputs_[i].output);
+  });
+}
+
 void RunOutput::add_search(const Frame& frame, const Solution& solution, const SearchRecord& record,
                            Outputs which) {
-  directory_.keep();
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    Output& output = *outputs_[i].output;
-    if (is_meant(i, which) && output.wants_search(frame)) output.search(frame, solution, record);
-  }
+  for_outputs(which, [&](Output& output) {
+    if (output.wants_search(frame)) output.search(frame, solution, record);
+  });
+}
+
+void RunOutput::add_trace(int frame, const FrameTrace& trace) {
+  directory_.folder().write_with([&] { metrics_->trace(frame, trace); });
 }
 
 void RunOutput::add_online(const Frame& frame, const Solution& solution, Outputs which) {
-  directory_.keep();
-  for (std::size_t i = 0; i < outputs_.size(); ++i)
-    if (is_meant(i, which)) outputs_[i].output->online(frame, solution);
+  for_outputs(which, [&](Output& output) { output.online(frame, solution); });
 }
 
 void RunOutput::add(const Frame& frame, const Solution& solution, Outputs which) {
   if (options_.worst_frames > 0 && !options_.fixed_lag && !drawing_renderer_ &&
       true_landmarks(*scene_, frame))
     renderer(false);  // without OpenGL, fail now and not at the end
-  directory_.keep();
-  for (std::size_t i = 0; i < outputs_.size(); ++i) {
-    if (!is_meant(i, which)) continue;
-    if (!options_.fixed_lag) outputs_[i].output->online(frame, solution);
-    outputs_[i].output->frame(frame, solution);
-  }
+  for_outputs(which, [&](Output& output) {
+    if (!options_.fixed_lag) output.online(frame, solution);
+    output.frame(frame, solution);
+  });
   if (which != Outputs::drawing) ++frames_;
 }
 
@@ -265,13 +278,13 @@ Summary RunOutput::finish(bool complete, const ClockTimes& clock) {
   std::exception_ptr first_error;
   for (auto output = outputs_.rbegin(); output != outputs_.rend(); ++output) {  // the summary last
     try {
-      output->output->finish(complete);
+      directory_.folder().write_with([&] { output->output->finish(complete); });
     } catch (...) {  // the others' files are to be whole
       if (!first_error) first_error = std::current_exception();
     }
   }
   if (first_error) std::rethrow_exception(first_error);
-  directory_.finish();
+  directory_.folder().write_with([&] { directory_.finish(); });
   return metrics_->summary();
 }
 

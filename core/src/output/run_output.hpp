@@ -59,7 +59,7 @@ class RunOutput {
                   Outputs which = Outputs::all);
 
   /// Adds how the searches of a frame converged, before its solution.
-  void add_trace(int frame, const FrameTrace& trace) { metrics_->trace(frame, trace); }
+  void add_trace(int frame, const FrameTrace& trace);
 
   /// Adds the unsmoothed solution of a frame. Call it with fixed-lag smoothing only.
   void add_online(const Frame& frame, const Solution& solution, Outputs which = Outputs::all);
@@ -75,10 +75,15 @@ class RunOutput {
   Summary finish(bool complete, const ClockTimes& clock = {});
 
   bool empty() const { return frames_ == 0; }
+  /// Returns the folder of the results.
+  const OpenFolder& folder() const { return directory_.folder(); }
 
  private:
   class Context;
 
+  void begin();
+  template <class Function>
+  void for_outputs(Outputs which, const Function& function);
   Renderer& renderer(bool of_drawing_outputs);
   bool is_meant(std::size_t output, Outputs which) const;
 

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "base/subprocess.hpp"
+#include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/suggest.hpp"
 #include "plugin/capabilities.hpp"
@@ -33,6 +34,7 @@ Captured probe_library(const std::filesystem::path& library, std::chrono::millis
   try {
     return capture_output({program, {library.string()}}, {detail::kProbeDescriptor}, {limit});
   } catch (const std::system_error& error) {
+    if (is_shortage(error.code().value())) throw PluginError(described(error));
     throw PluginError(fmt::format(
         "{}; it is part of hypotrack, so build or install that completely", error.what()));
   }

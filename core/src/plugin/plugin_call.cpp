@@ -10,6 +10,7 @@
 #include <system_error>
 #include <typeinfo>
 
+#include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
 #include "hypotrack/stop.hpp"
 #include "plugin/folders.hpp"
@@ -63,6 +64,8 @@ void rethrow_from(const std::string& who) {
     throw Error(message(e));
   } catch (const std::bad_alloc&) {
     throw Error(who + ": ran out of memory");
+  } catch (const std::system_error& e) {
+    throw Error(fmt::format("{}: {}", who, described(e)));
   } catch (const std::exception& e) {
     throw PluginError(fmt::format("{}: threw {}: {}", who, current_exception_name(), e.what()));
   } catch (...) {

@@ -11,7 +11,6 @@ Results::Results(OpenedScene& scene, std::unique_ptr<FixedLagSmoother> smoother,
                  const std::string& backend, const std::filesystem::path& folder,
                  RunWatcher& watcher)
     : watcher_(watcher),
-      folder_(folder),
       backend_(backend),
       smooths_(smoother != nullptr),
       traces_(scene.output.trace),
@@ -35,7 +34,11 @@ void Results::add_device_error(const std::string& error) {
 std::optional<Summary> Results::finish(bool complete, const ClockTimes& clock) {
   if (output_.empty()) return std::nullopt;
   try {
-    return output_.finish(complete, clock);
+    Summary summary = output_.finish(complete, clock);
+    if (output_.folder().moved())
+      watcher_.say(fmt::format("note: the folder of the results was renamed: it is {} now",
+                               folder().string()));
+    return summary;
   } catch (...) {
     tell_of_frames();
     throw;
@@ -43,9 +46,9 @@ std::optional<Summary> Results::finish(bool complete, const ClockTimes& clock) {
 }
 
 void Results::tell_of_frames() {
-  if (output_.empty()) return;
+  if (output_.empty() || !output_.folder().exists()) return;
   watcher_.say(
-      fmt::format("the frames so far are in {}; the run counts as unfinished", folder_.string()));
+      fmt::format("the frames so far are in {}; the run counts as unfinished", folder().string()));
 }
 
 void Results::finish_after_error(const ClockTimes& clock) {
@@ -54,7 +57,7 @@ void Results::finish_after_error(const ClockTimes& clock) {
     queue_.settle();
     if (output_.empty()) return;
     output_.finish(false, clock);
-    watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder_.string()));
+    watcher_.say(fmt::format("the run ends early; {} holds the frames so far", folder().string()));
   } catch (const std::exception& e) {
     watcher_.say(e.what());
   }

@@ -49,7 +49,8 @@ class Results {
   bool traces() const { return traces_; }
   /// Returns true if frames are smoothed before they are written.
   bool smooths() const { return smooths_; }
-  const std::filesystem::path& folder() const { return folder_; }
+  /// Returns the name that the folder has now.
+  std::filesystem::path folder() const { return output_.folder().place(); }
   /// Returns how long the outputs have worked, in seconds.
   double writing_seconds() const { return queue_.seconds(); }
 
@@ -64,7 +65,6 @@ class Results {
 
  private:
   RunWatcher& watcher_;
-  std::filesystem::path folder_;
   std::string backend_;
   bool smooths_;
   bool traces_;

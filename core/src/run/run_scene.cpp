@@ -244,7 +244,10 @@ RunResult run_scene(const std::filesystem::path& scene, std::span<const std::str
     say_statistics(*opened.source, watcher);
     throw;
   }
-  if (results) result.summary = results->finish(result.complete, times());
+  if (results) {
+    result.summary = results->finish(result.complete, times());
+    result.folder = results->folder();
+  }
   notes.finish();
   return result;
 }

@@ -20,6 +20,7 @@ inline namespace HYPOTRACK_EXPORTED internal {
 struct RunResult {
   bool complete = false;           ///< false if the watcher ended it
   std::optional<Summary> summary;  ///< nothing if no files were written
+  std::filesystem::path folder;    ///< of the files: another than wanted if it was renamed
 };
 
 /// What a program adds to a run. Everything may be left as it is.

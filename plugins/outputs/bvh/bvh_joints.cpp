@@ -48,6 +48,9 @@ std::vector<Joint> joints_of(const Scene::Item& item) {
     joint.slides = std::ranges::any_of(data.motions, [&](const BoneMotion& motion) {
       return motion.kind == MotionKind::translation && motion.bone == static_cast<int>(i);
     });
+    // The positions of a sliding joint are whole, as Blender and assimp read them. Other programs,
+    // such as three.js, add the offset.
+    if (joint.slides) joint.offset.setZero();
     joints.push_back(std::move(joint));
   }
   return joints;

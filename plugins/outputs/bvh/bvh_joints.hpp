@@ -13,7 +13,7 @@ namespace hypotrack::bvh {
 struct Joint {
   std::string name;
   int parent = -1;                                   ///< index of an earlier joint; -1: the root
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent at rest, metres
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< from the parent at rest, metres; 0: slides
   Eigen::Vector3d end = Eigen::Vector3d::Zero();     ///< from here to the end site of a leaf
   Eigen::Matrix3d model_from_bone = Eigen::Matrix3d::Identity();  ///< rotation at the bind pose
   bool slides = false;  ///< a parameter moves it along an axis

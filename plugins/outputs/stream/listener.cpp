@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/local/stream_protocol.hpp>
@@ -80,16 +82,31 @@ Listener::Listener(asio::io_context& io, const Address& address) : acceptor_(io)
   acceptor_.open(endpoint.protocol(), error);
   if (!error && !local) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
   if (!error) acceptor_.bind(endpoint, error);
-  if (!error && local) file_ = address.socket;
+  if (!error && local) note_file(address.socket);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
   if (error)
     throw OutputError(fmt::format("{}: cannot listen at {}: {}; {}", address.where, address.text(),
                                   error.message(), advice(address, error)));
 }
 
-Listener::~Listener() {
-  std::error_code ignored;
-  if (!file_.empty()) std::filesystem::remove(file_, ignored);
+Listener::~Listener() { remove_file(); }
+
+void Listener::note_file(const std::filesystem::path& file) {
+  struct stat made {};
+  if (::lstat(file.c_str(), &made) != 0) return;
+  file_ = file;
+  device_ = made.st_dev;
+  inode_ = made.st_ino;
+}
+
+/// Must come before the acceptor closes: until then its inode is not used again, and other programs
+/// do not take the file for one that a crash has left.
+void Listener::remove_file() {
+  struct stat there {};
+  const bool own = !file_.empty() && ::lstat(file_.c_str(), &there) == 0 &&
+                   there.st_dev == device_ && there.st_ino == inode_;
+  if (own) ::unlink(file_.c_str());
+  file_.clear();
 }
 
 void Listener::accept(std::function<void(Socket)> take) {
@@ -113,6 +130,7 @@ void Listener::accept_next() {
 }
 
 void Listener::close() {
+  remove_file();
   Error ignored;
   acceptor_.close(ignored);
   pause_.cancel();

@@ -130,9 +130,12 @@ class LiveCamera final : public Source {
     std::string text = fmt::format("camera: {} pairs", pairs_);
     if (pairs_ > 1) text += fmt::format(" at {:.1f} per second", pair_rate());
     if (!offsets_.empty()) {
-      text += fmt::format("; offset of their pictures: median {:.1f} ms, largest {:.1f} ms",
+      text += fmt::format("; offset of their pictures: median {:.1f} ms, largest {:.1f} ms{}",
                           1e-6 * static_cast<double>(upper_median(offsets_)),
-                          1e-6 * static_cast<double>(std::ranges::max(offsets_)));
+                          1e-6 * static_cast<double>(std::ranges::max(offsets_)),
+                          by_arrival_ ? ", by their arrival: a stream does not say when it took "
+                                        "them, so that they may be farther apart"
+                                      : "");
     }
     std::vector<std::string> lines{std::move(text)};
     for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -216,6 +219,7 @@ class LiveCamera final : public Source {
     std::vector<cv::Mat> images;
     if (pair.size() == 2) {
       offsets_.push_back(std::abs(pair[1].stamp - pair[0].stamp));
+      for (const Picture& picture : pair) by_arrival_ |= picture.stamp == picture.arrival;
       images = {pair[0].image, pair[1].image};
     } else {
       const auto views = split_views(params_.layout, pair[0].image);
@@ -255,6 +259,7 @@ class LiveCamera final : public Source {
   std::int64_t newest_pair_ = 0;
   int pairs_ = 0;
   std::vector<std::int64_t> offsets_;  ///< of all pairs, nanoseconds
+  bool by_arrival_ = false;            ///< a device does not say when it takes pictures
 };
 
 }  // namespace

@@ -15,7 +15,13 @@ class Truth final : public Start {
   std::optional<Eigen::VectorXd> state(const StartContext& context) override {
     const Frame* frame = context.frame;
     if (!frame) return std::nullopt;
-    if (!frame->truth || frame->truth->state.size() == 0)
+    const bool has_state = frame->truth && frame->truth->state.size() > 0;
+    if (!has_state && frame->truth && frame->truth->landmarks.size() > 0)
+      throw ConfigError(
+          "init.from is 'truth' but the source knows only the true landmarks of its first frame, "
+          "not the state; the start `landmarks` fits the models to them. Write init: {from: {type: "
+          "landmarks, file: FILE}} with the source's truth_landmarks as FILE");
+    if (!has_state)
       throw ConfigError(
           "init.from is 'truth' but the source knows no true state for its first frame; give "
           "init.pose or init.file instead");

@@ -228,5 +228,43 @@ TEST(TextFile, ALineThatDoesNotFitIsNotLeftInPart) {
   EXPECT_EQ(std::filesystem::file_size(path), 12U);
 }
 
+TEST_F(RunDirectoryTest, ARenamedFolderGetsAllItsFilesAndTheOtherNone) {
+  RunDirectory first(path("one"), results_);
+  TextFile(first.file("run.yaml")).write("first");
+  std::filesystem::rename(path("one"), path("moved"));
+  RunDirectory second(path("one"), results_);
+  for (const std::string& name : results_) {
+    if (name != "run.yaml") TextFile(first.file(name)).write("first");
+    TextFile(second.file(name)).write("second");
+  }
+  first.finish();
+  EXPECT_FALSE(exists(path("one/summary.json")));
+  second.finish();
+  for (const std::string& name : results_) {
+    EXPECT_EQ(text("moved/" + name), "first") << name;
+    EXPECT_EQ(text("one/" + name), "second") << name;
+  }
+}
+
+TEST_F(RunDirectoryTest, ARemovedFolderIsSaid) {
+  RunDirectory directory(path("one"), results_);
+  for (const std::string& name : results_) TextFile(directory.file(name)).write("text");
+  std::filesystem::remove_all(path("one"));
+  EXPECT_THAT(
+      test::message_of<OutputError>([&] { directory.finish(); }),
+      testing::AllOf(testing::StartsWith(path("one").string()), testing::HasSubstr("was removed")));
+}
+
+TEST_F(RunDirectoryTest, NothingToKeepRemovesTheRenamedFolderOnly) {
+  {
+    RunDirectory directory(path("one"), results_);
+    TextFile(directory.file("a.csv")).write("text");
+    std::filesystem::rename(path("one"), path("moved"));
+    std::filesystem::create_directory(path("one"));
+  }
+  EXPECT_TRUE(exists(path("one")));
+  EXPECT_FALSE(exists(path("moved")));
+}
+
 }  // namespace
 }  // namespace hypotrack

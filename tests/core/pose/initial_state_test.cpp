@@ -103,6 +103,10 @@ TEST(InitialState, IsTheTruthOfTheFirstFrame) {
   set_start(session, "type: truth");
   Frame frame;
   EXPECT_THAT(message_of(session, frame), HasSubstr("the source knows no true state"));
+  frame.truth = GroundTruth{{}, Eigen::Matrix3Xd::Zero(3, 3)};
+  EXPECT_THAT(message_of(session, frame),
+              testing::AllOf(HasSubstr("only the true landmarks"),
+                             HasSubstr("{from: {type: landmarks, file: FILE}}")));
   frame.truth = GroundTruth{session.scene->rest_state(), {}};
   frame.truth->state[1] = 0.25;
   EXPECT_EQ(initial_state(session, frame), frame.truth->state);

@@ -39,6 +39,7 @@ class RecorderTest : public testing::Test {
     opened_.source = std::make_unique<NoFrames>(world_.cameras);
     opened_.resolved = "models: [{name: hand}]\nsource: {type: other}\ninit: {from: truth}\n";
     recorder_.open(opened_);
+    recorder_.set_folder(results_);
   }
   bool add(int index, Status status = Status::tracked) {
     return recorder_.add(world_.frame(index), world_.solution(index, status, 1));
@@ -49,9 +50,10 @@ class RecorderTest : public testing::Test {
 
   LiveWorld world_;
   TemporaryDirectory folder_;
+  const OpenFolder results_{folder_.path()};
   OpenedScene opened_;
   std::string said_;
-  Recorder recorder_{folder_.path(), [this](const std::string& text) { said_ = text; }};
+  Recorder recorder_{[this](const std::string& text) { said_ = text; }};
 };
 
 TEST_F(RecorderTest, ARecordingHoldsTheFramesUntilItIsStopped) {
@@ -101,11 +103,13 @@ TEST_F(RecorderTest, MissingFramesDoNotStartARecording) {
 }
 
 TEST_F(RecorderTest, AFolderThatCannotBeMadeEndsTheRecordingOnly) {
-  Recorder nowhere("/proc/nowhere", [this](const std::string& text) { said_ = text; });
+  const OpenFolder proc("/proc");
+  Recorder nowhere([this](const std::string& text) { said_ = text; });
   nowhere.open(opened_);
+  nowhere.set_folder(proc);
   EXPECT_FALSE(nowhere.add(world_.frame(7), world_.solution(7, Status::tracked, 1)));
   EXPECT_FALSE(nowhere.recorded());
-  EXPECT_THAT(said_, HasSubstr("nothing is recorded: /proc/nowhere/recording_000007"));
+  EXPECT_THAT(said_, HasSubstr("nothing is recorded: /proc/recording_000007"));
 }
 
 }  // namespace

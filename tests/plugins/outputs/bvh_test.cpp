@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/subprocess.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "imported_motion.hpp"
 #include "output_run.hpp"
@@ -58,6 +61,41 @@ TEST(Bvh, JointsOfAllKindsAreWhereTheBonesAre) {
   const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())}});
   test::OutputRun run(scene);
   expect_motion(run, scene, test::random_solutions(scene, 8));
+}
+
+/// Expects every bone where three.js has its joint, to 0.1 mm: it adds OFFSET to the positions.
+void expect_bones_in_three_js(const nlohmann::json& joints, const Model& model,
+                              std::span<const double> parameters) {
+  constexpr double kTolerance = 1e-4;
+  const auto bones = world_from_bones(model.data(), parameters);
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const std::string& name = model.data().bones[b].name;
+    ASSERT_TRUE(joints.contains(name)) << name;
+    const Eigen::Vector3d there(joints[name][0], joints[name][1], joints[name][2]);
+    EXPECT_LT((there - turned(bones[b].translation())).norm(), kTolerance) << name;
+  }
+}
+
+TEST(Bvh, JointsAreWhereTheBonesAreInThreeJs) {
+  const std::filesystem::path node = HYPOTRACK_NODE, three = HYPOTRACK_THREE_DIR;
+  if (!exists(node) || !exists(three / "examples/js/loaders/BVHLoader.js"))
+    GTEST_SKIP() << "needs nodejs and libjs-three";
+  const Scene scene({{"cabinet", std::make_shared<Model>(test::make_test_cabinet())},
+                     {"hand", std::make_shared<Model>(test::make_test_hand())}});
+  test::OutputRun run(scene);
+  const std::vector<Solution> solutions = test::random_solutions(scene, 4);
+  run.play("type: bvh", solutions);
+  for (const Scene::Item& item : scene.items()) {
+    const Captured said = capture_output(
+        {node, {HYPOTRACK_BVH_SCRIPT, three.string(), run.file(item.name + ".bvh").string()}}, {1});
+    const auto frames = nlohmann::json::parse(said.output);
+    ASSERT_EQ(frames.size(), solutions.size());
+    // The last frame would be interpolated with the first, where an animation ends.
+    for (std::size_t i = 0; i + 1 < solutions.size(); ++i) {
+      SCOPED_TRACE(item.name + ", frame " + std::to_string(i));
+      expect_bones_in_three_js(frames[i], *item.model, scene.part(item, solutions[i].state));
+    }
+  }
 }
 
 TEST(Bvh, EndsOfFingersAreWhereTheLandmarksAre) {

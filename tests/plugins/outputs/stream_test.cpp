@@ -72,6 +72,16 @@ TEST_F(StreamTest, EveryReaderGetsTheLinesOfJsonlUntilTheRunEnds) {
   EXPECT_FALSE(std::filesystem::exists(socket_file()));
 }
 
+TEST_F(StreamTest, TheEndLeavesTheSocketOfAnotherRun) {
+  const auto first = begun(at_socket());
+  std::filesystem::rename(socket_file(), folder_.path() / "moved");
+  const auto second = begun(at_socket());
+  first->finish(true);
+  const test::LocalReader reader = connected();
+  second->finish(true);
+  EXPECT_FALSE(std::filesystem::exists(socket_file()));
+}
+
 TEST_F(StreamTest, APortIsThatOfThisMachineOnly) {
   const int port = free_port();
   const auto output = begun("{type: stream, port: " + std::to_string(port) + "}");

@@ -12,6 +12,7 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -29,12 +30,22 @@ long number(const char* name, long otherwise) {
   return text ? atol(text) : otherwise;
 }
 
+/// Returns the path itself of one that begins at an open folder.
+std::string resolved(const std::string& path) {
+  constexpr const char* kOpen = "/proc/self/fd/";
+  char folder[4096] = {};
+  if (!path.starts_with(kOpen)) return path;
+  const std::size_t end = std::min(path.find('/', strlen(kOpen)), path.size());
+  const ssize_t size = readlink(path.substr(0, end).c_str(), folder, sizeof folder - 1);
+  return size > 0 ? folder + path.substr(end) : path;
+}
+
 bool is_there(const char* path) {
   const char* const disk = getenv("FAILING_DISK");
   if (!disk || !path) return false;
   const std::string whole =
       path[0] == '/' ? path : std::string(getenv("PWD") ? getenv("PWD") : "") + "/" + path;
-  return whole.starts_with(disk);
+  return resolved(whole).starts_with(disk);
 }
 
 bool is_there(int file) {

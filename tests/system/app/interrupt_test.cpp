@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -95,6 +96,33 @@ TEST(InterruptGuard, LeavesAProgramAloneThatAnswers) {
   raise(SIGTERM);
   EXPECT_TRUE(guard.interrupted());
   EXPECT_EQ(alarm(0), 0U);  // nothing is scheduled any more
+}
+
+TEST(InterruptGuard, CtrlCIsForOthersIfItWasIgnored) {
+  const auto before = std::signal(SIGINT, SIG_IGN);
+  {
+    const app::InterruptGuard guard;
+    siginfo_t of_terminal{};
+    of_terminal.si_code = SI_KERNEL;
+    ASSERT_EQ(syscall(SYS_rt_sigqueueinfo, getpid(), SIGINT, &of_terminal), 0);
+    EXPECT_FALSE(guard.interrupted());
+    raise(SIGINT);
+    EXPECT_TRUE(guard.interrupted());
+  }
+  EXPECT_EQ(std::signal(SIGINT, before), SIG_IGN);
+}
+
+TEST_F(InterruptTest, KillEndsARunThatAScriptStartedInTheBackground) {
+  const std::string script =
+      "\"$0\" run \"$1\" --out \"$2\" --set source.frames=1000000 >&2 &\n"
+      "until [ \"$(cat \"$2/track.csv\" 2>/dev/null | wc -l)\" -gt 2 ]; do sleep 0.05; done\n"
+      "kill -INT $!; wait $!; echo $?";
+  const Captured said = capture_output({"/bin/sh",
+                                        {"-c", script, (build_dir() / "bin" / "hypotrack").string(),
+                                         scene(box_scene()), path("out").string()}},
+                                       {1});
+  EXPECT_EQ(said.output, "130\n");
+  EXPECT_TRUE(std::filesystem::exists(path("out/summary.json")));
 }
 
 TEST_F(InterruptTest, AClosedTerminalFinishesTheFrameAndTheFiles) {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/subprocess.hpp"
+#include "base/system_problem.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::internal {
@@ -80,7 +81,7 @@ std::string run_mesh_reader(const MeshReader& reader, const std::filesystem::pat
                               {reader.time_limit, kLargestAnswer});
   } catch (const std::system_error& error) {
     throw unreadable(mesh, fmt::format("{} does not start: {}", reader.program.string(),
-                                       error.code().message()));
+                                       described(error.code().value())));
   }
   check_end(captured, reader, mesh);
   return std::move(captured.output);

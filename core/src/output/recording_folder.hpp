@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/exported.hpp"
+#include "base/open_folder.hpp"
+
+namespace hypotrack {
+inline namespace HYPOTRACK_EXPORTED internal {
+
+/// A new folder that is named `.part.NAME` until it is complete. The folder that it is in may be
+/// renamed meanwhile.
+class RecordingFolder {
+ public:
+  /// Removes an unfinished folder of that name. Throws OutputError if the folder exists and is not
+  /// empty, if it cannot be made, or if another process is writing into the unfinished one.
+  explicit RecordingFolder(const std::filesystem::path& folder);
+  /// Removes the folder unless it is complete or kept.
+  ~RecordingFolder();
+  RecordingFolder(const RecordingFolder&) = delete;
+  RecordingFolder& operator=(const RecordingFolder&) = delete;
+
+  /// Returns the path of a file; the folder itself without a name. See OpenFolder::path().
+  std::filesystem::path file(const std::string& name = {}) const { return part_->path() / name; }
+  /// Calls a function that writes files, as OpenFolder::write_with() does.
+  template <class Function>
+  decltype(auto) write_with(const Function& function) const {
+    part_->expect_exists();
+    return parent_->write_with([&]() -> decltype(auto) { return part_->write_with(function); });
+  }
+  /// Gives the folder its name. Throws OutputError.
+  void finish();
+  /// Leaves an unfinished folder where it is.
+  void keep() { done_ = true; }
+  /// Returns where the complete folder is or will be, for people.
+  std::filesystem::path place() const;
+
+ private:
+  void make_part();
+
+  std::filesystem::path given_;
+  std::string name_, part_name_;
+  std::optional<OpenFolder> parent_, part_;
+  bool done_ = false;
+};
+
+}  // namespace internal
+}  // namespace hypotrack
