@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "model/import/reader/gltf_skin.hpp"
-
 namespace hypotrack::mesh_wire::internal {
 namespace {
 
@@ -69,25 +67,20 @@ void GltfMeshes::copy_indices(Json& primitive, std::size_t vertices, const std::
   lost_triangles_ = std::max(lost_triangles_, before + 1);
 }
 
-/// Copies the influences of all sets, JOINTS_0 and WEIGHTS_0 to JOINTS_7 and WEIGHTS_7, as one.
+/// Copies the influences of all sets, JOINTS_0 and WEIGHTS_0 to JOINTS_7 and WEIGHTS_7.
 void GltfMeshes::copy_influences(const Json& from, std::size_t vertices, const std::string& name,
                                  Json& to) {
   constexpr int kMostSets = 8;
-  std::vector<GltfInfluences> sets;
   for (int set = 0; set < kMostSets; ++set) {
     const std::string number = std::to_string(set);
     const std::string joints = "JOINTS_" + number, weights = "WEIGHTS_" + number;
     if (!from.contains(joints) || !from.contains(weights)) break;
-    sets.push_back({read_accessor(file_, from[joints], {4}, name + " " + joints),
-                    read_accessor(file_, from[weights], {4}, name + " " + weights)});
-    check_count(sets.back().joints.count(), vertices, name + " " + joints);
-    check_count(sets.back().weights.count(), vertices, name + " " + weights);
+    GltfValues indices = read_accessor(file_, from[joints], {4}, name + " " + joints);
+    check_count(indices.count(), vertices, name + " " + joints);
+    for (double& index : indices.numbers) index = index >= 0 && index <= 65535 ? index : 65535;
+    to[joints] = to_.add<std::uint16_t>(indices, kShorts);
+    to[weights] = floats(from[weights], {4}, vertices, name + " " + weights).index;
   }
-  if (sets.empty()) return;
-  GltfInfluences all = strongest_four(std::move(sets));
-  for (double& joint : all.joints.numbers) joint = joint >= 0 && joint <= 65535 ? joint : 65535;
-  to["JOINTS_0"] = to_.add<std::uint16_t>(all.joints, kShorts);
-  to["WEIGHTS_0"] = to_.add<float>(all.weights, kFloats);
 }
 
 void GltfMeshes::copy_primitive(Json& primitive, double scale, const std::string& name) {

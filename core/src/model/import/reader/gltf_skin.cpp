@@ -1,17 +1,11 @@
 #include "model/import/reader/gltf_skin.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-#include <utility>
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
-
-constexpr std::size_t kKept = 4;
-
-using Influence = std::pair<double, double>;  // weight, joint
 
 std::set<std::size_t> joints_of(const Json& root) {
   std::set<std::size_t> joints;
@@ -25,34 +19,6 @@ std::set<std::size_t> joints_of(const Json& root) {
 }
 
 }  // namespace
-
-GltfInfluences strongest_four(std::vector<GltfInfluences> sets) {
-  if (sets.size() == 1) return std::move(sets.front());
-  const std::size_t count = sets.front().weights.count();
-  GltfInfluences kept{{kKept, std::vector<double>(kKept * count)},
-                      {kKept, std::vector<double>(kKept * count)}};
-  std::vector<Influence> all;
-  for (std::size_t vertex = 0; vertex < count; ++vertex) {
-    all.clear();
-    double sum = 0, sum_of_kept = 0;
-    for (const GltfInfluences& set : sets) {
-      for (std::size_t k = kKept * vertex; k < kKept * (vertex + 1); ++k) {
-        all.emplace_back(set.weights.numbers[k], set.joints.numbers[k]);
-        sum += set.weights.numbers[k];
-      }
-    }
-    std::ranges::stable_sort(all, [](const Influence& a, const Influence& b) {
-      return (a.first > 0 ? a.first : 0) > (b.first > 0 ? b.first : 0);
-    });
-    for (std::size_t k = 0; k < kKept; ++k) sum_of_kept += all[k].first;
-    const double factor = sum_of_kept > 0 && sum > 0 ? sum / sum_of_kept : 1;
-    for (std::size_t k = 0; k < kKept; ++k) {
-      kept.weights.numbers[kKept * vertex + k] = factor * all[k].first;
-      kept.joints.numbers[kKept * vertex + k] = all[k].second;
-    }
-  }
-  return kept;
-}
 
 double take_scale(GltfValues& matrices) {
   const double* const m = matrices.numbers.data();

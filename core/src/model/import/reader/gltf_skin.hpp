@@ -8,15 +8,6 @@
 namespace hypotrack::mesh_wire {
 inline namespace HYPOTRACK_EXPORTED internal {
 
-/// The bone influences of a primitive's vertices: four joints and four weights each.
-struct GltfInfluences {
-  GltfValues joints, weights;
-};
-
-/// Keeps the four strongest influences of each vertex, out of several sets of four. The kept
-/// weights take over the share of the others. A single set stays as it is.
-GltfInfluences strongest_four(std::vector<GltfInfluences> sets);
-
 /// Moves the scale of inverse bind matrices to the positions that they take, and returns it.
 /// Otherwise positions that are whole numbers have no known unit where the bones are not at their
 /// bind pose.
