@@ -1,7 +1,12 @@
 #include "mesh_files.hpp"
 
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <opencv2/core.hpp>
 
 #include "glb_writer.hpp"
 #include "hypotrack/error.hpp"
@@ -156,6 +161,38 @@ std::string binary_ply() {
 std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<long>(bytes.size()));
   return path;
+}
+
+Eigen::Vector3f look_up(const Mesh& mesh, const Eigen::Vector2f& uv) {
+  const float x = uv.x() * static_cast<float>(mesh.texture.cols) - 0.5f;
+  const float y = (1 - uv.y()) * static_cast<float>(mesh.texture.rows) - 0.5f;
+  const int x0 =
+      std::min(static_cast<int>(std::lround(std::floor(x + 1e-4f))), mesh.texture.cols - 2);
+  const int y0 =
+      std::min(static_cast<int>(std::lround(std::floor(y + 1e-4f))), mesh.texture.rows - 2);
+  const float fx = x - static_cast<float>(x0), fy = y - static_cast<float>(y0);
+  const auto texel = [&](int column, int row) {
+    const auto& bgr = mesh.texture.at<cv::Vec3b>(row, column);
+    return Eigen::Vector3f(Eigen::Vector3f(bgr[2], bgr[1], bgr[0]) / 255.0f);
+  };
+  return (1 - fy) * ((1 - fx) * texel(x0, y0) + fx * texel(x0 + 1, y0)) +
+         fy * ((1 - fx) * texel(x0, y0 + 1) + fx * texel(x0 + 1, y0 + 1));
+}
+
+Eigen::Vector3f surface_color(const Mesh& mesh, const Eigen::Vector3f& point) {
+  if (mesh.texture.empty()) return 255 * mesh.color;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Matrix3f corners = mesh.vertices(Eigen::all, mesh.triangles.col(t));
+    // Least squares, because a plane through the origin has corners of rank 2.
+    Eigen::Matrix<float, 4, 3> equations;
+    equations << corners, Eigen::RowVector3f::Ones();
+    const Eigen::Vector3f share =
+        equations.colPivHouseholderQr().solve(Eigen::Vector4f(point[0], point[1], point[2], 1));
+    const bool inside = share.minCoeff() > -1e-4f && (corners * share - point).norm() < 1e-4f;
+    if (inside) return 255 * look_up(mesh, mesh.uv(Eigen::all, mesh.uv_triangles.col(t)) * share);
+  }
+  ADD_FAILURE() << "no triangle has the point " << point.transpose();
+  return Eigen::Vector3f::Constant(NAN);
 }
 
 std::string import_error(const std::filesystem::path& path) {

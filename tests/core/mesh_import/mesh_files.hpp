@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hypotrack/model.hpp"
 #include "test_paths.hpp"
 
 namespace hypotrack::test {
@@ -46,6 +47,12 @@ std::string colored_ply();
 std::string binary_ply();
 
 std::filesystem::path write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// Looks a texture up between its texels, as OpenGL does. Returns RGB in [0, 1].
+Eigen::Vector3f look_up(const Mesh& mesh, const Eigen::Vector2f& uv);
+
+/// Returns the colour that a mesh has at a point of its surface, RGB from 0 to 255.
+Eigen::Vector3f surface_color(const Mesh& mesh, const Eigen::Vector3f& point);
 
 /// The message of the DataError that importing a file ends in; fails the test if there is none.
 std::string import_error(const std::filesystem::path& path);

@@ -74,7 +74,13 @@ mesh_wire::Scene example() {
   scene.meshes[1].triangles = {{0, 1, 2}};
   scene.meshes[1].weights = {{1, 2, 0.5f}};
   scene.bones.push_back({"bone", "parent", {1, 2}});
-  scene.materials.push_back({{0.5f, 0.25f, 0}, "*0"});
+  scene.materials.push_back({{0.5f, 0.25f, 0},
+                             "*0",
+                             "skin",
+                             {1, 0.5f, 1},
+                             {mesh_wire::Wrap::mirror, mesh_wire::Wrap::clamp},
+                             {2, 0, 0, 0, 3, 1}});
+  scene.linear_colors = 1;
   scene.textures.push_back({0, 0, "bytes"});
   scene.notes = {"a note"};
   return scene;
@@ -89,6 +95,11 @@ TEST(MeshWire, ReadsWhatItWrites) {
   EXPECT_EQ(scene.meshes[1].weights[0].value, 0.5f);
   EXPECT_EQ(scene.bones[0].file_from_bone, example().bones[0].file_from_bone);
   EXPECT_EQ(scene.materials[0].texture, "*0");
+  EXPECT_EQ(scene.materials[0].name, "skin");
+  EXPECT_EQ(scene.materials[0].factor, example().materials[0].factor);
+  EXPECT_EQ(scene.materials[0].wrap, example().materials[0].wrap);
+  EXPECT_EQ(scene.materials[0].uv, example().materials[0].uv);
+  EXPECT_EQ(scene.linear_colors, 1);
   EXPECT_EQ(scene.textures[0].bytes, "bytes");
   EXPECT_EQ(scene.notes, example().notes);
 }

@@ -1,9 +1,8 @@
 #include <fmt/format.h>
 
-#include <cctype>
-#include <cmath>
-#include <optional>
+#include <cstdint>
 
+#include "model/import/srgb.hpp"
 #include "model/import/steps.hpp"
 
 namespace hypotrack::internal {
@@ -13,64 +12,40 @@ using mesh_wire::MeshPart;
 
 constexpr std::size_t kMostVertices = 10'000'000;
 
-/// What the parts with triangles have: all of them, unless said.
-struct Features {
-  bool uvs = true, colors = true;
-  bool some_uvs = false;  // a part has texture coordinates
-};
-
-/// Returns true if parts differ in the colours of their materials, and none has a texture.
-bool has_colored_parts(const MeshFile& file) {
-  std::optional<Eigen::Vector3f> first;
-  bool differ = false;
-  for (const MeshPart& part : file.scene.meshes) {
-    if (part.triangles.empty()) continue;
-    const Eigen::Vector3f color = material_color(file, part);
-    if (!color.allFinite() || !file.scene.materials[part.material].texture.empty()) return false;
-    if (!first) first = color;
-    differ |= color != *first;
-  }
-  return differ;
-}
-
-Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles,
-                const Features& has) {
+Soup empty_soup(const MeshFile& file, std::size_t points, std::size_t triangles, bool has_uvs) {
+  constexpr std::uint8_t kWhite = 255;
   Soup soup;
   soup.points.resize(3, static_cast<Eigen::Index>(points));
   soup.triangles.resize(3, static_cast<Eigen::Index>(triangles));
-  if (has.some_uvs) soup.uvs.resize(points, Eigen::Vector2f::Zero());
-  soup.has_all_uvs = has.uvs;
+  if (has_uvs) soup.uvs.resize(points, Eigen::Vector2f::Zero());
   soup.parts.reserve(triangles);
-  if (has.colors || has_colored_parts(file)) soup.colors.resize(points);
+  soup.colors.resize(points, {kWhite, kWhite, kWhite});
   if (!file.scene.bones.empty()) soup.influences.resize(points);
   return soup;
 }
 
-/// Returns the factor on the colours of a part's vertices: in glTF the colour of its material.
-Eigen::Vector3f color_factor(const MeshFile& file, const MeshPart& part) {
-  const bool gltf = file.path.extension().string().size() > 2 &&
-                    std::tolower(file.path.extension().string()[1]) == 'g';
-  if (!gltf) return Eigen::Vector3f::Ones();
-  const Eigen::Vector3f color = material_color(file, part);
-  return color.allFinite() ? color : Eigen::Vector3f::Ones();
-}
-
-/// Sets the colours of a part's points: their own, or that of the part's material.
-void join_colors(const MeshFile& file, const MeshPart& part, std::size_t first, bool own,
-                 Soup& soup) {
-  if (soup.colors.empty()) return;
-  const Eigen::Vector3f factor = own ? color_factor(file, part) : material_color(file, part);
-  for (std::size_t i = 0; i < part.positions.size(); ++i) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const int color = own ? part.colors[i][c] : 255;
-      soup.colors[first + i][c] = static_cast<std::uint8_t>(
-          std::lround(factor[static_cast<Eigen::Index>(c)] * static_cast<float>(color)));
+/// Sets the colours of a part's points: its own, times the factor of its material. Without own ones
+/// they stay white. A picture has the factor of its material already.
+void join_colors(const MeshFile& file, const MeshPart& part, std::size_t first, Soup& soup) {
+  if (part.colors.empty()) return;
+  Eigen::Vector3f factor = Eigen::Vector3f::Ones();
+  if (part.material < file.scene.materials.size()) {
+    const mesh_wire::Material& material = file.scene.materials[part.material];
+    if (material.texture.empty()) factor = light_factor(material);
+  }
+  std::array<std::array<std::uint8_t, 256>, 3> table{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < 256; ++i) {
+      const float light = factor[static_cast<Eigen::Index>(c)] * srgb::light_of_bytes()[i];
+      table[c][i] = srgb::byte(srgb::encoded(light));
     }
   }
+  for (std::size_t i = 0; i < part.positions.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) soup.colors[first + i][c] = table[c][part.colors[i][c]];
 }
 
 void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
-               Eigen::Index triangle, const Features& has, Soup& soup) {
+               Eigen::Index triangle, Soup& soup) {
   const auto first = static_cast<std::size_t>(point);
   for (std::size_t i = 0; i < part.positions.size(); ++i) {
     soup.points.col(point + static_cast<Eigen::Index>(i)) =
@@ -80,7 +55,7 @@ void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
       soup.uvs[first + i] = Eigen::Map<const Eigen::Vector2f>(part.uvs[i].data());
     }
   }
-  if (!part.triangles.empty()) join_colors(file, part, first, has.colors, soup);
+  join_colors(file, part, first, soup);
   for (const auto& corners : part.triangles) {
     for (int k = 0; k < 3; ++k) {
       soup.triangles(k, triangle) =
@@ -101,26 +76,23 @@ void join_part(const MeshFile& file, const MeshPart& part, Eigen::Index point,
 Soup join_parts(const MeshFile& file) {
   std::size_t points = 0;
   std::size_t triangles = 0;
-  Features has;
+  bool has_uvs = false;
   for (const MeshPart& part : file.scene.meshes) {
     check_part(file, part);
     points += part.positions.size();
     triangles += part.triangles.size();
-    if (part.triangles.empty()) continue;
-    has.uvs = has.uvs && !part.uvs.empty();
-    has.some_uvs = has.some_uvs || !part.uvs.empty();
-    has.colors = has.colors && !part.colors.empty();
+    has_uvs = has_uvs || !part.uvs.empty();
   }
   if (triangles == 0) file.fail("the mesh has no faces");
   if (points > kMostVertices || triangles > kMostVertices) {
     file.fail(
         fmt::format("the mesh has {} vertices and {} triangles: decimate it", points, triangles));
   }
-  Soup soup = empty_soup(file, points, triangles, has);
+  Soup soup = empty_soup(file, points, triangles, has_uvs);
   Eigen::Index point = 0;
   Eigen::Index triangle = 0;
   for (const MeshPart& part : file.scene.meshes) {
-    join_part(file, part, point, triangle, has, soup);
+    join_part(file, part, point, triangle, soup);
     point += static_cast<Eigen::Index>(part.positions.size());
     triangle += static_cast<Eigen::Index>(part.triangles.size());
   }

@@ -35,10 +35,7 @@ ImportedMesh convert_mesh(const MeshFile& file) {
   const Soup soup = join_parts(file);
   const Welded welded = fill_surface(file, soup, imported.mesh);
   fill_weights(soup, welded, imported.mesh);
-  if (soup.has_all_uvs) fill_uvs(soup, welded.triangles, imported.mesh);
   fill_appearance(file, soup, welded.triangles, imported.mesh, imported.notes);
-  if (imported.mesh.texture.empty() && !soup.colors.empty())
-    fill_vertex_colors(soup, welded.triangles, imported.mesh);
   for (std::string& note : imported.notes) note = fmt::format("{}: {}", file.path.string(), note);
   return imported;
 }

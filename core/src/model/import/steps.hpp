@@ -33,8 +33,7 @@ struct Soup {
   Eigen::Matrix3Xi triangles;
   std::vector<std::size_t> parts;                   // per triangle: its part of the file
   std::vector<Eigen::Vector2f> uvs;                 // empty or one per point; 0 in parts without
-  bool has_all_uvs = false;                         // every part with triangles has some
-  std::vector<std::array<std::uint8_t, 3>> colors;  // RGB; empty or one per point
+  std::vector<std::array<std::uint8_t, 3>> colors;  // RGB, one per point; white in parts without
   std::vector<std::vector<BoneWeight>> influences;  // one list per point; empty for a rigid mesh
 };
 
@@ -71,25 +70,17 @@ Welded fill_surface(const MeshFile& file, const Soup& soup, Mesh& mesh);
 /// equal but for rounding. Copies that no triangle uses do not count.
 void fill_weights(const Soup& soup, const Welded& welded, Mesh& mesh);
 
-/// Fills the texture coordinates, without duplicates. `kept` are the triangles of the mesh.
-void fill_uvs(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
+/// Sets the texture coordinates by those of every triangle's corners, without duplicates.
+void set_uvs(const std::vector<Eigen::Matrix<float, 2, 3>>& corners, Mesh& mesh);
 
-/// Fills the texture and its coordinates with the colours of the points. Points of one colour give
-/// the mesh that colour instead. Requires colours and at least one triangle.
-void fill_vertex_colors(const Soup& soup, const std::vector<int>& kept, Mesh& mesh);
+/// Returns the factor of a material on light, RGB in [0, 1].
+Eigen::Vector3f light_factor(const mesh_wire::Material& material);
 
 /// Returns the colour of a part's material, RGB in [0, 1]; NaN if there is none.
 Eigen::Vector3f material_color(const MeshFile& file, const mesh_wire::MeshPart& part);
 
-/// Returns a triangle's texture coordinates, moved into [0, 1]; those outside mean a repeated
-/// image. A triangle within one repetition moves to the first; one that spans several is clamped.
-Eigen::Matrix<float, 2, 3> corners_in_image(const Soup& soup, int triangle);
-
-/// Fills the texture with the pictures and colours of all materials, and its coordinates.
-void fill_materials(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
-                    Mesh& mesh);
-
-/// Fills texture or colour; removes the texture coordinates if there is no texture.
+/// Fills the colour of the mesh, or its texture and texture coordinates: the colours and pictures
+/// of all materials, times those of the points. `kept` are the triangles of the mesh.
 /// `notes` receives what is not drawn as the file says.
 void fill_appearance(const MeshFile& file, const Soup& soup, const std::vector<int>& kept,
                      Mesh& mesh, std::vector<std::string>& notes);

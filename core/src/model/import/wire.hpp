@@ -39,9 +39,16 @@ struct BoneNode {
   std::array<double, 16> file_from_bone{};  ///< row-major, with the file's scale
 };
 
+/// How a picture goes on outside [0, 1].
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+
 struct Material {
-  std::array<float, 3> color{};  ///< RGB
+  std::array<float, 3> color{};  ///< RGB as a screen shows it, of a surface without a picture
   std::string texture;           ///< path in the file, `*N` for embedded texture N, or empty
+  std::string name;              ///< empty if the file gives none
+  std::array<float, 3> factor{1, 1, 1};       ///< RGB, of light, on the picture
+  std::array<Wrap, 2> wrap{};                 ///< along u and v
+  std::array<float, 6> uv{1, 0, 0, 0, 1, 0};  ///< 2x3, row-major: what moves (u, v), v upwards
 };
 
 /// A texture embedded in the file: a compressed image, or `width` x `height` BGRA pixels.
@@ -58,9 +65,10 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<std::string> notes;  ///< for the user: what the file has that is not read
+  std::uint8_t linear_colors = 0;  ///< 1: colours between vertices are linear in light
 };
 
-inline constexpr std::string_view kMagic = "hypotrack mesh 3";
+inline constexpr std::string_view kMagic = "hypotrack mesh 4";
 
 /// Appends values to a byte buffer.
 class Writer {
@@ -161,6 +169,10 @@ requires std::is_same_v<std::remove_const_t<T>, Material>
 void fields(Archive& archive, T& material) {
   archive(material.color);
   archive(material.texture);
+  archive(material.name);
+  archive(material.factor);
+  archive(material.wrap);
+  archive(material.uv);
 }
 
 template <class Archive, class T>
@@ -180,6 +192,7 @@ void fields(Archive& archive, T& scene) {
   archive(scene.materials);
   archive(scene.textures);
   archive(scene.notes);
+  archive(scene.linear_colors);
 }
 
 inline std::string encode(const Scene& scene) {

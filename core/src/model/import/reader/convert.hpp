@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/exported.hpp"
+#include "model/import/reader/surfaces.hpp"
 #include "model/import/wire.hpp"
 
 // Conversion from assimp's data to mesh_wire's.
@@ -24,11 +25,13 @@ void add_bones(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, Bones& kno
 /// Sets the parent of every bone to its nearest ancestor that is a bone.
 void find_parents(const aiScene& scene, const Bones& known, Scene& out);
 
-/// Converts all meshes, placed by their nodes, and their bones.
-void convert_meshes(const aiScene& scene, Scene& out);
+/// Converts all meshes, placed by their nodes, and their bones. `uses` are those of the materials'
+/// pictures. Vertex colours that are `linear` in light are encoded.
+void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool linear,
+                    Scene& out);
 
-/// Converts materials and embedded textures.
-void convert_materials(const aiScene& scene, Scene& out);
+/// Converts materials and embedded textures as assimp has them, and returns the uses of pictures.
+std::vector<PictureUse> convert_materials(const aiScene& scene, Scene& out);
 
 }  // namespace internal
 }  // namespace hypotrack::mesh_wire

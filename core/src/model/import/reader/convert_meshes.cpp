@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "model/import/reader/convert.hpp"
+#include "model/import/srgb.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
@@ -32,27 +33,37 @@ aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
   return common.value_or(aiMatrix4x4());
 }
 
-/// Converts a colour to bytes. What is no number becomes 0.
-std::array<std::uint8_t, 3> convert_color(const aiColor4D& color) {
+std::array<std::uint8_t, 3> convert_color(const aiColor4D& color, bool linear) {
   std::array<std::uint8_t, 3> bytes{};
-  for (unsigned c = 0; c < 3; ++c) {
-    const float value = color[c];
-    bytes[c] = value > 0 ? static_cast<std::uint8_t>(std::lround(255 * std::min(value, 1.0f))) : 0;
-  }
+  for (unsigned c = 0; c < 3; ++c)
+    bytes[c] = srgb::byte(linear ? srgb::encoded(color[c]) : color[c]);
   return bytes;
 }
 
-MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, const Bones& bones) {
+/// What the conversion of every mesh needs.
+struct Context {
+  const aiScene& scene;
+  const std::vector<PictureUse>& uses;
+  bool linear;
+  Bones& bones;
+};
+
+MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh,
+                      const Context& context) {
   MeshPart part;
   part.name = mesh.mName.C_Str();
   part.material = mesh.mMaterialIndex;
+  const PictureUse use =
+      part.material < context.uses.size() ? context.uses[part.material] : PictureUse();
+  const unsigned set = use.or_first && !mesh.HasTextureCoords(use.set) ? 0 : use.set;
   for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
     const aiVector3D p = file_from_mesh * mesh.mVertices[i];
     part.positions.push_back({p.x, p.y, p.z});
-    if (mesh.HasTextureCoords(0)) {
-      part.uvs.push_back({mesh.mTextureCoords[0][i].x, mesh.mTextureCoords[0][i].y});
+    if (mesh.HasTextureCoords(set)) {
+      part.uvs.push_back({mesh.mTextureCoords[set][i].x, mesh.mTextureCoords[set][i].y});
     }
-    if (mesh.HasVertexColors(0)) part.colors.push_back(convert_color(mesh.mColors[0][i]));
+    if (mesh.HasVertexColors(0))
+      part.colors.push_back(convert_color(mesh.mColors[0][i], context.linear));
   }
   const bool flipped = file_from_mesh.Determinant() < 0;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -63,7 +74,7 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, con
   }
   for (unsigned i = 0; i < mesh.mNumBones; ++i) {
     const aiBone& bone = *mesh.mBones[i];
-    const std::uint32_t index = bones.at(bone.mName.C_Str());
+    const std::uint32_t index = context.bones.at(bone.mName.C_Str());
     for (unsigned k = 0; k < bone.mNumWeights; ++k) {
       const aiVertexWeight& weight = bone.mWeights[k];
       if (weight.mWeight != 0) part.weights.push_back({index, weight.mVertexId, weight.mWeight});
@@ -72,24 +83,26 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh, con
   return part;
 }
 
-void add_meshes(const aiScene& scene, const aiNode& node, Bones& bones, Scene& out) {
+void add_meshes(const aiNode& node, const Context& context, Scene& out) {
+  const aiScene& scene = context.scene;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
     const aiMatrix4x4 file_from_mesh =
         mesh.HasBones() ? file_from_skinned_mesh(scene, mesh) : global_transform(&node);
-    add_bones(mesh, file_from_mesh, bones, out);
-    out.meshes.push_back(convert_mesh(mesh, file_from_mesh, bones));
+    add_bones(mesh, file_from_mesh, context.bones, out);
+    out.meshes.push_back(convert_mesh(mesh, file_from_mesh, context));
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) {
-    add_meshes(scene, *node.mChildren[i], bones, out);
+    add_meshes(*node.mChildren[i], context, out);
   }
 }
 
 }  // namespace
 
-void convert_meshes(const aiScene& scene, Scene& out) {
+void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool linear,
+                    Scene& out) {
   Bones bones;
-  add_meshes(scene, *scene.mRootNode, bones, out);
+  add_meshes(*scene.mRootNode, {scene, uses, linear, bones}, out);
   find_parents(scene, bones, out);
 }
 

@@ -14,6 +14,7 @@
 
 #include "model/import/reader/convert.hpp"
 #include "model/import/reader/gltf.hpp"
+#include "model/import/reader/gltf_file.hpp"
 
 namespace hypotrack::mesh_wire::internal {
 namespace {
@@ -71,8 +72,10 @@ Scene read_scene(const std::string& file) {
     if (out.error.empty()) out.error = "the file holds no scene";
     return out;
   }
-  convert_meshes(*scene, out);
-  convert_materials(*scene, out);
+  std::vector<PictureUse> uses = convert_materials(*scene, out);
+  if (gltf) uses = convert_gltf_materials(GltfFile(file).root(), out);
+  out.linear_colors = gltf ? 1 : 0;
+  convert_meshes(*scene, uses, gltf, out);
   return out;
 }
 
