@@ -74,6 +74,7 @@ Scene read_scene(const std::string& file) {
   }
   std::vector<PictureUse> uses = convert_materials(*scene, out);
   if (gltf) uses = convert_gltf_materials(GltfFile(file).root(), out);
+  if (extension == "obj") convert_mtl_materials(file, out);
   out.linear_colors = gltf ? 1 : 0;
   convert_meshes(*scene, uses, gltf, out);
   return out;
