@@ -32,7 +32,7 @@ struct MeshImportOptions {
   std::filesystem::path texture = {};  ///< replaces the texture that the file names
 };
 
-/// Imports an OBJ, PLY, STL, glTF or GLB file. A child process with a time limit reads the file, so
+/// Imports a DAE, OBJ, PLY, STL, glTF or GLB file. A child process with a time limit reads it, so
 /// that a damaged file cannot crash the program.
 /// Throws DataError on other formats, files over 256 MiB, unreadable or damaged files, meshes
 /// without faces, NaN vertices or weights, indices out of range, and skinned meshes with a vertex

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string>
 #include <utility>
 
 #include "description.hpp"
@@ -58,6 +61,13 @@ Mesh shape_of(const Visual& visual, const std::string& where, const PluginLog& l
   return read_mesh(visual, where, log);
 }
 
+/// Returns true for DAE meshes: viewers of URDF files show their materials, not the visual's.
+bool has_own_materials(const Visual& visual) {
+  std::string type = visual.mesh.extension().string();
+  std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
+  return visual.kind == ShapeKind::mesh && type == ".dae";
+}
+
 }  // namespace
 
 Mesh visual_mesh(const Visual& visual, const std::string& where, const PluginLog& log) {
@@ -65,7 +75,8 @@ Mesh visual_mesh(const Visual& visual, const std::string& where, const PluginLog
   Mesh mesh = shape_of(visual, here, log);
   if (visual.kind != ShapeKind::mesh && !visual.texture.empty())
     mesh.texture = read_texture(visual.texture, here);
-  if (mesh.texture.empty() && visual.color) mesh.color = *visual.color;
+  if (mesh.texture.empty() && visual.color && !has_own_materials(visual))
+    mesh.color = *visual.color;
   mesh.vertices = visual.link_from_visual.cast<float>() * mesh.vertices;
   return mesh;
 }

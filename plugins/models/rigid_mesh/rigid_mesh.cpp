@@ -52,7 +52,7 @@ struct RigidMeshParams {
   ShapeSettings shape;
 
   void visit(ParamVisitor& v) {
-    v("mesh", mesh, {.help = "OBJ, PLY, STL, glTF or GLB file", .required = true});
+    v("mesh", mesh, {.help = "DAE, OBJ, PLY, STL, glTF or GLB file", .required = true});
     v("units", units, {.help = "unit of the file's coordinates"});
     v("scale", scale, {.help = "makes the object larger or smaller", .min = 1e-4, .max = 1e4});
     v("texture", texture, {.help = "image to use instead of the one that the mesh names"});

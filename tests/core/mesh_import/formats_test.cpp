@@ -55,7 +55,7 @@ TEST_F(MeshFormats, RigidFilesHaveNoBonesAndNoWeights) {
 }
 
 TEST_F(MeshFormats, OtherFormatsAreRefusedByNameWithTheListOfThoseThatAreRead) {
-  for (const char* name : {"a.fbx", "a.x3d", "a.dae", "a.3ds", "a.mesh", "a"}) {
+  for (const char* name : {"a.fbx", "a.x3d", "a.zae", "a.3ds", "a.mesh", "a"}) {
     const std::filesystem::path path(name);
     EXPECT_THAT(import_error(file(name, "ply\n")),
                 AllOf(HasSubstr(name), HasSubstr("does not read meshes of type"),

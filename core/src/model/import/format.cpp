@@ -20,7 +20,7 @@ namespace hypotrack::internal {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{256} << 20;
-constexpr std::string_view kFormats = "OBJ, PLY, STL, glTF (.gltf) and GLB";
+constexpr std::string_view kFormats = "DAE, OBJ, PLY, STL, glTF (.gltf) and GLB";
 
 struct FileHead {
   std::string name;
@@ -139,6 +139,14 @@ void check_ply(const FileHead& file, Notes& notes) {
   }
 }
 
+void check_dae(const FileHead& file, Notes&) {
+  if (!is_text(file)) fail(file, "this is no DAE file: it is not text in UTF-8");
+  if (file.head.find("<COLLADA") != std::string::npos) return;
+  const std::size_t first = file.head.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (first == std::string::npos || file.head[first] != '<' || file.size <= file.head.size())
+    fail(file, "this is no DAE file: it has no <COLLADA> element");
+}
+
 FileHead open(const std::filesystem::path& path) {
   FileHead file;
   file.name = path.string();
@@ -167,6 +175,7 @@ std::vector<std::string> check_mesh_format(const std::filesystem::path& path) {
   Check check = extension == ".obj"    ? check_obj
                 : extension == ".ply"  ? check_ply
                 : extension == ".stl"  ? check_stl
+                : extension == ".dae"  ? check_dae
                 : extension == ".gltf" ? check_gltf
                 : extension == ".glb"  ? check_glb
                                        : nullptr;

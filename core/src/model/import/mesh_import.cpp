@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,15 +14,33 @@
 namespace hypotrack::internal {
 namespace {
 
+/// Returns how to convert a DAE file; nothing of other files.
+std::string conversion(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".dae") return {};
+  const std::string name = file.stem().string();
+  return fmt::format(
+      "; convert the DAE file, for example: blender -b --python-expr \"import bpy; "
+      "bpy.ops.wm.read_homefile(use_empty=True); bpy.ops.wm.collada_import(filepath='{0}.dae'); "
+      "bpy.ops.export_scene.gltf(filepath='{0}.glb')\" (Blender before 5.0)",
+      name);
+}
+
 void read_scene(MeshFile& file) {
   std::vector<std::string> notes = check_mesh_format(file.path);
+  const MeshReader reader = default_mesh_reader(file.path);
   try {
-    file.scene = mesh_wire::decode(run_mesh_reader(default_mesh_reader(file.path), file.path));
+    file.scene = mesh_wire::decode(run_mesh_reader(reader, file.path));
+  } catch (const DataError& error) {
+    throw DataError(error.what() + conversion(file.path));
   } catch (const std::runtime_error& error) {
     if (dynamic_cast<const Error*>(&error)) throw;
     file.fail(fmt::format("the mesh could not be read: {}", error.what()));
   }
-  if (!file.scene.error.empty()) file.fail("the mesh could not be read: " + file.scene.error);
+  if (!file.scene.error.empty())
+    file.fail("the mesh could not be read: " + file.scene.error + conversion(file.path));
   file.scene.notes.insert(file.scene.notes.begin(), notes.begin(), notes.end());
 }
 

@@ -89,7 +89,7 @@ TEST(ArticulatedModel, RefusesWhatCannotBeDrawn) {
               AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("no such mesh file")));
   EXPECT_THAT(error_of_visual(mesh("empty.obj")),
               AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("empty.obj")));
-  EXPECT_THAT(error_of_visual(mesh("a.dae")),
+  EXPECT_THAT(error_of_visual(mesh("a.3ds")),
               AllOf(HasSubstr("it.urdf: link 'a', visual 1: "), HasSubstr("OBJ, PLY, STL")));
   EXPECT_THAT(error_of_visual(mesh("large.obj")), AllOf(HasSubstr("the object is 50 m long"),
                                                         HasSubstr("scale=\"0.001 0.001 0.001\"")));
@@ -97,6 +97,35 @@ TEST(ArticulatedModel, RefusesWhatCannotBeDrawn) {
       error_of_visual("<visual><geometry><box size='1 1 1'/></geometry>"
                       "<material name='m'><texture filename='no.png'/></material></visual>"),
       AllOf(HasSubstr("it.urdf: link 'a', visual 1: its texture "), HasSubstr("no.png")));
+}
+
+TEST(ArticulatedModel, DaeMeshesAreInMetresAndKeepTheirColor) {
+  const TemporaryDirectory folder;
+  const auto file = folder.path() / "it.urdf";
+  std::ofstream(folder.path() / "a.dae")
+      << "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'>"
+         "<asset><unit meter='0.001'/><up_axis>Z_UP</up_axis></asset><library_effects>"
+         "<effect id='e'><profile_COMMON><technique sid='t'><lambert><diffuse><color>0.8 0.1 0.2 1"
+         "</color></diffuse></lambert></technique></profile_COMMON></effect></library_effects>"
+         "<library_materials><material id='m'><instance_effect url='#e'/></material>"
+         "</library_materials><library_geometries><geometry id='g'><mesh><source id='p'>"
+         "<float_array id='a' count='9'>0 0 0 100 0 0 0 200 0</float_array><technique_common>"
+         "<accessor source='#a' count='3' stride='3'><param name='X' type='float'/><param name='Y' "
+         "type='float'/><param name='Z' type='float'/></accessor></technique_common></source>"
+         "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1' "
+         "material='s'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles>"
+         "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'>"
+         "<node><instance_geometry url='#g'><bind_material><technique_common><instance_material "
+         "symbol='s' target='#m'/></technique_common></bind_material></instance_geometry></node>"
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#w'/></scene>"
+         "</COLLADA>";
+  std::ofstream(file)
+      << "<robot name='it'><link name='a'><visual><geometry><mesh filename='a.dae'/></geometry>"
+         "<material name='m'><color rgba='0 0 1 1'/></material></visual></link></robot>";
+  const auto model = make_model("{type: articulated, file: '" + file.string() + "'}");
+  const Mesh& mesh = model->data().mesh;
+  EXPECT_EQ(mesh.color, Eigen::Vector3f(0.8f, 0.1f, 0.2f));
+  EXPECT_TRUE(mesh.vertices.rowwise().maxCoeff().isApprox(Eigen::Vector3f(0.1f, 0.2f, 0)));
 }
 
 TEST(ArticulatedModel, MirroredScalesKeepTheOutsideOutside) {

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "model/import/reader/convert.hpp"
+#include "model/import/reader/dae.hpp"
 #include "model/import/reader/gltf.hpp"
 #include "model/import/reader/gltf_file.hpp"
 
@@ -60,6 +61,8 @@ Scene read_scene(const std::string& file) {
   importer.SetIOHandler(new RegularFiles);  // which it deletes
   keep_importers(importer, extension);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_REMOVE_EMPTY_BONES, false);
+  // RViz, MoveIt and their users' files have DAE coordinates as they are, whatever way is up.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   Scene out;
   const bool gltf = extension == "gltf" || extension == "glb";
   const PlainGltf plain = gltf ? plain_gltf(file) : PlainGltf{};
@@ -75,6 +78,7 @@ Scene read_scene(const std::string& file) {
   std::vector<PictureUse> uses = convert_materials(*scene, out);
   if (gltf) uses = convert_gltf_materials(GltfFile(file).root(), out);
   if (extension == "obj") convert_mtl_materials(file, out);
+  if (extension == "dae") uses = convert_dae(file, *scene, out);
   out.linear_colors = gltf ? 1 : 0;
   convert_meshes(*scene, uses, gltf, out);
   return out;

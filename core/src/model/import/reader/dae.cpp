@@ -1,0 +1,148 @@
+#include "model/import/reader/dae.hpp"
+
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+
+#include "hypotrack/text_file.hpp"
+#include "model/import/reader/dae_effects.hpp"
+#include "model/import/reader/surfaces.hpp"
+
+namespace hypotrack::mesh_wire::internal {
+namespace {
+
+using Names = std::set<std::string, std::less<>>;
+
+/// Lists the elements that are not read, each kind once.
+class Unread {
+ public:
+  explicit Unread(std::vector<std::string>& notes) : notes_(notes) {}
+
+  void look_at(const Xml& root) {
+    static const Names kSections = {"<xmlattr>",
+                                    "<xmlcomment>",
+                                    "asset",
+                                    "scene",
+                                    "extra",
+                                    "library_cameras",
+                                    "library_lights",
+                                    "library_effects",
+                                    "library_geometries",
+                                    "library_images",
+                                    "library_materials",
+                                    "library_nodes",
+                                    "library_visual_scenes",
+                                    "library_controllers"};
+    for (const auto& [section, content] : root) {
+      const bool is_empty = content.empty();
+      if (!kSections.contains(section) && !is_empty) tell("<" + section + ">");
+      if (section == "library_geometries")
+        for (const auto& [name, geometry] : content) look_at_geometry(geometry);
+    }
+    look_for_files(root);
+  }
+
+ private:
+  void look_at_geometry(const Xml& geometry) {
+    static const Names kRead = {"<xmlattr>", "<xmlcomment>", "source",    "vertices", "triangles",
+                                "polygons",  "polylist",     "tristrips", "trifans",  "extra"};
+    for (const auto& [kind, content] : geometry) {
+      if (kind == "mesh") {
+        for (const auto& [name, part] : content)
+          if (!kRead.contains(name)) tell("<" + name + ">");
+      } else if (kind != "<xmlattr>" && kind != "extra" && kind != "asset") {
+        tell("<" + kind + ">");
+      }
+    }
+  }
+
+  void look_for_files(const Xml& element) {
+    for (const auto& [name, child] : element) {
+      if (name == "<xmlattr>") {
+        const std::string url = child.get<std::string>("url", "#");
+        if (!url.starts_with("#")) tell("the other file " + url);
+      } else {
+        look_for_files(child);
+      }
+    }
+  }
+
+  void tell(const std::string& what) {
+    if (told_.insert(what).second) notes_.push_back("it has " + what + ", which is not read");
+  }
+
+  std::vector<std::string>& notes_;
+  Names told_;
+};
+
+/// Throws if a list has more or fewer numbers than it says: assimp takes what there is.
+void check_numbers(const Xml& element) {
+  for (const auto& [name, child] : element) {
+    check_numbers(child);
+    if (name != "float_array") continue;
+    const std::string& text = child.data();
+    std::size_t found = 0;
+    for (std::size_t at = 0; (at = text.find_first_not_of(" \t\r\n", at)) != text.npos; ++found)
+      at = std::min(text.find_first_of(" \t\r\n", at), text.size());
+    if (const std::string count = attribute(child, "count"); count != std::to_string(found))
+      throw std::runtime_error("the list '" + attribute(child, "id") + "' has " +
+                               std::to_string(found) + " numbers, and its count says " + count +
+                               ": the file is damaged");
+  }
+}
+
+void check_asset(const Xml& root, Scene& out) {
+  const std::string unit = root.get<std::string>("asset.unit.<xmlattr>.meter", "1");
+  std::istringstream in(unit);
+  double metres = 0;
+  if (!(in >> metres) || !(metres > 0) || !std::isfinite(metres))
+    throw std::runtime_error("its <unit meter=\"" + unit +
+                             "\"> is no length of a metre's multiple");
+  const std::string up = root.get<std::string>("asset.up_axis", "Z_UP");
+  if (up.find("Z_UP") == up.npos)
+    out.notes.push_back("its <up_axis> " + up +
+                        " turns nothing, as in RViz: the coordinates are the file's");
+}
+
+}  // namespace
+
+std::vector<PictureUse> convert_dae(const std::string& file, const aiScene& scene, Scene& out) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    if (scene.mMeshes[i]->HasBones())
+      throw std::runtime_error("it has a skin, and DAE files are read as rigid meshes only");
+    if (scene.mMeshes[i]->mNumAnimMeshes > 0)
+      out.notes.push_back("the shapes that mesh '" + std::string(scene.mMeshes[i]->mName.C_Str()) +
+                          "' changes to are not read");
+  }
+  std::istringstream text(read_whole(file).value_or(""));
+  Xml tree;
+  boost::property_tree::read_xml(text, tree);
+  const Xml& root = tree.get_child("COLLADA");
+  check_numbers(root);
+  check_asset(root, out);
+  Unread(out.notes).look_at(root);
+  const Effects effects(root);
+  std::vector<PictureUse> uses(out.materials.size());
+  for (std::size_t i = 0; i < out.materials.size() && i < scene.mNumMaterials; ++i) {
+    Material& material = out.materials[i];
+    const Effect* effect = effects.of(material.name);
+    uses[i] = {effects.set_of(material.name), true};
+    if (!effect) continue;
+    material.wrap = effect->wrap;
+    if (effect->glows && material.texture.empty()) material.color = effect->emission;
+    std::vector<std::string> left_out = effect->left_out;
+    float opacity = 1;
+    scene.mMaterials[i]->Get(AI_MATKEY_OPACITY, opacity);
+    if (opacity < 1) left_out.push_back("<transparency> (it is opaque)");
+    add_note(material, left_out, out);
+  }
+  return uses;
+}
+
+}  // namespace hypotrack::mesh_wire::internal
