@@ -48,7 +48,8 @@ Object from_urdf(const ArticulatedParams& params, const std::string& where, cons
       throw ConfigError(fmt::format("{}: a URDF file takes no `rig` and no `texture`; leave {} out",
                                     where, path->string()));
   const std::string file = params.file.string();
-  Description description = read_urdf(params.file, params.scale);
+  const Description description = read_urdf(params.file, params.scale);
+  for (const std::string& note : description.notes) log.note(note);
   if (description.visuals.empty())
     throw DataError(file +
                     ": no link has a <visual>, so there is nothing to draw; collision geometry is "

@@ -30,6 +30,7 @@ struct Visual {
 struct Description {
   Mechanism mechanism;
   std::vector<Visual> visuals;
+  std::vector<std::string> notes{};  ///< for the user: what is not read, after the file's name
 };
 
 /// Reads a URDF file, with all lengths times `scale`. Throws DataError, beginning with the file's

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "description.hpp"
 #include "hypotrack/error.hpp"
@@ -191,7 +192,11 @@ class Converter {
 }  // namespace
 
 Description read_urdf(const std::filesystem::path& file, double scale) {
-  return Converter(*parse_urdf(file), file, scale).convert();
+  std::vector<std::string> notes;
+  const urdf::ModelInterfaceSharedPtr model = parse_urdf(file, notes);
+  Description out = Converter(*model, file, scale).convert();
+  out.notes = std::move(notes);
+  return out;
 }
 
 }  // namespace hypotrack::articulated

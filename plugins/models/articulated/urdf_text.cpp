@@ -13,6 +13,7 @@
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/text_file.hpp"
+#include "urdf_unread.hpp"
 
 namespace hypotrack::articulated {
 namespace {
@@ -82,16 +83,26 @@ bool is_element(std::string_view rest, std::string_view begin) {
          std::string_view(" \t\r\n/>").find(rest[begin.size()]) != rest.npos;
 }
 
-/// Returns a URDF text without comments and collision geometry, which nothing here uses. Limits of
-/// joints get the effort and velocity that the specification asks for and many files leave out.
+/// Returns the element that a text begins with, of those that say nothing of shapes and joints;
+/// empty if it begins with another. The parser refuses some that are incomplete.
+std::string_view unused_element(std::string_view text) {
+  for (const std::string_view name :
+       {"collision", "inertial", "gazebo", "transmission", "safety_controller", "dynamics",
+        "calibration", "sensor", "ros2_control"})
+    if (text.starts_with('<') && is_element(text.substr(1), name)) return name;
+  return {};
+}
+
+/// Returns a URDF text without comments and unused elements. Limits of joints get the effort and
+/// velocity that the specification asks for and many files leave out.
 std::string text_for_parser(std::string_view text) {
   std::string out;
   while (!text.empty()) {
     if (text.starts_with("<!--")) {
       text.remove_prefix(behind(text, "-->", 4));
-    } else if (is_element(text, "<collision")) {
+    } else if (const std::string_view unused = unused_element(text); !unused.empty()) {
       std::size_t end = behind(text, ">", 0);
-      if (text[end - 2] != '/') end = behind(text, "</collision>", end);
+      if (text[end - 2] != '/') end = behind(text, fmt::format("</{}>", unused), end);
       text.remove_prefix(end);
     } else if (is_element(text, "<limit")) {
       constexpr std::string_view kLimit = "<limit";
@@ -111,11 +122,17 @@ std::string text_for_parser(std::string_view text) {
 
 }  // namespace
 
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file) {
-  const std::string text = text_for_parser(read(file));
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file,
+                                         std::vector<std::string>& notes) {
+  const std::string whole = read(file);
+  const std::string text = text_for_parser(whole);
   const Log log;
   urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(text);
-  if (model && log.text().empty()) return model;
+  if (model && log.text().empty()) {
+    for (const std::string& note : unread_in_urdf(whole))
+      notes.push_back(fmt::format("{}: {}", file.string(), note));
+    return model;
+  }
   std::string hint;
   if (text.find("xacro:") != std::string::npos)
     hint = "; this is a xacro macro file: write the URDF that `xacro` makes of it";

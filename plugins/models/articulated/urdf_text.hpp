@@ -4,11 +4,14 @@
 #include <urdf_world/types.h>
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace hypotrack::articulated {
 
 /// Parses a URDF file by urdfdom. Throws DataError with the file's name and what urdfdom logs, if
-/// it logs a warning or an error.
-urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file);
+/// it logs a warning or an error. `notes` receives what is not read.
+urdf::ModelInterfaceSharedPtr parse_urdf(const std::filesystem::path& file,
+                                         std::vector<std::string>& notes);
 
 }  // namespace hypotrack::articulated

@@ -129,6 +129,33 @@ TEST_F(Urdf, CollisionGeometryAndCommentsAreNotRead) {
   EXPECT_THAT(message("<link name='a'/><link name='b'/><!-- "), HasSubstr("no valid URDF file"));
 }
 
+TEST_F(Urdf, MassesAreNotRead) {
+  for (const std::string inertial : {"<mass value='1'/>", "<inertia ixx='1'/>",
+                                     "<mass value='nan'/><origin xyz='a b c'/>", ""}) {
+    const Description it = read(
+        "<link name='a'><inertial>" + inertial +
+        "</inertial><inertial/><visual><geometry><sphere radius='2'/></geometry></visual></link>");
+    EXPECT_EQ(it.visuals.size(), 1U) << inertial;
+    EXPECT_THAT(it.notes, testing::IsEmpty()) << inertial;
+  }
+}
+
+TEST_F(Urdf, OneNoteNamesWhatIsNotRead) {
+  const Description it = read(
+      "<!-- <mine/> --><link name='a'><visual><origin xyz='0 0 0' quat_xyzw='0 0 1 0'/>"
+      "<geometry><sphere radius='2'/></geometry><material name='m'><color rgba='1 0 0 0.5'/>"
+      "</material></visual><collision name='c'><mine/></collision></link><link name='b'/>" +
+      joint("revolute",
+            std::string(kLimit) + "<safety_controller k_position='1'/><dynamics friction='x'/>") +
+      "<gazebo reference='a'><mine/></gazebo><gazebo/><transmission name='t'><joint name='j'/>"
+      "</transmission><theirs/>");
+  EXPECT_THAT(it.notes,
+              testing::ElementsAre(
+                  file().string() +
+                  ": not read: <gazebo> (2 times), <safety_controller>, <theirs>, <transmission>, "
+                  "the attribute quat_xyzw of <origin>, the transparency of <color>"));
+}
+
 TEST_F(Urdf, AScaleIsAFactorOnAllLengths) {
   const std::string origin = "<origin xyz='1 2 3' rpy='0 0 1'/>";
   std::ofstream(file())
