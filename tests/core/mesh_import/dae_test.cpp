@@ -178,10 +178,10 @@ TEST_F(DaeFile, DamageEndsInOneMessageWithAConversion) {
   const std::string whole = dae({});
   EXPECT_THAT(import_error(file(whole.substr(0, whole.size() / 2))),
               HasSubstr("; convert the DAE file, for example: blender"));
-  std::string shorter = whole;
-  shorter.replace(shorter.find("0 0 0 1 0 0 1 1 0"), 1, "");
-  EXPECT_THAT(import_error(file(shorter)),
-              HasSubstr("the list 'pa' has 11 numbers, and its count says 12"));
+  std::string longer = whole;
+  longer.insert(longer.find("0 0 0 1 0 0 1 1 0"), "0 ");
+  EXPECT_THAT(import_error(file(longer)),
+              HasSubstr("the list 'pa' has 13 numbers, and its count says 12"));
   EXPECT_THAT(import_error(file("<html><body/></html>")),
               HasSubstr("this is no DAE file: it has no <COLLADA> element"));
   EXPECT_THAT(import_error(file(std::string("\xFF\xFE<\0", 4))),
