@@ -136,8 +136,12 @@ ChessboardCorners find_chessboard(const cv::Mat& gray, cv::Size size, bool quick
   if (quickly) out.at = corners_of_size(small, size, kFast);
   SeenChessboard seen;
   if (out.at.empty()) seen = largest_chessboard(small);
-  // A larger one may have a row too many: edges around a board look like corners at times.
-  const bool other = seen.whole && !is_part(seen.size, size) && !is_part(size, seen.size);
+  // A slow search for squares in place of corners finds nothing. A larger board may have a row too
+  // many: edges around a board look like corners at times.
+  const cv::Size squares = seen.size + cv::Size(1, 1);
+  const bool counted = squares == size || squares == cv::Size(size.height, size.width);
+  const bool other =
+      seen.whole && (counted || (!is_part(seen.size, size) && !is_part(size, seen.size)));
   if (!quickly && !other) out.at = corners_of_size(small, size, kSlow);
   if (out.at.empty()) out.at = sharp_of_size(small, seen, size);
   if (out.at.empty() && !quickly && !other && scale < 1) {
