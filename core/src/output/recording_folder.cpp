@@ -56,8 +56,8 @@ std::filesystem::path RecordingFolder::place() const {
 }
 
 void RecordingFolder::finish() {
-  part_->expect_exists();
   parent_->write_with([this] {
+    part_->expect_exists();
     const std::filesystem::path final = parent_->path() / name_;
     std::error_code error;
     std::filesystem::remove(final, error);  // an empty folder of that name

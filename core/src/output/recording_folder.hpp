@@ -27,8 +27,10 @@ class RecordingFolder {
   /// Calls a function that writes files, as OpenFolder::write_with() does.
   template <class Function>
   decltype(auto) write_with(const Function& function) const {
-    part_->expect_exists();
-    return parent_->write_with([&]() -> decltype(auto) { return part_->write_with(function); });
+    return parent_->write_with([&]() -> decltype(auto) {
+      part_->expect_exists();
+      return part_->write_with(function);
+    });
   }
   /// Gives the folder its name. Throws OutputError.
   void finish();
