@@ -32,11 +32,10 @@ struct MeshImportOptions {
   std::filesystem::path texture = {};  ///< replaces the texture that the file names
 };
 
-/// Imports a DAE, OBJ, PLY, STL, glTF or GLB file. A child process with a time limit reads the file,
-/// so that a damaged file cannot crash the program.
-/// Throws DataError on other formats, files over 256 MiB, unreadable or damaged files, meshes
-/// without faces, NaN vertices or weights, indices out of range, and skinned meshes with a vertex
-/// that no bone moves.
+/// Imports a DAE, OBJ, PLY, STL, glTF or GLB file. A child process with a time limit reads the
+/// file, so that a damaged file cannot crash the program. Throws DataError on other formats, files
+/// over 256 MiB, unreadable or damaged files, meshes without faces, NaN vertices or weights,
+/// indices out of range, and skinned meshes with a vertex that no bone moves.
 HYPOTRACK_API ImportedMesh import_mesh(const std::filesystem::path& file,
                                        const MeshImportOptions& options = {});
 
