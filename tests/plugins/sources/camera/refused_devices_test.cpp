@@ -21,8 +21,8 @@ class RefusedDevices : public test::SourceFixture {
 TEST_F(RefusedDevices, OneDeviceOrTwoAreExpected) {
   for (const char* lines : {"", "left: 0\n", "right: 0\n", "device: 0\nleft: 1\nright: 2\n"}) {
     EXPECT_THAT(making(lines),
-                ThrowsMessage<ConfigError>(HasSubstr("expected either device (both views side by "
-                                                     "side) or left and right")))
+                ThrowsMessage<ConfigError>(HasSubstr("expected either device (one picture of both "
+                                                     "views) or left and right")))
         << lines;
   }
   EXPECT_THAT(making("left: 3\nright: 3\n"),
