@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # get_hand_detector.sh [FOLDER]: puts the networks of the hand detector into FOLDER, by default
 # hypotrack/hand_detector in $XDG_DATA_HOME or ~/.local/share. They are those of MediaPipe (Apache-2.0), from
-# the npm package @mediapipe/hands, converted to ONNX. Installs the Debian packages that this needs. Does nothing
-# if they are there.
+# the npm package @mediapipe/hands, converted to flat files. Installs the Debian packages that this needs. Does
+# nothing if they are there.
 set -euo pipefail
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tools=$(cd "$scripts/../tools/hand_detector" && pwd)
@@ -23,11 +23,11 @@ tflite_sums="\
 d7fde8ac11f8ce03f8663775bfc323f4fc9f2a38062b4f4efa142874ef5b2a48  hand_landmark_lite.tflite
 2f25e740121983f68ffc05f99991d524dc0ea812134f6316a26125816941ee85  palm_detection_full.tflite
 e9a4aaddf90dda56a87235303cf00e4c2d3fb28725f68fd88772997dac905c18  palm_detection_lite.tflite"
-onnx_sums="\
-b74f0ff970ed25484c0f39405aa52da40d94b236ded130d1fd84d51b20ada4fb  hand_landmark_full.onnx
-76edfef15ceb4c505ce0d06fbc040ca5483a511df74e689f7238b701a08484c1  hand_landmark_lite.onnx
-9e1ad1c4e06336cd262005b7a2c3fbe736842bf97faf799f365eb0089fff8a3b  palm_detection_full.onnx
-9438cb4ea70848fa8e9da5fe3a0b86519175241575654fa8f8c10f5f5f11586c  palm_detection_lite.onnx"
+network_sums="\
+841a85656cecd961e4cb747394d7965b0d0cecd930e6a92d2fd6a0b38539531c  hand_landmark_full.net
+68af4eef74f48dedb32b50a9e35b5ccbcdcadd0224af93f4aa80b92473526e20  hand_landmark_lite.net
+23780dfe5993a9cbeb8d692688dd30f7d4f4262541c8625a7ead8db91a750181  palm_detection_full.net
+3b9c901dd895898e23ddc30fcc5aeaf51b92f6505a770e6c4d939b891a108d16  palm_detection_lite.net"
 
 # holds FOLDER SUMS: whether the files are there and have these sums.
 holds() {
@@ -60,7 +60,7 @@ else
   [ -n "${XDG_DATA_HOME:-${HOME:-}}" ] || fail "HOME is not set; name a folder"
   folder=${XDG_DATA_HOME:-$HOME/.local/share}/hypotrack/hand_detector
 fi
-if [ -f "$folder/LICENSE" ] && holds "$folder" "$onnx_sums"; then
+if [ -f "$folder/LICENSE" ] && holds "$folder" "$network_sums"; then
   echo "The hand detector is in $folder"
   exit 0
 fi
@@ -69,9 +69,7 @@ if command -v apt-get >/dev/null; then
   source "$scripts/install_missing_packages.sh"
   install_missing_packages packages-detector.txt
 fi
-for module in onnx numpy; do
-  "$python" -c "import $module" 2>/dev/null || fail "needs the module $module of $python; install python3-$module"
-done
+"$python" -c "import numpy" 2>/dev/null || fail "needs the module numpy of $python; install python3-numpy"
 
 parent=$(dirname "$folder")
 mkdir -p "$parent" 2>/dev/null || fail "cannot make the folder $parent"
@@ -92,14 +90,13 @@ holds . "$tflite_sums" || fail "$archive does not hold the expected networks: a 
 
 mkdir ready
 for network in *.tflite; do
-  "$python" -B "$tools/convert.py" "$network" "ready/${network%.tflite}.onnx" ||
-    fail "$network cannot be converted to ONNX"
+  "$python" -B "$tools/convert.py" "$network" "ready/${network%.tflite}.net" ||
+    fail "$network cannot be converted"
 done
-holds ready "$onnx_sums" ||
-  fail "the converted networks differ from those that were tested; is python3-onnx 1.12 or later?"
+holds ready "$network_sums" || fail "the converted networks differ from those that were tested"
 {
-  echo "The .onnx files here are MediaPipe's palm detectors and hand landmark networks, by Google, from the"
-  echo "npm package $package $version, converted from TensorFlow Lite to ONNX by hypotrack."
+  echo "The .net files here are MediaPipe's palm detectors and hand landmark networks, by Google, from the"
+  echo "npm package $package $version, converted from TensorFlow Lite by hypotrack."
   echo "They are under this licence:"
   cat "$licence"
 } >ready/LICENSE
@@ -111,3 +108,6 @@ else  # with damaged or missing files, and perhaps others
   mv --force ready/* "$folder/" || fail "cannot write into $folder"
 fi
 echo "The hand detector is in $folder"
+if compgen -G "$folder/*.onnx" >/dev/null; then
+  echo "The .onnx files there are those of earlier versions; nothing needs them any more."
+fi

@@ -9,10 +9,10 @@
 
 #include "duplicates.hpp"
 #include "hand_landmarker.hpp"
+#include "hand_picture.hpp"
 #include "hypotrack/error.hpp"
 #include "joints.hpp"
 #include "palm_detector.hpp"
-#include "picture_check.hpp"
 #include "tiles.hpp"
 
 namespace hypotrack {
@@ -20,9 +20,11 @@ namespace {
 
 constexpr double kUnsure = 0.2;         // times the threshold of sure palms
 constexpr double kUnsureAbsence = 0.1;  // times the greatest probability that there is no hand
-constexpr int kRounds = 2;              // of the landmark network for a hand
-constexpr int kUnsureRounds = 4;        // the boxes of unsure palms are less accurate
-constexpr int kTries = 3;               // palms that are looked at, for each hand there may be
+using Rounds = hands::HandLandmarker::Rounds;
+constexpr Rounds kRounds{2, 0.05};
+constexpr Rounds kUnsureRounds{4, 0.05};    // the boxes of unsure palms are less accurate
+constexpr Rounds kFollowingRounds{2, 0.1};  // landmarks of the last frame lie as the network's do
+constexpr int kTries = 3;                   // palms that are looked at, for each hand there may be
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -60,30 +62,34 @@ struct HandDetector::Impl {
   explicit Impl(Options given)
       : options(checked(std::move(given))),
         palms(options.folder /
-              (options.lite ? "palm_detection_lite.onnx" : "palm_detection_full.onnx")),
+              (options.lite ? "palm_detection_lite.net" : "palm_detection_full.net")),
         landmarker(options.folder /
-                   (options.lite ? "hand_landmark_lite.onnx" : "hand_landmark_full.onnx")) {}
+                   (options.lite ? "hand_landmark_lite.net" : "hand_landmark_full.net")) {}
 
   double least_score() const { return kUnsure * options.palm_threshold; }
-  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough);
-  std::vector<HandDetection> confirm(const cv::Mat& picture, std::span<const hands::Palm> found,
-                                     bool sure);
-  std::vector<HandDetection> detect_small(const cv::Mat& picture, int side);
+  std::vector<HandDetection> detect(const hands::HandPicture& picture, bool thorough) const;
+  std::vector<HandDetection> confirm(const hands::HandPicture& picture,
+                                     std::span<const hands::Palm> found, bool sure) const;
+  std::vector<HandDetection> detect_small(const hands::HandPicture& picture, int side) const;
+  std::optional<HandDetection> look(const cv::Mat& picture, const HandPoints& guess,
+                                    const Rounds& rounds) const;
 
   Options options;
   hands::PalmDetector palms;
   hands::HandLandmarker landmarker;
 };
 
-std::vector<HandDetection> HandDetector::Impl::detect(const cv::Mat& picture, bool thorough) {
-  const cv::Rect whole({}, picture.size());
+std::vector<HandDetection> HandDetector::Impl::detect(const hands::HandPicture& picture,
+                                                      bool thorough) const {
+  const cv::Size size = picture.pixels.size();
+  const cv::Rect whole({}, size);
   const std::vector<hands::Palm> found = palms.find(picture, whole, least_score());
   const auto unsure = std::find_if(found.begin(), found.end(), [&](const hands::Palm& palm) {
     return palm.score < options.palm_threshold;
   });
   std::vector<HandDetection> out = confirm(picture, {found.begin(), unsure}, true);
   if (out.empty()) out = confirm(picture, {unsure, found.end()}, false);
-  for (const int side : hands::tile_sides(picture.size(), options.smallest_hand)) {
+  for (const int side : hands::tile_sides(size, options.smallest_hand)) {
     if (!out.empty()) break;
     out = detect_small(picture, side);
     if (!thorough) break;
@@ -92,9 +98,9 @@ std::vector<HandDetection> HandDetector::Impl::detect(const cv::Mat& picture, bo
 }
 
 /// Returns the hands at palms, which are sorted by score. Unsure palms take a surer hand.
-std::vector<HandDetection> HandDetector::Impl::confirm(const cv::Mat& picture,
+std::vector<HandDetection> HandDetector::Impl::confirm(const hands::HandPicture& picture,
                                                        std::span<const hands::Palm> found,
-                                                       bool sure) {
+                                                       bool sure) const {
   const double presence = sure ? options.presence : 1 - kUnsureAbsence * (1 - options.presence);
   const auto most = static_cast<std::size_t>(options.most_hands);
   std::vector<HandDetection> out;
@@ -109,13 +115,25 @@ std::vector<HandDetection> HandDetector::Impl::confirm(const cv::Mat& picture,
 }
 
 /// Returns the hands in tiles of the picture.
-std::vector<HandDetection> HandDetector::Impl::detect_small(const cv::Mat& picture, int side) {
+std::vector<HandDetection> HandDetector::Impl::detect_small(const hands::HandPicture& picture,
+                                                            int side) const {
   std::vector<hands::Palm> found;
-  for (const cv::Rect& tile : hands::tiles(picture.size(), side)) {
+  for (const cv::Rect& tile : hands::tiles(picture.pixels.size(), side)) {
     const auto here = palms.find(picture, tile, least_score());
     found.insert(found.end(), here.begin(), here.end());
   }
   return confirm(picture, hands::without_overlaps(std::move(found)), false);
+}
+
+std::optional<HandDetection> HandDetector::Impl::look(const cv::Mat& picture,
+                                                      const HandPoints& guess,
+                                                      const Rounds& rounds) const {
+  const hands::HandPicture color = hands::hand_picture(picture);
+  if (!guess.allFinite()) return std::nullopt;
+  HandDetection hand = landmarker.find(color, hands::region_of(hands::landmarks_at(guess)), rounds);
+  if (!(hand.presence > options.presence)) return std::nullopt;
+  move_to_joints(hand);
+  return hand;
 }
 
 HandDetector::HandDetector(Options options) : impl_(std::make_unique<Impl>(std::move(options))) {}
@@ -123,20 +141,20 @@ HandDetector::~HandDetector() = default;
 HandDetector::HandDetector(HandDetector&&) noexcept = default;
 HandDetector& HandDetector::operator=(HandDetector&&) noexcept = default;
 
-std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture, bool thorough) {
-  std::vector<HandDetection> found = impl_->detect(hands::checked_color(picture), thorough);
+std::vector<HandDetection> HandDetector::detect(const cv::Mat& picture, bool thorough) const {
+  std::vector<HandDetection> found = impl_->detect(hands::hand_picture(picture), thorough);
   std::ranges::for_each(found, move_to_joints);
   return found;
 }
 
-std::optional<HandDetection> HandDetector::refine(const cv::Mat& picture, const HandPoints& guess) {
-  const cv::Mat color = hands::checked_color(picture);
-  if (!guess.allFinite()) return std::nullopt;
-  HandDetection hand =
-      impl_->landmarker.find(color, hands::region_of(hands::landmarks_at(guess)), kRounds);
-  if (!(hand.presence > impl_->options.presence)) return std::nullopt;
-  move_to_joints(hand);
-  return hand;
+std::optional<HandDetection> HandDetector::refine(const cv::Mat& picture,
+                                                  const HandPoints& guess) const {
+  return impl_->look(picture, guess, kRounds);
+}
+
+std::optional<HandDetection> HandDetector::follow(const cv::Mat& picture,
+                                                  const HandPoints& guess) const {
+  return impl_->look(picture, guess, kFollowingRounds);
 }
 
 std::filesystem::path HandDetector::default_folder() {

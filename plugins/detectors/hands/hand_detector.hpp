@@ -11,7 +11,8 @@
 namespace hypotrack {
 
 /// Finds hands and their landmarks in single pictures, by MediaPipe's networks. Equal pictures give
-/// equal results, whatever was found before. Use it from one thread at a time.
+/// equal results, whatever was found before. Several threads may use it, each for its picture.
+/// Detectors share the networks of a folder.
 class HandDetector {
  public:
   struct Options {
@@ -35,11 +36,15 @@ class HandDetector {
 
   /// Returns the hands in an 8-bit BGR or grey picture, those with the surest palms first. Unless
   /// `thorough`, looks in the largest tiles only. Throws DataError for other pictures.
-  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough = true);
+  std::vector<HandDetection> detect(const cv::Mat& picture, bool thorough = true) const;
 
-  /// Returns the hand at about these landmarks, of the last frame or projected; nothing if there is
-  /// none or a landmark is NaN. Takes a fraction of the time of detect().
-  std::optional<HandDetection> refine(const cv::Mat& picture, const HandPoints& guess);
+  /// Returns the hand at about these landmarks, such as projected ones; nothing if there is none or
+  /// a landmark is NaN. Takes a fraction of the time of detect().
+  std::optional<HandDetection> refine(const cv::Mat& picture, const HandPoints& guess) const;
+
+  /// Returns the hand at about the landmarks that it had in the last frame, moved to where it is
+  /// expected. Runs the network once, and again only if the hand is elsewhere.
+  std::optional<HandDetection> follow(const cv::Mat& picture, const HandPoints& guess) const;
 
   /// Returns the folder in HYPOTRACK_HAND_DETECTOR, else hypotrack/hand_detector in XDG_DATA_HOME,
   /// else the same in ~/.local/share. Throws DataError if none of these variables nor HOME is set.

@@ -1,6 +1,7 @@
 #include "hand_landmarker.hpp"
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace hypotrack::hands {
@@ -32,20 +33,22 @@ HandLandmarker::HandLandmarker(const std::filesystem::path& file)
                 {"right", 1},
                 {"relative", kPointNumbers}}) {}
 
-HandDetection HandLandmarker::find(const cv::Mat& picture, Region region, int rounds) {
+HandDetection HandLandmarker::find(const HandPicture& picture, Region region,
+                                   const Rounds& rounds) const {
   HandDetection out;
-  for (int i = 0; i < rounds; ++i) {
+  for (int i = 0; i < rounds.most; ++i) {
     if (!usable(region)) return {};
     out = find_once(picture, region);
     const Region next = region_of(out.landmarks);
-    if (out.presence < kNothing || nearly_equal(region, next)) break;
+    if (out.presence < kNothing || nearly_equal(region, next, rounds.share)) break;
     region = next;
   }
   return out;
 }
 
-HandDetection HandLandmarker::find_once(const cv::Mat& picture, const Region& region) {
-  const auto outputs = network_.run(cut_out(picture, region, kHandSide));
+HandDetection HandLandmarker::find_once(const HandPicture& picture, const Region& region) const {
+  const auto outputs = network_.run(
+      [&](std::span<float> input) { write_region(picture, region, kHandSide, input); });
   const Eigen::Matrix2d rotation = rotation_of(region);
   const Eigen::Matrix2Xd in_cut = points_of(outputs[0]).topRows<2>();
   HandDetection out;

@@ -1,79 +1,181 @@
 #include "network.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <new>
+#include <unordered_map>
 
-#include <opencv2/dnn/shape_utils.hpp>
-
-#include "hypotrack/error.hpp"
 #include "hypotrack/stop.hpp"
+#include "network_file.hpp"
+#include "network_plan.hpp"
+#include "one_thread.hpp"
 
 namespace hypotrack::hands {
+
+/// What one thread needs to run a plan.
+class Network::Context {
+ public:
+  /// The plan outlives it.
+  explicit Context(const NetworkPlan& plan)
+      : plan_(plan), memory_(plan.size), stream_(plan.engine) {
+    std::vector<dnnl::memory> buffers;
+    for (const PlanBuffer& buffer : plan.buffers) {
+      buffers.push_back(buffer.constant
+                            ? buffer.constant
+                            : dnnl::memory(buffer.desc, plan.engine, memory_.at(buffer.offset)));
+    }
+    for (const PlanOperation& operation : plan.operations) {
+      auto& arguments = arguments_.emplace_back();
+      for (const auto& [kind, buffer] : operation.arguments)
+        arguments.emplace(kind, buffers[buffer]);
+    }
+  }
+
+  void run(const Network::WritePicture& write) {
+    write(numbers(0));
+    for (std::size_t i = 0; i < arguments_.size(); ++i)
+      plan_.operations[i].primitive.execute(stream_, arguments_[i]);
+    stream_.wait();
+  }
+
+  std::vector<std::vector<float>> outputs() const {
+    std::vector<std::vector<float>> out;
+    for (const std::vector<std::size_t>& buffers : plan_.outputs) {
+      std::vector<float>& values = out.emplace_back();
+      for (const std::size_t buffer : buffers) {
+        const std::span<float> part = numbers(buffer);
+        values.insert(values.end(), part.begin(), part.end());
+      }
+    }
+    return out;
+  }
+
+ private:
+  /// Zeros that begin at a cache line.
+  class Memory {
+   public:
+    explicit Memory(std::size_t size)
+        : data_(static_cast<std::byte*>(::operator new(size, kAlignment))) {
+      std::fill_n(data_.get(), size, std::byte{});
+    }
+    std::byte* at(std::size_t offset) const { return data_.get() + offset; }
+
+   private:
+    static constexpr std::align_val_t kAlignment{64};
+    struct Free {
+      void operator()(std::byte* data) const { ::operator delete(data, kAlignment); }
+    };
+    std::unique_ptr<std::byte, Free> data_;
+  };
+
+  std::span<float> numbers(std::size_t buffer) const {
+    const PlanBuffer& b = plan_.buffers[buffer];
+    return {reinterpret_cast<float*>(memory_.at(b.offset)), b.desc.get_size() / sizeof(float)};
+  }
+
+  const NetworkPlan& plan_;
+  Memory memory_;
+  dnnl::stream stream_;
+  std::vector<std::unordered_map<int, dnnl::memory>> arguments_;  // by operation
+};
+
 namespace {
 
-constexpr const char* kRemedy = "run scripts/get_hand_detector.sh";
+/// A file as it was at some time.
+struct FileState {
+  std::filesystem::path path;
+  std::uintmax_t size = 0;
+  std::filesystem::file_time_type written;
+  auto operator<=>(const FileState&) const = default;
+};
 
-[[noreturn]] void fail_damaged(const std::filesystem::path& file, const std::string& reason) {
-  throw DataError(fmt::format("{}: the hand detector's network is damaged ({}); {}", file.string(),
-                              reason, kRemedy));
-}
-
-/// Returns the first line of what OpenCV says.
-std::string reason_of(const cv::Exception& error) {
-  const std::string text = error.err.empty() ? error.what() : error.err;
-  return text.substr(0, text.find('\n'));
+FileState state_of(const std::filesystem::path& file) {
+  std::error_code missing;  // which reading the file tells
+  FileState out{std::filesystem::weakly_canonical(file, missing), 0, {}};
+  out.size = std::filesystem::file_size(file, missing);
+  out.written = std::filesystem::last_write_time(file, missing);
+  return out;
 }
 
 }  // namespace
 
-Network::Network(const std::filesystem::path& file, int side, std::vector<NetworkOutput> outputs)
-    : file_(file), side_(side), outputs_(std::move(outputs)) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) {
-    throw DataError(
-        fmt::format("{}: the hand detector needs this file; {}", file.string(), kRemedy));
-  }
-  try {
-    net_ = cv::dnn::readNetFromONNX(file.string());
-    net_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-    net_.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
-    check_shapes();
-  } catch (const cv::Exception& error) {
-    fail_damaged(file, reason_of(error));
-  }
-}
-
-void Network::check_shapes() {
-  for (const NetworkOutput& output : outputs_) {
-    const int layer = net_.getLayerId(output.name);
-    if (layer < 0) fail_damaged(file_, "it has no output " + output.name);
-    std::vector<cv::dnn::MatShape> in, out;
-    net_.getLayerShapes(cv::dnn::MatShape{1, 3, side_, side_}, layer, in, out);
-    if (out.size() != 1 || cv::dnn::total(out[0]) != static_cast<int>(output.size)) {
-      fail_damaged(file_, "its output " + output.name + " has another size");
+/// A network of a file, and the contexts that no thread uses at the moment.
+struct Network::Shared {
+  explicit Shared(const std::filesystem::path& from) : file(from), graph(read_network(from)) {
+    try {
+      plan = plan_network(graph);
+    } catch (const dnnl::error& error) {
+      fail_damaged(file, error.what());
     }
+    graph.weights = {};  // the plan has them in the order of the primitives
   }
-}
 
-std::vector<std::vector<float>> Network::run(const cv::Mat& picture) {
-  check_stop();
-  std::vector<cv::String> names;
-  for (const NetworkOutput& output : outputs_) names.push_back(output.name);
-  std::vector<cv::Mat> blobs;
-  try {
-    net_.setInput(cv::dnn::blobFromImage(picture, 1 / 255.0, {}, {}, true));
-    net_.forward(blobs, names);
-  } catch (const cv::Exception& error) {
-    fail_damaged(file_, reason_of(error));
-  }
-  std::vector<std::vector<float>> out;
-  for (std::size_t i = 0; i < blobs.size(); ++i) {
-    if (blobs[i].type() != CV_32F || blobs[i].total() != outputs_[i].size) {
-      fail_damaged(file_, "its output " + outputs_[i].name + " has another size");
+  std::unique_ptr<Context> take() {
+    {
+      const std::lock_guard lock(mutex);
+      if (!idle.empty()) {
+        std::unique_ptr<Context> out = std::move(idle.back());
+        idle.pop_back();
+        return out;
+      }
     }
-    const float* values = blobs[i].ptr<float>();
-    out.emplace_back(values, values + blobs[i].total());
+    return std::make_unique<Context>(plan);
+  }
+
+  void give_back(std::unique_ptr<Context> context) {
+    const std::lock_guard lock(mutex);
+    idle.push_back(std::move(context));
+  }
+
+  std::filesystem::path file;
+  NetworkGraph graph;
+  NetworkPlan plan;
+  std::mutex mutex;
+  std::vector<std::unique_ptr<Context>> idle;  // as many as threads that ran it at the same time
+};
+
+std::shared_ptr<Network::Shared> Network::shared(const std::filesystem::path& file) {
+  static std::mutex mutex;
+  static std::map<FileState, std::weak_ptr<Shared>> known;
+  const std::lock_guard lock(mutex);
+  std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
+  std::weak_ptr<Shared>& entry = known[state_of(file)];
+  std::shared_ptr<Shared> out = entry.lock();
+  if (!out) {
+    out = std::make_shared<Shared>(file);
+    entry = out;
   }
   return out;
+}
+
+Network::Network(const std::filesystem::path& file, int side,
+                 const std::vector<ExpectedOutput>& outputs)
+    : side_(side), shared_(shared(file)) {
+  const NetworkGraph& graph = shared_->graph;
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (i >= graph.outputs.size() || graph.outputs[i].name != outputs[i].name)
+      fail_damaged(file, "it has no output " + outputs[i].name);
+    if (graph.size(graph.outputs[i]) != outputs[i].size)
+      fail_damaged(file, "its output " + outputs[i].name + " has another size");
+  }
+  if (graph.outputs.size() != outputs.size()) fail_damaged(file, "it has other outputs");
+  if (graph.tensors.front() != TensorShape{side, side, 3})
+    fail_damaged(file, "it takes pictures of another size");
+}
+
+std::vector<std::vector<float>> Network::run(const WritePicture& write) const {
+  check_stop();
+  try {
+    const OneThread one_thread;
+    std::unique_ptr<Context> context = shared_->take();
+    context->run(write);
+    std::vector<std::vector<float>> out = context->outputs();
+    shared_->give_back(std::move(context));
+    return out;
+  } catch (const dnnl::error& error) {
+    fail_damaged(shared_->file, error.what());
+  }
 }
 
 }  // namespace hypotrack::hands

@@ -1,40 +1,45 @@
 #pragma once
 
 #include <filesystem>
-#include <opencv2/core/mat.hpp>
-#include <opencv2/dnn/dnn.hpp>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace hypotrack::hands {
 
-/// An output of a network: its name and how many numbers it has.
-struct NetworkOutput {
+/// An output that a network is expected to have: its name and how many numbers it has.
+struct ExpectedOutput {
   std::string name;
   std::size_t size;
 };
 
-/// A network in an ONNX file, run on the CPU. Use it from one thread at a time.
+/// A network of a file, run on the CPU by one thread. Several threads may run it at the same time.
+/// All networks of the same file share its weights.
 class Network {
  public:
-  /// Reads the file. Throws DataError, naming the file and scripts/get_hand_detector.sh, if it is
-  /// missing, is damaged or does not take square pictures of `side` pixels to these outputs.
-  /// OpenCV notices damage of the structure, not of weights, for which the script has checksums.
-  Network(const std::filesystem::path& file, int side, std::vector<NetworkOutput> outputs);
+  /// Writes a square picture: rows of pixels, red, green and blue from 0 to 1.
+  using WritePicture = std::function<void(std::span<float>)>;
 
-  /// Returns the outputs for a square 8-bit BGR picture of the network's size. Throws DataError
-  /// naming the file if the network cannot be computed.
-  std::vector<std::vector<float>> run(const cv::Mat& picture);
+  /// Reads the file, unless another Network has it. Throws DataError, naming the file and
+  /// scripts/get_hand_detector.sh, if it is missing, is damaged or does not take square pictures of
+  /// `side` pixels to these outputs.
+  Network(const std::filesystem::path& file, int side, const std::vector<ExpectedOutput>& outputs);
+
+  /// Returns the outputs for a picture. Throws DataError naming the file if the network cannot be
+  /// computed.
+  std::vector<std::vector<float>> run(const WritePicture& write) const;
 
   int side() const { return side_; }
 
  private:
-  void check_shapes();
+  class Context;
+  struct Shared;
+  static std::shared_ptr<Shared> shared(const std::filesystem::path& file);
 
-  std::filesystem::path file_;
   int side_;
-  std::vector<NetworkOutput> outputs_;
-  cv::dnn::Net net_;
+  std::shared_ptr<Shared> shared_;
 };
 
 }  // namespace hypotrack::hands

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+#include <span>
+
+#include "hand_picture.hpp"
 
 namespace hypotrack::hands {
 namespace {
@@ -26,19 +28,6 @@ std::vector<Eigen::Vector2d> make_anchors() {
       }
     }
   }
-  return out;
-}
-
-/// Returns the part shrunk into the middle of a black picture of the network's size.
-cv::Mat letterbox(const cv::Mat& picture, const cv::Rect& part) {
-  const double scale = double{kPalmSide} / std::max(part.width, part.height);
-  cv::Mat shrunk;
-  const cv::Size size(std::max(1, static_cast<int>(std::lround(part.width * scale))),
-                      std::max(1, static_cast<int>(std::lround(part.height * scale))));
-  cv::resize(picture(part), shrunk, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
-  cv::Mat out(kPalmSide, kPalmSide, CV_8UC3, cv::Scalar::all(0));
-  shrunk.copyTo(
-      out({(kPalmSide - size.width) / 2, (kPalmSide - size.height) / 2, size.width, size.height}));
   return out;
 }
 
@@ -72,9 +61,10 @@ PalmDetector::PalmDetector(const std::filesystem::path& file)
     : network_(file, kPalmSide, {{"boxes", kAnchors * kBoxNumbers}, {"scores", kAnchors}}),
       anchors_(make_anchors()) {}
 
-std::vector<Palm> PalmDetector::find(const cv::Mat& picture, const cv::Rect& part,
-                                     double least_score) {
-  const auto outputs = network_.run(letterbox(picture, part));
+std::vector<Palm> PalmDetector::find(const HandPicture& picture, const cv::Rect& part,
+                                     double least_score) const {
+  const auto outputs = network_.run(
+      [&](std::span<float> input) { write_letterbox(picture, part, kPalmSide, input); });
   const std::vector<float>& boxes = outputs[0];
   const double side = std::max(part.width, part.height);
   // Where the black picture's corner lies in the picture; outer edges of pixels are at halves.

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <filesystem>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core/types.hpp>
 #include <vector>
 
 #include "network.hpp"
 
 namespace hypotrack::hands {
+
+struct HandPicture;
 
 /// Columns of Palm::points.
 inline constexpr int kPalmWrist = 0, kPalmMiddle = 2;
@@ -19,15 +21,16 @@ struct Palm {
   Eigen::Matrix<double, 2, 7> points;  ///< wrist and knuckles
 };
 
-/// Finds palms in pictures by MediaPipe's palm detector.
+/// Finds palms in pictures by MediaPipe's palm detector. Several threads may use it.
 class PalmDetector {
  public:
   /// Reads the network. Throws DataError as Network does.
   explicit PalmDetector(const std::filesystem::path& file);
 
-  /// Returns the palms of at least that score, best first, in a part of an 8-bit BGR picture. A
-  /// palm shorter than some 1/15 of the part's longer side is not found.
-  std::vector<Palm> find(const cv::Mat& picture, const cv::Rect& part, double least_score);
+  /// Returns the palms of at least that score, best first, in a part of a picture. A palm shorter
+  /// than some 1/15 of the part's longer side is not found.
+  std::vector<Palm> find(const HandPicture& picture, const cv::Rect& part,
+                         double least_score) const;
 
  private:
   Network network_;

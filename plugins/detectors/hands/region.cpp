@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
 namespace hypotrack::hands {
 namespace {
@@ -46,27 +45,15 @@ Region region_of(const HandPoints& p) {
   return out;
 }
 
-bool nearly_equal(const Region& a, const Region& b) {
-  constexpr double kShare = 0.05;  // of the side, and radians
-  return (a.center - b.center).norm() < kShare * a.side &&
-         std::abs(a.side - b.side) < kShare * a.side &&
-         std::abs(std::remainder(a.angle - b.angle, 2 * std::numbers::pi)) < kShare;
+bool nearly_equal(const Region& a, const Region& b, double share) {
+  return (a.center - b.center).norm() < share * a.side &&
+         std::abs(a.side - b.side) < share * a.side &&
+         std::abs(std::remainder(a.angle - b.angle, 2 * std::numbers::pi)) < share;
 }
 
 Eigen::Matrix2d rotation_of(const Region& region) {
   const double c = std::cos(region.angle), s = std::sin(region.angle);
   return (Eigen::Matrix2d() << c, -s, s, c).finished();
-}
-
-cv::Mat cut_out(const cv::Mat& picture, const Region& region, int side) {
-  const Eigen::Matrix2d a = rotation_of(region) * (region.side / side);
-  const Eigen::Vector2d middle = Eigen::Vector2d::Constant((side - 1) / 2.0);
-  const Eigen::Vector2d b = region.center - a * middle;
-  const cv::Matx23d picture_from_cut(a(0, 0), a(0, 1), b.x(), a(1, 0), a(1, 1), b.y());
-  cv::Mat out;
-  cv::warpAffine(picture, out, picture_from_cut, {side, side},
-                 cv::INTER_LINEAR | cv::WARP_INVERSE_MAP);
-  return out;
 }
 
 }  // namespace hypotrack::hands

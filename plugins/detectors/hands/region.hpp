@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <opencv2/core/mat.hpp>
 
 #include "hand_detection.hpp"
 #include "palm_detector.hpp"
@@ -21,13 +20,11 @@ Region region_of(const Palm& palm);
 /// Returns the region of the hand that has these landmarks.
 Region region_of(const HandPoints& landmarks);
 
-/// Returns whether the regions are nearly the same: centres, sides, and angles.
-bool nearly_equal(const Region& a, const Region& b);
+/// Returns whether the regions are nearly the same: centres and sides differ by less than this
+/// share of the side of `a`, and angles by less than as many radians.
+bool nearly_equal(const Region& a, const Region& b, double share);
 
 /// Returns the rotation from the region's axes to those of the picture.
 Eigen::Matrix2d rotation_of(const Region& region);
-
-/// Returns the region as an upright square picture of `side` pixels, black outside the picture.
-cv::Mat cut_out(const cv::Mat& picture, const Region& region, int side);
 
 }  // namespace hypotrack::hands

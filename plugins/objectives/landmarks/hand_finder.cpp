@@ -18,23 +18,59 @@ bool all_found(const std::vector<std::optional<SeenHand>>& hands) {
 
 std::vector<std::optional<SeenHand>> HandFinder::find(const Observation& observation,
                                                       std::size_t view,
-                                                      std::span<const WantedHand> wanted,
-                                                      std::span<const HandPoints3D> starts) {
+                                                      std::span<const ModelHand> models) {
   const TileView& tile = observation.views[view];
+  std::vector<WantedHand> wanted;
+  for (const ModelHand& model : models)
+    wanted.push_back({directions_to(model.start, tile.camera), model.right});
   Seen& seen = known(observation, view);
   std::vector<std::optional<SeenHand>> found = match(wanted, seen.hands);
   const Part part = part_of(tile.camera);
   if (all_found(found) || searched(seen, part)) return found;
   seen.searched.push_back(part);
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
+  const std::vector<std::optional<SeenHand>> before = last(observation, view, models);
+  for (std::size_t i = 0; i < models.size(); ++i) {
     if (found[i]) continue;
-    const auto hand = detector_.refine(tile.color, in_tile(starts[i], tile.camera));
-    if (hand) add(seen, *hand, tile.camera);
+    if (const auto hand = look(tile, models[i], before[i])) add(seen, *hand, tile.camera);
   }
   found = match(wanted, seen.hands);
   if (all_found(found)) return found;
   for (const HandDetection& hand : detector_.detect(tile.color)) add(seen, hand, tile.camera);
   return match(wanted, seen.hands);
+}
+
+std::vector<std::optional<SeenHand>> HandFinder::last(const Observation& observation,
+                                                      std::size_t view,
+                                                      std::span<const ModelHand> models) {
+  std::vector<std::optional<SeenHand>> out(models.size());
+  const auto& previous = observation.context.previous;
+  if (!previous) return out;
+  std::vector<SeenHand> hands;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find_if(seen_, [&](const Seen& seen) {
+      return seen.frame == previous->frame && seen.time == previous->time && seen.view == view;
+    });
+    if (found == seen_.end()) return out;
+    hands = found->hands;
+  }
+  std::vector<WantedHand> wanted;
+  for (const ModelHand& model : models) {
+    if (!model.previous) return out;
+    wanted.push_back({directions_to(*model.previous, observation.views[view].camera), model.right});
+  }
+  return match(wanted, hands);
+}
+
+std::optional<HandDetection> HandFinder::look(const TileView& tile, const ModelHand& model,
+                                              const std::optional<SeenHand>& last) const {
+  const HandPoints start = in_tile(model.start, tile.camera);
+  if (last && model.previous) {
+    const HandPoints guess =
+        moved(in_tile(*last, tile.camera), in_tile(*model.previous, tile.camera), start);
+    if (guess.allFinite()) return detector_.refine(tile.color, guess, true);
+  }
+  return detector_.refine(tile.color, start, false);
 }
 
 HandFinder::Part HandFinder::part_of(const TileCamera& camera) {
@@ -53,6 +89,7 @@ bool HandFinder::searched(const Seen& seen, const Part& part) {
 }
 
 HandFinder::Seen& HandFinder::known(const Observation& observation, std::size_t view) {
+  const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find_if(seen_, [&](const Seen& seen) {
     return seen.frame == observation.frame && seen.time == observation.time && seen.view == view;
   });

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <functional>
+#include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <span>
@@ -15,21 +16,31 @@ namespace hypotrack::landmarks {
 /// What finds hands in a picture: HandDetector, or what stands in for it.
 struct Detector {
   std::function<std::vector<HandDetection>(const cv::Mat& picture)> detect;
-  std::function<std::optional<HandDetection>(const cv::Mat& picture, const HandPoints& guess)>
+  /// `followed`: the guess is the hand of the last frame, moved, and not a model's.
+  std::function<std::optional<HandDetection>(const cv::Mat& picture, const HandPoints& guess,
+                                             bool followed)>
       refine;
 };
 
+/// A model's hand as points in the world; NaN: the model has no such point.
+struct ModelHand {
+  HandPoints3D start;                    ///< where the search starts
+  std::optional<HandPoints3D> previous;  ///< in FrameContext::previous; nothing without it
+  bool right = true;
+};
+
 /// Finds the hands of models in tiles. It remembers what it found in the last frames, so that the
-/// networks do not look twice at the same part of a picture.
+/// networks do not look twice at the same part of a picture. Several threads may use it, each for
+/// another view.
 class HandFinder {
  public:
   explicit HandFinder(Detector detector) : detector_(std::move(detector)) {}
 
-  /// Returns the hand of each model in a view, which has a colour image. It looks near `starts`
-  /// first, the models' points in the world, and then in all of the tile.
+  /// Returns the hand of each model in a view, which has a colour image. It looks first where the
+  /// hand of the last frame has moved as the model has since, or else near the model, and then in
+  /// all of the tile.
   std::vector<std::optional<SeenHand>> find(const Observation& observation, std::size_t view,
-                                            std::span<const WantedHand> wanted,
-                                            std::span<const HandPoints3D> starts);
+                                            std::span<const ModelHand> models);
 
  private:
   /// A part of a picture in which hands were looked for.
@@ -49,11 +60,18 @@ class HandFinder {
   static Part part_of(const TileCamera& camera);
   static bool searched(const Seen& seen, const Part& part);
   Seen& known(const Observation& observation, std::size_t view);
+  /// Returns what was found for each model in the last frame; nothing where that is not known.
+  std::vector<std::optional<SeenHand>> last(const Observation& observation, std::size_t view,
+                                            std::span<const ModelHand> models);
+  /// Looks for a hand near the last one, or else near the model.
+  std::optional<HandDetection> look(const TileView& tile, const ModelHand& model,
+                                    const std::optional<SeenHand>& last) const;
   /// Adds a detection unless it is of a hand that is known.
   static void add(Seen& seen, const HandDetection& detection, const TileCamera& camera);
 
   Detector detector_;
-  std::deque<Seen> seen_;
+  std::mutex mutex_;
+  std::deque<Seen> seen_;  ///< guarded by the mutex, but for what a view's thread knows of it
 };
 
 }  // namespace hypotrack::landmarks

@@ -1,6 +1,7 @@
 #include "landmarks.hpp"
 
 #include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/kinematics.hpp"
 #include "hypotrack/observation_checks.hpp"
+#include "hypotrack/stop.hpp"
 
 namespace hypotrack::landmarks {
 
@@ -23,40 +25,46 @@ Landmarks::Landmarks(const Params& params, const Scene& scene, Detector detector
 
 void Landmarks::prepare(const Observation& observation) {
   sights_.clear();
-  std::vector<HandPoints3D> starts;
-  for (const Hand& hand : hands_) {
-    const auto part = scene_.part(*hand.item, observation.start);
-    starts.push_back(hand.model.in_detector_order(posed_landmarks(*hand.item->model, part)));
-    sights_.push_back({hand.item->model.get(), hand.item->offset});
-  }
-  std::size_t views = 0;
+  for (const Hand& hand : hands_) sights_.push_back({hand.item->model.get(), hand.item->offset});
+  std::vector<std::size_t> views;  // with colour
   for (std::size_t i = 0; i < observation.views.size(); ++i) {
-    if (observation.views[i].color.empty()) continue;
-    take_view(observation, i, starts);
-    ++views;
+    const TileView& tile = observation.views[i];
+    if (tile.color.empty()) continue;
+    check_tile_image("landmarks", tile.color, CV_8UC3, tile, i, "colour image");
+    views.push_back(i);
   }
-  if (views == 0) {
+  if (views.empty()) {
     throw DataError(
         "landmarks: no view has a colour image; take a source with colour, or leave the objective "
         "out");
   }
+  check_stop();
+  const std::vector<ModelHand> models = model_hands(observation);
+  std::vector<std::vector<std::optional<SeenHand>>> found(views.size());
+  tbb::parallel_for(std::size_t{0}, views.size(),
+                    [&](std::size_t i) { found[i] = finder_.find(observation, views[i], models); });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t h = 0; h < hands_.size(); ++h)
+      take_hand(sights_[h], hands_[h].model, observation.views[views[i]].camera, found[i][h]);
+  }
   for (HandSights& hand : sights_) {
-    for (Sight& sight : hand.sights) sight.factor /= std::sqrt(static_cast<double>(views));
+    for (Sight& sight : hand.sights) sight.factor /= std::sqrt(static_cast<double>(views.size()));
   }
 }
 
-void Landmarks::take_view(const Observation& observation, std::size_t view,
-                          std::span<const HandPoints3D> starts) {
-  const TileView& tile = observation.views[view];
-  check_tile_image("landmarks", tile.color, CV_8UC3, tile, view, "colour image");
-  std::vector<WantedHand> wanted;
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    wanted.push_back({directions_to(starts[i], tile.camera), hands_[i].model.right});
+std::vector<ModelHand> Landmarks::model_hands(const Observation& observation) const {
+  std::vector<ModelHand> out;
+  for (const Hand& hand : hands_) {
+    const auto points = [&](const Eigen::VectorXd& state) {
+      return hand.model.in_detector_order(
+          posed_landmarks(*hand.item->model, scene_.part(*hand.item, state)));
+    };
+    ModelHand& added = out.emplace_back();
+    added.start = points(observation.start);
+    if (observation.context.previous) added.previous = points(observation.context.previous->state);
+    added.right = hand.model.right;
   }
-  const auto found = finder_.find(observation, view, wanted, starts);
-  for (std::size_t i = 0; i < hands_.size(); ++i) {
-    take_hand(sights_[i], hands_[i].model, tile.camera, found[i]);
-  }
+  return out;
 }
 
 void Landmarks::take_hand(HandSights& sights, const HandModel& model, const TileCamera& camera,
@@ -111,10 +119,12 @@ Detector networks(const LandmarksParams& params, const Scene& scene) {
                                                            .lite = params.lite,
                                                            .presence = params.least_presence,
                                                            .smallest_hand = 0});
-  return {
-      .detect = [detector](const cv::Mat& picture) { return detector->detect(picture); },
-      .refine = [detector](const cv::Mat& picture,
-                           const HandPoints& guess) { return detector->refine(picture, guess); }};
+  return {.detect = [detector](const cv::Mat& picture) { return detector->detect(picture); },
+          .refine =
+              [detector](const cv::Mat& picture, const HandPoints& guess, bool followed) {
+                return followed ? detector->follow(picture, guess)
+                                : detector->refine(picture, guess);
+              }};
 }
 
 }  // namespace hypotrack::landmarks

@@ -54,8 +54,8 @@ class Landmarks : public Objective, public ResidualTerm {
     HandModel model;
   };
 
-  void take_view(const Observation& observation, std::size_t view,
-                 std::span<const HandPoints3D> starts);
+  /// Returns each hand at the start of the search and in the last frame.
+  std::vector<ModelHand> model_hands(const Observation& observation) const;
   void take_hand(HandSights& sights, const HandModel& model, const TileCamera& camera,
                  const std::optional<SeenHand>& seen) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 
 namespace hypotrack::landmarks {
@@ -35,6 +36,42 @@ HandPoints in_tile(const HandPoints3D& points, const TileCamera& camera) {
     const Eigen::Vector3d p = camera.camera_from_world * Eigen::Vector3d(points.col(i));
     if (!(p.z() > 0)) continue;
     out.col(i) << camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy;
+  }
+  return out;
+}
+
+HandPoints in_tile(const SeenHand& hand, const TileCamera& camera) {
+  return in_tile(HandPoints3D(hand.directions.colwise() + eye_of(camera)), camera);
+}
+
+HandPoints moved(const HandPoints& hand, const HandPoints& from, const HandPoints& to) {
+  using Complex = std::complex<double>;
+  const auto point = [](const HandPoints& points, Eigen::Index i) {
+    return Complex(points(0, i), points(1, i));
+  };
+  Complex from_sum = 0, to_sum = 0;
+  double count = 0;
+  for (Eigen::Index i = 0; i < hand.cols(); ++i) {
+    if (!from.col(i).allFinite() || !to.col(i).allFinite()) continue;
+    from_sum += point(from, i);
+    to_sum += point(to, i);
+    ++count;
+  }
+  const Complex from_center = from_sum / count, to_center = to_sum / count;
+  Complex product = 0;
+  double square = 0;
+  for (Eigen::Index i = 0; i < hand.cols(); ++i) {
+    if (!from.col(i).allFinite() || !to.col(i).allFinite()) continue;
+    const Complex arm = point(from, i) - from_center;
+    product += std::conj(arm) * (point(to, i) - to_center);
+    square += std::norm(arm);
+  }
+  // The least-squares similarity of the plane: a factor, complex as it turns, and a shift.
+  const Complex factor = product / square;
+  HandPoints out;
+  for (Eigen::Index i = 0; i < hand.cols(); ++i) {
+    const Complex p = to_center + factor * (point(hand, i) - from_center);
+    out.col(i) << p.real(), p.imag();
   }
   return out;
 }

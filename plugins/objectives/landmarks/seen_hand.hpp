@@ -24,6 +24,13 @@ SeenHand seen_hand(const HandDetection& detection, const TileCamera& camera);
 /// Returns where points of the world are in a tile; NaN where they are at or behind the camera.
 HandPoints in_tile(const HandPoints3D& points, const TileCamera& camera);
 
+/// Returns where a hand that was detected from the same place is in a tile; NaN behind the camera.
+HandPoints in_tile(const SeenHand& hand, const TileCamera& camera);
+
+/// Returns a hand moved, turned and scaled in the picture as a model has from one pose to another.
+/// NaN of the model do not count; not all numbers are finite if that leaves no two points.
+HandPoints moved(const HandPoints& hand, const HandPoints& from, const HandPoints& to);
+
 /// Returns unit vectors from a camera to points of the world.
 HandPoints3D directions_to(const HandPoints3D& points, const TileCamera& camera);
 

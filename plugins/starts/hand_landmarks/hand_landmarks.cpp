@@ -1,3 +1,5 @@
+#include <oneapi/tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -96,8 +98,9 @@ class HandLandmarks final : public Start {
     seen_ = now;
     const std::array<Camera, 2> pair{cameras[0], cameras[1]};
     const auto& views = frame.views;
-    std::vector<HandDetection> first = detector_->detect(views[0].color, thorough),
-                               second = detector_->detect(views[1].color, thorough);
+    std::vector<HandDetection> first, second;
+    tbb::parallel_invoke([&] { first = detector_->detect(views[0].color, thorough); },
+                         [&] { second = detector_->detect(views[1].color, thorough); });
     look_in_other_view(*detector_, pair, first, 0, views[1].color, second);
     look_in_other_view(*detector_, pair, second, 1, views[0].color, first);
     pairs_ = pair_hands(pair, first, second);

@@ -31,7 +31,7 @@ HandPoints projected(const Camera& camera, const HandPoints3D& landmarks) {
 
 }  // namespace
 
-void look_in_other_view(HandDetector& detector, const std::array<Camera, 2>& cameras,
+void look_in_other_view(const HandDetector& detector, const std::array<Camera, 2>& cameras,
                         const std::vector<HandDetection>& seen, std::size_t view,
                         const cv::Mat& other_picture, std::vector<HandDetection>& known) {
   const std::vector<HandDetection> there = known;

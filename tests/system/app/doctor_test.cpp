@@ -100,7 +100,7 @@ TEST_F(DoctorTest, RefusedPluginsFailOnlyIfRunsNeedThem) {
 
 TEST_F(DoctorTest, ADamagedHandDetectorIsBroken) {
   std::filesystem::create_directory(path("detector"));
-  write_text(path("detector/palm_detection_full.onnx"), "no network");
+  write_text(path("detector/palm_detection_full.net"), "no network");
   const json check =
       doctor({"HYPOTRACK_HAND_DETECTOR=" + path("detector").string()}).check("hand detector");
   EXPECT_EQ(check.at("state"), "broken");

@@ -79,16 +79,16 @@ class NetworkFiles : public ::testing::Test {
 };
 
 TEST_F(NetworkFiles, ThatAreMissingAreNamedWithTheRemedy) {
-  EXPECT_THAT(message(), AllOf(StartsWith(file("palm_detection_full.onnx").string()),
+  EXPECT_THAT(message(), AllOf(StartsWith(file("palm_detection_full.net").string()),
                                EndsWith("run scripts/get_hand_detector.sh"), Not(HasSubstr("\n"))));
-  EXPECT_THAT(message(true), StartsWith(file("palm_detection_lite.onnx").string()));
+  EXPECT_THAT(message(true), StartsWith(file("palm_detection_lite.net").string()));
 }
 
 TEST_F(NetworkFiles, OfTheHandAreNeededToo) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   copy_networks();
-  fs::remove(file("hand_landmark_full.onnx"));
-  EXPECT_THAT(message(), AllOf(StartsWith(file("hand_landmark_full.onnx").string()),
+  fs::remove(file("hand_landmark_full.net"));
+  EXPECT_THAT(message(), AllOf(StartsWith(file("hand_landmark_full.net").string()),
                                EndsWith("run scripts/get_hand_detector.sh")));
   HandDetector lite({.folder = folder_.path(), .lite = true});
 }
@@ -97,9 +97,9 @@ TEST_F(NetworkFiles, ThatAreCutOffAreDamaged) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   for (const std::uintmax_t size : {0, 100, 100000, 3000000}) {
     copy_networks();
-    fs::resize_file(file("palm_detection_full.onnx"), size);
+    fs::resize_file(file("palm_detection_full.net"), size);
     EXPECT_THAT(message(),
-                AllOf(StartsWith(file("palm_detection_full.onnx").string()), HasSubstr("damaged"),
+                AllOf(StartsWith(file("palm_detection_full.net").string()), HasSubstr("damaged"),
                       EndsWith("run scripts/get_hand_detector.sh"), Not(HasSubstr("\n"))))
         << size;
     fs::remove_all(folder_.path());
@@ -110,12 +110,12 @@ TEST_F(NetworkFiles, ThatAreCutOffAreDamaged) {
 TEST_F(NetworkFiles, ThatAreSomethingElseAreDamaged) {
   HYPOTRACK_NEEDS_HAND_DETECTOR();
   copy_networks();
-  std::ofstream(file("hand_landmark_full.onnx")) << "<html>404</html>";
+  std::ofstream(file("hand_landmark_full.net")) << "<html>404</html>";
   EXPECT_THAT(message(),
-              AllOf(StartsWith(file("hand_landmark_full.onnx").string()), HasSubstr("damaged")));
-  fs::copy_file(file("palm_detection_full.onnx"), file("hand_landmark_full.onnx"),
+              AllOf(StartsWith(file("hand_landmark_full.net").string()), HasSubstr("damaged")));
+  fs::copy_file(file("palm_detection_full.net"), file("hand_landmark_full.net"),
                 fs::copy_options::overwrite_existing);
-  EXPECT_THAT(message(), AllOf(StartsWith(file("hand_landmark_full.onnx").string()),
+  EXPECT_THAT(message(), AllOf(StartsWith(file("hand_landmark_full.net").string()),
                                HasSubstr("no output landmarks")));
 }
 

@@ -11,10 +11,11 @@
 #include "hypotrack/frame.hpp"
 
 /// Skips the test with a message if the hand detector's networks have not been fetched.
-#define HYPOTRACK_NEEDS_HAND_DETECTOR()                                                  \
-  if (!std::filesystem::exists(::hypotrack::HandDetector::default_folder() / "LICENSE")) \
-  GTEST_SKIP() << "needs the hand detector's networks in "                               \
-               << ::hypotrack::HandDetector::default_folder().string()                   \
+#define HYPOTRACK_NEEDS_HAND_DETECTOR()                                      \
+  if (!std::filesystem::exists(::hypotrack::HandDetector::default_folder() / \
+                               "hand_landmark_full.net"))                    \
+  GTEST_SKIP() << "needs the hand detector's networks in "                   \
+               << ::hypotrack::HandDetector::default_folder().string()       \
                << "; run scripts/get_hand_detector.sh"
 
 namespace hypotrack::test {

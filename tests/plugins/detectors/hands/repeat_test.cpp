@@ -1,5 +1,6 @@
 // Equal pictures give equal results.
 #include <opencv2/core.hpp>
+#include <thread>
 
 #include "pictures.hpp"
 
@@ -59,6 +60,25 @@ TEST(RepeatedDetection, DoesNotDependOnEarlierPictures) {
   used.refine(mirrored, first.front().landmarks);
   expect_equal(used.detect(picture), first);
   expect_equal(used.detect(picture), first);
+}
+
+TEST(RepeatedDetection, GivesTheSameInThreadsThatShareADetector) {
+  HYPOTRACK_NEEDS_HAND_DETECTOR();
+  const cv::Mat picture = test::rendered_hand().picture();
+  const HandDetector detector({});
+  const auto first = detector.detect(picture);
+  ASSERT_EQ(first.size(), 1u);
+  std::vector<std::optional<HandDetection>> followed(4);
+  {
+    std::vector<std::jthread> threads;
+    for (auto& hand : followed) {
+      threads.emplace_back([&] { hand = detector.follow(picture, first.front().landmarks); });
+    }
+  }
+  for (const auto& hand : followed) {
+    ASSERT_TRUE(hand);
+    expect_equal({*hand}, {*detector.follow(picture, first.front().landmarks)});
+  }
 }
 
 TEST(RepeatedDetection, LeavesThePictureAlone) {

@@ -61,5 +61,56 @@ TEST_F(HandFinderTest, LooksAgainWhereATileShowsAnotherPartOfThePicture) {
   EXPECT_EQ(sees_.refined, 6);
 }
 
+/// Returns an observation of frame 1, of which frame 0 was tracked in a state.
+Observation next_observation(const Eigen::VectorXd& start, const Eigen::VectorXd& before) {
+  Observation out = test::observation(start, 1);
+  auto previous = std::make_shared<PreviousSolution>();
+  previous->state = before;
+  out.context.previous = previous;
+  return out;
+}
+
+TEST_F(HandFinderTest, FollowsTheHandsOfTheLastFrame) {
+  const double cost = cost_of(test::observation(relaxed()));
+  EXPECT_EQ(sees_.followed, 0);
+  EXPECT_EQ(cost_of(next_observation(relaxed(), relaxed())), cost);
+  EXPECT_EQ(sees_.followed, 4);
+  EXPECT_EQ(sees_.refined, 8);
+}
+
+TEST_F(HandFinderTest, FollowsAHandToWhereTheModelIsExpected) {
+  // The model lies 6 cm beside what is seen, in both frames, and moves by as much in between: what
+  // was seen moves with it, away from where the model itself is.
+  Eigen::VectorXd before = relaxed();
+  before[0] -= 0.06;
+  cost_of(test::observation(before));
+  ASSERT_EQ(sees_.refined, 4);
+  cost_of(next_observation(before, before));
+  EXPECT_EQ(sees_.followed, 4);
+  EXPECT_LT(sees_.farthest_followed, 1) << "pixels";
+}
+
+TEST_F(HandFinderTest, LooksNearTheModelIfTheLastFrameIsUnknown) {
+  cost_of(next_observation(relaxed(), relaxed()));
+  EXPECT_EQ(sees_.followed, 0);
+  EXPECT_EQ(sees_.refined, 4);
+}
+
+TEST(MovedHand, TurnsGrowsAndShiftsAsTheModel) {
+  HandPoints hand = HandPoints::Random(), from = HandPoints::Random();
+  const Eigen::Matrix2d turn = 1.3 * Eigen::Rotation2Dd(0.7).toRotationMatrix();
+  const auto move = [&](const HandPoints& p) -> HandPoints {
+    return (turn * p).colwise() + Eigen::Vector2d(4, -9);
+  };
+  from.col(3).setConstant(NAN);  // a point that the model does not have
+  EXPECT_TRUE(moved(hand, from, move(from)).isApprox(move(hand), 1e-9));
+}
+
+TEST(MovedHand, IsNotFiniteWhereTheModelHasOnePoint) {
+  HandPoints one = HandPoints::Constant(NAN);
+  one.col(0) << 1, 2;
+  EXPECT_FALSE(moved(HandPoints::Random(), one, one).allFinite());
+}
+
 }  // namespace
 }  // namespace hypotrack::landmarks

@@ -91,11 +91,15 @@ Detector SeesState::detector() {
                 ++detected;
                 return hands(picture);
               },
-          .refine = [this](const cv::Mat& picture,
-                           const HandPoints& guess) -> std::optional<HandDetection> {
+          .refine = [this](const cv::Mat& picture, const HandPoints& guess,
+                           bool is_followed) -> std::optional<HandDetection> {
             ++refined;
+            if (is_followed) ++followed;
             for (const HandDetection& hand : hands(picture)) {
-              if ((hand.landmarks - guess).colwise().norm().mean() < kNear) return hand;
+              const double distance = (hand.landmarks - guess).colwise().norm().mean();
+              if (distance >= kNear) continue;
+              if (is_followed && distance > farthest_followed) farthest_followed = distance;
+              return hand;
             }
             return std::nullopt;
           }};

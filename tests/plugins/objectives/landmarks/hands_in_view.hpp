@@ -1,5 +1,7 @@
 #pragma once
 
+#include <atomic>
+
 #include "landmarks.hpp"
 
 namespace hypotrack::landmarks::test {
@@ -26,10 +28,12 @@ class SeesState {
   Detector detector();
 
   double presence = 1;
-  bool right = true;  ///< sees the right hand
-  bool left = true;   ///< sees the left hand
-  int refined = 0, detected = 0;
-  Observation seen;  ///< whose tiles it is given
+  bool right = true;                           ///< sees the right hand
+  bool left = true;                            ///< sees the left hand
+  std::atomic<int> refined = 0, detected = 0;  ///< views are looked at by several threads
+  std::atomic<int> followed = 0;               ///< of those that are refined
+  std::atomic<double> farthest_followed = 0;   ///< pixels from a followed guess to the hand
+  Observation seen;                            ///< whose tiles it is given
 
  private:
   std::vector<HandDetection> hands(const cv::Mat& picture) const;
