@@ -17,7 +17,7 @@
 namespace hypotrack::app {
 namespace {
 
-/// What the pairs tell.
+/// Results of all pairs.
 struct Judged {
   std::vector<double> distances;  ///< medians, pixels
   std::ptrdiff_t exchanged = 0;

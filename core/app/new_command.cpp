@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/text_file.hpp"
+#include "calibrate/picture_pairs.hpp"
 #include "camera_options.hpp"
 #include "check_scene.hpp"
 #include "commands.hpp"
@@ -73,7 +74,7 @@ RecordingFiles recording_at(const std::vector<std::filesystem::path>& paths) {
                       "pictures, or a video",
                       path.string()));
     if (paths.size() == 1 && std::filesystem::is_directory(path)) return find_recording(path);
-    if (!is_video(path))
+    if (!calibrate::is_video(path))
       throw DataError(fmt::format(
           "{}: is no video by its name; expected a folder, or .mp4, .avi, .mkv and the like",
           path.string()));
@@ -98,7 +99,7 @@ RecordingFiles views_of(const NewSceneOptions& options) {
       throw ConfigError("--recording and --device are given; expected one of them");
     files.live = views;
   } else if (!views.left.empty()) {
-    if (!both && is_video(views.left) != is_video(views.right))
+    if (!both && calibrate::is_video(views.left) != calibrate::is_video(views.right))
       throw ConfigError("--left and --right: one is a video; expected both or none");
     files.left = views.left;
     files.right = views.right;

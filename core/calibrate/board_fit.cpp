@@ -9,36 +9,27 @@
 namespace hypotrack::calibrate {
 namespace {
 
-constexpr std::size_t kLeastForFit = 6;
-
-/// Corners that both pictures show.
-struct SharedCorners {
+/// Corners that both pictures show, by column.
+struct CornerColumns {
   Eigen::Matrix3Xd board;
   std::array<Eigen::Matrix2Xd, 2> pixels;
 };
 
-SharedCorners shared_corners(const BoardFinder& finder, const BoardPair& pair) {
-  const auto& [left, right] = pair.corners;
-  const auto most = static_cast<Eigen::Index>(left.ids.size());
-  SharedCorners out{Eigen::Matrix3Xd(3, most),
-                    {Eigen::Matrix2Xd(2, most), Eigen::Matrix2Xd(2, most)}};
-  Eigen::Index count = 0;
-  for (std::size_t i = 0; i < left.ids.size(); ++i) {
-    const auto j = std::ranges::find(right.ids, left.ids[i]) - right.ids.begin();
-    if (j == std::ssize(right.ids)) continue;
-    const cv::Point3f place = finder.place(left.ids[i]);
-    const cv::Point2f first = left.at[i], second = right.at[static_cast<std::size_t>(j)];
-    out.board.col(count) << place.x, place.y, place.z;
-    out.pixels[0].col(count) << first.x, first.y;
-    out.pixels[1].col(count++) << second.x, second.y;
+CornerColumns columns_of(const SharedCorners& shared) {
+  const auto count = std::ssize(shared.board);
+  CornerColumns out{Eigen::Matrix3Xd(3, count),
+                    {Eigen::Matrix2Xd(2, count), Eigen::Matrix2Xd(2, count)}};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    out.board.col(i) << shared.board[at].x, shared.board[at].y, shared.board[at].z;
+    for (std::size_t view = 0; view < 2; ++view)
+      out.pixels[view].col(i) << shared.at[view][at].x, shared.at[view][at].y;
   }
-  out.board.conservativeResize(3, count);
-  for (Eigen::Matrix2Xd& pixels : out.pixels) pixels.conservativeResize(2, count);
   return out;
 }
 
 /// Returns the points nearest to the rays of both cameras, in the world.
-Eigen::Matrix3Xd triangulated(const std::array<Camera, 2>& cameras, const SharedCorners& corners) {
+Eigen::Matrix3Xd triangulated(const std::array<Camera, 2>& cameras, const CornerColumns& corners) {
   std::array<Eigen::Matrix3Xd, 2> rays;
   std::array<Eigen::Vector3d, 2> origins;
   for (std::size_t view = 0; view < 2; ++view) {
@@ -66,7 +57,7 @@ Eigen::Matrix3d rotation_of(const Eigen::Vector3d& vector) {
   return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
-Eigen::VectorXd residuals(const std::array<Camera, 2>& cameras, const SharedCorners& corners,
+Eigen::VectorXd residuals(const std::array<Camera, 2>& cameras, const CornerColumns& corners,
                           const Placement& at) {
   const Eigen::Matrix3d turn = std::exp(at[6]) * rotation_of(at.head<3>());
   const Eigen::Index count = corners.board.cols();
@@ -81,7 +72,7 @@ Eigen::VectorXd residuals(const std::array<Camera, 2>& cameras, const SharedCorn
 }
 
 /// Refines a placement with Gauss-Newton steps and numerical derivatives.
-Placement refined(const std::array<Camera, 2>& cameras, const SharedCorners& corners,
+Placement refined(const std::array<Camera, 2>& cameras, const CornerColumns& corners,
                   Placement at) {
   constexpr int kSteps = 8;
   constexpr double kDifference = 1e-6;
@@ -104,9 +95,9 @@ Placement refined(const std::array<Camera, 2>& cameras, const SharedCorners& cor
 
 std::optional<BoardFit> fit_board(const BoardFinder& finder, const std::array<Camera, 2>& cameras,
                                   const BoardPair& pair) {
-  const SharedCorners corners = shared_corners(finder, pair);
+  const CornerColumns corners = columns_of(shared_corners(finder, pair));
   const Eigen::Index count = corners.board.cols();
-  if (count < static_cast<Eigen::Index>(kLeastForFit)) return std::nullopt;
+  if (count < static_cast<Eigen::Index>(kLeastCorners)) return std::nullopt;
   const Eigen::Matrix3Xd points = triangulated(cameras, corners);
   const Eigen::Vector3d middle = cameras[0].camera_from_world * points.rowwise().mean();
   if (!points.allFinite() || middle.z() <= 0) return std::nullopt;

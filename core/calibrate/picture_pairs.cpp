@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -31,14 +30,6 @@ std::vector<std::string> files_of(const std::string& pattern) {
         "{}: no such picture; expected a file, or a pattern in quotes, as 'left*.jpg'", pattern));
   }
   return out;
-}
-
-bool is_video(const std::string& file) {
-  constexpr std::array<std::string_view, 5> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm"};
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::ranges::find(kVideos, extension) != kVideos.end();
 }
 
 cv::Mat read_picture(const std::string& file, const std::optional<int>& bits) {
@@ -86,6 +77,16 @@ void read_whole_pairs(const PairFiles& files, const std::function<void(PicturePa
 }
 
 }  // namespace
+
+bool is_video(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 13> kEndings = {".mp4", ".avi",  ".mkv",  ".mov", ".webm",
+                                                         ".m4v", ".mpg",  ".mpeg", ".wmv", ".ts",
+                                                         ".mts", ".m2ts", ".3gp"};
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::ranges::find(kEndings, ending) != kEndings.end();
+}
 
 void read_pairs(const PairFiles& files, const std::function<void(PicturePair)>& take,
                 const std::function<void(const std::string&)>& tell) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -23,6 +24,9 @@ struct PairFiles {
   std::optional<StereoLayout> layout{};  ///< of pictures of both views
   std::optional<int> bits{};             ///< significant bits of 16-bit pictures; 16 unless given
 };
+
+/// Returns whether a file is a video by the ending of its name.
+bool is_video(const std::filesystem::path& file);
 
 /// Reads pairs and calls `take` for each, and `tell` with lines for the user, such as on the rates
 /// of videos, which pair by time. Throws DataError if nothing matches, the numbers of files differ,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/affine.hpp>
+#include <utility>
 
 #include "hypotrack/error.hpp"
 #include "hypotrack/median.hpp"
@@ -13,14 +14,11 @@
 namespace hypotrack::calibrate {
 namespace {
 
-constexpr std::size_t kLeastCorners = 6;  // that both pictures show
 constexpr std::size_t kLeastPairs = 3;
 
-/// Corners that both pictures of a pair show.
-struct CommonCorners {
-  std::size_t pair;  ///< index of the given pair
-  std::vector<cv::Point3f> board;
-  std::array<std::vector<cv::Point2f>, 2> at;
+/// Corners of a pair, which has an index among the given ones.
+struct CommonCorners : SharedCorners {
+  std::size_t pair = 0;
 };
 
 /// One camera's matrix and distortion.
@@ -32,16 +30,8 @@ std::vector<CommonCorners> common_corners(const BoardFinder& board,
                                           const std::vector<BoardPair>& pairs) {
   std::vector<CommonCorners> out;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [left, right] = pairs[i].corners;
-    CommonCorners common{i, {}, {}};
-    for (std::size_t a = 0; a < left.ids.size(); ++a) {
-      const auto b = std::ranges::find(right.ids, left.ids[a]) - right.ids.begin();
-      if (b == std::ssize(right.ids)) continue;
-      common.board.push_back(board.place(left.ids[a]));
-      common.at[0].push_back(left.at[a]);
-      common.at[1].push_back(right.at[static_cast<std::size_t>(b)]);
-    }
-    if (common.board.size() >= kLeastCorners) out.push_back(std::move(common));
+    SharedCorners shared = shared_corners(board, pairs[i]);
+    if (shared.board.size() >= kLeastCorners) out.push_back({std::move(shared), i});
   }
   return out;
 }
@@ -280,11 +270,6 @@ StereoCalibration calibrated(const BoardFinder& board, cv::Size pictures,
 }
 
 }  // namespace
-
-double expected_distance(const BoardPair& pair) {
-  const double left = pair.corners[0].sigma, right = pair.corners[1].sigma;
-  return left > 0 && right > 0 ? std::hypot(left, right) : 0;
-}
 
 StereoCalibration calibrate_stereo(const BoardFinder& board, cv::Size pictures,
                                    const std::vector<BoardPair>& pairs,

@@ -5,20 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "calibrate/board.hpp"
+#include "calibrate/board_pair.hpp"
 #include "hypotrack/camera.hpp"
 
 namespace hypotrack::calibrate {
-
-/// The board in both pictures of a pair.
-struct BoardPair {
-  std::string name;
-  std::array<BoardCorners, 2> corners;
-};
-
-/// Returns the root mean square distance of corners as sharp as a pair's from their places, in
-/// pixels; 0: unknown.
-double expected_distance(const BoardPair& pair);
 
 /// Residuals up to this multiple of the expected ones are those of flat boards and lenses that the
 /// model describes; good ones are below 4 times.

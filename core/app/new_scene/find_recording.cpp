@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibrate/picture_pairs.hpp"
 #include "hypotrack/error.hpp"
 
 namespace hypotrack::app {
@@ -66,7 +67,7 @@ std::vector<std::string> media_in(const fs::path& folder) {
     const std::string name = it->path().filename().string();
     const bool other =
         name.find("mask") != std::string::npos || name.find("depth") != std::string::npos;
-    if (other || !(is_picture(name) || is_video(name))) continue;
+    if (other || !(is_picture(name) || calibrate::is_video(name))) continue;
     std::error_code ignored;
     if (it->is_regular_file(ignored))
       out.push_back(it->path().lexically_relative(folder).generic_string());
@@ -91,7 +92,7 @@ std::optional<std::string> without_view(const std::string& name, std::string_vie
 
 /// Takes the number out of a picture's name and counts it for its view.
 Key key_of(const std::string& name, std::string& digits) {
-  if (is_video(name)) return {name, "", false};
+  if (calibrate::is_video(name)) return {name, "", false};
   const std::size_t slash = name.rfind('/') == std::string::npos ? 0 : name.rfind('/') + 1;
   std::size_t end = name.rfind('.');
   while (end > slash && !is_digit(name[end - 1])) --end;
@@ -123,7 +124,7 @@ fs::path files_of(const fs::path& folder, const Key& key, const Candidate& found
     }
     return out;
   };
-  if (is_video(key.before)) return folder / part(key.before, false);
+  if (calibrate::is_video(key.before)) return folder / part(key.before, false);
   std::string number = "%d";
   const std::size_t width = std::max(found.left.width, found.right.width);
   if (width > 0) number = fmt::format("%0{}d", width);

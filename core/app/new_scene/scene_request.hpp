@@ -31,9 +31,6 @@ struct SceneRequest {
   std::string tracker;  ///< real, recommended or real_time
 };
 
-/// Returns true if a file's name is that of a video.
-bool is_video(const std::filesystem::path& file);
-
 /// Returns the scene as YAML. Paths are relative to `folder`, the scene's, if they lie near it.
 /// Throws ConfigError if the tracker cannot track the models.
 std::string scene_text(const SceneRequest& request, const std::filesystem::path& folder);

@@ -1,12 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <string_view>
 #include <vector>
 
+#include "calibrate/picture_pairs.hpp"
 #include "config/yaml.hpp"
 #include "hypotrack/error.hpp"
 #include "new_scene/scene_request.hpp"
@@ -58,7 +55,7 @@ YamlDocument file_source(const RecordingFiles& files, const std::filesystem::pat
   YamlDocument out;
   const bool one = !files.side_by_side.empty();
   const std::filesystem::path& left = one ? files.side_by_side : files.left;
-  out.set_string("type", is_video(left) ? "video" : "image_sequence");
+  out.set_string("type", calibrate::is_video(left) ? "video" : "image_sequence");
   out.set_string(one && !files.layout ? "side_by_side" : "left", near_path(left, folder));
   if (files.layout) out.set_string("layout", *files.layout);
   if (!files.right.empty()) out.set_string("right", near_path(files.right, folder));
@@ -102,14 +99,6 @@ void set_live(YamlDocument& scene, const std::string& tracker) {
 }
 
 }  // namespace
-
-bool is_video(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 9> kEndings = {".mp4", ".avi", ".mkv",  ".mov", ".webm",
-                                                        ".m4v", ".mpg", ".mpeg", ".wmv"};
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return std::ranges::count(kEndings, ending) > 0;
-}
 
 std::string scene_text(const SceneRequest& request, const std::filesystem::path& folder) {
   YamlDocument scene;

@@ -29,7 +29,8 @@ std::string why_not_written(const std::filesystem::path& file) {
   const int opened = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (opened < 0 && is_shortage(errno)) return described(errno);
   if (opened >= 0) ::close(opened);
-  return {};
+  const bool forbidden = ::access(folder.c_str(), W_OK | X_OK) != 0 && errno == EACCES;
+  return forbidden ? std::strerror(EACCES) : "";
 }
 
 }  // namespace hypotrack

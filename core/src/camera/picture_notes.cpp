@@ -15,7 +15,7 @@ namespace {
 
 using Files = std::span<const std::filesystem::path>;
 
-/// What the values of the first pictures are.
+/// Type and largest value of the first pictures.
 struct Values {
   std::filesystem::path first;  ///< picture that can be read
   int depth = CV_8U;

@@ -28,10 +28,13 @@ std::vector<int> compression(const std::filesystem::path& file, const cv::Mat& i
   return {cv::IMWRITE_PNG_STRATEGY, cv::IMWRITE_PNG_STRATEGY_HUFFMAN_ONLY};
 }
 
-void write_or_throw(const std::filesystem::path& file, const cv::Mat& image) {
+}  // namespace
+
+void write_picture(const std::filesystem::path& file, const cv::Mat& image,
+                   const std::vector<int>& parameters) {
   bool written = false;
   try {
-    written = write_image(file.string(), image, compression(file, image));
+    written = write_image(file.string(), image, parameters);
   } catch (const cv::Exception&) {
   }
   if (written) return;
@@ -44,13 +47,11 @@ void write_or_throw(const std::filesystem::path& file, const cv::Mat& image) {
       file.string(), why.empty() ? "" : ": " + why));
 }
 
-}  // namespace
-
 struct ImageWriter::Impl {
   void write_now(const std::filesystem::path& file, const cv::Mat& image) {
     if (stopped) return;
     try {
-      write_or_throw(file, image);
+      write_picture(file, image, compression(file, image));
     } catch (...) {
       const std::lock_guard lock(mutex);
       if (!error) error = std::current_exception();

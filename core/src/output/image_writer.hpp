@@ -3,11 +3,16 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <vector>
 
 #include "base/exported.hpp"
 
 namespace hypotrack {
 inline namespace HYPOTRACK_EXPORTED internal {
+
+/// Writes an image file. Throws OutputError, and leaves no half of a file then.
+void write_picture(const std::filesystem::path& file, const cv::Mat& image,
+                   const std::vector<int>& parameters);
 
 /// Writes PNG or JPEG files on all cores while the caller goes on. The files do not depend on the
 /// threads' timing.

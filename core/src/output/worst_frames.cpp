@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
+#include "output/image_writer.hpp"
 
 namespace hypotrack::internal {
 namespace {
@@ -56,16 +56,7 @@ void WorstFrames::write(OutputContext& run) const {
         fmt::format("frame {}   {:.1f} mm off   {}", worst.frame, 1000 * worst.error,
                     worst.status));
     const auto file = run.file(fmt::format("worst_{}.jpg", worst.frame));
-    bool written = false;
-    try {
-      written = write_image(file.string(), picture, {cv::IMWRITE_JPEG_QUALITY, 90});
-    } catch (const cv::Exception&) {
-    }
-    if (!written)
-      throw OutputError(
-          fmt::format("{}: the image cannot be written; check that there is space, or name another "
-                      "folder with --out",
-                      file.string()));
+    write_picture(file, picture, {cv::IMWRITE_JPEG_QUALITY, 90});
   }
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <optional>
 
+#include "hypotrack/disk.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/plugin.hpp"
 #include "map_panels.hpp"
@@ -91,11 +92,14 @@ void Particles::write(const std::string& name, const cv::Mat& picture) {
   out.write(reinterpret_cast<const char*>(bytes.data()),
             static_cast<std::streamsize>(bytes.size()));
   out.close();
-  if (!out)
-    throw OutputError(
-        fmt::format("{}: the picture cannot be written; check that there is space, or name another "
-                    "folder with --out",
-                    file.string()));
+  if (out) return;
+  const std::string why = why_not_written(file);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);  // half a picture
+  throw OutputError(
+      fmt::format("{}: the picture cannot be written{}; check that there is space, or name another "
+                  "folder with --out",
+                  file.string(), why.empty() ? "" : ": " + why));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "hypotrack/error.hpp"
+#include "hypotrack/pair_by_time.hpp"
 #include "hypotrack/text_file.hpp"
 
 namespace hypotrack::rgbd {
@@ -99,25 +101,19 @@ std::vector<TimedImage> read_image_list(const std::filesystem::path& list) {
   return images;
 }
 
-std::size_t nearest(std::span<const TimedImage> images, double time) {
-  const auto after =
-      std::lower_bound(images.begin(), images.end(), time,
-                       [](const TimedImage& image, double value) { return image.time < value; });
-  const auto index = static_cast<std::size_t>(after - images.begin());
-  if (index == 0) return 0;
-  if (index == images.size()) return index - 1;
-  return time - images[index - 1].time <= images[index].time - time ? index - 1 : index;
+std::vector<std::int64_t> stamps_of(std::span<const TimedImage> images) {
+  std::vector<std::int64_t> out;
+  for (const TimedImage& image : images) out.push_back(image.stamp);
+  return out;
 }
 
 std::vector<std::optional<std::size_t>> associate(std::span<const TimedImage> a,
                                                   std::span<const TimedImage> b,
                                                   double max_difference) {
+  const std::array lists{stamps_of(a), stamps_of(b)};
   std::vector<std::optional<std::size_t>> partners(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const std::size_t j = nearest(b, a[i].time);
-    const bool near_enough = std::abs(a[i].time - b[j].time) <= max_difference;
-    if (near_enough && nearest(a, b[j].time) == i) partners[i] = j;
-  }
+  for (const TimedFrame& frame : pair_by_time(lists, std::llround(1e9 * max_difference)))
+    if (frame.pictures[0]) partners[*frame.pictures[0]] = frame.pictures[1];
   return partners;
 }
 

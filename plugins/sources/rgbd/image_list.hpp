@@ -29,8 +29,7 @@ std::vector<std::optional<std::size_t>> associate(std::span<const TimedImage> a,
                                                   std::span<const TimedImage> b,
                                                   double max_difference);
 
-/// Returns the index of the picture nearest in time; the earlier of two equally near. `images` must
-/// ascend and not be empty.
-std::size_t nearest(std::span<const TimedImage> images, double time);
+/// Returns the times of pictures, nanoseconds.
+std::vector<std::int64_t> stamps_of(std::span<const TimedImage> images);
 
 }  // namespace hypotrack::rgbd

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "hypotrack/calibration.hpp"
 #include "hypotrack/image_file.hpp"
 #include "hypotrack/median.hpp"
+#include "hypotrack/pair_by_time.hpp"
 #include "hypotrack/plugin.hpp"
 #include "hypotrack/truth.hpp"
 #include "image_list.hpp"
@@ -175,12 +177,12 @@ class Rgbd final : public Source {
   }
 
   std::string unmatched(std::size_t i) const {
-    const TimedImage& other = depth_[nearest(depth_, color_[i].time)];
+    const TimedImage& other = depth_[nearest_in_time(stamps_of(depth_), color_[i].stamp)];
+    const double apart = 1e-9 * static_cast<double>(std::abs(other.stamp - color_[i].stamp));
     return fmt::format(
         "{}: no depth image belongs to it: the nearest in time, {}, is {:.3g} s away{}",
-        color_[i].file.string(), other.file.filename().string(),
-        std::abs(other.time - color_[i].time),
-        std::abs(other.time - color_[i].time) <= params_.max_difference
+        color_[i].file.string(), other.file.filename().string(), apart,
+        apart <= params_.max_difference
             ? " and nearer to another colour image"
             : fmt::format("; expected {:.3g} s or less", params_.max_difference));
   }

@@ -67,6 +67,18 @@ TEST(PicturePairsOfVideos, AreTurnedAsPlayersDo) {
   EXPECT_THAT(notes, Contains(HasSubstr("turned by 90 degrees clockwise")));
 }
 
+TEST(PicturePairsOfVideos, AreReadFromFilesOfCamcordersAndPhones) {
+  const test::TemporaryDirectory folder;
+  test::write_video(folder.path() / "video.mkv", without(9));
+  for (const std::string name : {"LEFT.MTS", "a.m2ts", "b.ts", "c.m4v", "d.3gp", "e.mpeg"}) {
+    const std::filesystem::path file = folder.path() / name;
+    std::filesystem::copy(folder.path() / "video.mkv", file);
+    int pairs = 0;
+    read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
+    EXPECT_EQ(pairs, 9) << name;
+  }
+}
+
 /// A picture of one brightness.
 cv::Mat plain(int brightness, int type = CV_8UC3) {
   return {24, 32, type, cv::Scalar::all(brightness)};

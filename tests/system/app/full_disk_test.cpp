@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "app_test.hpp"
+#include "hypotrack/image_file.hpp"
 
 namespace hypotrack::test {
 namespace {
@@ -68,6 +69,19 @@ TEST_P(FullDiskOfOutputTest, EndsTheRunWhichKeepsTheFramesBefore) {
   EXPECT_GT(lines.size(), 5U);
   for (const char* table : {"track.csv", "joints.csv"})
     EXPECT_THAT(read_text(path("kept/out") / table), testing::EndsWith("\n")) << "a torn line";
+}
+
+TEST_F(FullDiskTest, LeavesNoHalfOfAPictureOfParticles) {
+  const std::string text = replaced(box_scene(), "{overlay: false}",
+                                    "{overlay: false, also: {type: particles, every: 1}}");
+  const Outcome outcome =
+      on_disk(64, program() + " run " + scene(text) + " --out $disk/out --set source.frames=1000");
+  expect_one_message(outcome);
+  EXPECT_THAT(outcome.err, HasSubstr("the picture cannot be written: No space left on device"));
+  for (const std::string& name : names_in(path("kept/out"))) {
+    if (!name.ends_with(".png")) continue;
+    EXPECT_EQ(read_color(path("kept/out") / name).problem, "");
+  }
 }
 
 TEST_F(FullDiskTest, KeepsTheFirstFramesOfARecording) {

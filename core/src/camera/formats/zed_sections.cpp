@@ -15,7 +15,7 @@ bool is_one_of(std::string_view key, Keys keys) {
   return std::ranges::find(keys, key) != keys.end();
 }
 
-/// What of a file is not used: names of sections, and of keys as `[SECTION] key`.
+/// Unused parts of a file: names of sections, and of keys as `[SECTION] key`.
 struct Unused {
   std::vector<std::string> other_sizes, older_lenses, unknown;
 };

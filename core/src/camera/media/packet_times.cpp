@@ -18,7 +18,7 @@ bool is_hidden(const AVPacket& packet, AVCodecID codec) {
   return codec == AV_CODEC_ID_VP8 && (packet.data[0] & 0x10) == 0;
 }
 
-/// What was read of the pictures' stream.
+/// Counts and times of the packets of pictures.
 struct Read {
   std::size_t packets = 0;      ///< with data
   std::int64_t end = 0;         ///< of the last picture, in units of the stream

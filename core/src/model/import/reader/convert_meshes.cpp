@@ -40,7 +40,7 @@ std::array<std::uint8_t, 3> convert_color(const aiColor4D& color, bool linear) {
   return bytes;
 }
 
-/// What the conversion of every mesh needs.
+/// Inputs of the conversion that all meshes share.
 struct Context {
   const aiScene& scene;
   const std::vector<PictureUse>& uses;

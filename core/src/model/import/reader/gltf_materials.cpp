@@ -92,7 +92,7 @@ class GltfMaterials {
     if (transform.is_object()) to.uv = transformed(transform);
     const Json& texture = element("textures", member(info, "index"));
     if (texture.is_null())
-      throw std::runtime_error("material '" + to.name + "' names a texture " + "that is not there");
+      throw std::runtime_error("material '" + to.name + "' names a texture that is not there");
     const Json& sampler = element("samplers", member(texture, "sampler"));
     to.wrap = {wrap(member(sampler, "wrapS")), wrap(member(sampler, "wrapT"))};
     to.texture = image_of(texture, to.name);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{16} << 20;
 
-/// What an OBJ file says of its materials.
+/// The libraries and materials that an OBJ file names.
 struct Named {
   std::vector<std::string> libraries;
   std::map<std::string, int> used;  ///< materials, and the first lines that use them
