@@ -22,12 +22,11 @@ constexpr std::string_view kUndoMeshopt =
 /// The extensions of which more than the name is known. `invisible` ones change nothing that
 /// hypotrack draws: it draws base colours in one light. `replaceable` ones are not read; a file
 /// that does not require one has the same data without it.
-constexpr std::array<Extension, 16> kExtensions = {{
+constexpr std::array<Extension, 15> kExtensions = {{
     {"KHR_mesh_quantization", Support::read},
     {"KHR_draco_mesh_compression", Support::read},
     {"KHR_texture_transform", Support::read},
     {"KHR_materials_unlit", Support::read},
-    {"KHR_materials_pbrSpecularGlossiness", Support::read},
     {"KHR_materials_pbrSpecularGlossiness", Support::read},
     {"EXT_texture_webp", Support::read},
     {"KHR_lights_punctual", Support::invisible},
