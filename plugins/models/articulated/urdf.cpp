@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -119,13 +120,17 @@ class Converter {
   std::filesystem::path path_of(const std::string& name, const std::string& where) const {
     constexpr std::string_view kFile = "file://", kPackage = "package://";
     if (name.empty()) fail(where, "it names a file without a name");
+    if (name.find("$(") != name.npos || name.find("${") != name.npos)
+      fail(where, fmt::format("found '{}', which is for xacro: write the URDF that `xacro` makes "
+                              "of the file",
+                              name));
     if (name.starts_with(kFile)) return name.substr(kFile.size());
     if (name.starts_with(kPackage)) {
       const std::size_t slash = name.find('/', kPackage.size());
       if (slash == std::string::npos || slash == kPackage.size())
         fail(where, fmt::format("found '{}', expected package://NAME/FILE", name));
       return package(name.substr(kPackage.size(), slash - kPackage.size()), where) /
-             name.substr(slash + 1);
+             name.substr(std::min(name.find_first_not_of('/', slash), name.size()));
     }
     if (name.find("://") != std::string::npos)
       fail(where, fmt::format("found '{}', expected a path relative to the URDF file, "

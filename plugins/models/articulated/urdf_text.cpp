@@ -93,6 +93,33 @@ std::string_view unused_element(std::string_view text) {
   return {};
 }
 
+/// Returns the place behind the tag that a text begins with. Values of attributes may have a `>`.
+std::size_t behind_tag(std::string_view text) {
+  char quote = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (quote == 0 && c == '>') return at + 1;
+    if (quote == 0 && (c == '"' || c == '\'')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = 0;
+    }
+  }
+  return text.size();
+}
+
+/// Returns the place behind the element of a name that a text begins with.
+std::size_t behind_element(std::string_view text, std::string_view name) {
+  const std::size_t begin = behind_tag(text);
+  if (text[begin - 2] == '/') return begin;
+  const std::string end = fmt::format("/{}", name);
+  for (std::size_t at = begin; (at = text.find('<', at)) != text.npos; ++at) {
+    if (text.substr(at).starts_with("<!--")) at = behind(text, "-->", at + 4) - 1;
+    if (is_element(text.substr(at + 1), end)) return behind(text, ">", at);
+  }
+  return text.size();
+}
+
 /// Returns a URDF text without comments and unused elements. Limits of joints get the effort and
 /// velocity that the specification asks for and many files leave out.
 std::string text_for_parser(std::string_view text) {
@@ -101,9 +128,7 @@ std::string text_for_parser(std::string_view text) {
     if (text.starts_with("<!--")) {
       text.remove_prefix(behind(text, "-->", 4));
     } else if (const std::string_view unused = unused_element(text); !unused.empty()) {
-      std::size_t end = behind(text, ">", 0);
-      if (text[end - 2] != '/') end = behind(text, fmt::format("</{}>", unused), end);
-      text.remove_prefix(end);
+      text.remove_prefix(behind_element(text, unused));
     } else if (is_element(text, "<limit")) {
       constexpr std::string_view kLimit = "<limit";
       const std::string_view inside = text.substr(0, behind(text, ">", 0));

@@ -10,6 +10,7 @@
 #include "hypotrack/error.hpp"
 #include "hypotrack/media.hpp"
 #include "hypotrack/mesh_io.hpp"
+#include "hypotrack/text_file.hpp"
 #include "primitives.hpp"
 
 namespace hypotrack::articulated {
@@ -61,11 +62,13 @@ Mesh shape_of(const Visual& visual, const std::string& where, const PluginLog& l
   return read_mesh(visual, where, log);
 }
 
-/// Returns true for DAE meshes: viewers of URDF files show their materials, not the visual's.
-bool has_own_materials(const Visual& visual) {
+/// Returns true for DAE meshes with colours: viewers of URDF files show theirs, not the visual's.
+bool has_own_colors(const Visual& visual) {
   std::string type = visual.mesh.extension().string();
   std::ranges::transform(type, type.begin(), [](unsigned char c) { return std::tolower(c); });
-  return visual.kind == ShapeKind::mesh && type == ".dae";
+  if (visual.kind != ShapeKind::mesh || type != ".dae") return false;
+  const std::string text = read_whole(visual.mesh).value_or("");
+  return text.find("instance_material") != text.npos || text.find("COLOR") != text.npos;
 }
 
 }  // namespace
@@ -75,8 +78,7 @@ Mesh visual_mesh(const Visual& visual, const std::string& where, const PluginLog
   Mesh mesh = shape_of(visual, here, log);
   if (visual.kind != ShapeKind::mesh && !visual.texture.empty())
     mesh.texture = read_texture(visual.texture, here);
-  if (mesh.texture.empty() && visual.color && !has_own_materials(visual))
-    mesh.color = *visual.color;
+  if (mesh.texture.empty() && visual.color && !has_own_colors(visual)) mesh.color = *visual.color;
   mesh.vertices = visual.link_from_visual.cast<float>() * mesh.vertices;
   return mesh;
 }

@@ -105,6 +105,10 @@ TEST_F(DamagedMesh, AnObjThatIsDamagedIsRefusedWithItsLine) {
   EXPECT_THAT(of_face("v .1 0 0\nf 1 2 3\n"),
               HasSubstr("line 6: v '.1' has no digit before the dot; write 0.1"));
   EXPECT_THAT(of_face("f 1 2 3\nv 0 1"), HasSubstr("line 7: v has 2 numbers, expected 3"));
+  EXPECT_THAT(of_face("f 1 2 3\nlod 2\n"), HasSubstr("line 7: `lod` is not read: delete the line"));
+  EXPECT_THAT(error("a.obj", "\xEF\xBB\xBF" + start + "f 1 2 3\n"),
+              HasSubstr("line 1: a byte order mark hides its `v`"));
+  EXPECT_TRUE(reads("a.obj", "\xEF\xBB\xBF# of Windows\n" + start + "f 1 2 3\n"));
   EXPECT_TRUE(reads("a.obj", start + "# f 1\nf -3/-1/-1 2//1 \\\n 3/1 \r\n"));
 }
 

@@ -168,6 +168,7 @@ TEST_F(GltfSupport, QuantizedSkinsAwayFromTheirBindPoseKeepTheirSize) {
     const ImportedMesh imported = read(writer);
     EXPECT_TRUE(imported.mesh.vertices.rowwise().maxCoeff().isOnes(1e-4f)) << away;
     EXPECT_TRUE(imported.bones[1].file_from_bone.translation().isZero(1e-6)) << away;
+    EXPECT_EQ(imported.notes.size(), away ? 1U : 0U) << "tells that the pose is not read";
   }
 }
 

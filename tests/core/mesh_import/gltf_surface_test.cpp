@@ -48,6 +48,17 @@ class GltfSurface : public testing::Test {
     write_file(folder_.path() / name, std::string(bytes.begin(), bytes.end()));
   }
 
+  /// Puts a picture of one colour into the buffer.
+  Json picture_inside(const char* type, const cv::Vec3b& bgr) {
+    const std::vector<unsigned char> bytes = encode_image(type, cv::Mat3b(4, 4, bgr));
+    json_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", bytes.size()}});
+    data_.append(bytes.begin(), bytes.end());
+    data_.resize((data_.size() + 3) / 4 * 4);
+    return {{"bufferView", json_["bufferViews"].size() - 1},
+            {"mimeType", "image/" + std::string(type + 1)}};
+  }
+
   Json& material() { return json_["materials"][0]; }
   Json& surface() { return material()["pbrMetallicRoughness"]; }
 
@@ -70,7 +81,7 @@ class GltfSurface : public testing::Test {
   }
 
   ImportedMesh import() {
-    const Json primitive = {{"attributes", attributes_}, {"material", 0}};
+    const Json primitive = {{"attributes", attributes_}, {"material", material_}};
     json_["meshes"] = Json::array({Json{{"primitives", Json::array({primitive})}}});
     const std::array<std::uint16_t, 6> corners = {0, 1, 2, 0, 2, 3};
     Json whole = json_;
@@ -107,6 +118,7 @@ class GltfSurface : public testing::Test {
   TemporaryDirectory folder_;
   Json json_, attributes_;
   std::string data_;
+  std::size_t material_ = 0;
 };
 
 TEST_F(GltfSurface, HasThePictureThatItsCoordinatesSay) {
@@ -288,6 +300,35 @@ TEST_F(GltfSurface, PictureThatRepeatsTooOftenIsDrawnSmallerAndSaysSo) {
   expect_color(import().mesh, 0.75f / 40, 0.5f, {200, 200, 200});
   EXPECT_THAT(notes(), ElementsAre(HasSubstr("a texture of 512 x 512 pixels goes on over 40 times "
                                              "its size: drawn 5.0 times smaller")));
+}
+
+TEST_F(GltfSurface, MaterialsAndPicturesInsideTheFileAreFoundByNumberWhateverIsUsedFirst) {
+  set_uvs("TEXCOORD_0", 0, 0.5f, 0.5f, 0);
+  for (const uchar blue : {10, 60, 110, 160})
+    json_["images"].push_back(picture_inside(".png", {blue, 20, 30}));  // 1 to 4
+  json_["textures"] = Json::array();
+  json_["materials"] = Json::array();
+  for (const int image : {4, 2, 0, 3, 1}) {
+    json_["materials"].push_back(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", json_["textures"].size()}}}}}});
+    json_["textures"].push_back({{"source", image}});
+  }
+  material_ = 1;
+  expect_color(import().mesh, 0.5f, 0.5f, {30, 20, 60});
+  material_ = 4;
+  expect_color(import().mesh, 0.5f, 0.5f, {30, 20, 10});
+  json_["materials"][4]["normalTexture"]["index"] = 0;
+  expect_color(import().mesh, 0.5f, 0.5f, {30, 20, 10});
+  material_ = 2;
+  expect_color(import().mesh, 0.5f, 0.5f, kRed);
+}
+
+TEST_F(GltfSurface, WebpPicturesInsideTheFileAreRead) {
+  set_uvs("TEXCOORD_0", 0, 0.5f, 0.5f, 0);
+  json_["images"].push_back(picture_inside(".webp", {110, 110, 110}));
+  json_["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 1}}}}}};
+  json_["extensionsRequired"] = {"EXT_texture_webp"};
+  expect_color(import().mesh, 0.5f, 0.5f, {110, 110, 110});
 }
 
 TEST_F(GltfSurface, NamesOfPicturesAreUris) {

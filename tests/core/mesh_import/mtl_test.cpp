@@ -92,6 +92,13 @@ TEST_F(MtlFile, KdOfOneNumberIsGrey) {
   EXPECT_EQ(import("newmtl a\nKd 0.25\n").mesh.color, Eigen::Vector3f::Constant(0.25f));
 }
 
+TEST_F(MtlFile, ByteOrderMarksHideNothing) {
+  const std::string mark = "\xEF\xBB\xBF";
+  const ImportedMesh imported = import(mark + "newmtl a\nKd 0.25\n", mark + "mtllib a.mtl\n");
+  EXPECT_EQ(imported.mesh.color, Eigen::Vector3f::Constant(0.25f));
+  EXPECT_THAT(notes_on(imported), IsEmpty());
+}
+
 TEST_F(MtlFile, WhatOnlyShadesHasNoNote) {
   EXPECT_THAT(
       import("# made up\nnewmtl a\nKa 1 1 1\nKd 1 0 0\nKs 0 0 0\nKe 0 0 0\nNs 10\nNi 1\nd 1\n"

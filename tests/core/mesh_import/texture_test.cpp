@@ -98,7 +98,7 @@ TEST_F(MeshTexture, TextureWithoutCoordinatesIsAnError) {
   GlbContent content;
   content.image = picture();
   EXPECT_THAT(import_error(file("a.glb", glb(content))),
-              HasSubstr("not every part of the mesh has texture coordinates"));
+              HasSubstr("not every part of the mesh has texture coordinates: mesh '"));
 }
 
 TEST_F(MeshTexture, RepeatedCoordinatesMoveIntoTheImage) {

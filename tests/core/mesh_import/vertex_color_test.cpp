@@ -48,6 +48,17 @@ TEST_F(MeshVertexColors, OfAnObjAndAGlbAreReadToo) {
   EXPECT_FALSE(import("a.glb", glb(content)).texture.empty());
 }
 
+TEST_F(MeshVertexColors, OfAnObjMayGoTo255) {
+  const ImportedMesh imported = import_mesh(
+      write_file(folder_.path() / "a.obj",
+                 "v 0 0 0 51 102 204\nv 1 0 0 51 102 204\nv 0 1 0 51 102 204\nv 0 0 1 51 102 204\n"
+                 "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+  EXPECT_TRUE(imported.mesh.color.isApprox(Eigen::Vector3f(0.2f, 0.4f, 0.8f), 1e-4f))
+      << imported.mesh.color.transpose();
+  EXPECT_THAT(imported.notes, testing::ElementsAre(testing::HasSubstr(
+                                  "colours of vertices beyond 1: read as numbers from 0 to 255")));
+}
+
 TEST_F(MeshVertexColors, OfOneColorAreTheColorOfTheMesh) {
   GlbContent content;
   content.colors.assign(4, {1, 0.4f, 0});

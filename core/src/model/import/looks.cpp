@@ -66,7 +66,10 @@ void Looks::set_look(std::size_t index, const Rgb& first) {
   const bool replaced = !file_.options.texture.empty();
   if (replaced || (material && !material->texture.empty())) {
     if (part.uvs.empty())
-      file_.fail("there is a texture, but not every part of the mesh has texture coordinates");
+      file_.fail(fmt::format(
+          "there is a texture, but not every part of the mesh has texture coordinates: mesh '{}'{} "
+          "has none; unwrap it, or take the picture off its material",
+          part.name, material ? fmt::format(" of material '{}'", material->name) : ""));
     if (replaced) look.painted = false;
     const Eigen::Vector3f of_points =
         look.painted ? Eigen::Vector3f::Ones()

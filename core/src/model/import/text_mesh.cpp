@@ -17,6 +17,7 @@
 namespace hypotrack::internal {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kSpaces = " \t\r\v\f";
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -112,7 +113,12 @@ class ObjReader {
     constexpr std::array<std::pair<std::string_view, std::size_t>, kElements> kLeast = {
         {{"v", 3}, {"vt", 1}, {"vn", 3}}};
     if (words.empty()) return {};
-    if (!is_read(words[0])) unread_.add(words[0], line);
+    if (!is_read(words[0])) {
+      // The importer takes `lod` for `l` and `parm` for `p`.
+      if (words[0].size() > 1 && (words[0][0] == 'l' || words[0][0] == 'p'))
+        return fmt::format("`{}` is not read: delete the line, or export triangles", words[0]);
+      unread_.add(words[0], line);
+    }
     if (words[0] == "f") return problem_of_face(words);
     for (std::size_t e = 0; e < kElements; ++e) {
       if (words[0] != kLeast[e].first) continue;
@@ -193,7 +199,13 @@ std::string problem_of_obj(std::istream& in, std::vector<std::string>& notes) {
   for (std::string line; std::getline(in, line);) {
     ++reader.line;
     if (line.ends_with('\r')) line.pop_back();
+    const bool marked = reader.line == 1 && line.starts_with(kByteOrderMark);
+    if (marked) line.erase(0, kByteOrderMark.size());
     text += line.substr(0, line.find('#'));
+    if (const std::vector<std::string_view> words = words_of(text);
+        marked && !words.empty() && words[0] != "mtllib")
+      return fmt::format("line 1: a byte order mark hides its `{}`; save the file without the mark",
+                         words[0]);
     if (text.ends_with('\\')) {  // goes on in the next line
       text.back() = ' ';
       continue;

@@ -99,7 +99,8 @@ TEST(ArticulatedModel, RefusesWhatCannotBeDrawn) {
       AllOf(HasSubstr("it.urdf: link 'a', visual 1: its texture "), HasSubstr("no.png")));
 }
 
-TEST(ArticulatedModel, DaeMeshesAreInMetresAndKeepTheirColor) {
+/// Returns the mesh of a blue visual whose DAE file has a material, bound by `binding`.
+Mesh blue_visual_of_dae(const std::string& binding) {
   const TemporaryDirectory folder;
   const auto file = folder.path() / "it.urdf";
   std::ofstream(folder.path() / "a.dae")
@@ -115,17 +116,27 @@ TEST(ArticulatedModel, DaeMeshesAreInMetresAndKeepTheirColor) {
          "<vertices id='v'><input semantic='POSITION' source='#p'/></vertices><triangles count='1' "
          "material='s'><input semantic='VERTEX' source='#v' offset='0'/><p>0 1 2</p></triangles>"
          "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id='w'>"
-         "<node><instance_geometry url='#g'><bind_material><technique_common><instance_material "
-         "symbol='s' target='#m'/></technique_common></bind_material></instance_geometry></node>"
-         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#w'/></scene>"
+         "<node><instance_geometry url='#g'>"
+      << binding
+      << "</instance_geometry></node></visual_scene></"
+         "library_visual_scenes><scene><instance_visual_scene url='#w'/></scene>"
          "</COLLADA>";
   std::ofstream(file)
       << "<robot name='it'><link name='a'><visual><geometry><mesh filename='a.dae'/></geometry>"
          "<material name='m'><color rgba='0 0 1 1'/></material></visual></link></robot>";
-  const auto model = make_model("{type: articulated, file: '" + file.string() + "'}");
-  const Mesh& mesh = model->data().mesh;
+  return make_model("{type: articulated, file: '" + file.string() + "'}")->data().mesh;
+}
+
+TEST(ArticulatedModel, DaeMeshesAreInMetresAndKeepTheirColor) {
+  const Mesh mesh = blue_visual_of_dae(
+      "<bind_material><technique_common><instance_material symbol='s' target='#m'/>"
+      "</technique_common></bind_material>");
   EXPECT_EQ(mesh.color, Eigen::Vector3f(0.8f, 0.1f, 0.2f));
   EXPECT_TRUE(mesh.vertices.rowwise().maxCoeff().isApprox(Eigen::Vector3f(0.1f, 0.2f, 0)));
+}
+
+TEST(ArticulatedModel, DaeMeshesWithoutMaterialsTakeThatOfTheVisual) {
+  EXPECT_EQ(blue_visual_of_dae("").color, Eigen::Vector3f(0, 0, 1));
 }
 
 TEST(ArticulatedModel, MirroredScalesKeepTheOutsideOutside) {

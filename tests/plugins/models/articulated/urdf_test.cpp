@@ -127,6 +127,11 @@ TEST_F(Urdf, CollisionGeometryAndCommentsAreNotRead) {
   ASSERT_EQ(it.visuals.size(), 1U);
   EXPECT_EQ(it.visuals[0].size[0], 2);
   EXPECT_THAT(message("<link name='a'/><link name='b'/><!-- "), HasSubstr("no valid URDF file"));
+  EXPECT_EQ(read("<link name='a'><collision name='a/>'/><collision name=\"it's\"><!-- </collision>"
+                 "--><geometry/></collision ><visual><geometry><sphere radius='2'/></geometry>"
+                 "</visual><collision></collision></link>")
+                .visuals.size(),
+            1U);
 }
 
 TEST_F(Urdf, MassesAreNotRead) {
@@ -232,6 +237,7 @@ TEST_F(Urdf, FindsThePackageOfAMeshAboveTheFileOrBesideAFolderAboveIt) {
   EXPECT_EQ(read(visual(mesh("package://lamp/meshes/a.obj"))).visuals[0].mesh,
             lamp / "meshes/a.obj");
   EXPECT_EQ(read(visual(mesh("package://bulbs/b.obj"))).visuals[0].mesh, shelf / "bulbs/b.obj");
+  EXPECT_EQ(read(visual(mesh("package://bulbs//b.obj"))).visuals[0].mesh, shelf / "bulbs/b.obj");
 }
 
 TEST_F(Urdf, SaysWhereItLookedForAPackage) {
@@ -241,6 +247,8 @@ TEST_F(Urdf, SaysWhereItLookedForAPackage) {
   for (const std::string name : {"package://", "package://lamp", "package:///a.obj"})
     EXPECT_EQ(message(visual(mesh(name))),
               "link 'a', visual 1: found '" + name + "', expected package://NAME/FILE");
+  EXPECT_THAT(message(visual(mesh("$(find lamp)/a.obj"))),
+              HasSubstr("'$(find lamp)/a.obj', which is for xacro: write the URDF that `xacro`"));
 }
 
 TEST_F(Urdf, RefusesFilesThatAreMissingOrWouldExhaustTheStack) {

@@ -20,15 +20,18 @@ bool similar(const aiMatrix4x4& a, const aiMatrix4x4& b) {
 
 /// Returns the transform of a skinned mesh to the file's frame at the bind pose. Its bones define
 /// it, not its node (glTF 2.0 section 3.7.3.3). The result is the identity if the bones disagree,
-/// because they are then not at the bind pose.
-aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh) {
+/// because they are then not at the bind pose, which a note tells.
+aiMatrix4x4 file_from_skinned_mesh(const aiScene& scene, const aiMesh& mesh, Scene& out) {
   std::optional<aiMatrix4x4> common;
   for (unsigned i = 0; i < mesh.mNumBones; ++i) {
     const aiNode* node = scene.mRootNode->FindNode(mesh.mBones[i]->mName);
     if (!node) return {};
     const aiMatrix4x4 here = global_transform(node) * mesh.mBones[i]->mOffsetMatrix;
     if (!common) common = here;
-    if (!similar(*common, here)) return {};
+    if (similar(*common, here)) continue;
+    const char* const note = "the file poses its bones, and is read at their bind pose";
+    if (std::ranges::find(out.notes, note) == out.notes.end()) out.notes.emplace_back(note);
+    return {};
   }
   return common.value_or(aiMatrix4x4());
 }
@@ -40,11 +43,29 @@ std::array<std::uint8_t, 3> convert_color(const aiColor4D& color, bool linear) {
   return bytes;
 }
 
+/// Returns the number that is the brightest in colours of vertices: 1, or the 255 of some programs
+/// that write OBJ files. Tells of it.
+float brightest_number(const aiScene& scene, Scene& out) {
+  float most = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned k = 0; mesh.HasVertexColors(0) && k < mesh.mNumVertices; ++k)
+      for (unsigned c = 0; c < 3; ++c) most = std::max(most, mesh.mColors[0][k][c]);
+  }
+  if (most <= 1.001f || !std::isfinite(most)) return 1;
+  const float brightest = most <= 255 ? 255 : most;
+  std::string text = std::to_string(brightest);
+  text.erase(text.find('.'));
+  out.notes.push_back("colours of vertices beyond 1: read as numbers from 0 to " + text);
+  return brightest;
+}
+
 /// Inputs of the conversion that all meshes share.
 struct Context {
   const aiScene& scene;
   const std::vector<PictureUse>& uses;
   bool linear;
+  float brightest;  // number in colours of vertices
   Bones& bones;
 };
 
@@ -63,7 +84,8 @@ MeshPart convert_mesh(const aiMesh& mesh, const aiMatrix4x4& file_from_mesh,
       part.uvs.push_back({mesh.mTextureCoords[set][i].x, mesh.mTextureCoords[set][i].y});
     }
     if (mesh.HasVertexColors(0))
-      part.colors.push_back(convert_color(mesh.mColors[0][i], context.linear));
+      part.colors.push_back(
+          convert_color(mesh.mColors[0][i] * (1 / context.brightest), context.linear));
   }
   const bool flipped = file_from_mesh.Determinant() < 0;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
@@ -88,7 +110,7 @@ void add_meshes(const aiNode& node, const Context& context, Scene& out) {
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
     const aiMatrix4x4 file_from_mesh =
-        mesh.HasBones() ? file_from_skinned_mesh(scene, mesh) : global_transform(&node);
+        mesh.HasBones() ? file_from_skinned_mesh(scene, mesh, out) : global_transform(&node);
     add_bones(mesh, file_from_mesh, context.bones, out);
     out.meshes.push_back(convert_mesh(mesh, file_from_mesh, context));
   }
@@ -102,7 +124,8 @@ void add_meshes(const aiNode& node, const Context& context, Scene& out) {
 void convert_meshes(const aiScene& scene, const std::vector<PictureUse>& uses, bool linear,
                     Scene& out) {
   Bones bones;
-  add_meshes(*scene.mRootNode, {scene, uses, linear, bones}, out);
+  const float brightest = linear ? 1 : brightest_number(scene, out);
+  add_meshes(*scene.mRootNode, {scene, uses, linear, brightest, bones}, out);
   find_parents(scene, bones, out);
 }
 

@@ -22,7 +22,7 @@ class PlainWriter {
   void part_skins();
   bool is_quantized(const Json& mesh) const;
   void write_skins();
-  void write_images();
+  void name_materials();
   void write_nodes();
   void write_scenes();
 
@@ -70,12 +70,12 @@ void PlainWriter::write_skins() {
   }
 }
 
-void PlainWriter::write_images() {
-  if (list(root_, "images").empty()) return;
-  for (Json& image : root_["images"]) {
-    const Json& view = member(image, "bufferView");
-    if (!view.is_null()) image["bufferView"] = glb_.add_view(file_.view(view));
-  }
+/// Leaves assimp the materials' numbers as names. It sorts materials and pictures by first use and
+/// does not read all kinds of pictures.
+void PlainWriter::name_materials() {
+  for (const char* key : {"images", "textures", "samplers"}) root_.erase(key);
+  const std::size_t count = list(root_, "materials").size();
+  for (std::size_t i = 0; i < count; ++i) root_["materials"][i] = {{"name", std::to_string(i)}};
 }
 
 /// Gives each skin that moves a mesh a copy of it: assimp has one mesh for all nodes.
@@ -142,7 +142,7 @@ PlainGltf PlainWriter::write() {
   part_skins();
   write_skins();
   GltfMeshes(file_, glb_).copy(root_, scales_);
-  write_images();
+  name_materials();
   write_nodes();
   write_scenes();
   for (std::string& note : name_joints(root_)) plain.notes.push_back(std::move(note));

@@ -151,4 +151,12 @@ std::string_view GltfFile::view(const Json& index) {
   return bytes.substr(static_cast<std::size_t>(offset), static_cast<std::size_t>(length));
 }
 
+std::string GltfFile::image(const Json& about) {
+  if (const Json& index = member(about, "bufferView"); !index.is_null())
+    return std::string(view(index));
+  const std::string uri = text(about, "uri");
+  if (uri.empty()) throw std::runtime_error("an image has neither a bufferView nor a uri");
+  return load(uri, "an image");
+}
+
 }  // namespace hypotrack::mesh_wire::internal

@@ -21,6 +21,8 @@ class GltfFile {
   const Json& root() const { return root_; }
   /// Returns the bytes of a buffer view, which live as long as this object.
   std::string_view view(const Json& index);
+  /// Returns the bytes of an item of `images` that lies in the file: a buffer view or a data URI.
+  std::string image(const Json& about);
   /// Returns the chunks of a GLB file that are neither JSON nor the binary buffer.
   const std::vector<std::string>& unknown_chunks() const { return unknown_chunks_; }
 

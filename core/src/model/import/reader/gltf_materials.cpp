@@ -1,5 +1,6 @@
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "model/import/reader/gltf_json.hpp"
@@ -27,13 +28,17 @@ std::array<float, Size> numbers(const Json& values, float otherwise) {
 /// The materials of a glTF file.
 class GltfMaterials {
  public:
-  GltfMaterials(const Json& json, Scene& out) : json_(json), out_(out) {}
+  GltfMaterials(GltfFile& file, Scene& out) : file_(file), json_(file.root()), out_(out) {}
 
   std::vector<PictureUse> convert() {
     const Json& materials = member(json_, "materials");
     std::vector<PictureUse> uses(out_.materials.size());
-    for (std::size_t i = 0; i < materials.size() && i < uses.size(); ++i)
-      uses[i] = convert(materials[i], i, out_.materials[i]);
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      const std::string& name = out_.materials[i].name;
+      std::size_t index = materials.size();
+      std::from_chars(name.data(), name.data() + name.size(), index);
+      if (index < materials.size()) uses[i] = convert(materials[index], index, out_.materials[i]);
+    }
     return uses;
   }
 
@@ -145,10 +150,9 @@ class GltfMaterials {
       return !uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:");
     };
     if (!is_inside(image)) return decoded(member(image, "uri").get<std::string>());
-    const Json& all = member(json_, "images");
-    std::size_t before = 0;
-    for (std::size_t i = 0; i < whole(source, "source"); ++i) before += is_inside(all[i]) ? 1 : 0;
-    return "*" + std::to_string(before);
+    const auto [known, is_new] = textures_.emplace(whole(source, "source"), out_.textures.size());
+    if (is_new) out_.textures.push_back({0, 0, file_.image(image)});
+    return "*" + std::to_string(known->second);
   }
 
   /// Decodes the percent signs of a URI.
@@ -197,15 +201,17 @@ class GltfMaterials {
                         ")");
   }
 
+  GltfFile& file_;
   const Json& json_;
   Scene& out_;
-  std::vector<std::string> left_out_;  // of the material
+  std::map<std::uint64_t, std::size_t> textures_;  // by image in the file
+  std::vector<std::string> left_out_;              // of the material
 };
 
 }  // namespace
 
-std::vector<PictureUse> convert_gltf_materials(const Json& root, Scene& out) {
-  return GltfMaterials(root, out).convert();
+std::vector<PictureUse> convert_gltf_materials(GltfFile& file, Scene& out) {
+  return GltfMaterials(file, out).convert();
 }
 
 }  // namespace hypotrack::mesh_wire::internal

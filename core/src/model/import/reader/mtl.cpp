@@ -27,6 +27,7 @@ Named named_by(const std::string& obj) {
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     std::string_view rest = line;
     if (!trimmed(rest).starts_with("usemtl") && !trimmed(rest).starts_with("mtllib")) continue;
     const std::string key = take_word(rest);

@@ -123,8 +123,9 @@ void MtlReader::read(const std::string& text, const std::string& file,
   for (std::string line; std::getline(in, line);) {
     ++number;
     std::string_view rest = line;
-    if (trimmed(rest).starts_with('#')) continue;
+    if (number == 1 && line.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
     const std::string key = take_word(rest);
+    if (key.starts_with('#')) continue;
     if (key.empty()) continue;
     if (key == "newmtl") {
       material = &(materials[std::string(rest)] = {});

@@ -13,6 +13,9 @@
 namespace hypotrack::mesh_wire {
 inline namespace HYPOTRACK_EXPORTED internal {
 
+/// Begins texts of some programs on Windows.
+inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
 /// Returns a text without the spaces around it.
 std::string_view trimmed(std::string_view text);
 

@@ -76,7 +76,10 @@ Scene read_scene(const std::string& file) {
     return out;
   }
   std::vector<PictureUse> uses = convert_materials(*scene, out);
-  if (gltf) uses = convert_gltf_materials(GltfFile(file).root(), out);
+  if (gltf) {
+    GltfFile whole(file);
+    uses = convert_gltf_materials(whole, out);
+  }
   if (extension == "obj") convert_mtl_materials(file, out);
   if (extension == "dae") uses = convert_dae(file, *scene, out);
   out.linear_colors = gltf ? 1 : 0;

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "base/exported.hpp"
+#include "model/import/reader/gltf_file.hpp"
 #include "model/import/wire.hpp"
 
 namespace hypotrack::mesh_wire {
@@ -30,10 +30,10 @@ inline void add_note(const Material& material, const std::vector<std::string>& l
 /// what is not drawn.
 void convert_mtl_materials(const std::string& obj, Scene& out);
 
-/// Sets the colours, pictures, factors and wraps of a glTF or GLB file's materials, of which assimp
-/// knows only some, and adds a note per material on what is not drawn. Returns the use of their
+/// Sets the colours, pictures, factors and wraps of materials, whose names are their numbers in a
+/// glTF or GLB file, and adds a note per material on what is not drawn. Returns the use of their
 /// pictures. Throws std::exception on pictures that cannot be read.
-std::vector<PictureUse> convert_gltf_materials(const nlohmann::json& root, Scene& out);
+std::vector<PictureUse> convert_gltf_materials(GltfFile& file, Scene& out);
 
 }  // namespace internal
 }  // namespace hypotrack::mesh_wire
