@@ -212,6 +212,16 @@ TEST_F(VideoFiles, SayThatTheyAreCutOff) {
               AllOf(HasSubstr("its header says"), HasSubstr("cut off")));
 }
 
+TEST_F(VideoFiles, AreNotCutOffWhereAviRepeatsFrames) {
+  std::vector<std::int64_t> times;
+  for (std::int64_t i = 0; i < 40; ++i)
+    if (i % 5 != 2 && i % 7 != 3) times.push_back(i);
+  const auto video = written("repeats.avi", {.tick = {1, 25}, .times = times});
+  EXPECT_EQ(video->info().times.size(), times.size());
+  EXPECT_NEAR(video->info().times.back(), static_cast<double>(times.back()) / 25, 1e-9);
+  EXPECT_EQ(video->info().problem_of_end, "");
+}
+
 TEST_F(VideoFiles, NeverOpenWhatOthersName) {
   test::write_video(file("a.ts"), {.codec = "mpeg2video", .tick = {1, 25}, .times = every(1, 10)});
   const auto refusal = [&](const std::string& name, const std::string& text) {
