@@ -94,11 +94,38 @@ void leave_out_untimed(std::vector<ShownPicture>& shown) {
   shown = std::move(kept);
 }
 
+/// Completes the times of MPEG-1 and MPEG-2, which files may give for some pictures only. In the
+/// order of presentation, pictures have the times at which they or the next ones are decoded.
+/// Returns false, and changes nothing, if the times do not fit.
+bool complete_from_decoding(std::vector<ShownPicture>& shown, std::vector<std::int64_t> decoding,
+                            AVCodecID codec) {
+  if (codec != AV_CODEC_ID_MPEG1VIDEO && codec != AV_CODEC_ID_MPEG2VIDEO) return false;
+  std::vector<std::int64_t> known, open;
+  for (const ShownPicture& picture : shown)
+    if (is_timed(picture)) known.push_back(picture.time);
+  if (known.empty() || shown.size() < 2 || std::ranges::count(decoding, AV_NOPTS_VALUE) > 0)
+    return false;
+  std::ranges::sort(known);
+  std::ranges::sort(decoding);
+  if (known[0] != decoding[0]) {  // there are pictures that are shown before earlier ones
+    decoding.push_back(2 * decoding.back() - decoding[decoding.size() - 2]);
+    decoding.erase(decoding.begin());
+  }
+  std::ranges::set_difference(decoding, known, std::back_inserter(open));
+  if (open.size() + known.size() != shown.size()) return false;
+  auto next = open.begin();
+  for (ShownPicture& picture : shown)
+    if (!is_timed(picture)) picture.time = *next++;
+  return true;
+}
+
 /// Gives the pictures times, where not all packets have one.
 void complete_times(PacketTimes& out, const std::vector<std::int64_t>& decoding_times,
                     const Demuxer& video) {
   const auto timed = std::ranges::count_if(out.shown, is_timed);
-  out.presented = timed == std::ssize(out.shown);
+  out.presented =
+      timed == std::ssize(out.shown) ||
+      complete_from_decoding(out.shown, decoding_times, video.pictures().codecpar->codec_id);
   if (!out.presented && has_clock(video) && 5 * timed > 2 * std::ssize(out.shown)) {
     leave_out_untimed(out.shown);
     out.presented = true;
