@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
+#include <string_view>
 #include <vector>
 
 #include "hypotrack/error.hpp"
@@ -65,6 +66,34 @@ TEST(PicturePairsOfVideos, AreTurnedAsPlayersDo) {
       {file, file}, [](const PicturePair& pair) { EXPECT_EQ(pair.left.size(), cv::Size(48, 64)); },
       [&](const std::string& note) { notes.push_back(note); });
   EXPECT_THAT(notes, Contains(HasSubstr("turned by 90 degrees clockwise")));
+}
+
+TEST(PicturePairsOfVideos, AreOfAllContainersThatRecordersWrite) {
+  const test::TemporaryDirectory folder;
+  for (const char* ending : {".ts", ".MTS", ".m4v", ".flv", ".mpg"}) {
+    const std::string file = folder.path() / (std::string("a") + ending);
+    test::VideoRecipe recipe{.codec = "mpeg2video", .tick = {1, 25}};
+    if (std::string_view(ending) == ".m4v") recipe.codec = "mpeg4";
+    if (std::string_view(ending) == ".flv") recipe.codec = "flv";
+    for (int i = 0; i < 5; ++i) recipe.times.push_back(i);
+    test::write_video(file, recipe);
+    int pairs = 0;
+    read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
+    EXPECT_EQ(pairs, 5) << ending;
+  }
+}
+
+TEST(PicturePairsOfVideos, OfOneVideoHaveNoPartnersToTell) {
+  const test::TemporaryDirectory folder;
+  const std::string file = folder.path() / "both.mkv";
+  test::write_video(file, without(5));
+  std::vector<std::string> names, notes;
+  read_pairs(
+      {.left = file, .right = "", .layout = StereoLayout::side_by_side},
+      [&](const PicturePair& pair) { names.push_back(pair.name); },
+      [&](const std::string& note) { notes.push_back(note); });
+  EXPECT_EQ(names.size(), 8);
+  EXPECT_THAT(notes, ElementsAre(HasSubstr("both.mkv: 1 frame is missing in the file")));
 }
 
 /// A picture of one brightness.
