@@ -75,11 +75,12 @@ TEST(PicturePairsOfVideos, AreOfAllContainersThatRecordersWrite) {
     test::VideoRecipe recipe{.codec = "mpeg2video", .tick = {1, 25}};
     if (std::string_view(ending) == ".m4v") recipe.codec = "mpeg4";
     if (std::string_view(ending) == ".flv") recipe.codec = "flv";
-    for (int i = 0; i < 5; ++i) recipe.times.push_back(i);
+    for (int i = 0; i < 50; ++i) recipe.times.push_back(i);
+    recipe.paint = [](AVFrame& frame, int i) { test::fill_plane(frame, 0, 20 + 4 * i); };
     test::write_video(file, recipe);
     int pairs = 0;
     read_pairs({file, file}, [&](const PicturePair&) { ++pairs; });
-    EXPECT_EQ(pairs, 5) << ending;
+    EXPECT_EQ(pairs, 50) << ending;
   }
 }
 
